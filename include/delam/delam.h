@@ -1,0 +1,321 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ *
+ * libdelam: delamination of layered and fibrous composites as rate-independent energy minimisation.
+ *
+ * A host describes bodies and touching faces (delam_mesh), how the faces hold together (delam_law), materials,
+ * supports and loads (delam_problem), and walks the load steps (delam_solver).
+ *
+ * Rules that hold for every function
+ *   status     0 done; > 0 an outcome, the object stays valid and usable; < 0 an error, the object is unchanged.
+ *              The text of the last one is delam_context_message() of the context the object was made with.
+ *   units      whatever is consistent (the examples use SI: m, N, Pa, J); in 2D forces and energies are per unit
+ *              thickness. Dimensions are written as L, F and their products: stress F/L2, stiffness of an
+ *              interface F/L3, toughness F/L (J/m2).
+ *   arrays     contiguous; `[n][d]` is row-major C, `(d,n)` in Fortran. Inputs are copied before the call returns,
+ *              outputs are written into the caller's buffer. Pointers must not be NULL unless said so; an array may
+ *              be NULL when its count is 0.
+ *   indices    int64_t; inputs take `index_base` (0 or 1); outputs are 0-based.
+ *   handles    opaque; create writes *out (NULL on error), destroy takes the address, sets it to NULL and accepts
+ *              NULL. Objects may be destroyed in any order. Foreign or destroyed handles give DELAM_ERROR_HANDLE
+ *              as far as that can be seen.
+ *   numbers    non-finite input is refused by name.
+ *   threads    one context and the objects made with it belong to one thread at a time; distinct contexts are
+ *              independent. delam_context_cancel() alone may be called from any thread.
+ *   promise    nothing is printed, no signal handler is left behind, no exception leaves, the process never ends.
+ */
+#ifndef DELAM_DELAM_H
+#define DELAM_DELAM_H
+
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#define DELAM_API __attribute__((visibility("default")))
+#else
+#define DELAM_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Number of the binary interface (the SONAME's); apart from the product's version. */
+#define DELAM_ABI 1
+
+/* ---- statuses ------------------------------------------------------------------------------------------------ */
+
+#define DELAM_OK 0
+#define DELAM_NOT_CONVERGED 1    /* an iteration limit was met; the best state found is kept and can be read */
+#define DELAM_CANCELLED 2        /* stopped on request; the state before the call is restored */
+#define DELAM_LIMIT 3            /* no equilibrium: a dead load acts on a part that nothing holds any more */
+#define DELAM_ERROR_ARGUMENT -1  /* a value outside its range, a NULL, an index past the end */
+#define DELAM_ERROR_HANDLE -2    /* NULL or foreign handle */
+#define DELAM_ERROR_MESH -3      /* inverted cell, shared node, unmatched faces */
+#define DELAM_ERROR_PROBLEM -4   /* incomplete or contradictory scene: missing material, missing support, bad law */
+#define DELAM_ERROR_STATE -5     /* a call out of order (e.g. advance with a step not yet committed) */
+#define DELAM_ERROR_MEMORY -6
+#define DELAM_ERROR_NUMERICAL -7 /* a factorisation broke down */
+#define DELAM_ERROR_SNAPSHOT -8  /* bytes that are damaged, of another version or of another scene */
+#define DELAM_ERROR_INTERNAL -9  /* a defect of the library: please report */
+
+typedef struct delam_context delam_context;
+typedef struct delam_mesh delam_mesh;
+typedef struct delam_law delam_law;
+typedef struct delam_problem delam_problem;
+typedef struct delam_solver delam_solver;
+
+/* Product version "major.minor.patch"; static text. */
+DELAM_API const char *delam_version(void);
+/* Commit the library was built from, or "unknown"; static text. */
+DELAM_API const char *delam_commit(void);
+/* DELAM_ABI of the library that runs (compare with the header's). */
+DELAM_API int32_t delam_abi(void);
+/* Name of a status, e.g. "DELAM_ERROR_MESH"; "unknown status" for others; static text. */
+DELAM_API const char *delam_status_name(int32_t status);
+
+/* ---- context: messages, log, progress, cancel ------------------------------------------------------------------ */
+
+/* Called with lines for people. level: 0 error, 1 warning, 2 information. */
+typedef void (*delam_log_callback)(int32_t level, const char *text, void *user);
+/* Called inside long work, on the calling thread. stage: static text ("factor", "minimise", ...); done of total
+ * (total 0 = not known). Non-zero return cancels: the call ends with DELAM_CANCELLED. */
+typedef int32_t (*delam_progress_callback)(const char *stage, int64_t done, int64_t total, void *user);
+
+DELAM_API int32_t delam_context_create(delam_context **out);
+DELAM_API void delam_context_destroy(delam_context **context);
+/* Text of the last status that was not DELAM_OK ("" before any): what, where, value, allowed range. Valid until the next
+ * call with this context or its objects. Never NULL. */
+DELAM_API const char *delam_context_message(const delam_context *context);
+/* callback NULL switches it off. */
+DELAM_API int32_t delam_context_set_log(delam_context *context, delam_log_callback callback, void *user);
+DELAM_API int32_t delam_context_set_progress(delam_context *context, delam_progress_callback callback, void *user);
+/* Ask the running call to stop at its next check; any thread (and from a signal handler: it sets one lock-free flag).
+ * The request is consumed by the call that it stops. */
+DELAM_API int32_t delam_context_cancel(delam_context *context);
+
+/* ---- mesh: nodes, cells, bodies, interfaces ---------------------------------------------------------------------- */
+
+/* Cell types; node order as in VTK and Gmsh: counter-clockwise; bottom face then top face. */
+#define DELAM_TRI3 1
+#define DELAM_QUAD4 2
+#define DELAM_TET4 3
+#define DELAM_HEX8 4
+
+/* Nodes: [node_count][dimension], dimension 2 or 3, node_count >= 1. */
+DELAM_API int32_t delam_mesh_create(delam_context *context, int32_t dimension, int64_t node_count,
+                                    const double *nodes, delam_mesh **out);
+
+/* Block of layers stacked along the last axis (y in 2D, z in 3D), each layer a body of its own with its own nodes,
+ * body 0 at the bottom. The block starts at the origin.
+ *   lengths, divisions  [dimension-1] extent (L) and number of cells along the other axes
+ *   thickness, layer_divisions  [layer_count] of each layer
+ *   cell_type           DELAM_TRI3 / QUAD4 in 2D, TET4 / HEX8 in 3D; simplices split each box into 2 or 6.
+ * Neighbouring layers match; no interface is made yet. Nodes of a layer are numbered x fastest, the last axis slowest. */
+DELAM_API int32_t delam_mesh_create_layers(delam_context *context, int32_t dimension, const double *lengths,
+                                           const int64_t *divisions, int64_t layer_count, const double *thickness,
+                                           const int64_t *layer_divisions, int32_t cell_type, delam_mesh **out);
+
+/* Adds cells of one type. connectivity: [cell_count][nodes of the type]; bodies: [cell_count] labels >= 0, or NULL for all 0.
+ * A node belongs to one body only: DELAM_ERROR_MESH otherwise, also for inverted or degenerate cells. */
+DELAM_API int32_t delam_mesh_add_cells(delam_mesh *mesh, int32_t cell_type, int64_t cell_count,
+                                       const int64_t *connectivity, const int32_t *bodies, int32_t index_base);
+
+/* Pairs the coinciding boundary faces of two bodies. The jump of a pair is u_b - u_a; the normal points from a to b, so a
+ * positive normal jump is an opening. `tolerance`: largest distance of two nodes that count as one, as a fraction of the
+ * shortest edge of the two bodies; 0 gives 1e-6; must be < 0.5. DELAM_ERROR_MESH when no face matches, or when faces overlap
+ * but do not match (the first place is named). Weights of pairs: nodal quadrature of the paired faces (trapezoid rule on edges, vertex rule on faces),
+ * positive, summing to the length (2D) or area (3D) of the interface. Pairs are ordered by coordinates, x first. */
+DELAM_API int32_t delam_mesh_add_interface(delam_mesh *mesh, int32_t body_a, int32_t body_b, double tolerance,
+                                           int64_t *out_interface);
+DELAM_API void delam_mesh_destroy(delam_mesh **mesh);
+
+/* Sizes: any pointer may be NULL. body labels are 0-based input labels; body_count counts distinct ones. */
+DELAM_API int32_t delam_mesh_size(const delam_mesh *mesh, int32_t *dimension, int64_t *node_count, int64_t *cell_count,
+                                  int64_t *body_count, int64_t *interface_count);
+/* [node_count][dimension] */
+DELAM_API int32_t delam_mesh_nodes(const delam_mesh *mesh, int64_t capacity, double *nodes);
+/* Label of the body that a node belongs to, [node_count]; -1 for a node without cells. */
+DELAM_API int32_t delam_mesh_node_bodies(const delam_mesh *mesh, int64_t capacity, int32_t *bodies);
+/* Cells in the order they were added: types, bodies [cell_count], offsets [cell_count+1] into connectivity. Any output may be
+ * NULL; capacity counts entries of connectivity and *needed receives how many there are (may be NULL). */
+DELAM_API int32_t delam_mesh_cells(const delam_mesh *mesh, int32_t *types, int32_t *bodies, int64_t *offsets,
+                                   int64_t capacity, int64_t *connectivity, int64_t *needed);
+/* Number of pairs and of paired faces of an interface; any pointer may be NULL. */
+DELAM_API int32_t delam_mesh_interface_size(const delam_mesh *mesh, int64_t interface_index, int32_t *body_a, int32_t *body_b,
+                                            int64_t *pair_count, int64_t *face_count, int32_t *nodes_per_face);
+/* Pairs of an interface; any output may be NULL. nodes_a, nodes_b, weights: [pair_count] (weights L or L2);
+ * frames: [pair_count][dimension][dimension], rows normal, tangent(s), orthonormal. */
+DELAM_API int32_t delam_mesh_interface_pairs(const delam_mesh *mesh, int64_t interface_index, int64_t *nodes_a,
+                                             int64_t *nodes_b, double *weights, double *frames);
+/* Faces as pair indices: [face_count][nodes_per_face]; faces with fewer corners repeat the last one. */
+DELAM_API int32_t delam_mesh_interface_faces(const delam_mesh *mesh, int64_t interface_index, int64_t *faces);
+/* Nodes of a body (-1: of all) inside the closed box lower..upper ([dimension] each; widened by 1e-9 of the mesh's size).
+ * *count receives how many there are; the first `capacity` are written, ascending. */
+DELAM_API int32_t delam_mesh_find_nodes(const delam_mesh *mesh, int32_t body, const double *lower, const double *upper,
+                                        int64_t capacity, int64_t *nodes, int64_t *count);
+/* Integrals of the nodal shape functions over the part of a body's boundary faces inside the box: the weights of a uniform
+ * traction on a patch of fixed size, independent of the mesh. Faces are cut exactly where the box ends within them (2D: exact; 3D:
+ * faces as triangles). Only faces whose outward normal is within 45 degrees of `direction` ([dimension], any length) count.
+ * nodes, weights: up to `capacity` entries; *count receives how many. Weights in L (2D) or L2 (3D), all > 0. */
+DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, const double *lower, const double *upper,
+                                        const double *direction, int64_t capacity, int64_t *nodes, double *weights,
+                                        int64_t *count);
+
+/* ---- interface law ------------------------------------------------------------------------------------------------ */
+
+/* kind: "piecewise-linear", the bilinear traction-separation law in energetic form with Valoroso-Champaney interaction
+ * (slides, "Interaction criteria"). Parameters, set by key:
+ *   normal_stiffness, tangential_stiffness  k_n, k_t  F/L3  > 0
+ *   normal_onset, tangential_onset          G^o       F/L   > 0
+ *   normal_toughness, tangential_toughness  G^c       F/L   >= onset
+ *   onset_exponent_1, onset_exponent_2      a1, a2    > 0, default 2
+ *   toughness_exponent_1, toughness_exponent_2  b1, b2  > 0, default 2
+ * Gc(B) >= Go(B) must hold for every mixity B in [0,1]. */
+DELAM_API int32_t delam_law_create(delam_context *context, const char *kind, delam_law **out);
+DELAM_API int32_t delam_law_set(delam_law *law, const char *key, double value);
+/* All parameters present and admissible? DELAM_ERROR_PROBLEM names the first that is not. */
+DELAM_API int32_t delam_law_check(const delam_law *law);
+/* Onset and total toughness at count mixities B = Y_t/Y in [0,1]; onset and toughness: [count], F/L; each may be NULL. */
+DELAM_API int32_t delam_law_toughness(const delam_law *law, int64_t count, const double *mixity, double *onset,
+                                      double *toughness);
+/* One damage step at given jumps: pointwise minimiser over 0 <= zeta <= old adhesion, at the given (frozen) mixity, and the
+ * traction zeta k [u]. jump, traction: [count][dimension], local (normal first; a negative normal jump is an error); mixity,
+ * adhesion_old, adhesion: [count]; traction may be NULL. */
+DELAM_API int32_t delam_law_respond(const delam_law *law, int32_t dimension, int64_t count, const double *jump,
+                                    const double *mixity, const double *adhesion_old, double *adhesion, double *traction);
+DELAM_API void delam_law_destroy(delam_law **law);
+
+/* ---- problem: materials, laws, supports, loads, options ------------------------------------------------------------- */
+
+/* The mesh is taken as it is now; later changes to it are not seen. */
+DELAM_API int32_t delam_problem_create(delam_context *context, const delam_mesh *mesh, delam_problem **out);
+DELAM_API void delam_problem_destroy(delam_problem **problem);
+
+/* assumption: "plane-strain" (default) or "plane-stress"; 2D only. */
+DELAM_API int32_t delam_problem_set_plane(delam_problem *problem, const char *assumption);
+/* Isotropic elasticity of a body (-1: of all): young > 0 (F/L2), -1 < poisson < 0.5. */
+DELAM_API int32_t delam_problem_set_elastic(delam_problem *problem, int32_t body, double young, double poisson);
+/* The law of an interface; its parameters are taken as they are now. Initial adhesion 1 everywhere. */
+DELAM_API int32_t delam_problem_set_law(delam_problem *problem, int64_t interface_index, const delam_law *law);
+/* The interface is glued perfectly and for ever (zero compliance). Each interface needs a law or this. */
+DELAM_API int32_t delam_problem_set_bonded(delam_problem *problem, int64_t interface_index);
+/* Initial adhesion of some pairs, in [0,1]; 0 makes a notch: no adhesion, contact stays. adhesion: [count]. */
+DELAM_API int32_t delam_problem_set_adhesion(delam_problem *problem, int64_t interface_index, int64_t count,
+                                             const int64_t *pairs, const double *adhesion, int32_t index_base);
+
+/* A load pattern: a named factor that follows a piecewise-linear history, constant beyond its ends. times: [count] strictly
+ * increasing; values: [count]; count >= 1. Name: unique, letters, digits, '_' and '-'. *out_pattern: its index, from 0. */
+DELAM_API int32_t delam_problem_add_pattern(delam_problem *problem, const char *name, int64_t count, const double *times,
+                                            const double *values, int64_t *out_pattern);
+/* Prescribes, for each of count nodes, direction . u = sum over patterns of coefficients[i][p] * factor_p(t).
+ * direction: [dimension], any length > 0 (normalised). patterns: [pattern_count]; coefficients: [count][pattern_count], L per
+ * factor. pattern_count 0: held at zero. */
+DELAM_API int32_t delam_problem_prescribe_nodes(delam_problem *problem, int64_t count, const int64_t *nodes,
+                                                const double *direction, int64_t pattern_count, const int64_t *patterns,
+                                                const double *coefficients, int32_t index_base);
+/* Prescribes one weighted mean over nodes: sum_i weights[i] direction . u_i / sum_i weights[i] = sum of coefficients[p] *
+ * factor_p(t). With the weights of delam_mesh_find_patch: a support or load spread as a uniform traction over a patch of fixed
+ * size, which has a limit as the mesh is refined (a point support has none). weights: [count] > 0; coefficients: [pattern_count]. */
+DELAM_API int32_t delam_problem_prescribe_mean(delam_problem *problem, int64_t count, const int64_t *nodes,
+                                               const double *weights, const double *direction, int64_t pattern_count,
+                                               const int64_t *patterns, const double *coefficients, int32_t index_base);
+/* Dead forces: forces[count][dimension] (F) times the factor of the pattern. A pattern drives either forces or prescribed displacements. */
+DELAM_API int32_t delam_problem_add_forces(delam_problem *problem, int64_t pattern, int64_t count, const int64_t *nodes,
+                                           const double *forces, int32_t index_base);
+
+/* Options by key; see delam_option_info. Numbers of integer options must be whole. */
+DELAM_API int32_t delam_problem_set_number(delam_problem *problem, const char *key, double value);
+DELAM_API int32_t delam_problem_set_text(delam_problem *problem, const char *key, const char *value);
+DELAM_API int64_t delam_option_count(void);
+/* Static texts; any output may be NULL. type: "real", "integer", "text". */
+DELAM_API int32_t delam_option_info(int64_t index, const char **key, const char **type, const char **unit,
+                                    const char **initial, const char **range, const char **meaning);
+
+/* Everything there and consistent: materials, laws, supports against every rigid motion of what hangs together. */
+DELAM_API int32_t delam_problem_check(delam_problem *problem);
+/* Hash of everything that determines the result, as 16 hexadecimal digits and a terminating zero: out[17]. */
+DELAM_API int32_t delam_problem_hash(const delam_problem *problem, char *out);
+/* Primal DOFs (nodes times dimension) and dual DOFs (pairs times dimension, notch included). Either may be NULL. */
+DELAM_API int32_t delam_problem_dofs(const delam_problem *problem, int64_t *primal, int64_t *dual);
+
+/* What the library assembled, for hosts that check or reuse it.
+ * Stiffness of a body, both triangles, CSR over the body's DOFs: local node i of the body is the i-th ascending mesh node of
+ * that body, its DOFs dimension*i + component. Call with NULL arrays for *rows and *entries, then with row_starts[rows+1], columns, values. */
+DELAM_API int32_t delam_problem_body_matrix(const delam_problem *problem, int32_t body, int64_t *rows, int64_t *entries,
+                                            int64_t *row_starts, int64_t *columns, double *values);
+/* Constraints, one a row, CSR over mesh DOFs (dimension*node + component), and their right-hand sides as
+ * coefficients[rows][pattern_count]. NULL arrays ask for the sizes. */
+DELAM_API int32_t delam_problem_constraints(const delam_problem *problem, int64_t *rows, int64_t *entries,
+                                            int64_t *pattern_count, int64_t *row_starts, int64_t *columns, double *values,
+                                            double *coefficients);
+/* Dead forces of a pattern at factor 1: [primal DOFs]. */
+DELAM_API int32_t delam_problem_forces(const delam_problem *problem, int64_t pattern, int64_t capacity, double *forces);
+/* Factors of all patterns at a time: [pattern_count]. */
+DELAM_API int32_t delam_problem_factors(const delam_problem *problem, double time, int64_t capacity, double *factors);
+DELAM_API int32_t delam_problem_pattern_count(const delam_problem *problem, int64_t *count);
+/* Name of a pattern; static as long as the problem lives; NULL on error. */
+DELAM_API const char *delam_problem_pattern_name(const delam_problem *problem, int64_t pattern);
+
+/* ---- solver: operator, state, history ------------------------------------------------------------------------------- */
+
+/* Checks the problem, cuts and factors the bodies. The problem is taken as it is now. The state is the initial one at time
+ * `time` (step 0): unloaded histories are expected there; the displacement at that time's loads is solved for at the initial adhesion. */
+DELAM_API int32_t delam_solver_create(const delam_problem *problem, double time, delam_solver **out);
+DELAM_API void delam_solver_destroy(delam_solver **solver);
+
+/* One load step to `time` (> the committed time): alternate minimisation from the committed state. The result is pending:
+ * it can be read, then committed or rolled back (bit for bit the state before). DELAM_NOT_CONVERGED leaves a pending step too. */
+DELAM_API int32_t delam_solver_advance(delam_solver *solver, double time);
+DELAM_API int32_t delam_solver_commit(delam_solver *solver);
+DELAM_API int32_t delam_solver_rollback(delam_solver *solver);
+/* One displacement step alone: minimal-energy displacements at `time` with the given adhesion held, [dual pairs in all,
+ * interface after interface]; adhesion NULL takes the committed one. Pending like a step, but the ledger does not move
+ * (energies stored are those of the new state; dissipated, work and bounds stay). */
+DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, const double *adhesion);
+
+/* A scalar of the pending state, else of the committed one. Keys, in order of delam_solver_value_name (static text):
+ *   step, time, stored_bulk, stored_interface, dissipated, stored_interface_slides, dissipated_slides, load_potential, work,
+ *   lower, increment, upper, increment_lower   energies, F L (2D: F): cumulative but for the last four, which are of the step
+ *   am_iterations, displacement_solves, contact_iterations, linear_iterations   of the step; contact_iterations sums the
+ *   active-set steps over the displacement solves, linear_iterations the Krylov ones
+ *   contact_iterations_first, contact_iterations_max   active-set steps of the first displacement solve and of the worst
+ *   contact_pairs, debonded_length, front, process_zone   pairs in contact; L (2D) or L2 (3D)
+ *   backtracks
+ *   damage_change          last change of adhesion, max norm
+ *   linear_residual        worst relative residual of the linear solves of the step
+ *   kkt_gap                deepest penetration, over the largest jump (0 = none)
+ *   kkt_pressure           largest adhesive pull of a closed contact, over the largest traction (0 = none)
+ *   kkt_complementarity    largest |gap * contact force| over (largest jump * largest force)
+ *   kkt_equilibrium        out-of-balance force, over the largest reaction
+ * and per pattern load:NAME (its factor) and reaction:NAME (its conjugate: positive when the device does work; of a force
+ * pattern, minus the conjugate displacement).
+ * delam_solver_value_count counts all of them. */
+DELAM_API int32_t delam_solver_value(delam_solver *solver, const char *key, double *value);
+DELAM_API int32_t delam_solver_value_count(const delam_solver *solver, int64_t *count);
+/* Name of value `index`; static as long as the solver lives; NULL on error. */
+DELAM_API const char *delam_solver_value_name(const delam_solver *solver, int64_t index);
+
+/* Fields of the pending state, else of the committed one, as [rows][columns]:
+ *   displacement  [nodes][dimension]    L; recovered from the interfaces when asked for
+ *   stress        [cells][4 or 6]       F/L2 at the cell's centre: xx, yy, zz, xy (2D) or xx, yy, zz, xy, yz, zx
+ *   jump          [pairs][dimension]    L, local: normal (>= 0), tangent(s)
+ *   traction      [pairs][dimension]    F/L2, local, on face b's side as pull positive; a pressure of contact is negative
+ *   adhesion, mixity, contact  [pairs][1]   -, mixity B = Y_t/Y that the last step used, contact 1 = closed
+ *   reaction      [constraints][1]      F: force of the device, positive along the constraint
+ * `part`: an interface index for pair fields, -1 for all interfaces one after another; otherwise -1. */
+DELAM_API int32_t delam_solver_field_shape(const delam_solver *solver, const char *key, int64_t part, int64_t *rows,
+                                           int64_t *columns);
+DELAM_API int32_t delam_solver_field(delam_solver *solver, const char *key, int64_t part, int64_t capacity, double *values);
+
+/* What the scene needs and what was left out, in words (lines ended by '\n'), and the realisation that was chosen. Valid until
+ * the next call with this solver. Never NULL. */
+DELAM_API const char *delam_solver_plan(delam_solver *solver);
+
+/* The committed state as bytes: save, load into a solver of the same scene and options, go on: the rest is bitwise the same.
+ * save: *needed receives the size; written when capacity suffices (capacity 0: ask). */
+DELAM_API int32_t delam_solver_save(const delam_solver *solver, int64_t capacity, uint8_t *bytes, int64_t *needed);
+DELAM_API int32_t delam_solver_load(delam_solver *solver, int64_t size, const uint8_t *bytes);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

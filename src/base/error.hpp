@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one exception type of the library. It is caught at the C façade and becomes a status and a message.
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <sstream>
+#include <string>
+#include <utility>
+
+namespace delam {
+
+class Error : public std::exception {
+public:
+    // status: one of DELAM_ERROR_* or a positive outcome of delam.h.
+    Error(std::int32_t status, std::string text) : status_(status), text_(std::move(text)) {}
+    [[nodiscard]] std::int32_t status() const noexcept { return status_; }
+    [[nodiscard]] const char* what() const noexcept override { return text_.c_str(); }
+
+private:
+    std::int32_t status_;
+    std::string text_;
+};
+
+// Joins its arguments into one message: text("node ", 17, " >= ", 12). Numbers keep all significant digits a person needs (6).
+template <class... Parts>
+std::string text(const Parts&... parts) {
+    std::ostringstream out;
+    (out << ... << parts);
+    return out.str();
+}
+
+template <class... Parts>
+[[noreturn]] void fail(std::int32_t status, const Parts&... parts) {
+    throw Error(status, text(parts...));
+}
+
+}  // namespace delam

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Compressed sparse rows with sorted columns; symmetric matrices hold both triangles, so rows are columns too.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace delam {
+
+struct SparseMatrix {
+    std::int64_t rows = 0;
+    std::int64_t columns = 0;
+    std::vector<std::int64_t> start{0};  // [rows+1]
+    std::vector<std::int64_t> column;    // sorted within a row
+    std::vector<double> value;
+
+    std::int64_t entries() const { return static_cast<std::int64_t>(column.size()); }
+};
+
+struct Triplet {
+    std::int64_t row;
+    std::int64_t column;
+    double value;
+};
+// Sums duplicates, in the order given within a place, so that the result is reproducible.
+SparseMatrix from_triplets(std::int64_t rows, std::int64_t columns, std::vector<Triplet> triplets);
+
+// y = A x
+void multiply(const SparseMatrix& a, std::span<const double> x, std::span<double> y);
+
+}  // namespace delam

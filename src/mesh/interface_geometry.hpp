@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An interface as node pairs with nodal quadrature weights: what is left of it once faces have been matched.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace delam {
+
+struct InterfaceGeometry {
+    std::int32_t body_a = -1;  // body indices; the jump is u_b - u_a
+    std::int32_t body_b = -1;
+    std::vector<std::int64_t> node_a;  // [pairs] mesh nodes
+    std::vector<std::int64_t> node_b;
+    std::vector<double> weight;  // [pairs] length (2D) or area (3D) that a pair stands for, > 0
+    std::vector<double> frame;   // [pairs][dim][dim] rows: normal from a to b, tangent(s); orthonormal
+    int nodes_per_face = 2;
+    std::vector<std::int64_t> face;  // [faces][nodes_per_face] pair indices; triangles among quads repeat their last corner
+
+    std::int64_t pair_count() const { return static_cast<std::int64_t>(node_a.size()); }
+    std::int64_t face_count() const { return static_cast<std::int64_t>(face.size()) / nodes_per_face; }
+};
+
+}  // namespace delam

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Nodes, cells and bodies: the geometry that a host hands over, in 2D or 3D.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/interface_geometry.hpp"
+
+namespace delam {
+
+enum class CellType : std::int32_t { tri3 = 1, quad4 = 2, tet4 = 3, hex8 = 4 };  // values of DELAM_TRI3 ...
+
+// Corners of a cell; its faces (edges in 2D) as lists of local nodes, outward when walked in order.
+struct CellTopology {
+    int dimension;
+    int nodes;
+    int faces;
+    int face_nodes;
+    std::array<std::array<int, 4>, 6> face;  // first face_nodes entries are used
+};
+const CellTopology& topology(CellType type);
+
+class Mesh {
+public:
+    Mesh(int dimension, std::span<const double> nodes);
+
+    // Labels >= 0; checks indices, orientation and that no node serves two bodies. Leaves the mesh unchanged on error.
+    void add_cells(CellType type, std::span<const std::int64_t> connectivity, std::span<const std::int32_t> labels);
+    // Pairs matching boundary faces of two bodies (pairing.cpp); returns the index of the interface.
+    std::int64_t add_interface(std::int32_t label_a, std::int32_t label_b, double tolerance);
+
+    int dimension() const { return dimension_; }
+    std::int64_t node_count() const { return static_cast<std::int64_t>(nodes_.size()) / dimension_; }
+    std::span<const double> nodes() const { return nodes_; }
+    std::span<const double> node(std::int64_t i) const {
+        return std::span<const double>(nodes_).subspan(static_cast<std::size_t>(i * dimension_), static_cast<std::size_t>(dimension_));
+    }
+
+    std::int64_t cell_count() const { return static_cast<std::int64_t>(cell_type_.size()); }
+    CellType cell_type(std::int64_t c) const { return cell_type_[static_cast<std::size_t>(c)]; }
+    // Nodes of a cell.
+    std::span<const std::int64_t> cell(std::int64_t c) const {
+        const auto i = static_cast<std::size_t>(c);
+        return std::span<const std::int64_t>(connectivity_).subspan(static_cast<std::size_t>(cell_offset_[i]),
+                                                                    static_cast<std::size_t>(cell_offset_[i + 1] - cell_offset_[i]));
+    }
+    // Index of the body of a cell, 0 .. body_count-1, in ascending order of labels.
+    std::int32_t cell_body(std::int64_t c) const;
+    std::int32_t body_count() const { return static_cast<std::int32_t>(labels_.size()); }
+    std::int32_t body_label(std::int32_t body) const { return labels_[static_cast<std::size_t>(body)]; }
+    // Index of the body with a label; -1 when there is none.
+    std::int32_t body_of_label(std::int32_t label) const;
+    // Body index of a node, -1 for a node without cells.
+    std::int32_t node_body(std::int64_t node) const;
+    // Nodes of a body, ascending.
+    std::vector<std::int64_t> body_nodes(std::int32_t body) const;
+    // Cells of a body, ascending.
+    std::vector<std::int64_t> body_cells(std::int32_t body) const;
+
+    const std::vector<InterfaceGeometry>& interfaces() const { return interfaces_; }
+    // Largest extent of the bounding box: the length that absolute tolerances are measured by.
+    double size() const;
+
+private:
+    int dimension_;
+    std::vector<double> nodes_;
+    std::vector<CellType> cell_type_;
+    std::vector<std::int32_t> cell_label_;
+    std::vector<std::int64_t> cell_offset_{0};
+    std::vector<std::int64_t> connectivity_;
+    std::vector<std::int32_t> labels_;      // distinct labels, ascending
+    std::vector<std::int32_t> node_label_;  // -1: none
+    std::vector<InterfaceGeometry> interfaces_;
+};
+
+// A face that one cell alone has: cell, its nodes (outward), in order of cells and local faces.
+struct BoundaryFace {
+    std::int64_t cell;
+    int nodes;
+    std::array<std::int64_t, 4> node;
+};
+std::vector<BoundaryFace> boundary_faces(const Mesh& mesh, std::int32_t body);
+
+}  // namespace delam

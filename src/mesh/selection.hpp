@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Selecting nodes and boundary patches by boxes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace delam {
+
+// Nodes of a body (index; -1: all) inside the closed box, ascending; the box is widened by 1e-9 of the mesh's size.
+std::vector<std::int64_t> find_nodes(const Mesh& mesh, std::int32_t body, std::span<const double> lower,
+                                     std::span<const double> upper);
+
+struct Patch {
+    std::vector<std::int64_t> nodes;  // ascending
+    std::vector<double> weights;      // integral of the node's shape function over the part of the boundary in the box
+};
+Patch find_patch(const Mesh& mesh, std::int32_t body, std::span<const double> lower, std::span<const double> upper,
+                 std::span<const double> direction);
+
+}  // namespace delam

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the host asked for, complete and checked: bodies, interfaces with laws, constraints, loads, options.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "body/material.hpp"
+#include "interface/law.hpp"
+#include "linalg/sparse.hpp"
+#include "mesh/mesh.hpp"
+#include "scene/options.hpp"
+
+namespace delam {
+
+// A named factor over time, piecewise linear, constant beyond its ends.
+struct Pattern {
+    std::string name;
+    std::vector<double> times;
+    std::vector<double> values;
+    enum class Drives { nothing, displacement, force } drives = Drives::nothing;
+
+    double at(double time) const;
+};
+
+// sum_j coefficient[j] u[dof[j]] = sum_p prescribed[p] factor_p(t); scaled so that the coefficients' squares sum to 1 for a
+// single node and the coefficients sum to 1 along the direction for a mean.
+struct Constraint {
+    std::vector<std::int64_t> dof;  // mesh DOFs: dimension*node + component
+    std::vector<double> coefficient;
+    std::vector<double> prescribed;  // [patterns defined when it was added]; missing ones are 0
+};
+
+struct NodalForce {
+    std::int64_t pattern;
+    std::int64_t dof;
+    double value;
+};
+
+struct InterfaceProperties {
+    std::optional<Law> law;  // none and not bonded: still missing
+    bool bonded = false;
+    std::vector<double> adhesion;  // initial, [pairs]
+};
+
+struct Problem {
+    explicit Problem(std::shared_ptr<const Mesh> mesh_);
+
+    std::shared_ptr<const Mesh> mesh;
+    Plane plane = Plane::strain;
+    std::vector<std::optional<Elastic>> material;  // [bodies]
+    std::vector<InterfaceProperties> interfaces;
+    std::vector<Pattern> patterns;
+    std::vector<Constraint> constraints;
+    std::vector<NodalForce> forces;
+    Options options;
+
+    // DOFs of all pairs: rows of the jump, interface after interface, pair after pair, normal first.
+    std::int64_t pair_count() const;
+    std::int64_t jump_count() const { return pair_count() * mesh->dimension(); }
+    std::vector<double> factors(double time) const;
+    // Right-hand side coefficients [constraints][patterns], row-major.
+    std::vector<double> prescribed_matrix() const;
+};
+
+// Throws Error(DELAM_ERROR_PROBLEM) with the first thing that is missing or contradictory, supports included: every
+// part that hangs together through bonded or adhering pairs must be held against all its rigid motions.
+void validate(const Problem& problem);
+
+// FNV-1a over everything that determines the result, the options included.
+std::uint64_t hash(const Problem& problem);
+
+}  // namespace delam
