@@ -5,16 +5,21 @@
 // foreign or destroyed one as far as that can be seen.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <new>
+#include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "base/error.hpp"
 #include "base/monitor.hpp"
+#include "body/material.hpp"
 #include "delam/delam.h"
+#include "linalg/sparse.hpp"
 
 namespace delam {
 struct Law;
@@ -52,8 +57,23 @@ struct Handle {
 
 struct delam_mesh : delam::Handle<delam::magic_mesh, delam::Mesh> {};
 struct delam_law : delam::Handle<delam::magic_law, delam::Law> {};
-struct delam_problem : delam::Handle<delam::magic_problem, delam::Problem> {};
-struct delam_solver : delam::Handle<delam::magic_solver, delam::Solver> {};
+struct delam_problem : delam::Handle<delam::magic_problem, delam::Problem> {
+    // Names of patterns at addresses that stay (delam_problem_pattern_name).
+    std::deque<std::string> names;
+    // The stiffness asked for last (delam_problem_body_matrix is called for its sizes first); body -1: none.
+    struct BodyMatrix {
+        std::int32_t body = -1;
+        double young = 0.0;
+        double poisson = 0.0;
+        delam::Plane plane = delam::Plane::strain;
+        delam::SparseMatrix matrix;
+    };
+    mutable BodyMatrix assembled;
+};
+struct delam_solver : delam::Handle<delam::magic_solver, delam::Solver> {
+    std::vector<std::string> value_names;  // texts that delam_solver_value_name and delam_solver_plan hand out
+    std::string plan;
+};
 
 namespace delam {
 
@@ -62,18 +82,22 @@ bool alive(const H* handle) noexcept {
     return handle != nullptr && handle->magic == H::kind;
 }
 
+// Keeps the message, and tells the host's log: level 0 of an error, 1 of an outcome.
+inline std::int32_t report(Context& context, std::int32_t status, const char* what) noexcept {
+    try {
+        context.message = what;
+        context.monitor.log(status < 0 ? 0 : 1, context.message);
+    } catch (...) {
+        context.message.clear();
+    }
+    return status;
+}
+
 // Runs body behind the exception barrier; its error text goes into the context of `self`. body returns void or a status.
 template <class H, class Body>
 std::int32_t guard(const H* self, Body&& body) noexcept {
     if (!alive(self)) return DELAM_ERROR_HANDLE;
-    Context& context = *self->context;
-    const auto say = [&context](const char* what) noexcept {
-        try {
-            context.message = what;
-        } catch (...) {
-            context.message.clear();
-        }
-    };
+    const std::shared_ptr<Context> context = self->context;  // outlives a handle that a callback destroys
     try {
         if constexpr (std::is_void_v<decltype(body())>) {
             body();
@@ -82,17 +106,15 @@ std::int32_t guard(const H* self, Body&& body) noexcept {
             return body();
         }
     } catch (const Error& e) {
-        say(e.what());
-        return e.status();
+        return report(*context, e.status(), e.what());
     } catch (const std::bad_alloc&) {
-        say("out of memory");
-        return DELAM_ERROR_MEMORY;
+        return report(*context, DELAM_ERROR_MEMORY, "out of memory");
+    } catch (const std::length_error&) {
+        return report(*context, DELAM_ERROR_MEMORY, "out of memory: more entries than an array can have");
     } catch (const std::exception& e) {
-        say(e.what());
-        return DELAM_ERROR_INTERNAL;
+        return report(*context, DELAM_ERROR_INTERNAL, e.what());
     } catch (...) {
-        say("unknown exception");
-        return DELAM_ERROR_INTERNAL;
+        return report(*context, DELAM_ERROR_INTERNAL, "unknown exception");
     }
 }
 
@@ -114,5 +136,12 @@ void require_array(const void* pointer, std::int64_t count, const char* name);
 void require_finite(const double* values, std::int64_t count, const char* name);
 void require_capacity(std::int64_t capacity, std::int64_t needed, const char* name);
 void require_base(std::int32_t index_base);
+// A second handle argument of a call.
+template <class H>
+void require_handle(const H* handle, const char* name) {
+    if (!alive(handle)) fail(DELAM_ERROR_HANDLE, name, handle == nullptr ? " is NULL" : " is a foreign or destroyed handle");
+}
+// The index as 0-based, after a check of base <= value < base + size. what: "nodes[3]".
+std::int64_t require_index(std::int64_t value, std::int64_t size, std::int32_t index_base, const std::string& what);
 
 }  // namespace delam

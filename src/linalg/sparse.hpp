@@ -29,4 +29,6 @@ SparseMatrix from_triplets(std::int64_t rows, std::int64_t columns, std::vector<
 // y = A x
 void multiply(const SparseMatrix& a, std::span<const double> x, std::span<double> y);
 
+SparseMatrix transpose(const SparseMatrix& a);
+
 }  // namespace delam

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "build.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "call.hpp"
+#include "selection.hpp"
+
+namespace cli {
+
+namespace {
+
+Mesh build_mesh(const delam_context* owner, delam_context* context, const Scene& scene) {
+    std::vector<double> thickness;
+    std::vector<std::int64_t> divisions;
+    for (const Layer& layer : scene.layers) {
+        thickness.push_back(layer.thickness);
+        divisions.push_back(layer.divisions);
+    }
+    const Geometry& geometry = scene.geometry;
+    delam_mesh* handle = nullptr;
+    const std::int32_t status = delam_mesh_create_layers(
+        context, geometry.dimension, geometry.lengths.data(), geometry.divisions.data(),
+        static_cast<std::int64_t>(thickness.size()), thickness.data(), divisions.data(), geometry.cell_type, &handle);
+    Mesh mesh(handle);
+    call(owner, status, geometry.place);
+    for (const InterfaceData& interface : scene.interfaces) {
+        std::int64_t index = 0;
+        call(owner,
+             delam_mesh_add_interface(mesh.get(), static_cast<std::int32_t>(interface.lower),
+                                      static_cast<std::int32_t>(interface.upper), 0.0, &index),
+             interface.place);
+    }
+    return mesh;
+}
+
+// Inside, or on an end that the interface itself ends at: an end within the interface is a tip, and its pair stays bonded.
+bool inside(double x, double lower, double upper, double length, double slack) {
+    const bool from = lower <= slack ? x >= lower - slack : x > lower + slack;
+    const bool to = upper >= length - slack ? x <= upper + slack : x < upper - slack;
+    return from && to;
+}
+
+void set_adhesion(const Model& model, const Scene& scene, std::int64_t index, const InterfaceData& data) {
+    const delam_context* context = model.context.get();
+    std::int64_t pairs = 0;
+    std::int64_t nodes = 0;
+    call(context, delam_mesh_interface_size(model.mesh.get(), index, nullptr, nullptr, &pairs, nullptr, nullptr), data.place);
+    call(context, delam_mesh_size(model.mesh.get(), nullptr, &nodes, nullptr, nullptr, nullptr), data.place);
+    const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
+    std::vector<std::int64_t> face_a(static_cast<std::size_t>(pairs));
+    std::vector<double> coordinates(static_cast<std::size_t>(nodes) * dimension);
+    call(context, delam_mesh_interface_pairs(model.mesh.get(), index, face_a.data(), nullptr, nullptr, nullptr), data.place);
+    call(context, delam_mesh_nodes(model.mesh.get(), nodes * scene.geometry.dimension, coordinates.data()), data.place);
+    const double slack = 1e-6 * scene.geometry.smallest_edge;
+    for (const Region& region : data.regions) {
+        std::vector<std::int64_t> chosen;
+        for (std::size_t i = 0; i < face_a.size(); ++i) {
+            const double* at = coordinates.data() + static_cast<std::size_t>(face_a[i]) * dimension;
+            bool in = true;
+            for (std::size_t axis = 0; axis + 1 < dimension; ++axis)
+                in = in && inside(at[axis], region.lower[axis], region.upper[axis], scene.geometry.lengths[axis], slack);
+            if (in) chosen.push_back(static_cast<std::int64_t>(i));
+        }
+        if (chosen.empty()) throw SceneFailure(region.place, "no pair of the interface is in this region");
+        const std::vector<double> adhesion(chosen.size(), region.adhesion);
+        call(context,
+             delam_problem_set_adhesion(model.problem.get(), index, static_cast<std::int64_t>(chosen.size()), chosen.data(),
+                                        adhesion.data(), 0),
+             region.place);
+    }
+}
+
+void set_interfaces(const Model& model, const Scene& scene) {
+    for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+        const InterfaceData& data = scene.interfaces[i];
+        const auto index = static_cast<std::int64_t>(i);
+        const delam_context* context = model.context.get();
+        if (data.bonded) {
+            call(context, delam_problem_set_bonded(model.problem.get(), index), data.place);
+            continue;
+        }
+        const LawData& from = scene.laws[data.law];
+        delam_law* handle = nullptr;
+        const std::int32_t status = delam_law_create(model.context.get(), from.kind.c_str(), &handle);
+        const Law law(handle);
+        call(context, status, from.place);
+        for (const auto& [key, value] : from.parameters)
+            call(context, delam_law_set(law.get(), key.c_str(), value), {from.place.file, from.place.path + "." + key, from.place.line});
+        call(context, delam_law_check(law.get()), from.place);
+        call(context, delam_problem_set_law(model.problem.get(), index, law.get()), data.place);
+        set_adhesion(model, scene, index, data);
+    }
+}
+
+void prescribe(const Model& model, const Scene& scene, const Prescription& data) {
+    const Selected at = select(model.context.get(), model.mesh.get(), scene, data.where);
+    std::vector<std::int64_t> patterns;
+    std::vector<double> coefficients;
+    for (const Term& term : data.terms) {
+        patterns.push_back(static_cast<std::int64_t>(term.pattern));
+        coefficients.push_back(term.coefficient);
+    }
+    const auto count = static_cast<std::int64_t>(at.nodes.size());
+    const auto pattern_count = static_cast<std::int64_t>(patterns.size());
+    std::vector<double> all;
+    for (std::size_t i = 0; i < at.nodes.size(); ++i) all.insert(all.end(), coefficients.begin(), coefficients.end());
+    for (const std::vector<double>& direction : data.directions) {
+        const std::int32_t status =
+            at.weights.empty()
+                ? delam_problem_prescribe_nodes(model.problem.get(), count, at.nodes.data(), direction.data(), pattern_count,
+                                                patterns.data(), all.data(), 0)
+                : delam_problem_prescribe_mean(model.problem.get(), count, at.nodes.data(), at.weights.data(), direction.data(),
+                                               pattern_count, patterns.data(), coefficients.data(), 0);
+        call(model.context.get(), status, data.place);
+    }
+}
+
+void add_force(const Model& model, const Scene& scene, const DeadForce& data) {
+    const Selected at = select(model.context.get(), model.mesh.get(), scene, data.where);
+    const double total = std::accumulate(at.weights.begin(), at.weights.end(), 0.0);
+    std::vector<double> forces;
+    for (std::size_t i = 0; i < at.nodes.size(); ++i)
+        for (const double component : data.force)
+            forces.push_back(at.weights.empty() ? component : component * at.weights[i] / total);
+    call(model.context.get(),
+         delam_problem_add_forces(model.problem.get(), static_cast<std::int64_t>(data.pattern),
+                                  static_cast<std::int64_t>(at.nodes.size()), at.nodes.data(), forces.data(), 0),
+         data.place);
+}
+
+}  // namespace
+
+Context new_context() {
+    delam_context* handle = nullptr;
+    if (delam_context_create(&handle) != DELAM_OK) throw Failure(exit_numerical, "out of memory");
+    return Context(handle);
+}
+
+Model build(Context context, const Scene& scene) {
+    Model model;
+    model.context = std::move(context);
+    const delam_context* owner = model.context.get();
+    model.mesh = build_mesh(owner, model.context.get(), scene);
+    delam_problem* handle = nullptr;
+    const std::int32_t status = delam_problem_create(model.context.get(), model.mesh.get(), &handle);
+    model.problem.reset(handle);
+    call(owner, status, scene.geometry.place);
+    delam_problem* problem = model.problem.get();
+    if (scene.geometry.dimension == 2)
+        call(owner, delam_problem_set_plane(problem, scene.geometry.plane.c_str()), scene.geometry.place);
+    for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+        const Material& material = scene.materials[scene.layers[i].material];
+        call(owner, delam_problem_set_elastic(problem, static_cast<std::int32_t>(i), material.young, material.poisson),
+             material.place);
+    }
+    set_interfaces(model, scene);
+    for (const PatternData& pattern : scene.patterns) {
+        std::int64_t index = 0;
+        call(owner,
+             delam_problem_add_pattern(problem, pattern.name.c_str(), static_cast<std::int64_t>(pattern.times.size()),
+                                       pattern.times.data(), pattern.values.data(), &index),
+             pattern.place);
+    }
+    for (const Prescription& data : scene.prescriptions) prescribe(model, scene, data);
+    for (const DeadForce& data : scene.forces) add_force(model, scene, data);
+    for (const SolverOption& option : scene.options) {
+        const auto* number = std::get_if<double>(&option.value);
+        call(owner,
+             number != nullptr ? delam_problem_set_number(problem, option.key.c_str(), *number)
+                               : delam_problem_set_text(problem, option.key.c_str(), std::get<std::string>(option.value).c_str()),
+             option.place);
+    }
+    call(owner, delam_problem_check(problem), {scene.file, "", 0});
+    return model;
+}
+
+Solver new_solver(const Model& model, const Scene& scene) {
+    delam_solver* handle = nullptr;
+    const std::int32_t status = delam_solver_create(model.problem.get(), scene.times.front(), &handle);
+    Solver solver(handle);
+    if (status == DELAM_NOT_CONVERGED && solver != nullptr) return solver;
+    call(model.context.get(), status, {scene.file, "", 0});
+    return solver;
+}
+
+}  // namespace cli

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What can end the program early, each with the exit code that is documented in --help and the README.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace cli {
+
+enum Exit : int {
+    exit_done = 0,
+    exit_not_converged = 1,
+    exit_scene = 2,
+    exit_output = 3,
+    exit_numerical = 4,
+    exit_interrupted = 130,
+};
+
+class Failure : public std::runtime_error {
+public:
+    Failure(Exit code, const std::string& text) : std::runtime_error(text), code_(code) {}
+    [[nodiscard]] Exit code() const noexcept { return code_; }
+
+private:
+    Exit code_;
+};
+
+// A file that cannot be written or read back; `name` is the file, `reason` what the system said.
+class OutputFailure : public Failure {
+public:
+    OutputFailure(const std::string& name, const std::string& reason)
+        : Failure(exit_output, "cannot write " + name + ": " + reason) {}
+};
+
+// Where in the scene something stands: "scene.toml:14: materials[0].young".
+struct Place {
+    std::string file;
+    std::string path;
+    int line = 0;
+
+    [[nodiscard]] std::string text() const {
+        std::string out = file;
+        if (line > 0) out += ":" + std::to_string(line);
+        if (!path.empty()) out += ": " + path;
+        return out;
+    }
+};
+
+class SceneFailure : public Failure {
+public:
+    SceneFailure(const Place& place, const std::string& text) : Failure(exit_scene, place.text() + ": " + text) {}
+};
+
+}  // namespace cli

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fields.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "call.hpp"
+#include "file.hpp"
+#include "h5.hpp"
+#include "step_file.hpp"
+#include "xdmf.hpp"
+
+namespace cli {
+
+namespace {
+
+std::vector<double> points_3d(const std::vector<double>& nodes, std::size_t dimension) {
+    std::vector<double> out(nodes.size() / dimension * 3, 0.0);
+    for (std::size_t i = 0; i < nodes.size() / dimension; ++i)
+        for (std::size_t a = 0; a < dimension; ++a) out[3 * i + a] = nodes[dimension * i + a];
+    return out;
+}
+
+XdmfBlock write_interface(const Model& model, const InterfaceData& data, std::int64_t index, hid_t parent,
+                          const std::vector<double>& points, std::size_t dimension) {
+    const std::string what = "interface " + data.name;
+    std::int64_t pairs = 0;
+    std::int64_t faces = 0;
+    std::int32_t per_face = 0;
+    const delam_mesh* mesh = model.mesh.get();
+    call(model.context.get(), delam_mesh_interface_size(mesh, index, nullptr, nullptr, &pairs, &faces, &per_face), what);
+    std::vector<std::int64_t> a(static_cast<std::size_t>(pairs));
+    std::vector<std::int64_t> b(a.size());
+    std::vector<double> weights(a.size());
+    std::vector<double> frames(a.size() * dimension * dimension);
+    std::vector<std::int64_t> connectivity(static_cast<std::size_t>(faces * per_face));
+    call(model.context.get(), delam_mesh_interface_pairs(mesh, index, a.data(), b.data(), weights.data(), frames.data()), what);
+    call(model.context.get(), delam_mesh_interface_faces(mesh, index, connectivity.data()), what);
+    std::vector<double> at(3 * a.size());
+    for (std::size_t i = 0; i < a.size(); ++i)
+        std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(3 * a[i]), 3, at.begin() + static_cast<std::ptrdiff_t>(3 * i));
+    const h5::Group group(h5::new_group(parent, "interface_" + std::to_string(index)), "fields.h5");
+    h5::attribute(group.get(), "name", data.name);
+    h5::attribute(group.get(), "body_a", static_cast<std::int64_t>(data.lower));
+    h5::attribute(group.get(), "body_b", static_cast<std::int64_t>(data.upper));
+    h5::write(group.get(), "points", at, 3);
+    h5::write(group.get(), "faces", connectivity, static_cast<std::size_t>(per_face));
+    h5::write(group.get(), "nodes_a", a, 0);
+    h5::write(group.get(), "nodes_b", b, 0);
+    h5::write(group.get(), "weights", weights, 0);
+    h5::write(group.get(), "frames", frames, dimension * dimension);
+    return {data.name, pairs, faces, per_face, per_face == 2 ? "Polyline" : per_face == 3 ? "Triangle" : "Quadrilateral"};
+}
+
+// Mesh and interfaces; returns what the XDMF file has to say about them.
+std::vector<XdmfBlock> write_mesh(const Model& model, const Scene& scene, hid_t file) {
+    const std::string what = "mesh";
+    const delam_mesh* mesh = model.mesh.get();
+    std::int32_t dimension = 0;
+    std::int64_t nodes = 0;
+    std::int64_t cells = 0;
+    std::int64_t entries = 0;
+    call(model.context.get(), delam_mesh_size(mesh, &dimension, &nodes, &cells, nullptr, nullptr), what);
+    std::vector<double> coordinates(static_cast<std::size_t>(nodes * dimension));
+    call(model.context.get(), delam_mesh_nodes(mesh, nodes * dimension, coordinates.data()), what);
+    call(model.context.get(), delam_mesh_cells(mesh, nullptr, nullptr, nullptr, 0, nullptr, &entries), what);
+    std::vector<std::int32_t> bodies(static_cast<std::size_t>(cells));
+    std::vector<std::int64_t> connectivity(static_cast<std::size_t>(entries));
+    call(model.context.get(),
+         delam_mesh_cells(mesh, nullptr, bodies.data(), nullptr, entries, connectivity.data(), &entries), what);
+    const std::vector<double> points = points_3d(coordinates, static_cast<std::size_t>(dimension));
+    const std::int64_t per_cell = entries / std::max<std::int64_t>(1, cells);
+    {
+        const h5::Group group(h5::new_group(file, "mesh"), "fields.h5");
+        h5::write(group.get(), "points", points, 3);
+        h5::write(group.get(), "cells", connectivity, static_cast<std::size_t>(per_cell));
+        h5::write(group.get(), "body", bodies, 0);
+    }
+    const char* topology = "Quadrilateral";
+    if (scene.geometry.cell_type == DELAM_TRI3) topology = "Triangle";
+    if (scene.geometry.cell_type == DELAM_TET4) topology = "Tetrahedron";
+    if (scene.geometry.cell_type == DELAM_HEX8) topology = "Hexahedron";
+    std::vector<XdmfBlock> blocks{{"bodies", nodes, cells, per_cell, topology}};
+    const h5::Group group(h5::new_group(file, "interfaces"), "fields.h5");
+    for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
+        blocks.push_back(write_interface(model, scene.interfaces[i], static_cast<std::int64_t>(i), group.get(), points,
+                                         static_cast<std::size_t>(dimension)));
+    return blocks;
+}
+
+}  // namespace
+
+Fields::Fields(std::string folder, const Scene& scene) : folder_(std::move(folder)) {
+    const std::size_t last = scene.step_count();
+    for (std::size_t k = 0; k <= last; k += static_cast<std::size_t>(scene.output.every)) chosen_.insert(k);
+    chosen_.insert(last);
+    for (const double instant : scene.output.snapshots) {
+        const auto nearer = [instant](double a, double b) { return std::abs(a - instant) < std::abs(b - instant); };
+        chosen_.insert(static_cast<std::size_t>(std::min_element(scene.times.begin(), scene.times.end(), nearer) -
+                                                scene.times.begin()));
+    }
+}
+
+std::string Fields::step_path(std::size_t step) const { return fmt::format("{}/step_{:08d}.h5", folder_, step); }
+
+void Fields::write_step(const Model& model, const delam_solver* solver, const Scene& scene, std::size_t step) {
+    const std::string bytes = step_bytes(model, solver, scene, static_cast<std::int64_t>(step), scene.times[step]);
+    const std::string path = step_path(step);
+    Appender(path, 0).append(bytes);
+    unsynchronised_.push_back(path);
+}
+
+void Fields::synchronise_steps() {
+    for (const std::string& path : unsynchronised_) synchronise(path);
+    unsynchronised_.clear();
+}
+
+void Fields::assemble(const Model& model, const Scene& scene, std::size_t last, const std::string& problem_hash) const {
+    const std::string path = folder_ + "/fields.h5";
+    std::int64_t bytes = std::int64_t{1} << 20;
+    for (const std::size_t step : chosen_)
+        if (step <= last) bytes += static_cast<std::int64_t>(std::filesystem::file_size(step_path(step)));
+    require_room(path, bytes);
+
+    std::vector<XdmfStep> steps;
+    std::vector<XdmfBlock> blocks;
+    h5::File file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), path);
+    {
+        h5::attribute(file.get(), "title", scene.title);
+        h5::attribute(file.get(), "version", std::string(delam_version()));
+        h5::attribute(file.get(), "commit", std::string(delam_commit()));
+        h5::attribute(file.get(), "scene_hash", problem_hash);
+        h5::attribute(file.get(), "scene_file_hash", scene.file_hash);
+        h5::attribute(file.get(), "dimension", static_cast<std::int64_t>(scene.geometry.dimension));
+        blocks = write_mesh(model, scene, file.get());
+        const h5::Group group(h5::new_group(file.get(), "steps"), path);
+        for (const std::size_t step : chosen_) {
+            if (step > last) break;
+            const std::string name = fmt::format("{:08d}", step);
+            const h5::File from(H5Fopen(step_path(step).c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), step_path(step));
+            h5::require(H5Ocopy(from.get(), "step", group.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path);
+            steps.push_back({name, scene.times[step]});
+        }
+        h5::require(H5Fflush(file.get(), H5F_SCOPE_GLOBAL), path);
+    }
+    file.close(path);
+    synchronise(path);
+    write_atomic(folder_ + "/fields.xdmf", xdmf_text(blocks, steps, scene.output.fields));
+}
+
+void Fields::remove_steps() const {
+    for (const std::size_t step : chosen_) remove_file(step_path(step));
+}
+
+}  // namespace cli

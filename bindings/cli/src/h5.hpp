@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Owners of HDF5 identifiers and the few calls that the program needs. Every failure is an OutputFailure.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <hdf5.h>
+
+#include "error.hpp"
+
+namespace cli::h5 {
+
+template <herr_t (*Close)(hid_t)>
+class Id {
+public:
+    Id(hid_t id, const std::string& what) : id_(id) {
+        if (id < 0) throw OutputFailure(what, "HDF5 refused (disk full or file damaged)");
+    }
+    ~Id() {
+        if (id_ >= 0) Close(id_);
+    }
+    Id(const Id&) = delete;
+    Id& operator=(const Id&) = delete;
+    [[nodiscard]] hid_t get() const { return id_; }
+    // A file writes what it still holds when it is closed, which can fail.
+    void close(const std::string& what) {
+        const hid_t id = id_;
+        id_ = -1;
+        if (Close(id) < 0) throw OutputFailure(what, "HDF5 refused to close it (disk full?)");
+    }
+
+private:
+    hid_t id_;
+};
+
+using File = Id<H5Fclose>;
+using Group = Id<H5Gclose>;
+using Space = Id<H5Sclose>;
+using Data = Id<H5Dclose>;
+using Attribute = Id<H5Aclose>;
+using Properties = Id<H5Pclose>;
+using Type = Id<H5Tclose>;
+
+inline void require(herr_t status, const std::string& what) {
+    if (status < 0) throw OutputFailure(what, "HDF5 could not write (disk full?)");
+}
+
+template <class T>
+hid_t type_of();
+template <>
+inline hid_t type_of<double>() { return H5T_NATIVE_DOUBLE; }
+template <>
+inline hid_t type_of<std::int64_t>() { return H5T_NATIVE_INT64; }
+template <>
+inline hid_t type_of<std::int32_t>() { return H5T_NATIVE_INT32; }
+
+// columns 0: a vector.
+template <class T>
+void write(hid_t parent, const std::string& name, const std::vector<T>& values, std::size_t columns) {
+    const hsize_t shape[2] = {values.size() / (columns > 0 ? columns : 1), columns};
+    const Space space(H5Screate_simple(columns > 0 ? 2 : 1, shape, nullptr), name);
+    const Properties properties(H5Pcreate(H5P_DATASET_CREATE), name);
+    // Padding and constant parts vanish in the filter; below a page it does not pay.
+    if (values.size() > 512) {
+        require(H5Pset_chunk(properties.get(), columns > 0 ? 2 : 1, shape), name);
+        require(H5Pset_shuffle(properties.get()), name);
+        require(H5Pset_deflate(properties.get(), 1), name);
+    }
+    const Data data(H5Dcreate2(parent, name.c_str(), type_of<T>(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+                    name);
+    if (!values.empty())
+        require(H5Dwrite(data.get(), type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
+}
+
+template <class T>
+void attribute(hid_t parent, const std::string& name, T value) {
+    const Space space(H5Screate(H5S_SCALAR), name);
+    const Attribute out(H5Acreate2(parent, name.c_str(), type_of<T>(), space.get(), H5P_DEFAULT, H5P_DEFAULT), name);
+    require(H5Awrite(out.get(), type_of<T>(), &value), name);
+}
+
+inline void attribute(hid_t parent, const std::string& name, const std::string& value) {
+    const Space space(H5Screate(H5S_SCALAR), name);
+    const Type type(H5Tcopy(H5T_C_S1), name);
+    require(H5Tset_size(type.get(), value.size() + 1), name);
+    require(H5Tset_cset(type.get(), H5T_CSET_UTF8), name);
+    const Attribute out(H5Acreate2(parent, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), name);
+    require(H5Awrite(out.get(), type.get(), value.c_str()), name);
+}
+
+inline hid_t new_group(hid_t parent, const std::string& name) {
+    return H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+}
+
+}  // namespace cli::h5

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include "commands.hpp"
+#include "delam/delam.h"
+#include "error.hpp"
+
+namespace {
+
+constexpr const char* footer =
+    "Exit codes\n"
+    "  0    done\n"
+    "  1    finished, but at least one step did not converge\n"
+    "  2    wrong usage or an error in the scene\n"
+    "  3    output cannot be written (full disk, folder not writable)\n"
+    "  4    numerical failure or limit load; finished steps are kept\n"
+    "  130  interrupted (Ctrl-C, SIGTERM); finished steps are kept, go on with --resume\n";
+
+std::string joined(int count, char** words) {
+    std::string out;
+    for (int i = 0; i < count; ++i) out += (i > 0 ? " " : "") + std::string(words[i]);
+    return out;
+}
+
+int guarded(int argc, char** argv) {
+    CLI::App app("delam: delamination of layered structures by energy minimisation");
+    app.footer(footer);
+    app.set_version_flag("--version", fmt::format("delam {} (commit {}, ABI {})", delam_version(), delam_commit(), delam_abi()));
+    app.require_subcommand(1);
+    std::string scene;
+    std::string folder;
+    bool resume = false;
+    CLI::App* run = app.add_subcommand("run", "march through the load steps of a scene and write the results");
+    run->add_option("scene", scene, "scene file (TOML, see SCENE.md)")->required();
+    run->add_option("--out,-o", folder, "folder for the results; a result that is there is replaced when the new one is whole")
+        ->required();
+    run->add_flag("--resume", resume, "go on after an interruption, from the last saved step");
+    run->footer(footer);
+    CLI::App* check = app.add_subcommand("check", "validate a scene and print what would be computed, and how");
+    check->add_option("scene", scene, "scene file (TOML, see SCENE.md)")->required();
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? cli::exit_done : cli::exit_scene;
+    }
+    return run->parsed() ? cli::run(scene, folder, resume, joined(argc, argv)) : cli::check(scene);
+}
+
+int reported(int argc, char** argv) {
+    try {
+        return guarded(argc, argv);
+    } catch (const cli::Failure& failure) {
+        fmt::print(stderr, "delam: {}\n", failure.what());
+        return failure.code();
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "delam: out of memory\n");
+        return cli::exit_numerical;
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "delam: {}\n", e.what());
+        return cli::exit_numerical;
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    // HDF5 would print its own stack, and after a full disk try to write once more at exit; both are ours to handle.
+    H5dont_atexit();
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    const int code = reported(argc, argv);
+    std::fflush(stdout);
+    return code;
+}

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "output_folder.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "error.hpp"
+#include "file.hpp"
+
+namespace cli {
+
+namespace fs = std::filesystem;
+
+OutputFolder::OutputFolder(const std::string& path) : path_(path), running_(path + "/running") {
+    std::error_code code;
+    fs::create_directories(path_, code);
+    if (code) throw OutputFailure(path_, code.message());
+    lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock_ < 0) throw OutputFailure(path_, std::strerror(errno));
+    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+        const bool busy = errno == EWOULDBLOCK;
+        ::close(lock_);
+        if (busy) throw OutputFailure(path_, "another run is writing there");
+        lock_ = -1;  // a file system without locks
+    }
+    try {
+        fs::create_directories(running_, code);
+        if (code) throw OutputFailure(running_, code.message());
+        // Now rather than after an hour of work.
+        Appender(running_ + "/probe.new", 0).append("writable?\n");
+        remove_file(running_ + "/probe.new");
+    } catch (...) {
+        if (lock_ >= 0) ::close(lock_);
+        throw;
+    }
+}
+
+OutputFolder::~OutputFolder() {
+    std::error_code code;
+    fs::remove(running_, code);  // only when it is empty
+    if (lock_ >= 0) ::close(lock_);
+}
+
+void OutputFolder::begin() {
+    std::error_code code;
+    for (const fs::directory_entry& entry : fs::directory_iterator(running_, code)) remove_file(entry.path().string());
+    if (code) throw OutputFailure(running_, code.message());
+}
+
+void OutputFolder::publish() {
+    // A run may go on after this, so it keeps its own history and state. The copies are complete before anything old goes away.
+    for (const char* name : {"history.csv", "state.bin"}) {
+        const std::string from = running_ + "/" + name;
+        write_atomic(running_ + "/published_" + name, read_bytes(from));
+    }
+    remove_file(path_ + "/result.json");
+    for (const char* name : {"history.csv", "state.bin"}) rename_file(running_ + "/published_" + name, path_ + "/" + name);
+    for (const char* name : {"fields.h5", "fields.xdmf"}) rename_file(running_ + "/" + name, path_ + "/" + name);
+    synchronise(path_);
+    rename_file(running_ + "/result.json", path_ + "/result.json");
+    synchronise(path_);
+}
+
+void OutputFolder::end() { begin(); }
+
+std::string OutputFolder::status(std::string& content_hash, bool& all_converged) const {
+    const std::string file = path_ + "/result.json";
+    if (!fs::exists(file)) return "";
+    const auto json = nlohmann::json::parse(read_bytes(file), nullptr, false);
+    if (!json.is_object()) return "";
+    content_hash = json.value("scene_content_hash", "");
+    all_converged = !json.contains("not_converged") || json["not_converged"].empty();
+    return json.value("status", "");
+}
+
+}  // namespace cli

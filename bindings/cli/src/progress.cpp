@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "progress.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace cli {
+
+namespace {
+
+std::string duration_text(double seconds) {
+    const auto whole = static_cast<std::int64_t>(seconds + 0.5);
+    if (whole >= 3600) return fmt::format("{}:{:02d}:{:02d}", whole / 3600, whole / 60 % 60, whole % 60);
+    return fmt::format("{}:{:02d}", whole / 60, whole % 60);
+}
+
+std::size_t terminal_width() {
+    winsize size{};
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 20) return 80;
+    return size.ws_col;
+}
+
+}  // namespace
+
+Progress::Progress(std::int64_t total, std::int64_t first)
+    : total_(total), first_(first), step_(first), terminal_(isatty(STDOUT_FILENO) == 1), start_(Clock::now()), redraw_(start_) {}
+
+std::string Progress::left() const {
+    const std::int64_t done = step_ - first_;
+    if (done <= 0) return "?";
+    const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+    return duration_text(elapsed / static_cast<double>(done) * static_cast<double>(total_ - step_));
+}
+
+void Progress::step(std::int64_t step, double time, double load, std::int64_t iterations, bool converged) {
+    step_ = step;
+    last_ = fmt::format("time {:.6g}  load {:.6g}  {} iterations{}", time, load, iterations, converged ? "" : " NOT CONVERGED");
+    if (terminal_) {
+        draw("");
+        return;
+    }
+    fmt::print("step {}/{}  {}  left {}\n", step, total_, last_, left());
+    std::fflush(stdout);
+}
+
+void Progress::stage(const char* name, std::int64_t done, std::int64_t total) {
+    if (!terminal_ || Clock::now() - redraw_ < std::chrono::milliseconds(100)) return;
+    draw(total > 0 ? fmt::format("{} {}/{}", name, done, total) : std::string(name));
+}
+
+void Progress::draw(const std::string& stage) {
+    redraw_ = Clock::now();
+    constexpr std::int64_t width = 24;
+    const auto full = static_cast<std::size_t>(total_ > 0 ? width * step_ / total_ : width);
+    std::string line = fmt::format("[{}{}] {}/{}  {}  left {}  {}", std::string(full, '#'),
+                                   std::string(static_cast<std::size_t>(width) - full, '.'), step_, total_, last_, left(), stage);
+    line.resize(std::min(line.size(), terminal_width() - 1));
+    fmt::print("\r\033[K{}", line);
+    std::fflush(stdout);
+    drawn_ = true;
+}
+
+void Progress::note(const std::string& text) {
+    if (terminal_ && drawn_) fmt::print("\r\033[K");
+    fmt::print("{}\n", text);
+    std::fflush(stdout);
+    if (terminal_ && drawn_) draw("");
+}
+
+void Progress::finish() {
+    if (terminal_ && drawn_) fmt::print("\n");
+    std::fflush(stdout);
+    drawn_ = false;
+}
+
+}  // namespace cli

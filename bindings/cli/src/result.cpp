@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "result.hpp"
+
+#include <cstdlib>
+#include <ctime>
+
+#include <nlohmann/json.hpp>
+
+#include "call.hpp"
+
+namespace cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Every option with the value that was used, set or not.
+Json options(const Scene& scene) {
+    Json out = Json::object();
+    for (std::int64_t i = 0; i < delam_option_count(); ++i) {
+        const char* key = "";
+        const char* type = "";
+        const char* initial = "";
+        delam_option_info(i, &key, &type, nullptr, &initial, nullptr, nullptr);
+        if (std::string(type) == "text") {
+            out[key] = initial;
+        } else {
+            out[key] = std::strtod(initial, nullptr);
+        }
+    }
+    for (const SolverOption& option : scene.options)
+        std::visit([&](const auto& value) { out[option.key] = value; }, option.value);
+    return out;
+}
+
+}  // namespace
+
+std::string now_text() {
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return text;
+}
+
+std::string hash_of(const Model& model) {
+    char text[17] = {};
+    call(model.context.get(), delam_problem_hash(model.problem.get(), text), std::string("hash of the scene"));
+    return text;
+}
+
+std::string result_text(const Model& model, const Scene& scene, const Outcome& outcome) {
+    std::int64_t primal = 0;
+    std::int64_t dual = 0;
+    call(model.context.get(), delam_problem_dofs(model.problem.get(), &primal, &dual), std::string("numbers of unknowns"));
+    Json patterns = Json::array();
+    for (std::size_t i = 0; i < scene.patterns.size(); ++i) {
+        bool force = false;
+        for (const DeadForce& data : scene.forces) force = force || data.pattern == i;
+        patterns.push_back({{"name", scene.patterns[i].name}, {"drives", force ? "force" : "displacement"}});
+    }
+    Json layers = Json::array();
+    for (const Layer& layer : scene.layers) layers.push_back(layer.name);
+    const Json out{
+        {"program", "delam"},
+        {"version", delam_version()},
+        {"commit", delam_commit()},
+        {"abi", delam_abi()},
+        {"status", outcome.complete ? "complete" : "incomplete"},
+        {"reason", outcome.reason},
+        {"concept", "local"},
+        {"steps_done", outcome.steps_done},
+        {"steps", scene.step_count()},
+        {"not_converged", outcome.not_converged},
+        {"scene", {{"file", scene.file}, {"title", scene.title}, {"schema", 1}, {"dimension", scene.geometry.dimension}}},
+        {"scene_hash", outcome.problem_hash},
+        {"scene_file_hash", scene.file_hash},
+        {"scene_content_hash", scene.content_hash},
+        {"options", options(scene)},
+        {"unknowns", {{"primal", primal}, {"dual", dual}}},
+        {"layers", layers},
+        {"patterns", patterns},
+        {"output",
+         {{"snapshots", scene.output.snapshots},
+          {"displacement_scale", scene.output.displacement_scale},
+          {"fields", scene.output.fields}}},
+        {"units", {{"length", scene.units.length}, {"force", scene.units.force}, {"time", scene.units.time}}},
+        {"command", outcome.command},
+        {"started", outcome.started},
+        {"ended", now_text()},
+        {"resumed", outcome.resumed},
+        {"plan", outcome.plan},
+    };
+    return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace cli

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// result.json: where a result comes from and how far it went.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "build.hpp"
+
+namespace cli {
+
+struct Outcome {
+    bool complete = false;
+    std::string reason;  // why it is incomplete
+    std::int64_t steps_done = 0;
+    std::vector<std::int64_t> not_converged;
+    std::int64_t resumed = 0;
+    std::string started;
+    std::string command;
+    std::string problem_hash;
+    std::string plan;
+};
+
+// UTC, e.g. 2026-01-31T12:00:00Z.
+std::string now_text();
+std::string hash_of(const Model& model);
+std::string result_text(const Model& model, const Scene& scene, const Outcome& outcome);
+
+}  // namespace cli

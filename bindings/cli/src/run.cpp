@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "call.hpp"
+#include "commands.hpp"
+#include "fields.hpp"
+#include "file.hpp"
+#include "history.hpp"
+#include "interrupt.hpp"
+#include "output_folder.hpp"
+#include "progress.hpp"
+#include "result.hpp"
+#include "state.hpp"
+
+namespace cli {
+
+namespace {
+
+extern "C" std::int32_t on_progress(const char* stage, std::int64_t done, std::int64_t total, void* user) {
+    static_cast<Progress*>(user)->stage(stage, done, total);
+    return Interrupt::requested() ? 1 : 0;
+}
+
+extern "C" void on_log(std::int32_t level, const char* text, void* user) {
+    if (level <= 1) static_cast<Progress*>(user)->note(fmt::format("{}: {}", level == 0 ? "error" : "warning", text));
+}
+
+// One run: the march and the files that follow it.
+class Run {
+public:
+    Run(const Scene& scene, const Model& model, Solver solver, OutputFolder& folder)
+        : scene_(scene), model_(model), solver_(std::move(solver)), folder_(folder), history_(model, solver_.get(), scene),
+          fields_(folder.running(), scene), running_history_(folder.running() + "/history.csv"),
+          running_state_(folder.running() + "/state.bin") {
+        state_.content_hash = scene.content_hash;
+        state_.problem_hash = hash_of(model);
+        state_.started = now_text();
+    }
+
+    void begin() {
+        folder_.begin();
+        file_.emplace(running_history_, 0);
+        file_->append(history_.header());
+        record();
+        save();
+    }
+
+    void resume(const State& state) {
+        state_ = state;
+        state_.resumed += 1;
+        call(model_.context.get(),
+             delam_solver_load(solver_.get(), static_cast<std::int64_t>(state.bytes.size()),
+                               reinterpret_cast<const std::uint8_t*>(state.bytes.data())),
+             running_state_);
+        // Rows of steps after the state was saved are computed again.
+        std::error_code code;
+        const auto length = std::filesystem::file_size(running_history_, code);
+        if (code || static_cast<std::int64_t>(length) < state.history_length)
+            throw Failure(exit_scene, running_history_ + ": rows are missing; run again without --resume");
+        file_.emplace(running_history_, state.history_length);
+    }
+
+    // Returns the exit code of the march; outcome.reason says why it stopped early.
+    Exit march(Progress& progress, Outcome& outcome) {
+        const auto total = static_cast<std::int64_t>(scene_.step_count());
+        while (state_.step < total) {
+            if (Interrupt::requested()) return stopped(outcome);
+            const double time = scene_.times[static_cast<std::size_t>(state_.step) + 1];
+            const std::int32_t status = delam_solver_advance(solver_.get(), time);
+            if (status == DELAM_CANCELLED) return stopped(outcome);
+            if (status != DELAM_OK && status != DELAM_NOT_CONVERGED) {
+                outcome.reason = fmt::format("step {}, time {}: {} ({})", state_.step + 1, time,
+                                             delam_context_message(model_.context.get()), delam_status_name(status));
+                return exit_numerical;
+            }
+            call(model_.context.get(), delam_solver_commit(solver_.get()), std::string("commit"));
+            state_.step += 1;
+            if (status == DELAM_NOT_CONVERGED) state_.not_converged.push_back(state_.step);
+            record();
+            progress.step(state_.step, time, history_.load(solver_.get()),
+                          static_cast<std::int64_t>(history_.value(solver_.get(), "am_iterations")), status == DELAM_OK);
+            if (std::chrono::steady_clock::now() - saved_ > std::chrono::seconds(1)) save();
+        }
+        return state_.not_converged.empty() ? exit_done : exit_not_converged;
+    }
+
+    void publish(Outcome& outcome) {
+        save();
+        outcome.complete = state_.step == static_cast<std::int64_t>(scene_.step_count());
+        outcome.steps_done = state_.step;
+        outcome.not_converged = state_.not_converged;
+        outcome.resumed = state_.resumed;
+        outcome.started = state_.started;
+        outcome.problem_hash = state_.problem_hash;
+        outcome.plan = delam_solver_plan(solver_.get());
+        fields_.assemble(model_, scene_, static_cast<std::size_t>(state_.step), state_.problem_hash);
+        write_atomic(folder_.running() + "/result.json", result_text(model_, scene_, outcome));
+        folder_.publish();
+        if (outcome.complete) folder_.end();
+    }
+
+    [[nodiscard]] const State& state() const { return state_; }
+
+private:
+    static Exit stopped(Outcome& outcome) {
+        outcome.reason = "interrupted";
+        return exit_interrupted;
+    }
+
+    // Fields, then the row: a step whose row is there is whole.
+    void record() {
+        const auto step = static_cast<std::size_t>(state_.step);
+        if (fields_.chosen(step)) fields_.write_step(model_, solver_.get(), scene_, step);
+        file_->append(history_.row(solver_.get()));
+        state_.history_length = file_->length();
+    }
+
+    void save() {
+        std::int64_t size = 0;
+        call(model_.context.get(), delam_solver_save(solver_.get(), 0, nullptr, &size), running_state_);
+        state_.bytes.resize(static_cast<std::size_t>(size));
+        call(model_.context.get(),
+             delam_solver_save(solver_.get(), size, reinterpret_cast<std::uint8_t*>(state_.bytes.data()), &size),
+             running_state_);
+        fields_.synchronise_steps();
+        synchronise(running_history_);
+        write_atomic(running_state_, pack(state_));
+        saved_ = std::chrono::steady_clock::now();
+    }
+
+    const Scene& scene_;
+    const Model& model_;
+    Solver solver_;
+    OutputFolder& folder_;
+    History history_;
+    Fields fields_;
+    std::string running_history_;
+    std::string running_state_;
+    std::optional<Appender> file_;
+    State state_;
+    std::chrono::steady_clock::time_point saved_;
+};
+
+// The state to go on from, if there is one; refuses that of another scene.
+std::optional<State> find_state(const OutputFolder& folder, const Scene& scene, const Model& model) {
+    const std::string path = folder.running() + "/state.bin";
+    if (!std::filesystem::exists(path)) return std::nullopt;
+    State state = unpack(path, read_bytes(path));
+    if (state.content_hash != scene.content_hash || state.problem_hash != hash_of(model))
+        throw Failure(exit_scene, fmt::format("{}: the scene is not the one that {} was started with; run again without --resume",
+                                              scene.file, folder.path()));
+    return state;
+}
+
+int already_complete(const OutputFolder& folder, const Scene& scene) {
+    std::string content;
+    bool converged = true;
+    if (std::filesystem::exists(folder.running() + "/state.bin") || folder.status(content, converged) != "complete") return -1;
+    if (content != scene.content_hash)
+        throw Failure(exit_scene, fmt::format("{}: the scene is not the one of the result in {}; run again without --resume",
+                                              scene.file, folder.path()));
+    fmt::print("{}: complete already\n", folder.path());
+    return converged ? exit_done : exit_not_converged;
+}
+
+}  // namespace
+
+int run(const std::string& scene_file, const std::string& folder_path, bool resume, const std::string& command) {
+    const Scene scene = read_scene(scene_file);
+    Context context = new_context();
+    const Interrupt interrupt(context.get());
+    const Model model = build(std::move(context), scene);
+    OutputFolder folder(folder_path);
+    if (resume)
+        if (const int code = already_complete(folder, scene); code >= 0) return code;
+    const std::optional<State> state = resume ? find_state(folder, scene, model) : std::nullopt;
+    const std::int64_t first = state ? state->step : 0;
+    Progress progress(static_cast<std::int64_t>(scene.step_count()), first);
+    delam_context_set_log(model.context.get(), on_log, &progress);
+    delam_context_set_progress(model.context.get(), on_progress, &progress);
+    fmt::print("delam {} ({}): {}{}\n", delam_version(), delam_commit(), scene_file,
+               scene.title.empty() ? "" : ", " + scene.title);
+    if (resume) fmt::print("{}\n", state ? fmt::format("resumed after step {}", first) : "nothing to resume: started anew");
+    std::fflush(stdout);
+
+    Outcome outcome;
+    outcome.command = command;
+    Run work(scene, model, new_solver(model, scene), folder);
+    Exit code = exit_done;
+    try {
+        if (state) work.resume(*state);
+        else work.begin();
+        code = work.march(progress, outcome);
+        progress.finish();
+        work.publish(outcome);
+    } catch (const OutputFailure& failure) {
+        progress.finish();
+        throw Failure(exit_output, fmt::format("{}\nfinished steps are kept in {}; go on with: delam run {} --out {} --resume",
+                                               failure.what(), folder.running(), scene_file, folder_path));
+    }
+    const auto total = scene.step_count();
+    if (code == exit_interrupted || code == exit_numerical) {
+        fmt::print(stderr, "delam: {} after step {} of {}; the finished steps are in {}, marked incomplete\n",
+                   code == exit_interrupted ? "interrupted" : "stopped", work.state().step, total, folder_path);
+        if (code == exit_interrupted)
+            fmt::print(stderr, "delam: go on with: delam run {} --out {} --resume\n", scene_file, folder_path);
+        else
+            fmt::print(stderr, "delam: {}\n", outcome.reason);
+        return code;
+    }
+    if (code == exit_not_converged)
+        fmt::print(stderr, "delam: {} of {} steps did not converge, the first is step {}\n", outcome.not_converged.size(), total,
+                   outcome.not_converged.front());
+    fmt::print("wrote {}: history.csv, fields.h5, fields.xdmf, result.json, state.bin\n", folder_path);
+    return code;
+}
+
+}  // namespace cli

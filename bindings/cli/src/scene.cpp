@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "delam/delam.h"
+#include "file.hpp"
+#include "hash.hpp"
+#include "scene_parts.hpp"
+
+namespace cli {
+
+namespace {
+
+const std::vector<std::string> law_parameters{
+    "normal_stiffness",     "tangential_stiffness", "normal_onset",     "tangential_onset",
+    "normal_toughness",     "tangential_toughness", "onset_exponent_1", "onset_exponent_2",
+    "toughness_exponent_1", "toughness_exponent_2"};
+
+// Number of cells of size h in a length, which must be a whole number of them.
+std::int64_t cells_of_size(const Table& table, std::string_view key, double length, double h) {
+    const double cells = length / h;
+    const double whole = std::round(cells);
+    if (whole < 1 || std::abs(cells - whole) > 1e-6 * whole)
+        table.fail(key, fmt::format("h = {} does not divide {} evenly ({} cells); {} would", h, length, cells,
+                                    length / std::max(1.0, whole)));
+    return static_cast<std::int64_t>(whole);
+}
+
+void read_geometry(const Table& root, Scene& scene) {
+    const Table table = root.table("geometry");
+    table.only({"dimension", "length", "width", "divisions", "h", "cell", "plane"});
+    Geometry& geometry = scene.geometry;
+    geometry.place = table.place();
+    const std::int64_t dimension = table.whole("dimension", 2);
+    if (dimension > 3) table.fail("dimension", fmt::format("{} is not allowed: 2 or 3", dimension));
+    geometry.dimension = static_cast<std::int32_t>(dimension);
+    geometry.lengths.push_back(table.number("length", positive));
+    if (dimension == 3) {
+        geometry.lengths.push_back(table.number("width", positive));
+        if (table.has("plane")) table.fail("plane", "is for dimension 2 only");
+        const std::string cell = table.choice("cell", {"hex8", "tet4"}, "hex8");
+        geometry.cell_type = cell == "hex8" ? DELAM_HEX8 : DELAM_TET4;
+    } else {
+        if (table.has("width")) table.fail("width", "is for dimension 3 only");
+        geometry.plane = table.choice("plane", {"plane-strain", "plane-stress"}, "plane-strain");
+        const std::string cell = table.choice("cell", {"quad4", "tri3"}, "quad4");
+        geometry.cell_type = cell == "quad4" ? DELAM_QUAD4 : DELAM_TRI3;
+    }
+    if (table.has("divisions") == table.has("h")) table.fail("h", "give either h (edge of a cell) or divisions (numbers of cells)");
+    if (table.has("h")) {
+        const double h = table.number("h", positive);
+        for (const double length : geometry.lengths) geometry.divisions.push_back(cells_of_size(table, "h", length, h));
+    } else if (dimension == 2 && !table.is_list("divisions")) {
+        geometry.divisions.push_back(table.whole("divisions", 1));
+    } else {
+        geometry.divisions = table.wholes("divisions", 1, static_cast<std::size_t>(dimension - 1));
+    }
+    geometry.smallest_edge = geometry.lengths[0] / static_cast<double>(geometry.divisions[0]);
+    for (std::size_t i = 0; i < geometry.lengths.size(); ++i)
+        geometry.smallest_edge =
+            std::min(geometry.smallest_edge, geometry.lengths[i] / static_cast<double>(geometry.divisions[i]));
+}
+
+void read_materials(const Table& root, Scene& scene) {
+    for (const Table& table : root.tables("materials")) {
+        table.only({"name", "young", "poisson"});
+        Material material;
+        material.name = new_name(table, scene.materials, "material");
+        material.young = table.number("young", positive);
+        material.poisson = table.number("poisson", poisson_range);
+        material.place = table.place();
+        scene.materials.push_back(std::move(material));
+    }
+}
+
+void read_layers(const Table& root, Scene& scene) {
+    const Table geometry = root.table("geometry");
+    for (const Table& table : root.tables("layers")) {
+        table.only({"name", "thickness", "divisions", "material"});
+        Layer layer;
+        layer.name = new_name(table, scene.layers, "layer");
+        layer.thickness = table.number("thickness", positive);
+        if (table.has("divisions")) {
+            layer.divisions = table.whole("divisions", 1);
+        } else if (geometry.has("h")) {
+            layer.divisions = cells_of_size(table, "thickness", layer.thickness, geometry.number("h", positive));
+        } else {
+            table.fail("divisions", "is missing: a whole number >= 1 is expected (or give geometry.h)");
+        }
+        layer.material = find_named(table, "material", table.text("material"), scene.materials, "material");
+        layer.place = table.place();
+        scene.geometry.smallest_edge =
+            std::min(scene.geometry.smallest_edge, layer.thickness / static_cast<double>(layer.divisions));
+        scene.geometry.height += layer.thickness;
+        scene.layers.push_back(std::move(layer));
+    }
+    if (scene.layers.empty()) root.fail("layers", "is missing: at least one [[layers]] is expected");
+}
+
+void read_laws(const Table& root, Scene& scene) {
+    std::vector<std::string> known{"name", "kind"};
+    known.insert(known.end(), law_parameters.begin(), law_parameters.end());
+    for (const Table& table : root.tables("laws")) {
+        table.only(known);
+        LawData law;
+        law.name = new_name(table, scene.laws, "law");
+        law.kind = table.choice("kind", {"piecewise-linear"}, "piecewise-linear");
+        for (const std::string& key : law_parameters)
+            if (table.has(key)) law.parameters.emplace_back(key, table.number(key, positive));
+        law.place = table.place();
+        scene.laws.push_back(std::move(law));
+    }
+}
+
+Region read_region(const Table& table, const Geometry& geometry, bool with_value) {
+    const std::size_t axes = geometry.lengths.size();
+    std::vector<std::string> known = axes == 1 ? std::vector<std::string>{"from", "to"}
+                                               : std::vector<std::string>{"from", "to", "lower", "upper"};
+    if (with_value) known.push_back("value");
+    table.only(known);
+    Region region;
+    region.place = table.place();
+    region.adhesion = with_value ? table.number("value", fraction) : 0;
+    std::vector<double> lower(axes, 0.0);
+    std::vector<double> upper = geometry.lengths;
+    if (table.has("lower") || table.has("upper")) {
+        if (table.has("from") || table.has("to")) table.fail("from", "give either from and to or lower and upper");
+        lower = table.numbers("lower", any_number, axes);
+        upper = table.numbers("upper", any_number, axes);
+    } else {
+        lower[0] = table.number("from", any_number);
+        upper[0] = table.number("to", any_number);
+    }
+    for (std::size_t i = 0; i < axes; ++i) {
+        if (!(lower[i] < upper[i]))
+            table.fail(table.has("to") ? "to" : "upper", fmt::format("{} is not allowed: > {}", upper[i], lower[i]));
+        region.lower[i] = lower[i];
+        region.upper[i] = upper[i];
+    }
+    return region;
+}
+
+void read_interfaces(const Table& root, Scene& scene) {
+    for (const Table& table : root.tables("interfaces")) {
+        table.only({"lower", "upper", "law", "bonded", "notch", "adhesion"});
+        InterfaceData interface;
+        interface.place = table.place();
+        interface.lower = find_named(table, "lower", table.text("lower"), scene.layers, "layer");
+        interface.upper = find_named(table, "upper", table.text("upper"), scene.layers, "layer");
+        if (interface.upper != interface.lower + 1)
+            table.fail("upper", fmt::format("\"{}\" does not lie directly on \"{}\" (layers are listed from the bottom up)",
+                                            scene.layers[interface.upper].name, scene.layers[interface.lower].name));
+        interface.name = scene.layers[interface.lower].name + "-" + scene.layers[interface.upper].name;
+        for (const InterfaceData& other : scene.interfaces)
+            if (other.lower == interface.lower) table.fail("lower", "there is another interface between these layers");
+        interface.bonded = table.flag("bonded", false);
+        if (interface.bonded == table.has("law"))
+            table.fail("law", "give either law = \"NAME\" or bonded = true");
+        if (interface.bonded && (table.has("notch") || table.has("adhesion")))
+            table.fail(table.has("notch") ? "notch" : "adhesion", "is not allowed where bonded = true");
+        if (!interface.bonded) interface.law = find_named(table, "law", table.text("law"), scene.laws, "law");
+        for (const Table& notch : table.tables("notch"))
+            interface.regions.push_back(read_region(notch, scene.geometry, false));
+        for (const Table& part : table.tables("adhesion"))
+            interface.regions.push_back(read_region(part, scene.geometry, true));
+        scene.interfaces.push_back(std::move(interface));
+    }
+}
+
+void read_time(const Table& root, Scene& scene) {
+    const Table table = root.table("time");
+    table.only({"start", "end", "steps", "instants"});
+    if (table.has("instants")) {
+        for (const char* key : {"start", "end", "steps"})
+            if (table.has(key)) table.fail(key, "give either instants or start, end and steps");
+        scene.times = table.numbers("instants", any_number);
+        for (std::size_t i = 1; i < scene.times.size(); ++i)
+            if (!(scene.times[i] > scene.times[i - 1]))
+                table.fail("instants", fmt::format("entry {} is {}: > {} is expected (strictly increasing)", i, scene.times[i],
+                                                   scene.times[i - 1]));
+        if (scene.times.size() < 2) table.fail("instants", "at least two are expected: the initial state and one step");
+        return;
+    }
+    const double start = table.number("start", any_number, 0.0);
+    const double end = table.number("end", any_number);
+    if (!(end > start)) table.fail("end", fmt::format("{} is not allowed: > {} (the start)", end, start));
+    const std::int64_t steps = table.whole("steps", 1);
+    if (steps > 100000000) table.fail("steps", fmt::format("{} is not allowed: <= 100000000", steps));
+    for (std::int64_t k = 0; k <= steps; ++k)
+        scene.times.push_back(start + (end - start) * static_cast<double>(k) / static_cast<double>(steps));
+    for (std::size_t i = 1; i < scene.times.size(); ++i)
+        if (!(scene.times[i] > scene.times[i - 1])) table.fail("steps", "so many that instants coincide");
+}
+
+void read_options(const Table& root, Scene& scene) {
+    if (!root.has("solver")) return;
+    const Table table = root.table("solver");
+    std::vector<std::string> known;
+    std::vector<std::string> types;
+    for (std::int64_t i = 0; i < delam_option_count(); ++i) {
+        const char* key = nullptr;
+        const char* type = nullptr;
+        delam_option_info(i, &key, &type, nullptr, nullptr, nullptr, nullptr);
+        known.emplace_back(key);
+        types.emplace_back(type);
+    }
+    table.only(known);
+    for (std::size_t i = 0; i < known.size(); ++i) {
+        if (!table.has(known[i])) continue;
+        SolverOption option{known[i], 0.0, table.place(known[i])};
+        if (types[i] == "text") {
+            option.value = table.text(known[i]);
+        } else if (types[i] == "integer") {
+            option.value = static_cast<double>(table.whole(known[i], std::numeric_limits<std::int64_t>::min()));
+        } else {
+            option.value = table.number(known[i], any_number);
+        }
+        scene.options.push_back(std::move(option));
+    }
+}
+
+void read_output(const Table& root, Scene& scene) {
+    const toml::table none;
+    const Table table = root.has("output") ? root.table("output") : Table(none, root.place("output"));
+    table.only({"fields", "every", "snapshots", "displacement_scale", "columns"});
+    Output& output = scene.output;
+    output.place = table.place();
+    const std::vector<std::string> known{"displacement", "stress", "zeta", "jump", "traction", "contact", "mixity"};
+    output.fields = {"displacement", "stress", "zeta", "jump", "traction", "contact"};
+    if (table.has("fields")) {
+        output.fields = table.texts("fields");
+        for (const std::string& field : output.fields)
+            if (std::find(known.begin(), known.end(), field) == known.end())
+                table.fail("fields", fmt::format("\"{}\": no such field{}; one of {}", field, suggestion(field, known),
+                                                 listing(known)));
+    }
+    output.every = table.whole("every", 1, 1);
+    output.snapshots = {0.33, 0.5, 0.66, 1.0, 1.17, 1.33, 1.5, 1.67, 1.83, 2.0};
+    if (table.has("snapshots")) output.snapshots = table.numbers("snapshots", any_number);
+    output.displacement_scale = table.number("displacement_scale", not_negative, 5.0);
+    if (table.has("columns")) output.columns = table.texts("columns");
+}
+
+void read_units(const Table& root, Scene& scene) {
+    const toml::table none;
+    const Table table = root.has("units") ? root.table("units") : Table(none, root.place("units"));
+    table.only({"length", "force", "time"});
+    scene.units = {table.text("length", "m"), table.text("force", "N"), table.text("time", "")};
+}
+
+}  // namespace
+
+Scene read_scene(const std::string& file) {
+    Scene scene;
+    scene.file = file;
+    std::string bytes;
+    try {
+        bytes = read_bytes(file);
+    } catch (const std::exception& e) {
+        throw Failure(exit_scene, e.what());
+    }
+    toml::table parsed;
+    try {
+        parsed = toml::parse(std::string_view(bytes), std::string_view(file));
+    } catch (const toml::parse_error& e) {
+        throw SceneFailure({file, "", static_cast<int>(e.source().begin.line)}, "not TOML: " + std::string(e.description()));
+    }
+    std::ostringstream content;
+    content << parsed;
+    scene.content_hash = hash_text(content.str());
+    scene.file_hash = hash_text(bytes);
+
+    const Table root(parsed, {file, "", 0});
+    if (!root.has("schema")) root.fail("schema", "is missing: schema = 1 is expected");
+    if (const auto schema = root.whole("schema", 1); schema != 1)
+        root.fail("schema", fmt::format("{} is not known to this program: 1 is", schema));
+    root.only({"schema", "title", "geometry", "layers", "materials", "laws", "interfaces", "patterns", "supports", "loads",
+               "forces", "time", "solver", "output", "units"});
+    scene.title = root.text("title", "");
+    read_geometry(root, scene);
+    read_materials(root, scene);
+    read_layers(root, scene);
+    read_laws(root, scene);
+    read_interfaces(root, scene);
+    read_patterns(root, scene);
+    read_supports_and_loads(root, scene);
+    read_forces(root, scene);
+    read_time(root, scene);
+    read_options(root, scene);
+    read_output(root, scene);
+    read_units(root, scene);
+    return scene;
+}
+
+}  // namespace cli

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A scene as the file says it (schema 1, see SCENE.md), checked as far as that goes without a mesh. Every part keeps its
+// place in the file, so that later errors can name it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "error.hpp"
+
+namespace cli {
+
+struct Layer {
+    std::string name;
+    double thickness = 0;
+    std::int64_t divisions = 1;
+    std::size_t material = 0;
+    Place place;
+};
+
+struct Geometry {
+    std::int32_t dimension = 2;
+    std::int32_t cell_type = 0;
+    std::vector<double> lengths;  // [dimension-1]
+    std::vector<std::int64_t> divisions;
+    std::string plane;
+    double smallest_edge = 0;
+    double height = 0;  // of all layers
+    Place place;
+};
+
+struct Material {
+    std::string name;
+    double young = 0;
+    double poisson = 0;
+    Place place;
+};
+
+struct LawData {
+    std::string name;
+    std::string kind;
+    std::vector<std::pair<std::string, double>> parameters;
+    Place place;
+};
+
+// Adhesion of the pairs of an interface inside an in-plane box. Ends inside the interface are open: the pair there keeps its bond.
+struct Region {
+    std::array<double, 2> lower{};
+    std::array<double, 2> upper{};
+    double adhesion = 0;
+    Place place;
+};
+
+struct InterfaceData {
+    std::size_t lower = 0;  // layers
+    std::size_t upper = 0;
+    std::string name;
+    bool bonded = false;
+    std::size_t law = 0;
+    std::vector<Region> regions;
+    Place place;
+};
+
+struct Point {
+    std::vector<double> at;
+};
+struct Box {
+    std::vector<double> lower;
+    std::vector<double> upper;
+};
+struct Patch {
+    std::vector<double> lower;
+    std::vector<double> upper;
+    std::vector<double> normal;
+};
+
+struct Selection {
+    std::variant<Point, Box, Patch> shape;
+    std::int32_t body = -1;
+    double tolerance = 0;
+    Place place;
+};
+
+struct Term {
+    std::size_t pattern = 0;
+    double coefficient = 1;
+};
+
+// A support has no terms.
+struct Prescription {
+    Selection where;
+    std::vector<std::vector<double>> directions;
+    std::vector<Term> terms;
+    Place place;
+};
+
+struct DeadForce {
+    Selection where;
+    std::vector<double> force;
+    std::size_t pattern = 0;
+    Place place;
+};
+
+struct PatternData {
+    std::string name;
+    std::vector<double> times;
+    std::vector<double> values;
+    Place place;
+};
+
+struct SolverOption {
+    std::string key;
+    std::variant<double, std::string> value;
+    Place place;
+};
+
+struct Output {
+    std::vector<std::string> fields;
+    std::int64_t every = 1;
+    std::vector<double> snapshots;
+    double displacement_scale = 5;
+    std::vector<std::string> columns;  // values of the solver beyond the standard columns of history.csv
+    Place place;
+};
+
+// For labels only: the program does not convert.
+struct Units {
+    std::string length;
+    std::string force;
+    std::string time;
+};
+
+struct Scene {
+    std::string file;
+    std::string title;
+    std::string file_hash;     // of the bytes
+    std::string content_hash;  // of the content: comments, order and layout do not matter
+    Geometry geometry;
+    std::vector<Layer> layers;
+    std::vector<Material> materials;
+    std::vector<LawData> laws;
+    std::vector<InterfaceData> interfaces;
+    std::vector<PatternData> patterns;
+    std::vector<Prescription> prescriptions;  // supports, then loads
+    std::vector<DeadForce> forces;
+    std::vector<double> times;  // instants, the first is that of the initial state
+    std::vector<SolverOption> options;
+    Output output;
+    Units units;
+
+    [[nodiscard]] std::size_t step_count() const { return times.size() - 1; }
+};
+
+// Throws SceneFailure with file, line, key, value and allowed range.
+Scene read_scene(const std::string& file);
+
+}  // namespace cli

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Patterns, supports, loads and dead forces of a scene.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "scene_parts.hpp"
+
+namespace cli {
+
+namespace {
+
+// Keys that say where something acts, common to supports, loads and forces.
+std::vector<std::string> with_selection(std::vector<std::string> keys) {
+    for (const char* key : {"name", "point", "box", "patch", "layer", "tolerance"}) keys.emplace_back(key);
+    return keys;
+}
+
+std::size_t axis_of(const Table& table, std::string_view key, char letter, const Geometry& geometry) {
+    const std::string axes = geometry.dimension == 2 ? "xy" : "xyz";
+    const std::size_t axis = axes.find(letter);
+    if (axis == std::string::npos)
+        table.fail(key, fmt::format("'{}' is no component: one of {}", letter, geometry.dimension == 2 ? "x, y" : "x, y, z"));
+    return axis;
+}
+
+Patch read_patch(const Table& table, const Geometry& geometry) {
+    table.only({"centre", "length", "face"});
+    const auto dimension = static_cast<std::size_t>(geometry.dimension);
+    const std::vector<double> centre = table.numbers("centre", any_number, dimension);
+    const std::string face = table.text("face");
+    if (face.size() != 2 || (face[0] != '+' && face[0] != '-'))
+        table.fail("face", fmt::format("\"{}\" is not allowed: the outward normal, e.g. \"+y\" for the top in 2D", face));
+    const std::size_t normal_axis = axis_of(table, "face", face[1], geometry);
+    Patch patch{centre, centre, std::vector<double>(dimension, 0.0)};
+    patch.normal[normal_axis] = face[0] == '+' ? 1.0 : -1.0;
+    const std::vector<double> sizes = table.is_list("length") ? table.numbers("length", positive, dimension - 1)
+                                                              : std::vector<double>(dimension - 1, table.number("length", positive));
+    const double slack = 1e-6 * geometry.smallest_edge;
+    std::size_t next = 0;
+    for (std::size_t axis = 0; axis < dimension; ++axis) {
+        const double half = axis == normal_axis ? slack : 0.5 * sizes[next++];
+        patch.lower[axis] -= half;
+        patch.upper[axis] += half;
+    }
+    return patch;
+}
+
+Selection read_selection(const Table& table, const Scene& scene) {
+    const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
+    Selection out;
+    out.place = table.place();
+    out.tolerance = table.number("tolerance", positive, 1e-3 * scene.geometry.smallest_edge);
+    if (table.has("layer"))
+        out.body = static_cast<std::int32_t>(find_named(table, "layer", table.text("layer"), scene.layers, "layer"));
+    const int shapes = int{table.has("point")} + int{table.has("box")} + int{table.has("patch")};
+    if (shapes != 1) table.fail("point", fmt::format("give one of point, box and patch ({} are given)", shapes));
+    if (table.has("point")) {
+        out.shape = Point{table.numbers("point", any_number, dimension)};
+    } else if (table.has("box")) {
+        const Table box = table.table("box");
+        box.only({"lower", "upper"});
+        Box shape{box.numbers("lower", any_number, dimension), box.numbers("upper", any_number, dimension)};
+        for (std::size_t i = 0; i < dimension; ++i)
+            if (shape.upper[i] < shape.lower[i])
+                box.fail("upper", fmt::format("entry {} is {}: >= {} is expected", i, shape.upper[i], shape.lower[i]));
+        out.shape = std::move(shape);
+    } else {
+        out.shape = read_patch(table.table("patch"), scene.geometry);
+    }
+    return out;
+}
+
+std::vector<double> read_direction(const Table& table, const Geometry& geometry) {
+    std::vector<double> direction = table.numbers("direction", any_number, static_cast<std::size_t>(geometry.dimension));
+    if (std::all_of(direction.begin(), direction.end(), [](double d) { return std::fpclassify(d) == FP_ZERO; }))
+        table.fail("direction", "is zero: any length > 0");
+    return direction;
+}
+
+// Either `direction` or components by letter under `key`.
+std::vector<std::vector<double>> read_directions(const Table& table, std::string_view key, const Geometry& geometry) {
+    if (table.has("direction") == table.has(key))
+        table.fail("direction", fmt::format("give either direction = [..] or {} = [\"x\", ..]", key));
+    if (table.has("direction")) return {read_direction(table, geometry)};
+    std::vector<std::vector<double>> out;
+    std::string seen;
+    for (const std::string& name : table.texts(key)) {
+        const std::size_t axis = axis_of(table, key, name.size() == 1 ? name[0] : '?', geometry);
+        if (seen.find(name) != std::string::npos) table.fail(key, fmt::format("\"{}\" is listed twice", name));
+        seen += name;
+        out.emplace_back(static_cast<std::size_t>(geometry.dimension), 0.0);
+        out.back()[axis] = 1.0;
+    }
+    return out;
+}
+
+std::vector<Term> read_terms(const Table& table, const Scene& scene) {
+    const auto one = [&scene](const Table& from) {
+        return Term{find_named(from, "pattern", from.text("pattern"), scene.patterns, "pattern"),
+                    from.number("coefficient", any_number, 1.0)};
+    };
+    if (!table.has("terms")) return {one(table)};
+    if (table.has("pattern") || table.has("coefficient")) table.fail("terms", "give either terms or pattern and coefficient");
+    std::vector<Term> out;
+    for (const Table& term : table.tables("terms")) {
+        term.only({"pattern", "coefficient"});
+        out.push_back(one(term));
+    }
+    if (out.empty()) table.fail("terms", "is empty: at least one is expected");
+    return out;
+}
+
+}  // namespace
+
+void read_patterns(const Table& root, Scene& scene) {
+    for (const Table& table : root.tables("patterns")) {
+        table.only({"name", "times", "values"});
+        PatternData pattern;
+        pattern.name = new_name(table, scene.patterns, "pattern");
+        const bool plain = std::all_of(pattern.name.begin(), pattern.name.end(), [](char c) {
+            return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '-';
+        });
+        if (!plain) table.fail("name", fmt::format("\"{}\" is not allowed: letters, digits, '_' and '-'", pattern.name));
+        pattern.times = table.numbers("times", any_number);
+        pattern.values = table.numbers("values", any_number, pattern.times.size());
+        for (std::size_t i = 1; i < pattern.times.size(); ++i)
+            if (!(pattern.times[i] > pattern.times[i - 1]))
+                table.fail("times", fmt::format("entry {} is {}: > {} is expected (strictly increasing)", i, pattern.times[i],
+                                                pattern.times[i - 1]));
+        pattern.place = table.place();
+        scene.patterns.push_back(std::move(pattern));
+    }
+}
+
+void read_supports_and_loads(const Table& root, Scene& scene) {
+    for (const Table& table : root.tables("supports")) {
+        table.only(with_selection({"fix", "direction"}));
+        scene.prescriptions.push_back(
+            {read_selection(table, scene), read_directions(table, "fix", scene.geometry), {}, table.place()});
+    }
+    for (const Table& table : root.tables("loads")) {
+        table.only(with_selection({"component", "direction", "pattern", "coefficient", "terms"}));
+        scene.prescriptions.push_back({read_selection(table, scene), read_directions(table, "component", scene.geometry),
+                                       read_terms(table, scene), table.place()});
+    }
+}
+
+void read_forces(const Table& root, Scene& scene) {
+    for (const Table& table : root.tables("forces")) {
+        table.only(with_selection({"force", "pattern"}));
+        if (table.has("box")) table.fail("box", "is not for forces: give point or patch");
+        DeadForce force;
+        force.where = read_selection(table, scene);
+        force.force = table.numbers("force", any_number, static_cast<std::size_t>(scene.geometry.dimension));
+        force.pattern = find_named(table, "pattern", table.text("pattern"), scene.patterns, "pattern");
+        force.place = table.place();
+        scene.forces.push_back(std::move(force));
+    }
+}
+
+}  // namespace cli

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The parts of read_scene(); each fills its own part of the scene and may look at those read before it.
+#pragma once
+
+#include "reader.hpp"
+#include "scene.hpp"
+
+namespace cli {
+
+void read_patterns(const Table& root, Scene& scene);
+void read_supports_and_loads(const Table& root, Scene& scene);
+void read_forces(const Table& root, Scene& scene);
+
+// Index of the named entry (anything with .name), or an error at `key` that suggests near names. what: "layer", "law", ...
+template <class Entry>
+std::size_t find_named(const Table& table, std::string_view key, const std::string& name, const std::vector<Entry>& entries,
+                       const std::string& what) {
+    std::vector<std::string> known;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        if (entries[i].name == name) return i;
+        known.push_back(entries[i].name);
+    }
+    table.fail(key, "\"" + name + "\": no such " + what + suggestion(name, known) +
+                        (known.empty() ? "; none is defined" : "; defined: " + listing(known)));
+}
+
+template <class Entry>
+std::string new_name(const Table& table, const std::vector<Entry>& entries, const std::string& what) {
+    std::string name = table.text("name");
+    if (name.empty() || name.find('/') != std::string::npos || name.find('"') != std::string::npos)
+        table.fail("name", "\"" + name + "\" is not allowed: at least one character, no '/' and no quotes");
+    for (const Entry& entry : entries)
+        if (entry.name == name) table.fail("name", "\"" + name + "\": there is another " + what + " of this name");
+    return name;
+}
+
+}  // namespace cli

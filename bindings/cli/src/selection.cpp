@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "selection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "call.hpp"
+
+namespace cli {
+
+namespace {
+
+struct Nodes {
+    std::vector<double> coordinates;
+    std::vector<std::int32_t> bodies;
+};
+
+Nodes all_nodes(const delam_context* context, const delam_mesh* mesh, const Place& place) {
+    std::int32_t dimension = 0;
+    std::int64_t count = 0;
+    call(context, delam_mesh_size(mesh, &dimension, &count, nullptr, nullptr, nullptr), place);
+    Nodes out{std::vector<double>(static_cast<std::size_t>(count * dimension)),
+              std::vector<std::int32_t>(static_cast<std::size_t>(count))};
+    call(context, delam_mesh_nodes(mesh, count * dimension, out.coordinates.data()), place);
+    call(context, delam_mesh_node_bodies(mesh, count, out.bodies.data()), place);
+    return out;
+}
+
+std::string layer_name(const Scene& scene, std::int32_t body) { return scene.layers[static_cast<std::size_t>(body)].name; }
+
+Selected select_point(const delam_context* context, const delam_mesh* mesh, const Scene& scene, const Selection& selection,
+                      const Point& point) {
+    const Nodes nodes = all_nodes(context, mesh, selection.place);
+    const std::size_t dimension = point.at.size();
+    std::vector<std::int64_t> hits;
+    double nearest = std::numeric_limits<double>::infinity();
+    std::size_t nearest_node = 0;
+    for (std::size_t i = 0; i < nodes.bodies.size(); ++i) {
+        if (selection.body >= 0 && nodes.bodies[i] != selection.body) continue;
+        double square = 0;
+        for (std::size_t a = 0; a < dimension; ++a) square += std::pow(nodes.coordinates[i * dimension + a] - point.at[a], 2);
+        const double distance = std::sqrt(square);
+        if (distance < nearest) {
+            nearest = distance;
+            nearest_node = i;
+        }
+        if (distance <= selection.tolerance) hits.push_back(static_cast<std::int64_t>(i));
+    }
+    const Place where{selection.place.file, selection.place.path + ".point", selection.place.line};
+    if (hits.empty()) {
+        const auto* at = nodes.coordinates.data() + nearest_node * dimension;
+        throw SceneFailure(where, fmt::format("{}: no node within {:.3g}; the nearest is at [{}] in layer \"{}\", {:.3g} away",
+                                              point.at, selection.tolerance, fmt::join(at, at + dimension, ", "),
+                                              layer_name(scene, nodes.bodies[nearest_node]), nearest));
+    }
+    if (hits.size() > 1) {
+        std::vector<std::string> names;
+        for (const std::int64_t node : hits) names.push_back(layer_name(scene, nodes.bodies[static_cast<std::size_t>(node)]));
+        throw SceneFailure(where, fmt::format("{}: {} nodes are there, of layers {}; name one with layer = \"..\"", point.at,
+                                              hits.size(), fmt::join(names, ", ")));
+    }
+    return {hits, {}};
+}
+
+Selected select_box(const delam_context* context, const delam_mesh* mesh, const Selection& selection, const Box& box) {
+    std::vector<double> lower = box.lower;
+    std::vector<double> upper = box.upper;
+    for (std::size_t a = 0; a < lower.size(); ++a) {
+        lower[a] -= selection.tolerance;
+        upper[a] += selection.tolerance;
+    }
+    Selected out;
+    std::int64_t count = 0;
+    call(context, delam_mesh_find_nodes(mesh, selection.body, lower.data(), upper.data(), 0, nullptr, &count), selection.place);
+    if (count == 0) throw SceneFailure(selection.place, fmt::format("no node is in the box {} .. {}", box.lower, box.upper));
+    out.nodes.resize(static_cast<std::size_t>(count));
+    call(context, delam_mesh_find_nodes(mesh, selection.body, lower.data(), upper.data(), count, out.nodes.data(), &count),
+         selection.place);
+    return out;
+}
+
+Selected select_patch(const delam_context* context, const delam_mesh* mesh, const Scene& scene, const Selection& selection,
+                      const Patch& patch) {
+    Selected out;
+    const std::int32_t first = selection.body < 0 ? 0 : selection.body;
+    const std::int32_t last = selection.body < 0 ? static_cast<std::int32_t>(scene.layers.size()) - 1 : selection.body;
+    std::int32_t bodies = 0;
+    for (std::int32_t body = first; body <= last; ++body) {
+        std::int64_t count = 0;
+        const auto find = [&](std::int64_t capacity, std::int64_t* nodes, double* weights) {
+            call(context,
+                 delam_mesh_find_patch(mesh, body, patch.lower.data(), patch.upper.data(), patch.normal.data(), capacity, nodes,
+                                       weights, &count),
+                 selection.place);
+        };
+        find(0, nullptr, nullptr);
+        if (count == 0) continue;
+        ++bodies;
+        const std::size_t old = out.nodes.size();
+        out.nodes.resize(old + static_cast<std::size_t>(count));
+        out.weights.resize(out.nodes.size());
+        find(count, out.nodes.data() + old, out.weights.data() + old);
+    }
+    const Place where{selection.place.file, selection.place.path + ".patch", selection.place.line};
+    if (bodies == 0) throw SceneFailure(where, "no boundary face with this outward normal is there");
+    if (bodies > 1 && selection.body < 0)
+        throw SceneFailure(where, fmt::format("{} layers have faces there; name one with layer = \"..\"", bodies));
+    return out;
+}
+
+}  // namespace
+
+Selected select(const delam_context* context, const delam_mesh* mesh, const Scene& scene, const Selection& selection) {
+    if (const auto* point = std::get_if<Point>(&selection.shape)) return select_point(context, mesh, scene, selection, *point);
+    if (const auto* box = std::get_if<Box>(&selection.shape)) return select_box(context, mesh, selection, *box);
+    return select_patch(context, mesh, scene, selection, std::get<Patch>(selection.shape));
+}
+
+}  // namespace cli

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// state.bin: what --resume needs. One line of JSON, then the library's bytes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+struct State {
+    std::string content_hash;  // of the scene
+    std::string problem_hash;
+    std::int64_t step = 0;
+    std::int64_t history_length = 0;  // bytes of history.csv up to this step
+    std::vector<std::int64_t> not_converged;
+    std::string started;
+    std::int64_t resumed = 0;  // times
+    std::string bytes;
+};
+
+std::string pack(const State& state);
+// Throws Failure(exit_scene) when the file is damaged.
+State unpack(const std::string& path, const std::string& file);
+
+}  // namespace cli

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "capi/handles.hpp"
+
+namespace delam {
+
+void require_pointer(const void* pointer, const char* name) {
+    if (pointer == nullptr) fail(DELAM_ERROR_ARGUMENT, name, " is NULL");
+}
+
+void require_count(std::int64_t count, const char* name, std::int64_t smallest) {
+    // Far beyond any memory, and such that a few products with small numbers still fit.
+    constexpr std::int64_t largest = std::int64_t{1} << 48;
+    if (count < smallest || count > largest) {
+        fail(DELAM_ERROR_ARGUMENT, name, " = ", count, " is outside ", smallest, " .. ", largest);
+    }
+}
+
+void require_array(const void* pointer, std::int64_t count, const char* name) {
+    if (pointer == nullptr && count > 0) fail(DELAM_ERROR_ARGUMENT, name, " is NULL, expected ", count, " entries");
+}
+
+void require_finite(const double* values, std::int64_t count, const char* name) {
+    for (std::int64_t i = 0; i < count; ++i) {
+        if (!std::isfinite(values[i])) fail(DELAM_ERROR_ARGUMENT, name, "[", i, "] = ", values[i], " is not finite");
+    }
+}
+
+void require_capacity(std::int64_t capacity, std::int64_t needed, const char* name) {
+    if (capacity < needed) fail(DELAM_ERROR_ARGUMENT, name, ": capacity ", capacity, " < ", needed, " entries");
+}
+
+void require_base(std::int32_t index_base) {
+    if (index_base != 0 && index_base != 1) fail(DELAM_ERROR_ARGUMENT, "index_base = ", index_base, ", must be 0 or 1");
+}
+
+std::int64_t require_index(std::int64_t value, std::int64_t size, std::int32_t index_base, const std::string& what) {
+    if (value < index_base || value - index_base >= size) {
+        if (size == 0) fail(DELAM_ERROR_ARGUMENT, what, " = ", value, ", but there are none");
+        fail(DELAM_ERROR_ARGUMENT, what, " = ", value, " is outside ", index_base, " .. ", size - 1 + index_base);
+    }
+    return value - index_base;
+}
+
+}  // namespace delam

@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Writes the commit of SOURCE into HEADER, "unknown" outside git; "+" marks uncommitted changes.
+set(COMMIT unknown)
+find_program(GIT git)
+if(GIT AND EXISTS ${SOURCE}/.git)
+  execute_process(COMMAND ${GIT} rev-parse --short=12 HEAD WORKING_DIRECTORY ${SOURCE}
+                  OUTPUT_VARIABLE HEAD RESULT_VARIABLE FAILED OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  if(NOT FAILED)
+    set(COMMIT ${HEAD})
+    execute_process(COMMAND ${GIT} diff --quiet HEAD WORKING_DIRECTORY ${SOURCE} RESULT_VARIABLE CHANGED ERROR_QUIET)
+    if(CHANGED)
+      string(APPEND COMMIT "+")
+    endif()
+  endif()
+endif()
+file(CONFIGURE OUTPUT ${HEADER} CONTENT "#define DELAM_COMMIT_TEXT \"@COMMIT@\"\n" @ONLY)

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the library assembled, for hosts that check or reuse it.
+#include <algorithm>
+#include <cmath>
+
+#include "body/assembly.hpp"
+#include "capi/handles.hpp"
+#include "scene/problem.hpp"
+
+namespace {
+
+using namespace delam;
+
+void give(const SparseMatrix& matrix, std::int64_t* row_starts, std::int64_t* columns, double* values) {
+    if (row_starts != nullptr) std::copy(matrix.start.begin(), matrix.start.end(), row_starts);
+    if (columns != nullptr) std::copy(matrix.column.begin(), matrix.column.end(), columns);
+    if (values != nullptr) std::copy(matrix.value.begin(), matrix.value.end(), values);
+}
+
+// The mesh of a problem is fixed; materials and the plane assumption may change between two calls.
+const SparseMatrix& body_matrix(const delam_problem& problem, std::int32_t body) {
+    const Problem& core = *problem.core;
+    const std::optional<Elastic>& material = core.material[static_cast<std::size_t>(body)];
+    if (!material) {
+        fail(DELAM_ERROR_PROBLEM, "body ", core.mesh->body_label(body), ": no material (delam_problem_set_elastic)");
+    }
+    delam_problem::BodyMatrix& last = problem.assembled;
+    if (last.body != body || last.young != material->young || last.poisson != material->poisson || last.plane != core.plane) {
+        SparseMatrix matrix = assemble_stiffness(*core.mesh, core.mesh->body_cells(body), core.mesh->body_nodes(body), *material,
+                                                 core.plane);
+        last = {body, material->young, material->poisson, core.plane, std::move(matrix)};
+    }
+    return last.matrix;
+}
+
+}  // namespace
+
+int32_t delam_problem_body_matrix(const delam_problem* problem, int32_t body, int64_t* rows, int64_t* entries,
+                                  int64_t* row_starts, int64_t* columns, double* values) {
+    return guard(problem, [&] {
+        const std::int32_t index = body < 0 ? -1 : problem->core->mesh->body_of_label(body);
+        if (index < 0) fail(DELAM_ERROR_ARGUMENT, "body = ", body, ": no cell carries this label");
+        const SparseMatrix& matrix = body_matrix(*problem, index);
+        if (rows != nullptr) *rows = matrix.rows;
+        if (entries != nullptr) *entries = matrix.entries();
+        give(matrix, row_starts, columns, values);
+    });
+}
+
+int32_t delam_problem_constraints(const delam_problem* problem, int64_t* rows, int64_t* entries, int64_t* pattern_count,
+                                  int64_t* row_starts, int64_t* columns, double* values, double* coefficients) {
+    return guard(problem, [&] {
+        const Problem& core = *problem->core;
+        SparseMatrix matrix;
+        matrix.rows = static_cast<std::int64_t>(core.constraints.size());
+        matrix.columns = core.mesh->node_count() * core.mesh->dimension();
+        for (const Constraint& constraint : core.constraints) {
+            matrix.column.insert(matrix.column.end(), constraint.dof.begin(), constraint.dof.end());
+            matrix.value.insert(matrix.value.end(), constraint.coefficient.begin(), constraint.coefficient.end());
+            matrix.start.push_back(matrix.entries());
+        }
+        if (rows != nullptr) *rows = matrix.rows;
+        if (entries != nullptr) *entries = matrix.entries();
+        if (pattern_count != nullptr) *pattern_count = static_cast<std::int64_t>(core.patterns.size());
+        give(matrix, row_starts, columns, values);
+        if (coefficients != nullptr) {
+            const std::vector<double> prescribed = core.prescribed_matrix();
+            std::copy(prescribed.begin(), prescribed.end(), coefficients);
+        }
+    });
+}
+
+int32_t delam_problem_forces(const delam_problem* problem, int64_t pattern, int64_t capacity, double* forces) {
+    return guard(problem, [&] {
+        const Problem& core = *problem->core;
+        require_index(pattern, static_cast<std::int64_t>(core.patterns.size()), 0, "pattern");
+        require_pointer(forces, "forces");
+        const std::int64_t dofs = core.mesh->node_count() * core.mesh->dimension();
+        require_capacity(capacity, dofs, "forces");
+        std::fill_n(forces, dofs, 0.0);
+        for (const NodalForce& force : core.forces) {
+            if (force.pattern == pattern) forces[force.dof] += force.value;
+        }
+    });
+}
+
+int32_t delam_problem_factors(const delam_problem* problem, double time, int64_t capacity, double* factors) {
+    return guard(problem, [&] {
+        if (!std::isfinite(time)) fail(DELAM_ERROR_ARGUMENT, "time = ", time, " is not finite");
+        const std::vector<double> list = problem->core->factors(time);
+        require_array(factors, static_cast<std::int64_t>(list.size()), "factors");
+        require_capacity(capacity, static_cast<std::int64_t>(list.size()), "factors");
+        std::copy(list.begin(), list.end(), factors);
+    });
+}
+
+int32_t delam_problem_pattern_count(const delam_problem* problem, int64_t* count) {
+    return guard(problem, [&] {
+        require_pointer(count, "count");
+        *count = static_cast<std::int64_t>(problem->core->patterns.size());
+    });
+}
+
+const char* delam_problem_pattern_name(const delam_problem* problem, int64_t pattern) {
+    const char* name = nullptr;
+    guard(problem, [&] {
+        const auto count = static_cast<std::int64_t>(problem->names.size());
+        name = problem->names[static_cast<std::size_t>(require_index(pattern, count, 0, "pattern"))].c_str();
+    });
+    return name;
+}

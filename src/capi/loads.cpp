@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Load patterns, prescribed displacements and dead forces.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <string>
+#include <unordered_map>
+
+#include "capi/handles.hpp"
+#include "scene/problem.hpp"
+
+namespace {
+
+using namespace delam;
+using Direction = std::array<double, 3>;
+
+std::size_t size(std::int64_t count) { return static_cast<std::size_t>(count); }
+
+void require_name(const char* name) {
+    require_pointer(name, "name");
+    const std::string word = name;
+    const auto plain = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    };
+    if (word.empty() || !std::all_of(word.begin(), word.end(), plain)) {
+        fail(DELAM_ERROR_ARGUMENT, "name = '", word, "' must consist of letters, digits, '_' and '-'");
+    }
+}
+
+// The unit vector along `direction`.
+Direction require_direction(const Mesh& mesh, const double* direction) {
+    require_pointer(direction, "direction");
+    require_finite(direction, mesh.dimension(), "direction");
+    double largest = 0.0;
+    for (int d = 0; d < mesh.dimension(); ++d) largest = std::max(largest, std::abs(direction[d]));
+    if (largest == 0.0) fail(DELAM_ERROR_ARGUMENT, "direction has length 0");
+    Direction unit{};
+    double length = 0.0;
+    for (int d = 0; d < mesh.dimension(); ++d) {
+        unit[size(d)] = direction[d] / largest;
+        length += unit[size(d)] * unit[size(d)];
+    }
+    for (double& value : unit) value /= std::sqrt(length);
+    return unit;
+}
+
+std::int64_t require_node(const Mesh& mesh, std::int64_t value, std::int32_t index_base, const std::string& what) {
+    const std::int64_t node = require_index(value, mesh.node_count(), index_base, what);
+    if (mesh.node_body(node) < 0) fail(DELAM_ERROR_ARGUMENT, what, " = ", value, " belongs to no cell");
+    return node;
+}
+
+// Patterns as 0-based indices, none of which drives the other kind of load.
+std::vector<std::int64_t> require_patterns(const Problem& problem, std::int64_t count, const std::int64_t* patterns,
+                                           std::int32_t index_base, Pattern::Drives drives) {
+    require_count(count, "pattern_count");
+    require_array(patterns, count, "patterns");
+    std::vector<std::int64_t> list(size(count));
+    for (std::int64_t i = 0; i < count; ++i) {
+        list[size(i)] = require_index(patterns[i], static_cast<std::int64_t>(problem.patterns.size()), index_base,
+                                      text("patterns[", i, "]"));
+        const Pattern& pattern = problem.patterns[size(list[size(i)])];
+        if (pattern.drives != Pattern::Drives::nothing && pattern.drives != drives) {
+            fail(DELAM_ERROR_PROBLEM, "pattern '", pattern.name, "' drives ",
+                 drives == Pattern::Drives::force ? "prescribed displacements" : "forces", " already, it cannot drive both");
+        }
+    }
+    return list;
+}
+
+std::vector<double> prescribed(const Problem& problem, const std::vector<std::int64_t>& patterns, const double* coefficients) {
+    std::vector<double> list(problem.patterns.size(), 0.0);
+    for (std::size_t p = 0; p < patterns.size(); ++p) list[size(patterns[p])] += coefficients[p];
+    return list;
+}
+
+// Directions that are prescribed at single nodes so far.
+std::unordered_map<std::int64_t, std::vector<Direction>> held_directions(const Problem& problem) {
+    const std::int64_t dimension = problem.mesh->dimension();
+    std::unordered_map<std::int64_t, std::vector<Direction>> held;
+    for (const Constraint& constraint : problem.constraints) {
+        if (constraint.dof.front() / dimension != constraint.dof.back() / dimension) continue;
+        Direction direction{};
+        for (std::size_t i = 0; i < constraint.dof.size(); ++i) {
+            direction[size(constraint.dof[i] % dimension)] = constraint.coefficient[i];
+        }
+        held[constraint.dof.front() / dimension].push_back(direction);
+    }
+    return held;
+}
+
+double dot(const Direction& a, const Direction& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+// Is `direction` a combination of the others? (Gram-Schmidt; the others are independent of each other.)
+bool depends(std::vector<Direction> others, Direction direction) {
+    std::vector<Direction> basis;
+    others.push_back(direction);
+    for (Direction& next : others) {
+        for (const Direction& unit : basis) {
+            const double along = dot(next, unit);
+            for (std::size_t d = 0; d < 3; ++d) next[d] -= along * unit[d];
+        }
+        const double length = std::sqrt(dot(next, next));
+        if (length < 1e-10) return true;
+        for (double& value : next) value /= length;
+        basis.push_back(next);
+    }
+    return false;
+}
+
+void mark(Problem& problem, const std::vector<std::int64_t>& patterns, Pattern::Drives drives) noexcept {
+    for (const std::int64_t p : patterns) problem.patterns[size(p)].drives = drives;
+}
+
+}  // namespace
+
+int32_t delam_problem_add_pattern(delam_problem* problem, const char* name, int64_t count, const double* times,
+                                  const double* values, int64_t* out_pattern) {
+    return guard(problem, [&] {
+        require_pointer(out_pattern, "out_pattern");
+        require_name(name);
+        require_count(count, "count", 1);
+        require_array(times, count, "times");
+        require_array(values, count, "values");
+        require_finite(times, count, "times");
+        require_finite(values, count, "values");
+        for (std::int64_t i = 1; i < count; ++i) {
+            if (times[i] <= times[i - 1]) {
+                fail(DELAM_ERROR_ARGUMENT, "times[", i, "] = ", times[i], " must be > times[", i - 1, "] = ", times[i - 1]);
+            }
+        }
+        std::vector<Pattern>& patterns = problem->core->patterns;
+        for (const Pattern& other : patterns) {
+            if (other.name == name) fail(DELAM_ERROR_ARGUMENT, "name = '", name, "' is taken by another pattern");
+        }
+        Pattern pattern{name, {times, times + count}, {values, values + count}};
+        patterns.push_back(std::move(pattern));
+        try {
+            problem->names.emplace_back(name);
+        } catch (...) {
+            patterns.pop_back();
+            throw;
+        }
+        *out_pattern = static_cast<std::int64_t>(patterns.size()) - 1;
+    });
+}
+
+int32_t delam_problem_prescribe_nodes(delam_problem* problem, int64_t count, const int64_t* nodes, const double* direction,
+                                      int64_t pattern_count, const int64_t* patterns, const double* coefficients,
+                                      int32_t index_base) {
+    return guard(problem, [&] {
+        Problem& core = *problem->core;
+        const std::int64_t dimension = core.mesh->dimension();
+        require_base(index_base);
+        require_count(count, "count");
+        require_array(nodes, count, "nodes");
+        const Direction unit = require_direction(*core.mesh, direction);
+        const auto list = require_patterns(core, pattern_count, patterns, index_base, Pattern::Drives::displacement);
+        require_array(coefficients, count * pattern_count, "coefficients");
+        require_finite(coefficients, count * pattern_count, "coefficients");
+        auto held = held_directions(core);
+        std::vector<Constraint> added;
+        for (std::int64_t i = 0; i < count; ++i) {
+            const std::int64_t node = require_node(*core.mesh, nodes[i], index_base, text("nodes[", i, "]"));
+            std::vector<Direction>& others = held[node];
+            if (depends(others, unit)) {
+                fail(DELAM_ERROR_PROBLEM, "nodes[", i, "] = ", nodes[i], ": the displacement of this node is prescribed along (",
+                     unit[0], ", ", unit[1], dimension == 3 ? text(", ", unit[2]) : "", ") already");
+            }
+            others.push_back(unit);
+            Constraint constraint;
+            for (std::int64_t d = 0; d < dimension; ++d) {
+                if (unit[size(d)] == 0.0) continue;
+                constraint.dof.push_back(dimension * node + d);
+                constraint.coefficient.push_back(unit[size(d)]);
+            }
+            constraint.prescribed = prescribed(core, list, coefficients + i * pattern_count);
+            added.push_back(std::move(constraint));
+        }
+        core.constraints.insert(core.constraints.end(), std::make_move_iterator(added.begin()),
+                                std::make_move_iterator(added.end()));
+        if (count > 0) mark(core, list, Pattern::Drives::displacement);
+    });
+}
+
+int32_t delam_problem_prescribe_mean(delam_problem* problem, int64_t count, const int64_t* nodes, const double* weights,
+                                     const double* direction, int64_t pattern_count, const int64_t* patterns,
+                                     const double* coefficients, int32_t index_base) {
+    return guard(problem, [&] {
+        Problem& core = *problem->core;
+        const std::int64_t dimension = core.mesh->dimension();
+        require_base(index_base);
+        require_count(count, "count", 1);
+        require_array(nodes, count, "nodes");
+        require_array(weights, count, "weights");
+        require_finite(weights, count, "weights");
+        const Direction unit = require_direction(*core.mesh, direction);
+        const auto list = require_patterns(core, pattern_count, patterns, index_base, Pattern::Drives::displacement);
+        require_array(coefficients, pattern_count, "coefficients");
+        require_finite(coefficients, pattern_count, "coefficients");
+        double sum = 0.0;
+        std::vector<std::pair<std::int64_t, double>> members;
+        for (std::int64_t i = 0; i < count; ++i) {
+            if (weights[i] <= 0.0) fail(DELAM_ERROR_ARGUMENT, "weights[", i, "] = ", weights[i], " must be > 0");
+            members.emplace_back(require_node(*core.mesh, nodes[i], index_base, text("nodes[", i, "]")), weights[i]);
+            sum += weights[i];
+        }
+        std::sort(members.begin(), members.end());
+        Constraint constraint;
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            if (i > 0 && members[i].first == members[i - 1].first) {
+                fail(DELAM_ERROR_ARGUMENT, "nodes: node ", members[i].first + index_base, " is listed twice");
+            }
+            for (std::int64_t d = 0; d < dimension; ++d) {
+                if (unit[size(d)] == 0.0) continue;
+                constraint.dof.push_back(dimension * members[i].first + d);
+                constraint.coefficient.push_back(members[i].second / sum * unit[size(d)]);
+            }
+        }
+        constraint.prescribed = prescribed(core, list, coefficients);
+        core.constraints.push_back(std::move(constraint));
+        mark(core, list, Pattern::Drives::displacement);
+    });
+}
+
+int32_t delam_problem_add_forces(delam_problem* problem, int64_t pattern, int64_t count, const int64_t* nodes,
+                                 const double* forces, int32_t index_base) {
+    return guard(problem, [&] {
+        Problem& core = *problem->core;
+        const std::int64_t dimension = core.mesh->dimension();
+        require_base(index_base);
+        require_count(count, "count");
+        require_array(nodes, count, "nodes");
+        require_array(forces, count, "forces");
+        require_finite(forces, count * dimension, "forces");
+        require_index(pattern, static_cast<std::int64_t>(core.patterns.size()), 0, "pattern");
+        const auto list = require_patterns(core, 1, &pattern, 0, Pattern::Drives::force);
+        std::vector<NodalForce> added;
+        for (std::int64_t i = 0; i < count; ++i) {
+            const std::int64_t node = require_node(*core.mesh, nodes[i], index_base, text("nodes[", i, "]"));
+            for (std::int64_t d = 0; d < dimension; ++d) {
+                if (forces[i * dimension + d] == 0.0) continue;
+                added.push_back({pattern, dimension * node + d, forces[i * dimension + d]});
+            }
+        }
+        core.forces.insert(core.forces.end(), added.begin(), added.end());
+        if (count > 0) mark(core, list, Pattern::Drives::force);
+    });
+}

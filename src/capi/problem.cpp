@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The scene: materials, laws, options and the questions about it. Supports and loads: loads.cpp; what was assembled: exports.cpp.
+#include "scene/problem.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "capi/handles.hpp"
+
+namespace {
+
+using namespace delam;
+
+std::size_t require_interface(const Problem& problem, std::int64_t index) {
+    const auto count = static_cast<std::int64_t>(problem.interfaces.size());
+    return static_cast<std::size_t>(require_index(index, count, 0, "interface_index"));
+}
+
+}  // namespace
+
+int32_t delam_problem_create(delam_context* context, const delam_mesh* mesh, delam_problem** out) {
+    if (out != nullptr) *out = nullptr;
+    return guard(context, [&] {
+        require_pointer(out, "out");
+        require_handle(mesh, "mesh");
+        auto problem = std::make_unique<delam_problem>();
+        problem->context = context->context;
+        problem->core = std::make_shared<Problem>(std::make_shared<const Mesh>(*mesh->core));
+        *out = problem.release();
+    });
+}
+
+void delam_problem_destroy(delam_problem** problem) { destroy(problem); }
+
+int32_t delam_problem_set_plane(delam_problem* problem, const char* assumption) {
+    return guard(problem, [&] {
+        require_pointer(assumption, "assumption");
+        if (problem->core->mesh->dimension() != 2) {
+            fail(DELAM_ERROR_ARGUMENT, "assumption: a plane assumption needs a mesh of dimension 2, this one has 3");
+        }
+        const std::string word = assumption;
+        if (word != "plane-strain" && word != "plane-stress") {
+            fail(DELAM_ERROR_ARGUMENT, "assumption = '", word, "' is not known; known are plane-strain, plane-stress");
+        }
+        problem->core->plane = word == "plane-strain" ? Plane::strain : Plane::stress;
+    });
+}
+
+int32_t delam_problem_set_elastic(delam_problem* problem, int32_t body, double young, double poisson) {
+    return guard(problem, [&] {
+        if (!(young > 0.0) || !std::isfinite(young)) {
+            fail(DELAM_ERROR_ARGUMENT, "young = ", young, " (body ", body, ") must be finite and > 0");
+        }
+        if (!(poisson > -1.0 && poisson < 0.5)) {
+            fail(DELAM_ERROR_ARGUMENT, "poisson = ", poisson, " (body ", body, ") is outside -1 < poisson < 0.5");
+        }
+        Problem& core = *problem->core;
+        const std::int32_t index = body < 0 ? -1 : core.mesh->body_of_label(body);
+        if (body != -1 && index < 0) fail(DELAM_ERROR_ARGUMENT, "body = ", body, ": no cell carries this label");
+        for (std::size_t i = 0; i < core.material.size(); ++i) {
+            if (body == -1 || i == static_cast<std::size_t>(index)) core.material[i] = Elastic{young, poisson};
+        }
+    });
+}
+
+int32_t delam_problem_set_law(delam_problem* problem, int64_t interface_index, const delam_law* law) {
+    return guard(problem, [&] {
+        InterfaceProperties& interface = problem->core->interfaces[require_interface(*problem->core, interface_index)];
+        require_handle(law, "law");
+        law->core->validate();
+        interface.law = *law->core;
+        interface.bonded = false;
+    });
+}
+
+int32_t delam_problem_set_bonded(delam_problem* problem, int64_t interface_index) {
+    return guard(problem, [&] {
+        InterfaceProperties& interface = problem->core->interfaces[require_interface(*problem->core, interface_index)];
+        interface.bonded = true;
+        interface.law.reset();
+    });
+}
+
+int32_t delam_problem_set_adhesion(delam_problem* problem, int64_t interface_index, int64_t count, const int64_t* pairs,
+                                   const double* adhesion, int32_t index_base) {
+    return guard(problem, [&] {
+        InterfaceProperties& interface = problem->core->interfaces[require_interface(*problem->core, interface_index)];
+        require_count(count, "count");
+        require_array(pairs, count, "pairs");
+        require_array(adhesion, count, "adhesion");
+        require_base(index_base);
+        std::vector<double> changed = interface.adhesion;
+        for (std::int64_t i = 0; i < count; ++i) {
+            if (!(adhesion[i] >= 0.0 && adhesion[i] <= 1.0)) {
+                fail(DELAM_ERROR_ARGUMENT, "adhesion[", i, "] = ", adhesion[i], " is outside 0 .. 1");
+            }
+            const std::int64_t pair = require_index(pairs[i], static_cast<std::int64_t>(changed.size()), index_base,
+                                                    text("pairs[", i, "]"));
+            changed[static_cast<std::size_t>(pair)] = adhesion[i];
+        }
+        interface.adhesion = std::move(changed);
+    });
+}
+
+int32_t delam_problem_set_number(delam_problem* problem, const char* key, double value) {
+    return guard(problem, [&] {
+        require_pointer(key, "key");
+        problem->core->options.set_number(key, value);
+    });
+}
+
+int32_t delam_problem_set_text(delam_problem* problem, const char* key, const char* value) {
+    return guard(problem, [&] {
+        require_pointer(key, "key");
+        require_pointer(value, "value");
+        problem->core->options.set_text(key, value);
+    });
+}
+
+int64_t delam_option_count(void) {
+    try {
+        return static_cast<std::int64_t>(option_table().size());
+    } catch (...) {
+        return 0;
+    }
+}
+
+int32_t delam_option_info(int64_t index, const char** key, const char** type, const char** unit, const char** initial,
+                          const char** range, const char** meaning) {
+    if (index < 0 || index >= delam_option_count()) return DELAM_ERROR_ARGUMENT;
+    const OptionInfo& info = option_table()[static_cast<std::size_t>(index)];
+    if (key != nullptr) *key = info.key;
+    if (type != nullptr) *type = info.type;
+    if (unit != nullptr) *unit = info.unit;
+    if (initial != nullptr) *initial = info.initial;
+    if (range != nullptr) *range = info.range;
+    if (meaning != nullptr) *meaning = info.meaning;
+    return DELAM_OK;
+}
+
+int32_t delam_problem_check(delam_problem* problem) {
+    return guard(problem, [&] { validate(*problem->core); });
+}
+
+int32_t delam_problem_hash(const delam_problem* problem, char* out) {
+    return guard(problem, [&] {
+        require_pointer(out, "out");
+        std::snprintf(out, 17, "%016llx", static_cast<unsigned long long>(hash(*problem->core)));
+    });
+}
+
+int32_t delam_problem_dofs(const delam_problem* problem, int64_t* primal, int64_t* dual) {
+    return guard(problem, [&] {
+        const Problem& core = *problem->core;
+        if (primal != nullptr) *primal = core.mesh->node_count() * core.mesh->dimension();
+        if (dual != nullptr) *dual = core.jump_count();
+    });
+}

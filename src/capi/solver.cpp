@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// delam_solver_*: the façade of the march.
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "capi/handles.hpp"
+#include "evolution/fields.hpp"
+#include "evolution/snapshot.hpp"
+#include "evolution/solver.hpp"
+#include "evolution/values.hpp"
+
+using namespace delam;
+
+namespace {
+
+// A positive outcome keeps the object valid and leaves its text in the context.
+std::int32_t report(Context& context, const Outcome& outcome) {
+    if (outcome.status != DELAM_OK) {
+        context.message = outcome.text;
+        context.monitor.log(1, outcome.text);
+    }
+    return outcome.status;
+}
+
+template <class T>
+void copy_out(const std::vector<T>& values, std::int64_t capacity, T* out, const char* name) {
+    require_capacity(capacity, static_cast<std::int64_t>(values.size()), name);
+    require_array(out, static_cast<std::int64_t>(values.size()), name);
+    std::copy(values.begin(), values.end(), out);
+}
+
+}  // namespace
+
+extern "C" {
+
+int32_t delam_solver_create(const delam_problem* problem, double time, delam_solver** out) {
+    return guard(problem, [&] {
+        require_pointer(out, "out");
+        *out = nullptr;
+        require_finite(&time, 1, "time");
+        auto handle = std::make_unique<delam_solver>();
+        handle->context = problem->context;
+        handle->core = std::make_shared<Solver>(*problem->core, problem->context->monitor, time);
+        handle->value_names = value_names(handle->core->problem());
+        *out = handle.release();
+    });
+}
+
+void delam_solver_destroy(delam_solver** solver) { destroy(solver); }
+
+int32_t delam_solver_advance(delam_solver* solver, double time) {
+    return guard(solver, [&] { return report(*solver->context, solver->core->advance(time)); });
+}
+
+int32_t delam_solver_commit(delam_solver* solver) {
+    return guard(solver, [&] { solver->core->commit(); });
+}
+
+int32_t delam_solver_rollback(delam_solver* solver) {
+    return guard(solver, [&] { solver->core->rollback(); });
+}
+
+int32_t delam_solver_equilibrate(delam_solver* solver, double time, const double* adhesion) {
+    return guard(solver, [&] {
+        std::span<const double> held;
+        if (adhesion != nullptr) held = {adhesion, solver->core->committed().adhesion.size()};
+        return report(*solver->context, solver->core->equilibrate(time, held));
+    });
+}
+
+int32_t delam_solver_value(delam_solver* solver, const char* key, double* out) {
+    return guard(solver, [&] {
+        require_pointer(key, "key");
+        require_pointer(out, "value");
+        *out = value(*solver->core, key);
+    });
+}
+
+int32_t delam_solver_value_count(const delam_solver* solver, int64_t* count) {
+    return guard(solver, [&] {
+        require_pointer(count, "count");
+        *count = static_cast<int64_t>(solver->value_names.size());
+    });
+}
+
+const char* delam_solver_value_name(const delam_solver* solver, int64_t index) {
+    const char* name = nullptr;
+    guard(solver, [&] {
+        const auto count = static_cast<int64_t>(solver->value_names.size());
+        if (index < 0 || index >= count) fail(DELAM_ERROR_ARGUMENT, "value index ", index, ", allowed: 0 to ", count - 1);
+        name = solver->value_names[static_cast<std::size_t>(index)].c_str();
+    });
+    return name;
+}
+
+int32_t delam_solver_field_shape(const delam_solver* solver, const char* key, int64_t part, int64_t* rows, int64_t* columns) {
+    return guard(solver, [&] {
+        require_pointer(key, "key");
+        const FieldShape shape = field_shape(*solver->core, key, part);
+        if (rows != nullptr) *rows = shape.rows;
+        if (columns != nullptr) *columns = shape.columns;
+    });
+}
+
+int32_t delam_solver_field(delam_solver* solver, const char* key, int64_t part, int64_t capacity, double* values) {
+    return guard(solver, [&] {
+        require_pointer(key, "key");
+        const FieldShape shape = field_shape(*solver->core, key, part);
+        require_capacity(capacity, shape.rows * shape.columns, "values");
+        copy_out(field(*solver->core, key, part), capacity, values, "values");
+    });
+}
+
+const char* delam_solver_plan(delam_solver* solver) {
+    const std::int32_t status = guard(solver, [&] { solver->plan = solver->core->plan(); });
+    return status == DELAM_OK ? solver->plan.c_str() : "";
+}
+
+int32_t delam_solver_save(const delam_solver* solver, int64_t capacity, uint8_t* bytes, int64_t* needed) {
+    return guard(solver, [&] {
+        require_pointer(needed, "needed");
+        const std::vector<std::uint8_t> saved = save(*solver->core);
+        *needed = static_cast<int64_t>(saved.size());
+        if (capacity != 0) copy_out(saved, capacity, bytes, "bytes");
+    });
+}
+
+int32_t delam_solver_load(delam_solver* solver, int64_t size, const uint8_t* bytes) {
+    return guard(solver, [&] {
+        require_count(size, "size");
+        require_array(bytes, size, "bytes");
+        load(*solver->core, {bytes, static_cast<std::size_t>(size)});
+    });
+}
+
+}  // extern "C"

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/bounds.hpp"
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+
+namespace delam {
+
+Lift::Lift(JumpOperator& op, std::size_t rows, std::size_t patterns)
+    : a_(static_cast<std::int64_t>(patterns), static_cast<std::int64_t>(patterns)) {
+    const auto prescribed = op.prescribed_rows();
+    Springs bonded{std::vector<double>(rows, 0.0), std::vector<std::uint8_t>(rows, 1)};
+    for (std::size_t i = 0; i < rows; ++i) {
+        if (prescribed[i] == 0) continue;
+        bonded.held[i] = 0;
+        prescribed_.push_back(i);
+    }
+    jump_.assign(prescribed_.size(), std::vector<double>(patterns, 0.0));
+    for (std::size_t p = 0; p < patterns; ++p) {
+        std::vector<double> unit(patterns, 0.0);
+        unit[p] = 1.0;
+        Response response;
+        op.solve(bonded, unit, response);
+        if (!response.balanced)
+            fail(DELAM_ERROR_PROBLEM, "a dead force acts on a part that no support holds even when all interfaces are bonded");
+        for (std::size_t q = 0; q < patterns; ++q)
+            a_(static_cast<std::int64_t>(q), static_cast<std::int64_t>(p)) = response.conjugate[q];
+        for (std::size_t i = 0; i < prescribed_.size(); ++i) jump_[i][p] = response.jump[prescribed_[i]];
+    }
+}
+
+double Lift::half_quadratic(std::span<const double> d, std::span<const double> stiffness) const {
+    double twice = 0.0;
+    for (std::size_t p = 0; p < d.size(); ++p)
+        for (std::size_t q = 0; q < d.size(); ++q)
+            twice += d[p] * a_(static_cast<std::int64_t>(p), static_cast<std::int64_t>(q)) * d[q];
+    for (std::size_t i = 0; i < prescribed_.size(); ++i) {
+        const double along = dot(jump_[i], d);
+        twice += stiffness[prescribed_[i]] * along * along;
+    }
+    return 0.5 * twice;
+}
+
+}  // namespace delam

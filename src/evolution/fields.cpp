@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/fields.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "body/assembly.hpp"
+#include "delam/delam.h"
+
+namespace delam {
+
+namespace {
+
+bool of_pairs(const std::string& key) {
+    return key == "jump" || key == "traction" || key == "adhesion" || key == "mixity" || key == "contact";
+}
+
+// First pair and number of pairs of a part.
+std::pair<std::int64_t, std::int64_t> pair_range(const Solver& solver, std::int64_t part) {
+    const auto& interfaces = solver.problem().mesh->interfaces();
+    std::int64_t first = 0;
+    for (std::size_t i = 0; i < interfaces.size(); ++i) {
+        if (static_cast<std::int64_t>(i) == part) return {first, interfaces[i].pair_count()};
+        first += interfaces[i].pair_count();
+    }
+    return {0, first};
+}
+
+}  // namespace
+
+FieldShape field_shape(const Solver& solver, const std::string& key, std::int64_t part) {
+    const Mesh& mesh = *solver.problem().mesh;
+    const std::int64_t dim = mesh.dimension();
+    const auto interfaces = static_cast<std::int64_t>(mesh.interfaces().size());
+    if (of_pairs(key)) {
+        if (part < -1 || part >= interfaces)
+            fail(DELAM_ERROR_ARGUMENT, "field '", key, "': part ", part, ", allowed: -1 to ", interfaces - 1);
+        return {pair_range(solver, part).second, key == "jump" || key == "traction" ? dim : 1};
+    }
+    if (part != -1) fail(DELAM_ERROR_ARGUMENT, "field '", key, "': part ", part, ", allowed: -1");
+    if (key == "displacement") return {mesh.node_count(), dim};
+    if (key == "stress") return {mesh.cell_count(), dim == 2 ? 4 : 6};
+    if (key == "reaction") return {static_cast<std::int64_t>(solver.problem().constraints.size()), 1};
+    fail(DELAM_ERROR_ARGUMENT, "unknown field '", key,
+         "'; known: displacement, stress, jump, traction, adhesion, mixity, contact, reaction");
+}
+
+std::vector<double> field(const Solver& solver, const std::string& key, std::int64_t part) {
+    const FieldShape shape = field_shape(solver, key, part);
+    const State& state = solver.state();
+    const Problem& problem = solver.problem();
+    if (key == "displacement") return solver.displacement();
+    if (key == "reaction") return state.response.reaction;
+    if (key == "stress") {
+        std::vector<Elastic> materials;
+        for (const auto& m : problem.material) materials.push_back(*m);
+        return centre_stress(*problem.mesh, materials, problem.plane, solver.displacement());
+    }
+    const auto first = static_cast<std::size_t>(pair_range(solver, part).first);
+    const auto columns = static_cast<std::size_t>(shape.columns);
+    const std::size_t count = static_cast<std::size_t>(shape.rows) * columns, begin = first * columns;
+    std::vector<double> out(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t at = begin + i;
+        if (key == "jump")
+            out[i] = state.response.jump[at];
+        else if (key == "traction")
+            out[i] = state.response.force[at] / solver.pairs().weight[at / columns];
+        else if (key == "adhesion")
+            out[i] = state.adhesion[at];
+        else if (key == "mixity")
+            out[i] = state.mixity[at];
+        else
+            out[i] = state.closed[at] != 0 ? 1.0 : 0.0;
+    }
+    return out;
+}
+
+}  // namespace delam

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One incremental problem by alternate minimisation (slides, "Alternate minimization algorithm"): displacements at frozen damage, damage
+// at frozen displacements, until the damage moves by no more than delta. A last displacement step makes the state consistent.
+#pragma once
+
+#include <span>
+
+#include "base/monitor.hpp"
+#include "evolution/state.hpp"
+#include "interface/contact.hpp"
+#include "interface/damage_step.hpp"
+
+namespace delam {
+
+struct Minimiser {
+    JumpOperator& op;
+    const PairLaws& pairs;
+    const ContactScene& contact;
+    Monitor& monitor;
+    double tolerance;    // delta
+    std::int64_t limit;  // alternations
+
+    // Displacements and contact at the state's adhesion and theta; counts are added up.
+    // False: a limit of the linear or contact iteration was met.
+    bool displace(State& state) const;
+    // Both unknowns; adhesion starts at the state's and stays below `adhesion_old`; B is the state's mixity. False: limit.
+    bool alternate(State& state, std::span<const double> adhesion_old) const;
+};
+
+}  // namespace delam

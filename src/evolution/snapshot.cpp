@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/snapshot.hpp"
+
+#include <cstring>
+#include <type_traits>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+
+namespace delam {
+
+namespace {
+
+constexpr std::uint64_t magic = 0x31305453'4d4c4544;  // "DELMST01" in memory on a little-endian machine
+constexpr std::uint32_t version = 1;
+
+std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
+    std::uint64_t h = 14695981039346656037ULL;
+    for (const std::uint8_t b : bytes) h = (h ^ b) * 1099511628211ULL;
+    return h;
+}
+
+// Writer and reader walk a state by the same function, so that they cannot disagree.
+class Writer {
+public:
+    std::vector<std::uint8_t> bytes;
+    template <class T>
+    void item(const T& v) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        const std::size_t at = bytes.size();
+        bytes.resize(at + sizeof(T));
+        std::memcpy(bytes.data() + at, &v, sizeof(T));
+    }
+    template <class T>
+    void item(const std::vector<T>& v) {
+        item(static_cast<std::uint64_t>(v.size()));
+        const std::size_t at = bytes.size();
+        bytes.resize(at + v.size() * sizeof(T));
+        if (!v.empty()) std::memcpy(bytes.data() + at, v.data(), v.size() * sizeof(T));
+    }
+};
+
+class Reader {
+public:
+    explicit Reader(std::span<const std::uint8_t> b) : bytes_(b) {}
+    template <class T>
+    void item(T& v) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        std::memcpy(&v, take(sizeof(T)), sizeof(T));
+    }
+    template <class T>
+    void item(std::vector<T>& v) {
+        std::uint64_t size = 0;
+        item(size);
+        if (size > (bytes_.size() - at_) / sizeof(T)) fail(DELAM_ERROR_SNAPSHOT, "snapshot ends early at byte ", bytes_.size());
+        v.resize(size);
+        if (size > 0) std::memcpy(v.data(), take(size * sizeof(T)), size * sizeof(T));
+    }
+    std::size_t left() const { return bytes_.size() - at_; }
+
+private:
+    const std::uint8_t* take(std::size_t n) {
+        if (n > bytes_.size() - at_) fail(DELAM_ERROR_SNAPSHOT, "snapshot ends early at byte ", bytes_.size());
+        const std::uint8_t* p = bytes_.data() + at_;
+        at_ += n;
+        return p;
+    }
+    std::span<const std::uint8_t> bytes_;
+    std::size_t at_ = 0;
+};
+
+template <class Walker, class S>
+void walk(Walker& w, S& state) {
+    w.item(state.step);
+    w.item(state.time);
+    w.item(state.theta);
+    w.item(state.adhesion);
+    w.item(state.mixity);
+    w.item(state.mixity_before);
+    w.item(state.closed);
+    w.item(state.response.jump);
+    w.item(state.response.force);
+    w.item(state.response.reaction);
+    w.item(state.response.conjugate);
+    w.item(state.response.multipliers);
+    w.item(state.response.rigid);
+    w.item(state.response.stored_bulk);
+    w.item(state.response.load_potential);
+    w.item(state.response.residual);
+    w.item(state.response.iterations);
+    w.item(state.response.balanced);
+    w.item(state.response.converged);
+    w.item(state.ledger);
+    w.item(state.counts);
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> save(const Solver& solver) {
+    Writer w;
+    w.item(magic);
+    w.item(version);
+    w.item(hash(solver.problem()));
+    walk(w, solver.committed());
+    w.item(checksum(w.bytes));
+    return w.bytes;
+}
+
+void load(Solver& solver, std::span<const std::uint8_t> bytes) {
+    Reader r(bytes);
+    std::uint64_t found_magic = 0, found_hash = 0, found_sum = 0;
+    std::uint32_t found_version = 0;
+    r.item(found_magic);
+    if (found_magic != magic) fail(DELAM_ERROR_SNAPSHOT, "not a snapshot of a libdelam solver");
+    r.item(found_version);
+    if (found_version != version) fail(DELAM_ERROR_SNAPSHOT, "snapshot version ", found_version, ", this library reads ", version);
+    if (bytes.size() < sizeof(found_sum)) fail(DELAM_ERROR_SNAPSHOT, "snapshot ends early");
+    std::memcpy(&found_sum, bytes.data() + bytes.size() - sizeof(found_sum), sizeof(found_sum));
+    if (found_sum != checksum(bytes.first(bytes.size() - sizeof(found_sum))))
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot is damaged: its checksum does not match its ", bytes.size(), " bytes");
+    r.item(found_hash);
+    if (found_hash != hash(solver.problem()))
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot belongs to another scene or other options (its hash differs)");
+    State state;
+    walk(r, state);
+    if (r.left() != sizeof(found_sum)) fail(DELAM_ERROR_SNAPSHOT, "snapshot has ", r.left(), " bytes too many");
+    const State& mine = solver.committed();
+    if (state.adhesion.size() != mine.adhesion.size() || state.theta.size() != mine.theta.size() ||
+        state.response.multipliers.size() != mine.response.multipliers.size())
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot has other sizes than this solver");
+    solver.restore(std::move(state));
+}
+
+}  // namespace delam

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "reduction/feti/feti.hpp"
+
+namespace delam {
+
+namespace {
+
+bool all_zero(std::span<const double> values) {
+    return std::all_of(values.begin(), values.end(), [](double v) { return v == 0.0; });
+}
+
+}  // namespace
+
+Solver::Solver(const Problem& problem, Monitor& monitor, double time) : problem_(problem), monitor_(monitor) {
+    validate(problem_);
+    const Mesh& mesh = *problem_.mesh;
+    pairs_.dimension = contact_.dimension = mesh.dimension();
+    contact_.limit = problem_.options.contact_limit;
+    for (std::size_t i = 0; i < mesh.interfaces().size(); ++i) {
+        const InterfaceProperties& properties = problem_.interfaces[i];
+        for (const double weight : mesh.interfaces()[i].weight) {
+            pairs_.weight.push_back(weight);
+            pairs_.law.push_back(properties.bonded ? nullptr : &*properties.law);
+            contact_.bonded.push_back(properties.bonded ? 1 : 0);
+        }
+        initial_adhesion_.insert(initial_adhesion_.end(), properties.adhesion.begin(), properties.adhesion.end());
+    }
+    operator_ = std::make_unique<Feti>(problem_, monitor_);
+    lift_ = Lift(*operator_, static_cast<std::size_t>(problem_.jump_count()), problem_.patterns.size());
+
+    State& state = committed_;
+    state.time = time;
+    state.theta = problem_.factors(time);
+    state.adhesion = initial_adhesion_;
+    // A notch starts closed: that is where it stays unless something opens it.
+    for (std::size_t p = 0; p < state.adhesion.size(); ++p)
+        state.closed.push_back(contact_.bonded[p] == 0 && state.adhesion[p] == 0.0 && operator_->prescribed_rows()[p * static_cast<std::size_t>(mesh.dimension())] == 0 ? 1 : 0);
+    if (!minimiser().displace(state)) monitor_.log(1, "the initial displacement did not reach its tolerance");
+    state.mixity = mixities(pairs_, state.response.jump);
+    state.mixity_before = state.mixity;
+    book_energies(state);
+}
+
+Minimiser Solver::minimiser() const {
+    return {*operator_,  pairs_, contact_, monitor_, problem_.options.damage_tolerance, problem_.options.minimisation_limit};
+}
+
+void Solver::begin(State& next, double time) const {
+    if (pending_) fail(DELAM_ERROR_STATE, "a step is pending: commit it or roll it back first");
+    if (!std::isfinite(time)) fail(DELAM_ERROR_ARGUMENT, "time is not finite");
+    next.time = time;
+    next.theta = problem_.factors(time);
+    next.counts = Counts{};
+}
+
+// Energies of a state at its own mixity; cumulative columns are not touched.
+void Solver::book_energies(State& state) const {
+    Ledger& ledger = state.ledger;
+    ledger.stored_bulk = state.response.stored_bulk;
+    ledger.load_potential = state.response.load_potential;
+    ledger.stored_interface = stored_energy(pairs_, state.adhesion, state.response.jump);
+    ledger.stored_interface_slides = ledger.stored_interface + stored_slides(pairs_, state.mixity, state.adhesion);
+}
+
+void Solver::book_step(State& next) const {
+    const State& last = committed_;
+    book_energies(next);
+    Ledger& ledger = next.ledger;
+    const double dissipated = dissipation(pairs_, next.mixity, last.adhesion, next.adhesion);
+    const double dissipated_before = dissipation(pairs_, next.mixity_before, last.adhesion, next.adhesion);
+    const double change = ledger.energy() - last.ledger.energy();
+    ledger.increment = change + dissipated;
+    ledger.increment_lower = change + dissipated_before;
+    std::vector<double> d(next.theta.size());
+    for (std::size_t p = 0; p < d.size(); ++p) d[p] = next.theta[p] - last.theta[p];
+    ledger.lower = dot(d, next.response.conjugate) - lift_.half_quadratic(d, spring_stiffness(pairs_, next.adhesion));
+    ledger.upper = dot(d, last.response.conjugate) + lift_.half_quadratic(d, spring_stiffness(pairs_, last.adhesion));
+    ledger.work = last.ledger.work + 0.5 * (ledger.lower + ledger.upper);
+    ledger.dissipated = last.ledger.dissipated + dissipated;
+    ledger.dissipated_slides =
+        last.ledger.dissipated_slides + dissipation_slides(pairs_, next.mixity, last.adhesion, next.adhesion);
+}
+
+Outcome Solver::advance(double time) {
+    State next = committed_;
+    begin(next, time);
+    if (time <= committed_.time)
+        fail(DELAM_ERROR_ARGUMENT, "time ", time, " is not after the committed time ", committed_.time);
+    ++next.step;
+    bool converged = true;
+    if (all_zero(committed_.response.jump)) {
+        // Before the first load there is no jump to take the mixity from: the elastic solution of this step gives it.
+        State elastic = next;
+        converged = minimiser().displace(elastic);
+        next.counts = elastic.counts;
+        next.mixity = mixities(pairs_, elastic.response.jump);
+        next.mixity_before = next.mixity;
+        next.response = std::move(elastic.response);
+        next.closed = std::move(elastic.closed);
+    } else {
+        next.mixity_before = committed_.mixity;
+        next.mixity = mixities(pairs_, committed_.response.jump);
+    }
+    converged = minimiser().alternate(next, committed_.adhesion) && converged;
+    book_step(next);
+    Outcome outcome;
+    if (!converged) {
+        outcome.status = DELAM_NOT_CONVERGED;
+        outcome.text = text("step ", next.step, " at time ", time, ": not converged after ", next.counts.am_iterations,
+                            " alternations (last change of adhesion ", next.counts.damage_change, ", tolerance ",
+                            problem_.options.damage_tolerance, "; worst linear residual ", next.counts.linear_residual,
+                            ", tolerance ", problem_.options.linear_tolerance, ")");
+    }
+    pending_ = std::move(next);
+    return outcome;
+}
+
+Outcome Solver::equilibrate(double time, std::span<const double> adhesion) {
+    State next = committed_;
+    begin(next, time);
+    if (!adhesion.empty()) next.adhesion.assign(adhesion.begin(), adhesion.end());
+    for (std::size_t p = 0; p < next.adhesion.size(); ++p)
+        if (!(next.adhesion[p] >= 0.0 && next.adhesion[p] <= 1.0))
+            fail(DELAM_ERROR_ARGUMENT, "adhesion of pair ", p, " is ", next.adhesion[p], ", allowed: 0 to 1");
+    Outcome outcome;
+    if (!minimiser().displace(next)) {
+        outcome.status = DELAM_NOT_CONVERGED;
+        outcome.text = text("displacement step at time ", time, ": worst linear residual ", next.counts.linear_residual,
+                            ", tolerance ", problem_.options.linear_tolerance, "; ", next.counts.contact_iterations,
+                            " active-set steps");
+    }
+    book_energies(next);
+    pending_ = std::move(next);
+    return outcome;
+}
+
+void Solver::commit() {
+    if (!pending_) fail(DELAM_ERROR_STATE, "nothing to commit: no step is pending");
+    committed_ = std::move(*pending_);
+    pending_.reset();
+}
+
+void Solver::rollback() {
+    if (!pending_) fail(DELAM_ERROR_STATE, "nothing to roll back: no step is pending");
+    pending_.reset();
+}
+
+void Solver::restore(State restored) {
+    committed_ = std::move(restored);
+    pending_.reset();
+}
+
+double Solver::equilibrium_defect() const {
+    double reaction = 0.0;
+    for (const double r : state().response.reaction) reaction = std::max(reaction, std::abs(r));
+    const double defect = operator_->equilibrium_defect(state().theta, state().response);
+    return reaction > 0.0 ? defect / reaction : defect;
+}
+
+}  // namespace delam

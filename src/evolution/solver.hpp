@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The march: a committed state, perhaps a pending one, and the operator they live on.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "evolution/bounds.hpp"
+#include "evolution/minimise.hpp"
+#include "scene/problem.hpp"
+
+namespace delam {
+
+// How a step ended; text is empty for DELAM_OK.
+struct Outcome {
+    std::int32_t status = 0;
+    std::string text;
+};
+
+class Solver {
+public:
+    // The monitor must outlive the solver.
+    Solver(const Problem& problem, Monitor& monitor, double time);
+    Solver(const Solver&) = delete;  // pairs_ points into problem_
+    Solver& operator=(const Solver&) = delete;
+
+    Outcome advance(double time);
+    Outcome equilibrate(double time, std::span<const double> adhesion);
+    void commit();
+    void rollback();
+    bool pending() const { return pending_.has_value(); }
+
+    const Problem& problem() const { return problem_; }
+    // Pending state, else the committed one.
+    const State& state() const { return pending_ ? *pending_ : committed_; }
+    const State& committed() const { return committed_; }
+    // Replaces the committed state (of the same scene); drops a pending one.
+    void restore(State state);
+    const PairLaws& pairs() const { return pairs_; }
+    const ContactScene& contact() const { return contact_; }
+    std::vector<double> displacement() const { return operator_->displacement(state().theta, state().response); }
+    // Out-of-balance force over the largest reaction.
+    double equilibrium_defect() const;
+    std::string plan() const;
+    // Initial adhesion, [pairs].
+    const std::vector<double>& initial_adhesion() const { return initial_adhesion_; }
+
+private:
+    Minimiser minimiser() const;
+    void begin(State& next, double time) const;
+    void book_energies(State& state) const;
+    void book_step(State& next) const;
+
+    Problem problem_;
+    Monitor& monitor_;
+    PairLaws pairs_;
+    ContactScene contact_;
+    std::vector<double> initial_adhesion_;
+    std::unique_ptr<JumpOperator> operator_;
+    Lift lift_;
+    State committed_;
+    std::optional<State> pending_;
+};
+
+}  // namespace delam

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The state of a march after a step, complete: what the next step needs, and what the history records.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "reduction/jump_operator.hpp"
+
+namespace delam {
+
+// Energies, F L (2D: F). The booked split has both parts >= 0; the slides' one is reported beside it.
+struct Ledger {
+    double stored_bulk = 0.0;
+    double stored_interface = 0.0;         // sum w zeta Y
+    double load_potential = 0.0;           // -f.u of dead forces
+    double stored_interface_slides = 0.0;  // sum w (zeta Y + f(B, zeta))
+    // cumulative
+    double dissipated = 0.0;         // sum w (g(B, zeta) - g(B, zeta_old)) over the steps
+    double dissipated_slides = 0.0;  // sum w Gc(B) (zeta_old - zeta)
+    double work = 0.0;               // sum (lower + upper)/2
+    // of the step: lower <= increment <= upper
+    double lower = 0.0;
+    double increment = 0.0;  // E_k - E_{k-1} + D_k
+    double upper = 0.0;
+    double increment_lower = 0.0;  // increment with the mixity of the step before (the one the lower bound is provable with)
+
+    double energy() const { return stored_bulk + stored_interface + load_potential; }
+};
+
+struct Counts {
+    std::int64_t am_iterations = 0;
+    std::int64_t displacement_solves = 0;
+    std::int64_t contact_iterations = 0;
+    std::int64_t contact_iterations_first = 0;
+    std::int64_t contact_iterations_max = 0;
+    std::int64_t contact_fallbacks = 0;
+    std::int64_t linear_iterations = 0;
+    std::int64_t backtracks = 0;
+    double damage_change = 0.0;
+    double linear_residual = 0.0;
+};
+
+struct State {
+    std::int64_t step = 0;
+    double time = 0.0;
+    std::vector<double> theta;                // [patterns]
+    std::vector<double> adhesion;             // [pairs]
+    std::vector<double> mixity;               // [pairs] B that this step's damage was computed with
+    std::vector<double> mixity_before;        // [pairs] B of the step before
+    std::vector<std::uint8_t> closed;         // [pairs]
+    Response response;
+    Ledger ledger;
+    Counts counts;
+};
+
+}  // namespace delam

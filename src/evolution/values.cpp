@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/values.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+
+namespace delam {
+
+namespace {
+
+// Adhesion below the first counts as debonded, above the second as intact; between them lies the process zone.
+constexpr double debonded_below = 1e-3;
+constexpr double intact_above = 1.0 - 1e-3;
+
+double count(std::int64_t n) { return static_cast<double>(n); }
+
+double largest(std::span<const double> values) {
+    double m = 0.0;
+    for (const double v : values) m = std::max(m, std::abs(v));
+    return m;
+}
+
+// Sum of weight * f(adhesion) over the pairs that adhered at first.
+template <class F>
+double over_bond(const Solver& solver, F f) {
+    const State& state = solver.state();
+    double sum = 0.0;
+    for (std::size_t p = 0; p < state.adhesion.size(); ++p)
+        if (solver.pairs().law[p] != nullptr && solver.initial_adhesion()[p] > 0.0)
+            sum += solver.pairs().weight[p] * f(state.adhesion[p]);
+    return sum;
+}
+
+double contact_pairs(const Solver& solver) {
+    const auto& closed = solver.state().closed;
+    return count(std::count(closed.begin(), closed.end(), std::uint8_t{1}));
+}
+
+// f(normal jump, normal force, closed) at its largest over the pairs that can open, 0 at least.
+template <class F>
+double worst_contact(const Solver& solver, F f) {
+    const State& state = solver.state();
+    const auto dim = static_cast<std::size_t>(solver.pairs().dimension);
+    double worst = 0.0;
+    for (std::size_t p = 0; p < state.closed.size(); ++p)
+        if (solver.contact().bonded[p] == 0)
+            worst = std::max(worst, f(state.response.jump[p * dim], state.response.force[p * dim], state.closed[p] != 0));
+    return worst;
+}
+
+double ratio(double a, double b) { return b > 0.0 ? a / b : a; }
+
+double kkt_gap(const Solver& s) {
+    return ratio(worst_contact(s, [](double jump, double, bool) { return -jump; }), largest(s.state().response.jump));
+}
+
+double kkt_pressure(const Solver& s) {
+    return ratio(worst_contact(s, [](double, double force, bool closed) { return closed ? force : 0.0; }),
+                 largest(s.state().response.force));
+}
+
+double kkt_complementarity(const Solver& s) {
+    const double scale = largest(s.state().response.jump) * largest(s.state().response.force);
+    return ratio(worst_contact(s, [](double jump, double force, bool closed) { return closed ? std::abs(jump * force) : 0.0; }),
+                 scale);
+}
+
+struct Entry {
+    const char* key;
+    double (*value)(const Solver&);
+};
+
+constexpr Entry table[] = {
+    {"step", [](const Solver& s) { return count(s.state().step); }},
+    {"time", [](const Solver& s) { return s.state().time; }},
+    {"stored_bulk", [](const Solver& s) { return s.state().ledger.stored_bulk; }},
+    {"stored_interface", [](const Solver& s) { return s.state().ledger.stored_interface; }},
+    {"dissipated", [](const Solver& s) { return s.state().ledger.dissipated; }},
+    {"stored_interface_slides", [](const Solver& s) { return s.state().ledger.stored_interface_slides; }},
+    {"dissipated_slides", [](const Solver& s) { return s.state().ledger.dissipated_slides; }},
+    {"load_potential", [](const Solver& s) { return s.state().ledger.load_potential; }},
+    {"work", [](const Solver& s) { return s.state().ledger.work; }},
+    {"lower", [](const Solver& s) { return s.state().ledger.lower; }},
+    {"increment", [](const Solver& s) { return s.state().ledger.increment; }},
+    {"upper", [](const Solver& s) { return s.state().ledger.upper; }},
+    {"increment_lower", [](const Solver& s) { return s.state().ledger.increment_lower; }},
+    {"am_iterations", [](const Solver& s) { return count(s.state().counts.am_iterations); }},
+    {"displacement_solves", [](const Solver& s) { return count(s.state().counts.displacement_solves); }},
+    {"contact_iterations", [](const Solver& s) { return count(s.state().counts.contact_iterations); }},
+    {"contact_iterations_first", [](const Solver& s) { return count(s.state().counts.contact_iterations_first); }},
+    {"contact_iterations_max", [](const Solver& s) { return count(s.state().counts.contact_iterations_max); }},
+    {"contact_fallbacks", [](const Solver& s) { return count(s.state().counts.contact_fallbacks); }},
+    {"linear_iterations", [](const Solver& s) { return count(s.state().counts.linear_iterations); }},
+    {"contact_pairs", contact_pairs},
+    {"debonded_length",
+     [](const Solver& s) { return over_bond(s, [](double zeta) { return zeta <= debonded_below ? 1.0 : 0.0; }); }},
+    {"front", [](const Solver& s) { return over_bond(s, [](double zeta) { return 1.0 - zeta; }); }},
+    {"process_zone",
+     [](const Solver& s) {
+         return over_bond(s, [](double zeta) { return zeta > debonded_below && zeta < intact_above ? 1.0 : 0.0; });
+     }},
+    {"backtracks", [](const Solver& s) { return count(s.state().counts.backtracks); }},
+    {"damage_change", [](const Solver& s) { return s.state().counts.damage_change; }},
+    {"linear_residual", [](const Solver& s) { return s.state().counts.linear_residual; }},
+    {"kkt_gap", kkt_gap},
+    {"kkt_pressure", kkt_pressure},
+    {"kkt_complementarity", kkt_complementarity},
+    {"kkt_equilibrium", [](const Solver& s) { return s.equilibrium_defect(); }},
+};
+
+}  // namespace
+
+std::vector<std::string> value_names(const Problem& problem) {
+    std::vector<std::string> names;
+    for (const Entry& entry : table) names.emplace_back(entry.key);
+    for (const Pattern& pattern : problem.patterns) {
+        names.push_back("load:" + pattern.name);
+        names.push_back("reaction:" + pattern.name);
+    }
+    return names;
+}
+
+double value(const Solver& solver, const std::string& key) {
+    for (const Entry& entry : table)
+        if (key == entry.key) return entry.value(solver);
+    const auto& patterns = solver.problem().patterns;
+    for (std::size_t p = 0; p < patterns.size(); ++p) {
+        if (key == "load:" + patterns[p].name) return solver.state().theta[p];
+        if (key == "reaction:" + patterns[p].name) return solver.state().response.conjugate[p];
+    }
+    fail(DELAM_ERROR_ARGUMENT, "unknown value '", key, "'");
+}
+
+}  // namespace delam

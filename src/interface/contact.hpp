@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Frictionless unilateral contact, u_n >= 0, as an active set over a jump operator.
+//
+// A closed pair holds u_n = 0 and may only push (force <= 0); an open one follows its spring and may not penetrate (u_n >= 0). The
+// primal-dual active set (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13, 2002) moves every pair that violates its side at once; warm it needs 3-4
+// solves. It can cycle: once a set comes back, only the violating pair of least index moves (Murty's principal pivoting, which
+// ends for every positive definite problem).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "reduction/jump_operator.hpp"
+
+namespace delam {
+
+struct ContactResult {
+    std::int64_t solves = 0;            // active-set steps
+    std::int64_t linear_iterations = 0;
+    double linear_residual = 0.0;       // worst of the solves
+    bool converged = true;
+    bool fallback = false;              // least-index exchanges were needed
+};
+
+struct ContactScene {
+    int dimension = 2;
+    std::vector<std::uint8_t> bonded;  // [pairs] held in every direction for ever
+    std::int64_t limit = 200;
+};
+
+// spring stiffness: [rows]. closed: [pairs], the warm start in, the contact set out. Throws Error(DELAM_LIMIT) when no contact set balances
+// the loads, Error(DELAM_ERROR_PROBLEM) when prescribed displacements press faces into each other.
+ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
+                            std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response);
+
+}  // namespace delam

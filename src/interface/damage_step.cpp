@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "interface/damage_step.hpp"
+
+#include <algorithm>
+
+#include "interface/mixity.hpp"
+
+namespace delam {
+
+Driving driving_energy(const PairLaws& pairs, std::size_t pair, std::span<const double> jump) {
+    const auto dim = static_cast<std::size_t>(pairs.dimension);
+    const Law& law = *pairs.law[pair];
+    const double opening = std::max(0.0, jump[pair * dim]);
+    double slip = 0.0;
+    for (std::size_t c = 1; c < dim; ++c) slip += jump[pair * dim + c] * jump[pair * dim + c];
+    return {0.5 * law.normal_stiffness * opening * opening, 0.5 * law.tangential_stiffness * slip};
+}
+
+std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump) {
+    std::vector<double> b(pairs.law.size(), 0.0);
+    for (std::size_t p = 0; p < b.size(); ++p) {
+        if (pairs.law[p] == nullptr) continue;
+        const Driving y = driving_energy(pairs, p, jump);
+        b[p] = mode_mixity(y.normal, y.tangential);
+    }
+    return b;
+}
+
+std::vector<double> spring_stiffness(const PairLaws& pairs, std::span<const double> adhesion) {
+    const auto dim = static_cast<std::size_t>(pairs.dimension);
+    std::vector<double> s(pairs.law.size() * dim, 0.0);
+    for (std::size_t p = 0; p < pairs.law.size(); ++p) {
+        if (pairs.law[p] == nullptr) continue;
+        const double scale = pairs.weight[p] * adhesion[p];
+        s[p * dim] = scale * pairs.law[p]->normal_stiffness;
+        for (std::size_t c = 1; c < dim; ++c) s[p * dim + c] = scale * pairs.law[p]->tangential_stiffness;
+    }
+    return s;
+}
+
+std::vector<double> damage_step(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
+                                std::span<const double> jump) {
+    std::vector<double> zeta(adhesion_old.begin(), adhesion_old.end());
+    for (std::size_t p = 0; p < zeta.size(); ++p)
+        if (pairs.law[p] != nullptr && zeta[p] > 0.0)
+            zeta[p] = damage_minimiser(pairs.law[p]->toughness(mixity[p]), driving_energy(pairs, p, jump).total(), zeta[p]);
+    return zeta;
+}
+
+double stored_energy(const PairLaws& pairs, std::span<const double> adhesion, std::span<const double> jump) {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < adhesion.size(); ++p)
+        if (pairs.law[p] != nullptr && adhesion[p] > 0.0)
+            sum += pairs.weight[p] * adhesion[p] * driving_energy(pairs, p, jump).total();
+    return sum;
+}
+
+double stored_slides(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion) {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < adhesion.size(); ++p)
+        if (pairs.law[p] != nullptr) sum += pairs.weight[p] * stored_slides(pairs.law[p]->toughness(mixity[p]), adhesion[p]);
+    return sum;
+}
+
+double dissipation(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
+                   std::span<const double> adhesion) {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < adhesion.size(); ++p) {
+        if (pairs.law[p] == nullptr || adhesion[p] == adhesion_old[p]) continue;
+        const Toughness t = pairs.law[p]->toughness(mixity[p]);
+        sum += pairs.weight[p] * (dissipated(t, adhesion[p]) - dissipated(t, adhesion_old[p]));
+    }
+    return sum;
+}
+
+double dissipation_slides(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
+                          std::span<const double> adhesion) {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < adhesion.size(); ++p)
+        if (pairs.law[p] != nullptr && adhesion[p] != adhesion_old[p])
+            sum += pairs.weight[p] * pairs.law[p]->toughness(mixity[p]).total * (adhesion_old[p] - adhesion[p]);
+    return sum;
+}
+
+}  // namespace delam

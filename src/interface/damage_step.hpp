@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pointwise damage over all pairs: driving energies, mixities, the damage step, and interface energies.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "interface/law.hpp"
+
+namespace delam {
+
+// One entry a pair; law null where the pair is bonded for ever.
+struct PairLaws {
+    int dimension = 2;
+    std::vector<const Law*> law;
+    std::vector<double> weight;  // L (2D) or L2 (3D)
+};
+
+// Y_n and Y_t of a pair from its local jump; contact leaves Y_n = 0.
+struct Driving {
+    double normal;
+    double tangential;
+    double total() const { return normal + tangential; }
+};
+Driving driving_energy(const PairLaws& pairs, std::size_t pair, std::span<const double> jump);
+
+// B of every pair, [pairs]; a pair without a jump keeps mode I.
+std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump);
+// s = weight k zeta of every row, [rows].
+std::vector<double> spring_stiffness(const PairLaws& pairs, std::span<const double> adhesion);
+// zeta = argmin over 0 <= zeta <= adhesion_old at the frozen mixity; returns [pairs].
+std::vector<double> damage_step(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
+                                std::span<const double> jump);
+
+double stored_energy(const PairLaws& pairs, std::span<const double> adhesion, std::span<const double> jump);       // sum w zeta Y
+double stored_slides(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion);     // sum w f
+// sum w (g(B, zeta) - g(B, zeta_old)), the ledger whose stored part does not depend on the mixity
+double dissipation(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
+                   std::span<const double> adhesion);
+// sum w Gc(B) (zeta_old - zeta)
+double dissipation_slides(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
+                          std::span<const double> adhesion);
+
+}  // namespace delam

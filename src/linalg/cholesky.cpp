@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linalg/cholesky.hpp"
+
+#include <suitesparse/cholmod.h>
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+#include <numeric>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+
+// Only modules under the LGPL are called by name (Core, Cholesky, Partition/CAMD); the supernodal kernels (GPL) are reached
+// through cholmod_l_factorize where the CHOLMOD at hand has them, and never when DELAM_CHOLMOD_SIMPLICIAL is defined.
+
+namespace delam {
+
+static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t));
+
+struct SparseCholesky::Impl {
+    mutable cholmod_common common;
+    cholmod_factor* factor = nullptr;
+    std::int64_t size = 0;
+    std::int64_t trailing = 0;
+    mutable cholmod_dense* x_buffer = nullptr;  // kept between solves
+    mutable cholmod_dense* y_work = nullptr;
+    mutable cholmod_dense* e_work = nullptr;
+
+    Impl() {
+        cholmod_l_start(&common);
+        common.print = 0;
+        common.error_handler = nullptr;
+        common.final_ll = 1;
+#ifdef DELAM_CHOLMOD_SIMPLICIAL
+        common.supernodal = CHOLMOD_SIMPLICIAL;
+#else
+        common.supernodal = CHOLMOD_AUTO;
+#endif
+    }
+    ~Impl() {
+        cholmod_l_free_factor(&factor, &common);
+        cholmod_l_free_dense(&x_buffer, &common);
+        cholmod_l_free_dense(&y_work, &common);
+        cholmod_l_free_dense(&e_work, &common);
+        cholmod_l_finish(&common);
+    }
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
+    void check(const char* stage) const {
+        if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+        if (common.status == CHOLMOD_TOO_LARGE) fail(DELAM_ERROR_MEMORY, "CHOLMOD ", stage, ": problem too large");
+        if (common.status < 0) fail(DELAM_ERROR_INTERNAL, "CHOLMOD ", stage, ": status ", common.status);
+    }
+};
+
+namespace {
+
+// A view of our rows as CHOLMOD's columns: the matrix is symmetric, its upper triangle is the one that is read.
+cholmod_sparse view(const SparseMatrix& m) {
+    cholmod_sparse a{};
+    a.nrow = static_cast<std::size_t>(m.rows);
+    a.ncol = static_cast<std::size_t>(m.columns);
+    a.nzmax = static_cast<std::size_t>(m.entries());
+    a.p = const_cast<std::int64_t*>(m.start.data());
+    a.i = const_cast<std::int64_t*>(m.column.data());
+    a.x = const_cast<double*>(m.value.data());
+    a.stype = 1;
+    a.itype = CHOLMOD_LONG;
+    a.xtype = CHOLMOD_REAL;
+    a.dtype = CHOLMOD_DOUBLE;
+    a.sorted = 1;
+    a.packed = 1;
+    return a;
+}
+
+cholmod_dense view(std::span<const double> b) {
+    cholmod_dense d{};
+    d.nrow = b.size();
+    d.ncol = 1;
+    d.nzmax = b.size();
+    d.d = b.size();
+    d.x = const_cast<double*>(b.data());
+    d.xtype = CHOLMOD_REAL;
+    d.dtype = CHOLMOD_DOUBLE;
+    return d;
+}
+
+}  // namespace
+
+SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing) : impl_(std::make_unique<Impl>()) {
+    Impl& impl = *impl_;
+    impl.size = matrix.rows;
+    impl.trailing = trailing;
+    if (matrix.rows == 0) return;
+    cholmod_sparse a = view(matrix);
+    std::vector<SuiteSparse_long> order(static_cast<std::size_t>(matrix.rows));
+    std::vector<SuiteSparse_long> group(static_cast<std::size_t>(matrix.rows), 0);
+    const auto interior = static_cast<std::size_t>(matrix.rows - trailing);
+    std::fill(group.begin() + static_cast<std::ptrdiff_t>(interior), group.end(), 1);
+    if (cholmod_l_camd(&a, nullptr, 0, group.data(), order.data(), &impl.common) == 0) impl.check("ordering");
+    std::iota(order.begin() + static_cast<std::ptrdiff_t>(interior), order.end(), static_cast<SuiteSparse_long>(interior));
+    impl.common.nmethods = 1;
+    impl.common.method[0].ordering = CHOLMOD_GIVEN;
+    impl.common.postorder = trailing == 0 ? 1 : 0;  // a postorder may move trailing variables that are not connected
+    impl.factor = cholmod_l_analyze_p(&a, order.data(), nullptr, 0, &impl.common);
+    impl.check("analysis");
+}
+
+SparseCholesky::~SparseCholesky() = default;
+SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
+SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
+
+bool SparseCholesky::factorise(const SparseMatrix& matrix) {
+    Impl& impl = *impl_;
+    if (impl.size == 0) return true;
+    cholmod_sparse a = view(matrix);
+    cholmod_l_factorize(&a, impl.factor, &impl.common);
+    impl.check("factorisation");
+    return impl.common.status == CHOLMOD_OK && impl.factor->minor == impl.factor->n;
+}
+
+void SparseCholesky::solve(std::span<const double> b, std::span<double> x) const {
+    const Impl& impl = *impl_;
+    if (impl.size == 0) return;
+    cholmod_dense rhs = view(b);
+    cholmod_l_solve2(CHOLMOD_A, impl.factor, &rhs, nullptr, &impl.x_buffer, nullptr, &impl.y_work, &impl.e_work,
+                     &impl.common);
+    impl.check("solve");
+    std::memcpy(x.data(), impl.x_buffer->x, b.size() * sizeof(double));
+}
+
+double SparseCholesky::factor_entries() const {
+    const cholmod_factor* l = impl_->factor;
+    return l == nullptr ? 0.0 : static_cast<double>(l->is_super != 0 ? l->xsize : l->nzmax);
+}
+
+DenseMatrix SparseCholesky::trailing_factor() const {
+    const Impl& impl = *impl_;
+    DenseMatrix lower(impl.trailing, impl.trailing);
+    if (impl.trailing == 0) return lower;
+    const cholmod_factor* l = impl.factor;
+    const std::int64_t first = impl.size - impl.trailing;
+    const auto* x = static_cast<const double*>(l->x);
+    if (l->is_super != 0) {
+        // A supernode holds its columns as one dense block over its rows; amalgamation may let it begin before `first`.
+        const auto* super = static_cast<const std::int64_t*>(l->super);
+        const auto* row_start = static_cast<const std::int64_t*>(l->pi);
+        const auto* value_start = static_cast<const std::int64_t*>(l->px);
+        const auto* row = static_cast<const std::int64_t*>(l->s);
+        for (std::size_t s = 0; s < l->nsuper; ++s) {
+            if (super[s + 1] <= first) continue;
+            const std::int64_t rows = row_start[s + 1] - row_start[s];
+            for (std::int64_t j = std::max(super[s], first); j < super[s + 1]; ++j) {
+                const double* column = x + value_start[s] + (j - super[s]) * rows;
+                for (std::int64_t i = j - super[s]; i < rows; ++i)
+                    lower(row[row_start[s] + i] - first, j - first) = column[i];
+            }
+        }
+        return lower;
+    }
+    const auto* start = static_cast<const std::int64_t*>(l->p);
+    const auto* count = static_cast<const std::int64_t*>(l->nz);
+    const auto* row = static_cast<const std::int64_t*>(l->i);
+    for (std::int64_t j = first; j < impl.size; ++j)
+        for (std::int64_t k = start[j]; k < start[j] + count[j]; ++k) lower(row[k] - first, j - first) = x[k];
+    return lower;
+}
+
+}  // namespace delam

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sparse Cholesky factorisation by CHOLMOD (T. Davis); the only files that include it are this concept's.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "linalg/dense.hpp"
+#include "linalg/sparse.hpp"
+
+namespace delam {
+
+class SparseCholesky {
+public:
+    // Symbolic analysis of a symmetric matrix (both triangles stored). The last `trailing` variables are eliminated last, in
+    // their given order, the others before them by (constrained) minimum degree.
+    explicit SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing = 0);
+    ~SparseCholesky();
+    SparseCholesky(SparseCholesky&&) noexcept;
+    SparseCholesky& operator=(SparseCholesky&&) noexcept;
+
+    // Numeric factorisation of a matrix with the pattern that was analysed. False: not positive definite.
+    bool factorise(const SparseMatrix& matrix);
+    void solve(std::span<const double> b, std::span<double> x) const;
+    // Lower factor L_tt of the trailing variables: L_tt L_tt^T is the Schur complement onto them.
+    DenseMatrix trailing_factor() const;
+    double factor_entries() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace delam

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linalg/dense.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+
+extern "C" {
+double ddot_(const int*, const double*, const int*, const double*, const int*);
+void daxpy_(const int*, const double*, const double*, const int*, double*, const int*);
+void dsymv_(const char*, const int*, const double*, const double*, const int*, const double*, const int*, const double*,
+            double*, const int*);
+void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*, const int*,
+            const double*, const int*, const double*, double*, const int*);
+void dsyrk_(const char*, const char*, const int*, const int*, const double*, const double*, const int*, const double*,
+            double*, const int*);
+void dtrsv_(const char*, const char*, const char*, const int*, const double*, const int*, double*, const int*);
+void dpotri_(const char*, const int*, double*, const int*, int*);
+void dgesv_(const int*, const int*, double*, const int*, int*, double*, const int*, int*);
+void dsyev_(const char*, const char*, const int*, double*, const int*, double*, double*, const int*, int*);
+void dgeqp3_(const int*, const int*, double*, const int*, int*, double*, double*, const int*, int*);
+void dpstrf_(const char*, const int*, double*, const int*, int*, int*, const double*, double*, int*);
+}
+
+namespace delam {
+
+namespace {
+
+constexpr int one = 1;
+
+// LAPACK's integers are 32 bit: a matrix beyond that has no business being dense.
+int narrow(std::int64_t n) {
+    if (n < 0 || n > 46340) fail(DELAM_ERROR_MEMORY, "a dense block of ", n, " rows is too large; use more subdomains");
+    return static_cast<int>(n);
+}
+
+int leading(std::int64_t n) { return std::max(1, narrow(n)); }
+
+void mirror_lower(DenseMatrix& a) {
+    for (std::int64_t j = 0; j < a.columns; ++j)
+        for (std::int64_t i = j + 1; i < a.rows; ++i) a(j, i) = a(i, j);
+}
+
+}  // namespace
+
+double dot(std::span<const double> x, std::span<const double> y) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) sum += x[i] * y[i];
+    return sum;
+}
+
+void add_scaled(double a, std::span<const double> x, std::span<double> y) {
+    for (std::size_t i = 0; i < x.size(); ++i) y[i] += a * x[i];
+}
+
+void multiply_symmetric(const DenseMatrix& s, std::span<const double> x, std::span<double> y) {
+    const int n = narrow(s.rows), lda = leading(s.rows);
+    const double alpha = 1.0, beta = 0.0;
+    if (n > 0) dsymv_("L", &n, &alpha, s.value.data(), &lda, x.data(), &one, &beta, y.data(), &one);
+}
+
+DenseMatrix multiply(const DenseMatrix& a, const DenseMatrix& b) {
+    DenseMatrix c(a.rows, b.columns);
+    const int m = narrow(a.rows), n = narrow(b.columns), k = narrow(a.columns);
+    const int lda = leading(a.rows), ldb = leading(b.rows), ldc = leading(c.rows);
+    const double alpha = 1.0, beta = 0.0;
+    if (m > 0 && n > 0 && k > 0)
+        dgemm_("N", "N", &m, &n, &k, &alpha, a.value.data(), &lda, b.value.data(), &ldb, &beta, c.value.data(), &ldc);
+    return c;
+}
+
+DenseMatrix multiply_transposed(const DenseMatrix& a, const DenseMatrix& b) {
+    DenseMatrix c(a.columns, b.columns);
+    const int m = narrow(a.columns), n = narrow(b.columns), k = narrow(a.rows);
+    const int lda = leading(a.rows), ldb = leading(b.rows), ldc = leading(c.rows);
+    const double alpha = 1.0, beta = 0.0;
+    if (m > 0 && n > 0 && k > 0)
+        dgemm_("T", "N", &m, &n, &k, &alpha, a.value.data(), &lda, b.value.data(), &ldb, &beta, c.value.data(), &ldc);
+    return c;
+}
+
+DenseMatrix lower_times_transpose(const DenseMatrix& lower) {
+    DenseMatrix product(lower.rows, lower.rows);
+    const int n = narrow(lower.rows), lda = leading(lower.rows);
+    const double alpha = 1.0, beta = 0.0;
+    DenseMatrix clean = lower;
+    for (std::int64_t j = 0; j < clean.columns; ++j)
+        for (std::int64_t i = 0; i < j; ++i) clean(i, j) = 0.0;
+    if (n > 0) dsyrk_("L", "N", &n, &n, &alpha, clean.value.data(), &lda, &beta, product.value.data(), &lda);
+    mirror_lower(product);
+    return product;
+}
+
+DenseMatrix inverse_of_factor(const DenseMatrix& lower) {
+    DenseMatrix inverse = lower;
+    const int n = narrow(lower.rows), lda = leading(lower.rows);
+    int info = 0;
+    if (n > 0) dpotri_("L", &n, inverse.value.data(), &lda, &info);
+    if (info != 0) fail(DELAM_ERROR_NUMERICAL, "a zero pivot in the boundary block of a subdomain (row ", info, ")");
+    mirror_lower(inverse);
+    return inverse;
+}
+
+DenseMatrix solve_general(DenseMatrix a, DenseMatrix b) {
+    const int n = narrow(a.rows), nrhs = narrow(b.columns), lda = leading(a.rows), ldb = leading(b.rows);
+    std::vector<int> pivot(static_cast<std::size_t>(n));
+    int info = 0;
+    if (n > 0) dgesv_(&n, &nrhs, a.value.data(), &lda, pivot.data(), b.value.data(), &ldb, &info);
+    if (info != 0) fail(DELAM_ERROR_NUMERICAL, "a singular small system (pivot ", info, ")");
+    return b;
+}
+
+Eigen eigen_symmetric(DenseMatrix a) {
+    Eigen result{std::vector<double>(static_cast<std::size_t>(a.rows)), std::move(a)};
+    const int n = narrow(result.vector.rows), lda = leading(result.vector.rows);
+    if (n == 0) return result;
+    int info = 0, query = -1;
+    double size = 0.0;
+    dsyev_("V", "L", &n, result.vector.value.data(), &lda, result.value.data(), &size, &query, &info);
+    const int lwork = static_cast<int>(size);
+    std::vector<double> work(static_cast<std::size_t>(lwork));
+    dsyev_("V", "L", &n, result.vector.value.data(), &lda, result.value.data(), work.data(), &lwork, &info);
+    if (info != 0) fail(DELAM_ERROR_NUMERICAL, "the eigenvalues of a block of ", n, " rows did not converge");
+    return result;
+}
+
+PivotedColumns pivoted_columns(DenseMatrix a, double tolerance) {
+    const int m = narrow(a.rows), lda = leading(a.rows);
+    if (a.columns > 2000000000) fail(DELAM_ERROR_MEMORY, "too many columns in a rank-revealing factorisation: ", a.columns);
+    const int n = static_cast<int>(a.columns);
+    PivotedColumns result{std::vector<std::int64_t>(static_cast<std::size_t>(n)), 0};
+    if (m == 0 || n == 0) {
+        std::iota(result.order.begin(), result.order.end(), std::int64_t{0});
+        return result;
+    }
+    std::vector<int> pivot(static_cast<std::size_t>(n), 0);
+    std::vector<double> tau(static_cast<std::size_t>(std::min(m, n)));
+    int info = 0, query = -1;
+    double size = 0.0;
+    dgeqp3_(&m, &n, a.value.data(), &lda, pivot.data(), tau.data(), &size, &query, &info);
+    const int lwork = static_cast<int>(size);
+    std::vector<double> work(static_cast<std::size_t>(lwork));
+    dgeqp3_(&m, &n, a.value.data(), &lda, pivot.data(), tau.data(), work.data(), &lwork, &info);
+    for (int j = 0; j < n; ++j) result.order[static_cast<std::size_t>(j)] = pivot[static_cast<std::size_t>(j)] - 1;
+    const double largest = std::abs(a(0, 0));
+    for (int j = 0; j < std::min(m, n); ++j)
+        if (std::abs(a(j, j)) > tolerance * largest) result.rank = j + 1;
+    return result;
+}
+
+SemidefiniteFactor::SemidefiniteFactor(DenseMatrix a, double tolerance) : factor_(std::move(a)) {
+    const int n = narrow(factor_.rows), lda = leading(factor_.rows);
+    pivot_.resize(static_cast<std::size_t>(n));
+    scale_.resize(static_cast<std::size_t>(n));
+    if (n == 0) return;
+    for (int i = 0; i < n; ++i)
+        scale_[static_cast<std::size_t>(i)] = factor_(i, i) > 0.0 ? 1.0 / std::sqrt(factor_(i, i)) : 0.0;
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) factor_(i, j) *= scale_[static_cast<std::size_t>(i)] * scale_[static_cast<std::size_t>(j)];
+    std::vector<int> pivot(static_cast<std::size_t>(n));
+    std::vector<double> work(static_cast<std::size_t>(2 * n));
+    int rank = 0, info = 0;
+    dpstrf_("L", &n, factor_.value.data(), &lda, pivot.data(), &rank, &tolerance, work.data(), &info);
+    for (int i = 0; i < n; ++i) pivot_[static_cast<std::size_t>(i)] = pivot[static_cast<std::size_t>(i)] - 1;
+    rank_ = rank;
+}
+
+void SemidefiniteFactor::solve(std::span<double> x) const {
+    const int n = static_cast<int>(rank_), lda = leading(factor_.rows);
+    std::vector<double> y(static_cast<std::size_t>(n));
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] = scale_[static_cast<std::size_t>(pivot_[i])] * x[static_cast<std::size_t>(pivot_[i])];
+    if (n > 0) {
+        dtrsv_("L", "N", "N", &n, factor_.value.data(), &lda, y.data(), &one);
+        dtrsv_("L", "T", "N", &n, factor_.value.data(), &lda, y.data(), &one);
+    }
+    std::fill(x.begin(), x.end(), 0.0);
+    for (std::size_t i = 0; i < y.size(); ++i) x[static_cast<std::size_t>(pivot_[i])] = scale_[static_cast<std::size_t>(pivot_[i])] * y[i];
+}
+
+}  // namespace delam

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Dense column-major matrices and the few LAPACK kernels that the reduction needs.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace delam {
+
+struct DenseMatrix {
+    std::int64_t rows = 0;
+    std::int64_t columns = 0;
+    std::vector<double> value;  // column-major
+
+    DenseMatrix() = default;
+    DenseMatrix(std::int64_t r, std::int64_t c) : rows(r), columns(c), value(static_cast<std::size_t>(r * c), 0.0) {}
+    double& operator()(std::int64_t i, std::int64_t j) { return value[static_cast<std::size_t>(i + j * rows)]; }
+    double operator()(std::int64_t i, std::int64_t j) const { return value[static_cast<std::size_t>(i + j * rows)]; }
+};
+
+double dot(std::span<const double> x, std::span<const double> y);
+// y += a x
+void add_scaled(double a, std::span<const double> x, std::span<double> y);
+// y = S x, S symmetric with its lower triangle given (BLAS dsymv).
+void multiply_symmetric(const DenseMatrix& s, std::span<const double> x, std::span<double> y);
+// C = A B
+DenseMatrix multiply(const DenseMatrix& a, const DenseMatrix& b);
+// C = A^T B
+DenseMatrix multiply_transposed(const DenseMatrix& a, const DenseMatrix& b);
+// L L^T, full symmetric, from a lower triangle (the upper one is taken as zero).
+DenseMatrix lower_times_transpose(const DenseMatrix& lower);
+// (L L^T)^-1, full symmetric (LAPACK dpotri).
+DenseMatrix inverse_of_factor(const DenseMatrix& lower);
+// X with A X = B for a small general A (LAPACK dgesv); Error(DELAM_ERROR_NUMERICAL) when A is singular.
+DenseMatrix solve_general(DenseMatrix a, DenseMatrix b);
+
+// Eigenpairs of a symmetric matrix, ascending; vectors in columns (LAPACK dsyev).
+struct Eigen {
+    std::vector<double> value;
+    DenseMatrix vector;
+};
+Eigen eigen_symmetric(DenseMatrix a);
+
+// Columns of A in the order of a rank-revealing QR (LAPACK dgeqp3), and its numerical rank for a relative tolerance on the
+// diagonal of R.
+struct PivotedColumns {
+    std::vector<std::int64_t> order;
+    std::int64_t rank;
+};
+PivotedColumns pivoted_columns(DenseMatrix a, double tolerance);
+
+// Symmetric positive semi-definite matrix by pivoted Cholesky (LAPACK dpstrf). solve() gives one solution of a consistent
+// system, zero in the variables that were not pivots: a generalised inverse. The matrix is scaled to a unit diagonal first;
+// `tolerance` is the smallest pivot of the scaled matrix that counts.
+class SemidefiniteFactor {
+public:
+    SemidefiniteFactor() = default;
+    explicit SemidefiniteFactor(DenseMatrix a, double tolerance);
+    void solve(std::span<double> x) const;
+    std::int64_t rank() const { return rank_; }
+    std::int64_t size() const { return factor_.rows; }
+
+private:
+    DenseMatrix factor_;
+    std::vector<double> scale_;
+    std::vector<std::int64_t> pivot_;
+    std::int64_t rank_ = 0;
+};
+
+}  // namespace delam

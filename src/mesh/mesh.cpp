@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+#include "mesh/faces.hpp"
+#include "mesh/shape.hpp"
+
+namespace delam {
+
+const CellTopology& topology(CellType type) {
+    static constexpr CellTopology tri3{2, 3, 3, 2, {{{0, 1}, {1, 2}, {2, 0}}}};
+    static constexpr CellTopology quad4{2, 4, 4, 2, {{{0, 1}, {1, 2}, {2, 3}, {3, 0}}}};
+    static constexpr CellTopology tet4{3, 4, 4, 3, {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}}};
+    static constexpr CellTopology hex8{
+        3, 8, 6, 4, {{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}}};
+    switch (type) {
+        case CellType::tri3: return tri3;
+        case CellType::quad4: return quad4;
+        case CellType::tet4: return tet4;
+        case CellType::hex8: return hex8;
+    }
+    fail(DELAM_ERROR_ARGUMENT, "cell type ", static_cast<std::int32_t>(type), ": must be 1 (tri3) .. 4 (hex8)");
+}
+
+Mesh::Mesh(int dimension, std::span<const double> nodes) : dimension_(dimension), nodes_(nodes.begin(), nodes.end()) {
+    if (dimension != 2 && dimension != 3) fail(DELAM_ERROR_ARGUMENT, "dimension ", dimension, ": must be 2 or 3");
+    if (nodes.empty() || nodes.size() % at(dimension) != 0)
+        fail(DELAM_ERROR_ARGUMENT, nodes.size(), " node coordinates: must be a positive multiple of ", dimension);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        if (!std::isfinite(nodes[i]))
+            fail(DELAM_ERROR_ARGUMENT, "node ", i / at(dimension), ", coordinate ", i % at(dimension), ": ", nodes[i],
+                 " is not finite");
+    node_label_.assign(at(node_count()), -1);
+}
+
+namespace {
+
+// Room for `more` entries, growing by half at least, so that cells may come in small portions.
+template <class T>
+void make_room(std::vector<T>& v, std::size_t more) {
+    if (v.capacity() - v.size() < more) v.reserve(std::max(v.size() + more, v.capacity() + v.capacity() / 2));
+}
+
+}  // namespace
+
+void Mesh::add_cells(CellType type, std::span<const std::int64_t> connectivity, std::span<const std::int32_t> labels) {
+    const CellTopology& shape = topology(type);
+    const std::size_t per_cell = at(shape.nodes);
+    const std::size_t dim = at(dimension_);
+    if (shape.dimension != dimension_)
+        fail(DELAM_ERROR_ARGUMENT, shape.dimension, "D cells in a ", dimension_, "D mesh");
+    if (connectivity.size() % per_cell != 0)
+        fail(DELAM_ERROR_ARGUMENT, connectivity.size(), " nodes of cells: must be a multiple of ", per_cell);
+    const std::size_t count = connectivity.size() / per_cell;
+    if (!labels.empty() && labels.size() != count)
+        fail(DELAM_ERROR_ARGUMENT, labels.size(), " body labels for ", count, " cells");
+
+    std::vector<std::int32_t> joined;  // labels of bodies that an interface holds already, ascending
+    for (const InterfaceGeometry& i : interfaces_)
+        for (const std::int32_t body : {i.body_a, i.body_b}) joined.push_back(body_label(body));
+    std::sort(joined.begin(), joined.end());
+
+    std::vector<std::int64_t> taken;  // nodes that had no body before, given back on error
+    std::vector<std::int32_t> new_labels = labels_;
+    std::vector<double> coordinates(per_cell * dim);
+    const auto label_of = [&](std::size_t c) { return labels.empty() ? 0 : labels[c]; };
+    const auto check_cell = [&](std::size_t c) {
+        const std::size_t number = cell_type_.size() + c;
+        const std::int32_t label = label_of(c);
+        if (label < 0) fail(DELAM_ERROR_ARGUMENT, "cell ", number, ": body ", label, ": must be >= 0");
+        if (std::binary_search(joined.begin(), joined.end(), label))
+            fail(DELAM_ERROR_STATE, "cell ", number, ": body ", label, " has an interface already; add all its cells before");
+        for (std::size_t k = 0; k < per_cell; ++k) {
+            const std::int64_t node = connectivity[c * per_cell + k];
+            if (node < 0 || node >= node_count())
+                fail(DELAM_ERROR_ARGUMENT, "cell ", number, " (body ", label, "): node ", node, ": must be in 0..",
+                     node_count() - 1);
+            std::int32_t& owner = node_label_[at(node)];
+            if (owner >= 0 && owner != label)
+                fail(DELAM_ERROR_MESH, "node ", node, " belongs to bodies ", owner, " and ", label,
+                     "; each body needs nodes of its own");
+            if (owner < 0) taken.push_back(node);
+            owner = label;
+            std::copy_n(nodes_.begin() + node * dimension_, dim, coordinates.begin() + static_cast<std::ptrdiff_t>(k * dim));
+        }
+        // The Jacobian of a sound cell is comparable with the product of its extents; beside their largest power, 1e-14
+        // leaves room for very flat cells and is still far above rounding.
+        double extent = 0.0;
+        for (std::size_t k = 0; k < per_cell * dim; ++k)
+            extent = std::max(extent, std::abs(coordinates[k] - coordinates[k % dim]));
+        const double jacobian = smallest_jacobian(type, coordinates);
+        if (!(jacobian > 1e-14 * std::pow(extent, dimension_)))
+            fail(DELAM_ERROR_MESH, "cell ", number, " (body ", label, "): smallest Jacobian ", jacobian,
+                 jacobian > 0.0 ? " is nothing beside its size: degenerate" : " <= 0: inverted or degenerate");
+        if (new_labels.empty() || new_labels.back() != label) {
+            const auto place = std::lower_bound(new_labels.begin(), new_labels.end(), label);
+            if (place == new_labels.end() || *place != label) new_labels.insert(place, label);
+        }
+    };
+    try {
+        for (std::size_t c = 0; c < count; ++c) check_cell(c);
+        make_room(cell_type_, count);
+        make_room(cell_label_, count);
+        make_room(cell_offset_, count);
+        make_room(connectivity_, connectivity.size());
+    } catch (...) {
+        for (const std::int64_t node : taken) node_label_[at(node)] = -1;
+        throw;
+    }
+
+    // Nothing below can fail. A new label shifts the indices of the bodies above it.
+    for (InterfaceGeometry& i : interfaces_) {
+        for (std::int32_t* body : {&i.body_a, &i.body_b}) {
+            const auto place = std::lower_bound(new_labels.begin(), new_labels.end(), body_label(*body));
+            *body = static_cast<std::int32_t>(place - new_labels.begin());
+        }
+    }
+    labels_.swap(new_labels);
+    for (std::size_t c = 0; c < count; ++c) {
+        cell_type_.push_back(type);
+        cell_label_.push_back(label_of(c));
+        cell_offset_.push_back(cell_offset_.back() + shape.nodes);
+    }
+    connectivity_.insert(connectivity_.end(), connectivity.begin(), connectivity.end());
+}
+
+std::int32_t Mesh::body_of_label(std::int32_t label) const {
+    const auto place = std::lower_bound(labels_.begin(), labels_.end(), label);
+    return place == labels_.end() || *place != label ? -1 : static_cast<std::int32_t>(place - labels_.begin());
+}
+
+std::int32_t Mesh::cell_body(std::int64_t c) const { return body_of_label(cell_label_[at(c)]); }
+
+std::int32_t Mesh::node_body(std::int64_t node) const {
+    const std::int32_t label = node_label_[at(node)];
+    return label < 0 ? -1 : body_of_label(label);
+}
+
+std::vector<std::int64_t> Mesh::body_nodes(std::int32_t body) const {
+    std::vector<std::int64_t> nodes;
+    for (std::int64_t n = 0; n < node_count(); ++n)
+        if (node_label_[at(n)] == body_label(body)) nodes.push_back(n);
+    return nodes;
+}
+
+std::vector<std::int64_t> Mesh::body_cells(std::int32_t body) const {
+    std::vector<std::int64_t> cells;
+    for (std::int64_t c = 0; c < cell_count(); ++c)
+        if (cell_label_[at(c)] == body_label(body)) cells.push_back(c);
+    return cells;
+}
+
+double Mesh::size() const {
+    double largest = 0.0;
+    const std::size_t dim = at(dimension_);
+    for (std::size_t axis = 0; axis < dim; ++axis) {
+        double low = nodes_[axis];
+        double high = low;
+        for (std::size_t i = axis; i < nodes_.size(); i += dim) {
+            low = std::min(low, nodes_[i]);
+            high = std::max(high, nodes_[i]);
+        }
+        largest = std::max(largest, high - low);
+    }
+    return largest;
+}
+
+std::vector<BoundaryFace> boundary_faces(const Mesh& mesh, std::int32_t body) {
+    const std::vector<std::int64_t> cells = mesh.body_cells(body);
+    const FaceTable table = match_faces(mesh, cells);
+    std::vector<BoundaryFace> faces;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const CellTopology& shape = topology(mesh.cell_type(cells[i]));
+        for (int f = 0; f < shape.faces; ++f)
+            if (table.neighbour[i * at(FaceTable::stride) + at(f)] < 0)
+                faces.push_back({cells[i], shape.face_nodes, face_nodes(mesh, cells[i], f)});
+    }
+    return faces;
+}
+
+}  // namespace delam

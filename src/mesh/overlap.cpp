@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/overlap.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "mesh/box_tree.hpp"
+#include "mesh/faces.hpp"
+
+namespace delam {
+
+namespace {
+
+Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Point cross(const Point& a, const Point& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+std::span<const std::int64_t> nodes_of(const BoundaryFace& face) { return std::span(face.node).first(at(face.nodes)); }
+
+Point position(const Mesh& mesh, std::int64_t node) {
+    Point p{};
+    std::copy(mesh.node(node).begin(), mesh.node(node).end(), p.begin());
+    return p;
+}
+
+Point unit_normal(const Mesh& mesh, const BoundaryFace& face) {
+    Point n = area_vector(mesh, nodes_of(face));
+    const double length = std::sqrt(dot(n, n));
+    for (double& component : n) component /= length;
+    return n;
+}
+
+bool on_segment(const Point& p, const Point& a, const Point& b, double distance) {
+    const Point t = b - a;
+    const double share = dot(p - a, t) / dot(t, t);
+    if (!(share >= 0.0 && share <= 1.0)) return false;
+    const Point off = p - Point{a[0] + share * t[0], a[1] + share * t[1], a[2] + share * t[2]};
+    return dot(off, off) <= distance * distance;
+}
+
+bool on_triangle(const Point& p, const Point& a, const Point& b, const Point& c, double distance) {
+    const Point n = cross(b - a, c - a);
+    const double nn = dot(n, n);
+    const double height = dot(p - a, n);
+    if (!(height * height <= distance * distance * nn)) return false;
+    const double rounding = -1e-12 * nn;
+    return dot(cross(b - a, p - a), n) >= rounding && dot(cross(c - b, p - b), n) >= rounding &&
+           dot(cross(a - c, p - c), n) >= rounding;
+}
+
+bool on_face(const Mesh& mesh, const BoundaryFace& face, const Point& p, double distance) {
+    std::array<Point, 4> x;
+    for (std::size_t k = 0; k < at(face.nodes); ++k) x[k] = position(mesh, face.node[k]);
+    if (face.nodes == 2) return on_segment(p, x[0], x[1], distance);
+    return on_triangle(p, x[0], x[1], x[2], distance) || (face.nodes == 4 && on_triangle(p, x[0], x[2], x[3], distance));
+}
+
+// One way round: the centroid of a face, and its corners drawn in by a thousandth, so that faces which only touch along
+// their rim do not count.
+std::pair<std::int64_t, std::int64_t> find_covered(const Mesh& mesh, std::span<const BoundaryFace> under,
+                                                   std::span<const BoundaryFace> over, double distance) {
+    std::vector<Box> boxes;
+    boxes.reserve(under.size());
+    for (const BoundaryFace& face : under) {
+        Box box{position(mesh, face.node[0]), position(mesh, face.node[0])};
+        for (const std::int64_t node : nodes_of(face)) {
+            const Point p = position(mesh, node);
+            for (std::size_t i = 0; i < 3; ++i) {
+                box.low[i] = std::min(box.low[i], p[i]);
+                box.high[i] = std::max(box.high[i], p[i]);
+            }
+        }
+        for (std::size_t i = 0; i < 3; ++i) {
+            box.low[i] -= distance;
+            box.high[i] += distance;
+        }
+        boxes.push_back(box);
+    }
+    const BoxTree tree(std::move(boxes));
+    for (std::size_t f = 0; f < over.size(); ++f) {
+        const Point normal = unit_normal(mesh, over[f]);
+        Point centroid{};
+        for (const std::int64_t node : nodes_of(over[f]))
+            for (std::size_t i = 0; i < 3; ++i) centroid[i] += position(mesh, node)[i] / over[f].nodes;
+        std::vector<Point> probes{centroid};
+        for (const std::int64_t node : nodes_of(over[f])) {
+            const Point p = position(mesh, node);
+            Point q;
+            for (std::size_t i = 0; i < 3; ++i) q[i] = p[i] + 1e-3 * (centroid[i] - p[i]);
+            probes.push_back(q);
+        }
+        std::int64_t found = -1;
+        for (const Point& probe : probes) {
+            tree.containing(probe, [&](std::int64_t g) {
+                if (found < 0 && dot(normal, unit_normal(mesh, under[at(g)])) < -0.7 &&
+                    on_face(mesh, under[at(g)], probe, distance))
+                    found = g;
+            });
+            if (found >= 0) return {found, static_cast<std::int64_t>(f)};
+        }
+    }
+    return {-1, -1};
+}
+
+}  // namespace
+
+std::pair<std::int64_t, std::int64_t> find_overlap(const Mesh& mesh, std::span<const BoundaryFace> faces_a,
+                                                   std::span<const BoundaryFace> faces_b, double distance) {
+    const auto [a, b] = find_covered(mesh, faces_a, faces_b, distance);
+    if (a >= 0) return {a, b};
+    const auto [b2, a2] = find_covered(mesh, faces_b, faces_a, distance);
+    return {a2, b2};
+}
+
+}  // namespace delam

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reduction/feti/feti.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "mesh/partition.hpp"
+#include "reduction/feti/projected_cg.hpp"
+
+namespace delam {
+
+namespace {
+
+std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+// Largest part of a load's resultant that may be left unbalanced before the part counts as not held.
+constexpr double unbalanced = 1e-8;
+
+// The dense boundary blocks pay as long as a subdomain stays small: about 20,000 DOFs in the plane, 4,000 in space.
+std::int64_t chosen_subdomains(const Problem& problem) {
+    if (problem.options.subdomains > 0) return problem.options.subdomains;
+    const std::int64_t dofs = problem.mesh->node_count() * problem.mesh->dimension();
+    const std::int64_t size = problem.mesh->dimension() == 2 ? 20000 : 4000;
+    return std::max<std::int64_t>(problem.mesh->body_count(), (dofs + size - 1) / size);
+}
+
+}  // namespace
+
+Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monitor_(monitor) {
+    const std::vector<std::vector<std::int64_t>> cells = cut();
+    DualRowBuilder builder(problem_, subdomains_, problem_.options.gluing);
+    const auto touched = builder.touched(subdomains_.size());
+    const bool with_schur = problem_.options.preconditioner == "dirichlet" || problem_.options.preconditioner == "series";
+    for (std::size_t s = 0; s < subdomains_.size(); ++s) {
+        monitor_.progress("condense", static_cast<std::int64_t>(s), static_cast<std::int64_t>(subdomains_.size()));
+        Subdomain& subdomain = subdomains_[s];
+        subdomain.boundary = touched[s];
+        subdomain.condense(*problem_.mesh, cells[s], *problem_.material[index(subdomain.body)], problem_.plane, with_schur);
+    }
+    rows_ = builder.finish(subdomains_);
+    copies_ = builder.copies();
+    b_transposed_ = transpose(rows_.b);
+    scaling_ = make_scaling(rows_, subdomains_, problem_.options.scaling);
+    preconditioner_ =
+        std::make_unique<FetiPreconditioner>(rows_, subdomains_, scaling_, problem_.options.preconditioner);
+    coarse_ = std::make_unique<CoarseProblem>(rows_, subdomains_);
+
+    flexibility_diagonal_.assign(index(rows_.count()), 0.0);
+    for (std::size_t s = 0; s < subdomains_.size(); ++s) {
+        const std::int64_t first = rows_.offset[s], last = rows_.offset[s + 1];
+        for (std::int64_t r = 0; r < rows_.b.rows; ++r)
+            for (std::int64_t i = rows_.b.start[index(r)]; i < rows_.b.start[index(r) + 1]; ++i)
+                for (std::int64_t j = rows_.b.start[index(r)]; j < rows_.b.start[index(r) + 1]; ++j) {
+                    const std::int64_t di = rows_.b.column[index(i)], dj = rows_.b.column[index(j)];
+                    if (di < first || di >= last || dj < first || dj >= last) continue;
+                    flexibility_diagonal_[index(r)] += rows_.b.value[index(i)] * rows_.b.value[index(j)] *
+                                                       subdomains_[s].flexibility(di - first, dj - first);
+                }
+    }
+    // A row on held DOFs alone has no flexibility in this generalised inverse; the projector only needs a scale.
+    double typical = 0.0;
+    for (const double f : flexibility_diagonal_) typical = std::max(typical, f);
+    for (double& f : flexibility_diagonal_) f = std::max(f, 1e-3 * typical);
+    prescribed_ = problem_.prescribed_matrix();
+    precompute_forces();
+}
+
+// Cells of each subdomain.
+std::vector<std::vector<std::int64_t>> Feti::cut() {
+    const Mesh& mesh = *problem_.mesh;
+    const Partition parts = partition(mesh, chosen_subdomains(problem_));
+    subdomains_.resize(parts.subdomain_body.size());
+    for (std::size_t s = 0; s < subdomains_.size(); ++s) subdomains_[s].body = parts.subdomain_body[s];
+    std::vector<std::vector<std::int64_t>> cells(subdomains_.size());
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
+        const std::size_t s = index(parts.cell_subdomain[index(c)]);
+        cells[s].push_back(c);
+        subdomains_[s].nodes.insert(subdomains_[s].nodes.end(), mesh.cell(c).begin(), mesh.cell(c).end());
+    }
+    for (Subdomain& s : subdomains_) {
+        std::sort(s.nodes.begin(), s.nodes.end());
+        s.nodes.erase(std::unique(s.nodes.begin(), s.nodes.end()), s.nodes.end());
+    }
+    return cells;
+}
+
+void Feti::precompute_forces() {
+    const std::size_t patterns = problem_.patterns.size();
+    const int dim = problem_.mesh->dimension();
+    force_.assign(patterns, std::vector<std::vector<double>>(subdomains_.size()));
+    for (const NodalForce& f : problem_.forces) {
+        const NodeCopy& copy = copies_[index(f.dof / dim)].front();
+        auto& local = force_[index(f.pattern)][index(copy.subdomain)];
+        if (local.empty()) local.assign(index(subdomains_[index(copy.subdomain)].dofs()), 0.0);
+        local[index(copy.local * dim + f.dof % dim)] += f.value;
+    }
+    force_jump_.assign(patterns, {});
+    force_resultant_.assign(patterns, {});
+    force_work_ = DenseMatrix(static_cast<std::int64_t>(patterns), static_cast<std::int64_t>(patterns));
+    for (std::size_t p = 0; p < patterns; ++p) {
+        if (problem_.patterns[p].drives != Pattern::Drives::force) continue;
+        std::vector<double> boundary(index(rows_.boundary_count()), 0.0);
+        force_jump_[p].assign(index(rows_.count()), 0.0);
+        force_resultant_[p].assign(index(coarse_->size()), 0.0);
+        std::size_t first = 0;
+        for (std::size_t s = 0; s < subdomains_.size(); ++s) {
+            const Subdomain& sub = subdomains_[s];
+            const auto& f = force_[p][s];
+            if (!f.empty()) {
+                std::vector<double> u(f.size());
+                sub.apply_inverse(f, u);
+                for (std::size_t i = 0; i < sub.boundary.size(); ++i)
+                    boundary[index(rows_.offset[s]) + i] = u[index(sub.boundary[i])];
+                for (std::int64_t k = 0; k < sub.rigid_count; ++k)
+                    for (std::size_t i = 0; i < f.size(); ++i)
+                        force_resultant_[p][first + index(k)] += sub.rigid(static_cast<std::int64_t>(i), k) * f[i];
+                for (std::size_t q = 0; q < patterns; ++q)
+                    if (!force_[q][s].empty())
+                        force_work_(static_cast<std::int64_t>(q), static_cast<std::int64_t>(p)) += dot(force_[q][s], u);
+            }
+            first += index(sub.rigid_count);
+        }
+        multiply(rows_.b, boundary, force_jump_[p]);
+    }
+}
+
+void Feti::apply_flexibility(std::span<const double> lambda, std::span<double> jumps) const {
+    std::vector<double> f(index(rows_.boundary_count())), u(f.size());
+    multiply(b_transposed_, lambda, f);
+    for (std::size_t s = 0; s < subdomains_.size(); ++s) {
+        const std::size_t first = index(rows_.offset[s]), size = subdomains_[s].boundary.size();
+        multiply_symmetric(subdomains_[s].flexibility, std::span<const double>(f).subspan(first, size),
+                           std::span<double>(u).subspan(first, size));
+    }
+    multiply(rows_.b, u, jumps);
+}
+
+void Feti::solve(const Springs& springs, std::span<const double> theta, Response& response) {
+    const std::size_t rows = index(rows_.count()), jumps = index(rows_.jump_count), patterns = theta.size();
+    const std::size_t first_constraint = rows - index(rows_.constraint_count);
+    monitor_.progress("displacement", 0, 0);
+
+    std::vector<double> compliance(rows, 0.0), weight(rows);
+    std::vector<std::uint8_t> active(rows, 1);
+    for (std::size_t i = 0; i < jumps; ++i) {
+        if (springs.held[i] != 0) continue;
+        if (springs.stiffness[i] > 0.0)
+            compliance[i] = 1.0 / springs.stiffness[i];
+        else
+            active[i] = 0;
+    }
+    for (std::size_t i = 0; i < rows; ++i) weight[i] = active[i] != 0 ? 1.0 / (flexibility_diagonal_[i] + compliance[i]) : 0.0;
+    coarse_->set_weights(weight);
+    preconditioner_->update(springs);
+
+    std::vector<double> b(rows, 0.0), prescribed(index(rows_.constraint_count), 0.0), e(index(coarse_->size()), 0.0);
+    for (std::size_t p = 0; p < patterns; ++p) {
+        if (theta[p] == 0.0) continue;
+        for (std::size_t d = 0; d < prescribed.size(); ++d) prescribed[d] += prescribed_[d * patterns + p] * theta[p];
+        if (force_jump_[p].empty()) continue;
+        add_scaled(theta[p], force_jump_[p], b);
+        add_scaled(theta[p], force_resultant_[p], e);
+    }
+    for (std::size_t d = 0; d < prescribed.size(); ++d) b[first_constraint + d] -= prescribed[d];
+    const auto mask = [&active](std::span<double> x) {
+        for (std::size_t i = 0; i < x.size(); ++i)
+            if (active[i] == 0) x[i] = 0.0;
+    };
+    std::vector<double> rhs = b;
+    mask(rhs);
+
+    std::vector<double> lambda = response.multipliers;
+    lambda.resize(rows, 0.0);
+    mask(lambda);
+    double resultant = 0.0;
+    for (const double v : e) resultant = std::max(resultant, std::abs(v));
+    const double left = coarse_->balance(e, lambda, resultant);
+    response.balanced = resultant == 0.0 || left <= unbalanced;
+    if (!response.balanced) return;
+
+    ProjectedSystem system;
+    system.apply = [&](std::span<const double> x, std::span<double> y) {
+        apply_flexibility(x, y);
+        for (std::size_t i = 0; i < rows; ++i) y[i] = active[i] != 0 ? y[i] + compliance[i] * x[i] : 0.0;
+    };
+    system.precondition = [&](std::span<const double> r, std::span<double> z) {
+        preconditioner_->apply(r, z);
+        mask(z);
+    };
+    system.project = [&](std::span<double> x) { coarse_->project(x); };
+    system.project_transposed = [&](std::span<double> x) {
+        coarse_->project_transposed(x);
+        mask(x);
+    };
+    const CgResult cg = projected_cg(system, rhs, lambda, problem_.options.linear_tolerance, problem_.options.linear_limit,
+                                     [&](std::int64_t iteration) { monitor_.progress("linear solve", iteration, 0); });
+    response.iterations = cg.iterations;
+    response.residual = cg.residual;
+    response.converged = cg.converged;
+    coarse_->balance(e, lambda, resultant);
+
+    // A lambda - b = G^T alpha, and B u = B K^+ f - F lambda + G^T alpha.
+    std::vector<double> f_lambda(rows), residual(rows);
+    apply_flexibility(lambda, f_lambda);
+    for (std::size_t i = 0; i < rows; ++i)
+        residual[i] = active[i] != 0 ? f_lambda[i] + compliance[i] * lambda[i] - b[i] : 0.0;
+    response.rigid = coarse_->rigid_coefficients(residual);
+    const std::vector<double> rigid_jump = coarse_->apply_transposed(response.rigid);
+
+    response.jump.assign(jumps, 0.0);
+    response.force.assign(lambda.begin(), lambda.begin() + rows_.jump_count);
+    double work_of_multipliers = 0.0;
+    for (std::size_t i = 0; i < jumps; ++i) {
+        if (active[i] == 0)
+            response.jump[i] = b[i] - f_lambda[i] + rigid_jump[i];
+        else
+            response.jump[i] = compliance[i] * lambda[i];
+        work_of_multipliers += lambda[i] * response.jump[i];
+    }
+    response.reaction.assign(prescribed.size(), 0.0);
+    for (std::size_t d = 0; d < prescribed.size(); ++d) {
+        response.reaction[d] = -lambda[first_constraint + d];
+        work_of_multipliers += lambda[first_constraint + d] * prescribed[d];
+    }
+    response.conjugate.assign(patterns, 0.0);
+    response.load_potential = 0.0;
+    for (std::size_t p = 0; p < patterns; ++p) {
+        if (force_jump_[p].empty()) {
+            for (std::size_t d = 0; d < prescribed.size(); ++d)
+                response.conjugate[p] += prescribed_[d * patterns + p] * response.reaction[d];
+            continue;
+        }
+        double displacement = dot(force_resultant_[p], response.rigid) - dot(force_jump_[p], lambda);
+        for (std::size_t q = 0; q < patterns; ++q)
+            displacement += force_work_(static_cast<std::int64_t>(p), static_cast<std::int64_t>(q)) * theta[q];
+        response.conjugate[p] = -displacement;
+        response.load_potential -= theta[p] * displacement;
+    }
+    response.stored_bulk = 0.5 * (-response.load_potential - work_of_multipliers);
+    response.multipliers = std::move(lambda);
+}
+
+std::vector<double> Feti::local_displacement(std::size_t subdomain, std::span<const double> theta, const Response& response,
+                                             std::vector<double>* load) const {
+    const Subdomain& sub = subdomains_[subdomain];
+    std::vector<double> f(index(sub.dofs()), 0.0), u(f.size());
+    for (std::size_t p = 0; p < theta.size(); ++p)
+        if (!force_[p][subdomain].empty()) add_scaled(theta[p], force_[p][subdomain], f);
+    for (std::size_t i = 0; i < sub.boundary.size(); ++i) {
+        const std::size_t d = index(rows_.offset[subdomain]) + i;
+        for (std::int64_t e = b_transposed_.start[d]; e < b_transposed_.start[d + 1]; ++e)
+            f[index(sub.boundary[i])] -=
+                b_transposed_.value[index(e)] * response.multipliers[index(b_transposed_.column[index(e)])];
+    }
+    sub.apply_inverse(f, u);
+    std::size_t first = 0;
+    for (std::size_t s = 0; s < subdomain; ++s) first += index(subdomains_[s].rigid_count);
+    for (std::int64_t k = 0; k < sub.rigid_count; ++k)
+        for (std::size_t i = 0; i < u.size(); ++i)
+            u[i] += sub.rigid(static_cast<std::int64_t>(i), k) * response.rigid[first + index(k)];
+    if (load != nullptr) *load = std::move(f);
+    return u;
+}
+
+std::vector<double> Feti::displacement(std::span<const double> theta, const Response& response) const {
+    const int dim = problem_.mesh->dimension();
+    std::vector<double> u(index(problem_.mesh->node_count() * dim), 0.0);
+    for (std::size_t s = 0; s < subdomains_.size(); ++s) {
+        const std::vector<double> local = local_displacement(s, theta, response, nullptr);
+        for (std::size_t i = 0; i < subdomains_[s].nodes.size(); ++i) {
+            const std::size_t node = index(subdomains_[s].nodes[i]);
+            for (int k = 0; k < dim; ++k)  // copies agree up to the tolerance of the solve: their mean
+                u[node * index(dim) + index(k)] += local[i * index(dim) + index(k)] / static_cast<double>(copies_[node].size());
+        }
+    }
+    return u;
+}
+
+double Feti::equilibrium_defect(std::span<const double> theta, const Response& response) const {
+    double worst = 0.0;
+    for (std::size_t s = 0; s < subdomains_.size(); ++s) {
+        std::vector<double> load;
+        const std::vector<double> u = local_displacement(s, theta, response, &load);
+        std::vector<double> force(u.size());
+        multiply(subdomains_[s].stiffness, u, force);
+        for (std::size_t i = 0; i < u.size(); ++i) worst = std::max(worst, std::abs(force[i] - load[i]));
+    }
+    return worst;
+}
+
+std::string Feti::description() const {
+    std::int64_t largest = 0;
+    double bytes = 0.0;
+    for (const Subdomain& s : subdomains_) {
+        const auto n = static_cast<std::int64_t>(s.boundary.size());
+        largest = std::max(largest, n);
+        bytes += 8.0 * static_cast<double>(n) * static_cast<double>(n) * (s.schur.rows > 0 ? 2.0 : 1.0);
+    }
+    return text("total FETI: ", subdomains_.size(), " subdomains, ", rows_.jump_count, " jump + ", rows_.glue_count, " gluing + ",
+                rows_.constraint_count, " constraint multipliers, coarse problem ", coarse_->size(), ", preconditioner ",
+                problem_.options.preconditioner, ", largest boundary ", largest, " DOFs, dense blocks ", bytes / 1048576.0,
+                " MiB");
+}
+
+}  // namespace delam

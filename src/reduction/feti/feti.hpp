@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Total FETI as a jump operator: all bodies are cut into floating subdomains; supports, gluing and interfaces act through multipliers.
+//
+//   [ F + C   -G^T ] [lambda]   [ B K^+ f - c ]        u = K^+ (f - B^T lambda) + R alpha
+//   [ -G        0  ] [alpha ] = [ -R^T f      ]        F = B K^+ B^T,  G = R^T B^T
+//
+// C is the compliance 1/s of the springs on jump rows, zero elsewhere; a row with s = 0 carries no force and is left out
+// (tagged primal in the slides), its jump follows from u. Slides: "FETI formulation", "Dual problem", "Active set strategy".
+#pragma once
+
+#include <memory>
+
+#include "base/monitor.hpp"
+#include "reduction/feti/coarse.hpp"
+#include "reduction/feti/preconditioner.hpp"
+#include "reduction/jump_operator.hpp"
+#include "scene/problem.hpp"
+
+namespace delam {
+
+class Feti final : public JumpOperator {
+public:
+    Feti(const Problem& problem, Monitor& monitor);
+    void solve(const Springs& springs, std::span<const double> theta, Response& response) override;
+    std::vector<double> displacement(std::span<const double> theta, const Response& response) const override;
+    double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
+    std::span<const std::uint8_t> prescribed_rows() const override { return scaling_.prescribed; }
+    std::string description() const override;
+
+private:
+    std::vector<std::vector<std::int64_t>> cut();
+    void precompute_forces();
+    void apply_flexibility(std::span<const double> lambda, std::span<double> jumps) const;
+    std::vector<double> local_displacement(std::size_t subdomain, std::span<const double> theta, const Response& response,
+                                           std::vector<double>* load) const;
+
+    const Problem problem_;
+    Monitor& monitor_;
+    std::vector<Subdomain> subdomains_;
+    std::vector<std::vector<NodeCopy>> copies_;
+    DualRows rows_;
+    SparseMatrix b_transposed_;
+    Scaling scaling_;
+    std::unique_ptr<FetiPreconditioner> preconditioner_;
+    std::unique_ptr<CoarseProblem> coarse_;
+    std::vector<double> flexibility_diagonal_;  // of F, per row
+
+    // Dead forces, per pattern: on the first copy of their nodes.
+    std::vector<double> prescribed_;                     // [constraints][patterns]
+    std::vector<std::vector<double>> force_jump_;        // B K^+ f, [rows]
+    std::vector<std::vector<double>> force_resultant_;   // R^T f, [coarse]
+    DenseMatrix force_work_;                             // f_p^T K^+ f_q
+    std::vector<std::vector<std::vector<double>>> force_; // [pattern][subdomain] local vector, empty where none
+};
+
+}  // namespace delam

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reduction/feti/preconditioner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+
+namespace delam {
+
+namespace {
+
+std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+// K restricted to the boundary.
+SparseMatrix boundary_block(const Subdomain& s) {
+    std::vector<std::int64_t> position(index(s.dofs()), -1);
+    for (std::size_t i = 0; i < s.boundary.size(); ++i) position[index(s.boundary[i])] = static_cast<std::int64_t>(i);
+    std::vector<Triplet> triplets;
+    for (std::size_t i = 0; i < s.boundary.size(); ++i) {
+        const std::size_t row = index(s.boundary[i]);
+        for (std::int64_t e = s.stiffness.start[row]; e < s.stiffness.start[row + 1]; ++e) {
+            const std::int64_t column = position[index(s.stiffness.column[index(e)])];
+            if (column >= 0) triplets.push_back({static_cast<std::int64_t>(i), column, s.stiffness.value[index(e)]});
+        }
+    }
+    const auto n = static_cast<std::int64_t>(s.boundary.size());
+    return from_triplets(n, n, std::move(triplets));
+}
+
+}  // namespace
+
+FetiPreconditioner::FetiPreconditioner(const DualRows& rows, const std::vector<Subdomain>& subdomains,
+                                       const Scaling& scaling, const std::string& kind)
+    : rows_(rows), subdomains_(subdomains), scaling_(scaling) {
+    kind_ = kind == "none" ? Kind::none : kind == "lumped" ? Kind::lumped : kind == "dirichlet" ? Kind::dirichlet : Kind::series;
+    if (kind_ == Kind::none) return;
+    scaled_transposed_ = transpose(scaling_.b_d);
+    if (kind_ == Kind::lumped)
+        for (const Subdomain& s : subdomains_) lumped_.push_back(boundary_block(s));
+    if (kind_ == Kind::series) build_pattern();
+}
+
+// base = E^T S~ E, assembled subdomain by subdomain from the jump rows that meet it.
+void FetiPreconditioner::build_pattern() {
+    struct Touch {
+        std::int64_t row;
+        std::int64_t dof;
+        double value;
+    };
+    std::vector<Triplet> triplets;
+    for (std::size_t s = 0; s < subdomains_.size(); ++s) {
+        std::vector<Touch> touches;
+        for (std::int64_t d = rows_.offset[s]; d < rows_.offset[s + 1]; ++d)
+            for (std::int64_t e = scaled_transposed_.start[index(d)]; e < scaled_transposed_.start[index(d) + 1]; ++e)
+                if (scaled_transposed_.column[index(e)] < rows_.jump_count)
+                    touches.push_back({scaled_transposed_.column[index(e)], d - rows_.offset[s], scaled_transposed_.value[index(e)]});
+        triplets.reserve(triplets.size() + touches.size() * touches.size());
+        for (const Touch& i : touches)
+            for (const Touch& j : touches)
+                triplets.push_back({i.row, j.row, i.value * j.value * subdomains_[s].schur(i.dof, j.dof)});
+    }
+    for (const auto& dependency : scaling_.dependencies)  // room for z z^T
+        for (const std::int64_t i : dependency.row)
+            for (const std::int64_t j : dependency.row)
+                if (i < rows_.jump_count && j < rows_.jump_count) triplets.push_back({i, j, 0.0});
+    for (std::int64_t r = 0; r < rows_.jump_count; ++r) triplets.push_back({r, r, 0.0});
+    base_ = from_triplets(rows_.jump_count, rows_.jump_count, std::move(triplets));
+    t_ = base_;
+    t_factor_ = std::make_unique<SparseCholesky>(t_);
+}
+
+void FetiPreconditioner::update(const Springs& springs) {
+    if (kind_ != Kind::series) return;
+    if (springs.stiffness == current_.stiffness && springs.held == current_.held) return;
+    in_e_.assign(index(rows_.jump_count), 0);
+    for (std::int64_t r = 0; r < rows_.jump_count; ++r) in_e_[index(r)] = springs.held[index(r)] == 0 ? 1 : 0;
+
+    // On a dependent direction z (B^T z = 0) the bodies are rigid, S~^-1 -> 0 there: S~ gets z z^T / delta with a delta well below the
+    // compliance of the springs that decide about z.
+    dependency_weight_.assign(scaling_.dependencies.size(), 0.0);
+    for (std::size_t k = 0; k < scaling_.dependencies.size(); ++k) {
+        double stiffest = 0.0;
+        for (const std::int64_t r : scaling_.dependencies[k].row)
+            if (r < rows_.jump_count && in_e_[index(r)] != 0) stiffest = std::max(stiffest, springs.stiffness[index(r)]);
+        dependency_weight_[k] = 1e3 * stiffest;
+    }
+
+    t_.value = base_.value;
+    const auto entry = [this](std::int64_t i, std::int64_t j) -> double& {
+        const auto begin = t_.column.begin() + t_.start[index(i)], end = t_.column.begin() + t_.start[index(i) + 1];
+        return t_.value[index(std::lower_bound(begin, end, j) - t_.column.begin())];
+    };
+    for (std::size_t k = 0; k < scaling_.dependencies.size(); ++k) {
+        const auto& d = scaling_.dependencies[k];
+        for (std::size_t i = 0; i < d.row.size(); ++i)
+            for (std::size_t j = 0; j < d.row.size(); ++j)
+                if (d.row[i] < rows_.jump_count && d.row[j] < rows_.jump_count)
+                    entry(d.row[i], d.row[j]) += dependency_weight_[k] * d.z[i] * d.z[j];
+    }
+    for (std::int64_t r = 0; r < rows_.jump_count; ++r) {
+        const bool in = in_e_[index(r)] != 0;
+        for (std::int64_t e = t_.start[index(r)]; e < t_.start[index(r) + 1]; ++e)
+            if (!in || in_e_[index(t_.column[index(e)])] == 0) t_.value[index(e)] = 0.0;
+        entry(r, r) = in ? entry(r, r) + springs.stiffness[index(r)] : 1.0;
+    }
+    // S~ is blind to motions that no other row resists; a shift far below anything that matters keeps T definite.
+    std::vector<double> diagonal(index(rows_.jump_count));
+    for (std::int64_t r = 0; r < rows_.jump_count; ++r) diagonal[index(r)] = entry(r, r);
+    double shift = 1e-14;
+    while (true) {
+        for (std::int64_t r = 0; r < rows_.jump_count; ++r) entry(r, r) = diagonal[index(r)] * (1.0 + shift);
+        if (t_factor_->factorise(t_)) break;
+        shift *= 100.0;
+        if (shift > 1e-2) fail(DELAM_ERROR_NUMERICAL, "the series preconditioner is not positive definite");
+    }
+    current_ = springs;
+}
+
+// z = S~ r (or its lumped form), dependent directions included.
+void FetiPreconditioner::apply_scaled(std::span<const double> r, std::span<double> z) const {
+    std::vector<double> u(index(rows_.boundary_count())), f(u.size());
+    multiply(scaled_transposed_, r, u);
+    for (std::size_t s = 0; s < subdomains_.size(); ++s) {
+        const std::size_t first = index(rows_.offset[s]), size = subdomains_[s].boundary.size();
+        const auto in = std::span<const double>(u).subspan(first, size);
+        const auto out = std::span<double>(f).subspan(first, size);
+        if (kind_ == Kind::lumped)
+            multiply(lumped_[s], in, out);
+        else
+            multiply_symmetric(subdomains_[s].schur, in, out);
+    }
+    multiply(scaling_.b_d, f, z);
+    for (std::size_t k = 0; k < dependency_weight_.size(); ++k) {
+        const auto& d = scaling_.dependencies[k];
+        double along = 0.0;
+        for (std::size_t i = 0; i < d.row.size(); ++i) along += d.z[i] * r[index(d.row[i])];
+        for (std::size_t i = 0; i < d.row.size(); ++i) z[index(d.row[i])] += dependency_weight_[k] * along * d.z[i];
+    }
+}
+
+void FetiPreconditioner::apply(std::span<const double> r, std::span<double> z) const {
+    if (kind_ == Kind::none) {
+        std::copy(r.begin(), r.end(), z.begin());
+        return;
+    }
+    apply_scaled(r, z);
+    if (kind_ != Kind::series) return;
+    // z = S~ (r - E x) with T x = E^T S~ r; on the rows of E that is C^-1 x, free of cancellation.
+    std::vector<double> x(index(rows_.jump_count), 0.0), y(index(rows_.jump_count));
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] = in_e_[i] != 0 ? z[i] : 0.0;
+    t_factor_->solve(y, x);
+    std::vector<double> rest(r.begin(), r.end());
+    for (std::size_t i = 0; i < x.size(); ++i)
+        if (in_e_[i] != 0) rest[i] -= x[i];
+    apply_scaled(rest, z);
+    for (std::size_t i = 0; i < x.size(); ++i)
+        if (in_e_[i] != 0) z[i] = current_.stiffness[i] * x[i];
+}
+
+}  // namespace delam

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Preconditioned conjugate gradients within the affine space of balanced forces { lambda : G lambda = e }, with full
+// reorthogonalisation of the directions, which the few iterations of a FETI solve can afford.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace delam {
+
+struct ProjectedSystem {
+    std::function<void(std::span<const double>, std::span<double>)> apply;         // y = A x
+    std::function<void(std::span<const double>, std::span<double>)> precondition;  // z = M r
+    std::function<void(std::span<double>)> project;                                // lambda <- P lambda
+    std::function<void(std::span<double>)> project_transposed;                     // r <- P^T r
+};
+
+struct CgResult {
+    std::int64_t iterations = 0;
+    double residual = 0.0;  // sqrt(r^T P M P^T r) over the energy norm of the solution
+    bool converged = false;
+};
+
+// lambda: balanced start in, solution out. Stops at sqrt(r^T z) <= tolerance * sqrt(lambda^T A lambda) for the true residual: the recursion is restarted
+// until a freshly computed residual agrees.
+CgResult projected_cg(const ProjectedSystem& system, std::span<const double> b, std::span<double> lambda, double tolerance,
+                      std::int64_t limit, const std::function<void(std::int64_t)>& each_iteration);
+
+}  // namespace delam

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reduction/feti/subdomain.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "body/assembly.hpp"
+#include "body/rigid_modes.hpp"
+#include "delam/delam.h"
+
+namespace delam {
+
+namespace {
+
+// Rows of the rigid motions at some DOFs, transposed: [motions][dofs].
+DenseMatrix motions_at(const DenseMatrix& rigid, std::span<const std::int64_t> dofs) {
+    DenseMatrix m(rigid.columns, static_cast<std::int64_t>(dofs.size()));
+    for (std::int64_t j = 0; j < m.columns; ++j)
+        for (std::int64_t r = 0; r < rigid.columns; ++r) m(r, j) = rigid(dofs[static_cast<std::size_t>(j)], r);
+    return m;
+}
+
+// The matrix over a subset of its DOFs in a new order.
+SparseMatrix permuted(const SparseMatrix& k, std::span<const std::int64_t> order) {
+    std::vector<std::int64_t> position(static_cast<std::size_t>(k.rows), -1);
+    for (std::size_t i = 0; i < order.size(); ++i) position[static_cast<std::size_t>(order[i])] = static_cast<std::int64_t>(i);
+    SparseMatrix p;
+    p.rows = p.columns = static_cast<std::int64_t>(order.size());
+    p.start.assign(1, 0);
+    p.start.reserve(order.size() + 1);
+    std::vector<std::pair<std::int64_t, double>> row;
+    for (const std::int64_t dof : order) {
+        row.clear();
+        for (std::int64_t e = k.start[static_cast<std::size_t>(dof)]; e < k.start[static_cast<std::size_t>(dof) + 1]; ++e) {
+            const std::int64_t c = position[static_cast<std::size_t>(k.column[static_cast<std::size_t>(e)])];
+            if (c >= 0) row.emplace_back(c, k.value[static_cast<std::size_t>(e)]);
+        }
+        std::sort(row.begin(), row.end());
+        for (const auto& [c, v] : row) {
+            p.column.push_back(c);
+            p.value.push_back(v);
+        }
+        p.start.push_back(static_cast<std::int64_t>(p.column.size()));
+    }
+    return p;
+}
+
+constexpr double rank_tolerance = 1e-8;
+
+}  // namespace
+
+void Subdomain::condense(const Mesh& mesh, std::span<const std::int64_t> cells, const Elastic& material, Plane plane,
+                         bool with_schur) {
+    stiffness = assemble_stiffness(mesh, cells, nodes, material, plane);
+    rigid_count = mesh.dimension() == 2 ? 3 : 6;
+    rigid = DenseMatrix(stiffness.rows, rigid_count);
+    rigid.value = rigid_modes(mesh, nodes);
+
+    // Where the boundary alone cannot hold the subdomain (a body touched at one point), DOFs of the interior join it.
+    PivotedColumns pivots = pivoted_columns(motions_at(rigid, boundary), rank_tolerance);
+    if (pivots.rank < rigid_count) {
+        std::vector<std::int64_t> all(static_cast<std::size_t>(stiffness.rows));
+        for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::int64_t>(i);
+        const PivotedColumns whole = pivoted_columns(motions_at(rigid, all), rank_tolerance);
+        for (std::int64_t r = 0; r < rigid_count; ++r) boundary.push_back(whole.order[static_cast<std::size_t>(r)]);
+        std::sort(boundary.begin(), boundary.end());
+        boundary.erase(std::unique(boundary.begin(), boundary.end()), boundary.end());
+        pivots = pivoted_columns(motions_at(rigid, boundary), rank_tolerance);
+    }
+    const auto nb = static_cast<std::int64_t>(boundary.size());
+    std::vector<std::uint8_t> is_boundary(static_cast<std::size_t>(stiffness.rows), 0);
+    for (const std::int64_t d : boundary) is_boundary[static_cast<std::size_t>(d)] = 1;
+    std::vector<std::uint8_t> is_held(static_cast<std::size_t>(nb), 0);
+    for (std::int64_t r = 0; r < rigid_count; ++r) is_held[static_cast<std::size_t>(pivots.order[static_cast<std::size_t>(r)])] = 1;
+
+    std::vector<std::int64_t> free_boundary, held;  // positions within `boundary`
+    for (std::int64_t i = 0; i < nb; ++i) (is_held[static_cast<std::size_t>(i)] != 0 ? held : free_boundary).push_back(i);
+    order_.clear();
+    for (std::int64_t d = 0; d < stiffness.rows; ++d)
+        if (is_boundary[static_cast<std::size_t>(d)] == 0) order_.push_back(d);
+    for (const std::int64_t i : free_boundary) order_.push_back(boundary[static_cast<std::size_t>(i)]);
+
+    const auto nf = static_cast<std::int64_t>(free_boundary.size());
+    const SparseMatrix definite = permuted(stiffness, order_);
+    factor_ = std::make_unique<SparseCholesky>(definite, nf);
+    if (!factor_->factorise(definite))
+        fail(DELAM_ERROR_NUMERICAL, "the stiffness of body ", mesh.body_label(body),
+             " is not positive definite beyond its rigid motions: check its material and the shapes of its cells");
+    const DenseMatrix lower = factor_->trailing_factor();
+
+    const DenseMatrix inverse = inverse_of_factor(lower);
+    flexibility = DenseMatrix(nb, nb);
+    for (std::int64_t j = 0; j < nf; ++j)
+        for (std::int64_t i = 0; i < nf; ++i)
+            flexibility(free_boundary[static_cast<std::size_t>(i)], free_boundary[static_cast<std::size_t>(j)]) = inverse(i, j);
+
+    rigid_boundary = DenseMatrix(nb, rigid_count);
+    for (std::int64_t r = 0; r < rigid_count; ++r)
+        for (std::int64_t i = 0; i < nb; ++i) rigid_boundary(i, r) = rigid(boundary[static_cast<std::size_t>(i)], r);
+    diagonal.assign(static_cast<std::size_t>(nb), 0.0);
+    for (std::int64_t i = 0; i < nb; ++i) {
+        const auto d = static_cast<std::size_t>(boundary[static_cast<std::size_t>(i)]);
+        for (std::int64_t e = stiffness.start[d]; e < stiffness.start[d + 1]; ++e)
+            if (stiffness.column[static_cast<std::size_t>(e)] == static_cast<std::int64_t>(d))
+                diagonal[static_cast<std::size_t>(i)] = stiffness.value[static_cast<std::size_t>(e)];
+    }
+    if (!with_schur) return;
+
+    // S R_b = 0 split into free rows and held rows h:  S_fh = -S_ff T,  S_hh = T^T S_ff T  with  T = R_f R_h^-1.
+    const DenseMatrix free_block = lower_times_transpose(lower);
+    DenseMatrix held_motions(rigid_count, rigid_count), free_motions(rigid_count, nf);  // transposed
+    for (std::int64_t r = 0; r < rigid_count; ++r) {
+        for (std::int64_t h = 0; h < rigid_count; ++h)
+            held_motions(r, h) = rigid_boundary(held[static_cast<std::size_t>(h)], r);
+        for (std::int64_t f = 0; f < nf; ++f) free_motions(r, f) = rigid_boundary(free_boundary[static_cast<std::size_t>(f)], r);
+    }
+    // held_motions = R_h^T, and R_f^T = R_h^T T^T, so T^T solves R_h^T T^T = R_f^T.
+    const DenseMatrix t_transposed = solve_general(std::move(held_motions), std::move(free_motions));
+    DenseMatrix t(nf, rigid_count);
+    for (std::int64_t r = 0; r < rigid_count; ++r)
+        for (std::int64_t f = 0; f < nf; ++f) t(f, r) = t_transposed(r, f);
+    const DenseMatrix coupling = multiply(free_block, t);
+    const DenseMatrix corner = multiply_transposed(t, coupling);
+    schur = DenseMatrix(nb, nb);
+    for (std::int64_t j = 0; j < nf; ++j)
+        for (std::int64_t i = 0; i < nf; ++i)
+            schur(free_boundary[static_cast<std::size_t>(i)], free_boundary[static_cast<std::size_t>(j)]) = free_block(i, j);
+    for (std::int64_t h = 0; h < rigid_count; ++h) {
+        const std::int64_t row = held[static_cast<std::size_t>(h)];
+        for (std::int64_t f = 0; f < nf; ++f) {
+            const std::int64_t column = free_boundary[static_cast<std::size_t>(f)];
+            schur(row, column) = schur(column, row) = -coupling(f, h);
+        }
+        for (std::int64_t g = 0; g < rigid_count; ++g)
+            schur(row, held[static_cast<std::size_t>(g)]) = 0.5 * (corner(h, g) + corner(g, h));
+    }
+}
+
+void Subdomain::apply_inverse(std::span<const double> b, std::span<double> x) const {
+    std::vector<double> rhs(order_.size()), solution(order_.size());
+    for (std::size_t i = 0; i < order_.size(); ++i) rhs[i] = b[static_cast<std::size_t>(order_[i])];
+    factor_->solve(rhs, solution);
+    std::fill(x.begin(), x.end(), 0.0);
+    for (std::size_t i = 0; i < order_.size(); ++i) x[static_cast<std::size_t>(order_[i])] = solution[i];
+}
+
+}  // namespace delam

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one question that the evolution asks of the mechanics: which jump minimises the energy of bodies and springs at given
+// loads?  E(theta, u) = 1/2 u^T K u - f(theta)^T u + 1/2 sum_i s_i j_i^2  over u with B_e u = j, j_i = 0 on held rows, B_d u = c(theta).
+//
+// Rows of the jump: interface after interface, pair after pair, normal first (Problem::jump_count of them). Nothing here
+// knows about damage or contact.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace delam {
+
+// What an interface row is at the moment.
+struct Springs {
+    std::vector<double> stiffness;    // [rows] s = weight k zeta >= 0, F/L; 0: debonded (no force)
+    std::vector<std::uint8_t> held;   // [rows] 1: jump held at zero (perfect bond, closed contact); stiffness is then ignored
+};
+
+struct Response {
+    std::vector<double> jump;         // [rows] L
+    std::vector<double> force;        // [rows] force of a pair, F, pulling positive
+    std::vector<double> reaction;     // [constraints] force of the device along the constraint, F
+    std::vector<double> conjugate;    // [patterns] q = dE/dtheta
+    std::vector<double> multipliers;  // the operator's own unknowns: warm start in, solution out (empty: cold)
+    std::vector<double> rigid;        // the operator's rigid-body coefficients of the solution
+    double stored_bulk = 0.0;         // 1/2 u^T K u
+    double load_potential = 0.0;      // -f^T u
+    double residual = 0.0;            // relative residual of the linear solve (energy norm)
+    std::int64_t iterations = 0;      // Krylov iterations of this solve
+    bool balanced = true;             // false: a floating part carries an unbalanced load; the rest is then not set
+    bool converged = true;
+};
+
+class JumpOperator {
+public:
+    virtual ~JumpOperator() = default;
+    // theta: [patterns].
+    virtual void solve(const Springs& springs, std::span<const double> theta, Response& response) = 0;
+    // Displacements [mesh DOFs] of a response of this operator.
+    virtual std::vector<double> displacement(std::span<const double> theta, const Response& response) const = 0;
+    // Largest out-of-balance force of the recovered displacements, body by body, F.
+    virtual double equilibrium_defect(std::span<const double> theta, const Response& response) const = 0;
+    // Rows whose jump the prescribed displacements alone determine, [rows].
+    virtual std::span<const std::uint8_t> prescribed_rows() const = 0;
+    // For people: what was built, at what size.
+    virtual std::string description() const = 0;
+};
+
+}  // namespace delam

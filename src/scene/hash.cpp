@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// FNV-1a, 64 bits (Fowler, Noll, Vo), over the scene. Every list goes in with its length, so that entries cannot move from one
+// list to its neighbour unnoticed.
+#include <bit>
+#include <span>
+
+#include "scene/problem.hpp"
+
+namespace delam {
+namespace {
+
+class Fnv {
+public:
+    std::uint64_t value = 0xcbf29ce484222325u;
+
+    void add(std::uint64_t word) {
+        for (int i = 0; i < 8; ++i) {
+            value = (value ^ ((word >> (8 * i)) & 0xffu)) * 0x100000001b3u;
+        }
+    }
+    void add(std::int64_t number) { add(static_cast<std::uint64_t>(number)); }
+    void add(std::int32_t number) { add(static_cast<std::int64_t>(number)); }
+    void add(bool flag) { add(static_cast<std::int64_t>(flag)); }
+    // Zero has two signs, a scene has not.
+    void add(double number) { add(std::bit_cast<std::uint64_t>(number == 0.0 ? 0.0 : number)); }
+    void add(const std::string& words) {
+        add(static_cast<std::int64_t>(words.size()));
+        for (const char letter : words) add(static_cast<std::int64_t>(static_cast<unsigned char>(letter)));
+    }
+    template <class T>
+    void add_all(std::span<const T> list) {
+        add(static_cast<std::int64_t>(list.size()));
+        for (const T& item : list) add(item);
+    }
+    template <class T>
+    void add_all(const std::vector<T>& list) {
+        add_all(std::span<const T>(list));
+    }
+};
+
+void add_mesh(Fnv& fnv, const Mesh& mesh) {
+    fnv.add(static_cast<std::int64_t>(mesh.dimension()));
+    fnv.add_all(mesh.nodes());
+    fnv.add(mesh.cell_count());
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
+        fnv.add(static_cast<std::int32_t>(mesh.cell_type(c)));
+        fnv.add(mesh.body_label(mesh.cell_body(c)));
+        fnv.add_all(mesh.cell(c));
+    }
+    fnv.add(static_cast<std::int64_t>(mesh.interfaces().size()));
+    for (const InterfaceGeometry& face : mesh.interfaces()) {
+        fnv.add(face.body_a);
+        fnv.add(face.body_b);
+        fnv.add_all(face.node_a);
+        fnv.add_all(face.node_b);
+        fnv.add_all(face.weight);
+        fnv.add_all(face.frame);
+    }
+}
+
+void add_law(Fnv& fnv, const Law& law) {
+    for (const double parameter :
+         {law.normal_stiffness, law.tangential_stiffness, law.normal_onset, law.tangential_onset, law.normal_toughness,
+          law.tangential_toughness, law.onset_exponent_1, law.onset_exponent_2, law.toughness_exponent_1,
+          law.toughness_exponent_2}) {
+        fnv.add(parameter);
+    }
+}
+
+void add_loads(Fnv& fnv, const Problem& problem) {
+    fnv.add(static_cast<std::int64_t>(problem.patterns.size()));
+    for (const Pattern& pattern : problem.patterns) {
+        fnv.add(pattern.name);
+        fnv.add_all(pattern.times);
+        fnv.add_all(pattern.values);
+        fnv.add(static_cast<std::int64_t>(pattern.drives));
+    }
+    fnv.add(static_cast<std::int64_t>(problem.constraints.size()));
+    for (const Constraint& constraint : problem.constraints) {
+        fnv.add_all(constraint.dof);
+        fnv.add_all(constraint.coefficient);
+        fnv.add_all(constraint.prescribed);
+    }
+    fnv.add(static_cast<std::int64_t>(problem.forces.size()));
+    for (const NodalForce& force : problem.forces) {
+        fnv.add(force.pattern);
+        fnv.add(force.dof);
+        fnv.add(force.value);
+    }
+}
+
+void add_options(Fnv& fnv, const Options& options) {
+    fnv.add(options.damage_tolerance);
+    fnv.add(options.minimisation_limit);
+    fnv.add(options.backtracking_tolerance);
+    fnv.add(options.contact_limit);
+    fnv.add(options.subdomains);
+    fnv.add(options.gluing);
+    fnv.add(options.preconditioner);
+    fnv.add(options.scaling);
+    fnv.add(options.linear_tolerance);
+    fnv.add(options.linear_limit);
+}
+
+}  // namespace
+
+std::uint64_t hash(const Problem& problem) {
+    Fnv fnv;
+    add_mesh(fnv, *problem.mesh);
+    fnv.add(static_cast<std::int64_t>(problem.plane));
+    for (const std::optional<Elastic>& material : problem.material) {
+        fnv.add(material.has_value());
+        if (material) {
+            fnv.add(material->young);
+            fnv.add(material->poisson);
+        }
+    }
+    for (const InterfaceProperties& interface : problem.interfaces) {
+        fnv.add(interface.bonded);
+        fnv.add(interface.law.has_value());
+        if (interface.law) add_law(fnv, *interface.law);
+        fnv.add_all(interface.adhesion);
+    }
+    add_loads(fnv, problem);
+    add_options(fnv, problem.options);
+    return fnv.value;
+}
+
+}  // namespace delam

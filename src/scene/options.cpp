@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/options.hpp"
+
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+
+namespace delam {
+namespace {
+
+using Member = std::variant<double Options::*, std::int64_t Options::*, std::string Options::*>;
+
+// One line of the table: what people read, where the value lives, and the closed (integer) or open (real) interval of numbers. The
+// words of a text option are those of its range, parted by " | ".
+struct Row {
+    OptionInfo info;
+    Member member;
+    double lower = 0.0;
+    double upper = 0.0;
+};
+
+constexpr double most = 9007199254740992.0;  // 2^53: beyond it a double no longer holds every whole number
+
+const std::array<Row, 10>& rows() {
+    static const std::array<Row, 10> table{{
+        {{"damage_tolerance", "real", "-", "1e-5", "0 < value < 1",
+          "alternate minimisation stops when no adhesion changes by more (delta)"},
+         &Options::damage_tolerance, 0.0, 1.0},
+        {{"minimisation_limit", "integer", "-", "5000", "1 <= value <= 2^53",
+          "largest number of alternate minimisation steps in a load step"},
+         &Options::minimisation_limit, 1.0, most},
+        {{"backtracking_tolerance", "real", "-", "1e-3", "0 < value < 1",
+          "relative tolerance of the two-sided energy estimate (eta)"},
+         &Options::backtracking_tolerance, 0.0, 1.0},
+        {{"contact_limit", "integer", "-", "200", "1 <= value <= 2^53",
+          "active-set steps of a displacement solve before the safeguarded fallback takes over"},
+         &Options::contact_limit, 1.0, most},
+        {{"subdomains", "integer", "-", "0", "0 <= value <= 1000000",
+          "subdomains that the bodies are cut into, at least one for each connected part; 0: chosen by size"},
+         &Options::subdomains, 0.0, 1e6},
+        {{"gluing", "text", "-", "orthonormal", "orthonormal | redundant",
+          "multipliers where several subdomains meet in a node"},
+         &Options::gluing},
+        {{"preconditioner", "text", "-", "series", "none | lumped | dirichlet | series",
+          "preconditioner of the dual system; series is made for compliant interfaces"},
+         &Options::preconditioner},
+        {{"scaling", "text", "-", "stiffness", "stiffness | multiplicity",
+          "how the preconditioner shares a node out among its subdomains"},
+         &Options::scaling},
+        {{"linear_tolerance", "real", "-", "1e-12", "0 < value < 1",
+          "relative residual at which the projected conjugate gradients stop"},
+         &Options::linear_tolerance, 0.0, 1.0},
+        {{"linear_limit", "integer", "-", "2000", "1 <= value <= 2^53",
+          "largest number of conjugate gradient iterations in a linear solve"},
+         &Options::linear_limit, 1.0, most},
+    }};
+    return table;
+}
+
+const Row& find(const std::string& key) {
+    for (const Row& row : rows()) {
+        if (key == row.info.key) return row;
+    }
+    std::string known;
+    for (const Row& row : rows()) known += std::string(known.empty() ? "" : ", ") + row.info.key;
+    fail(DELAM_ERROR_ARGUMENT, "option '", key, "' is not known; known are ", known);
+}
+
+bool allows(std::string_view range, std::string_view word) {
+    while (true) {
+        const std::size_t bar = range.find(" | ");
+        if (range.substr(0, bar) == word) return true;
+        if (bar == std::string_view::npos) return false;
+        range.remove_prefix(bar + 3);
+    }
+}
+
+[[noreturn]] void refuse(const Row& row, const std::string& value) {
+    fail(DELAM_ERROR_ARGUMENT, "option '", row.info.key, "' = ", value, " is outside its range: ", row.info.range);
+}
+
+}  // namespace
+
+void Options::set_number(const std::string& key, double value) {
+    const Row& row = find(key);
+    if (const auto* real = std::get_if<double Options::*>(&row.member)) {
+        if (!(value > row.lower && value < row.upper)) refuse(row, text(value));
+        this->*(*real) = value;
+    } else if (const auto* integer = std::get_if<std::int64_t Options::*>(&row.member)) {
+        if (!(value >= row.lower && value <= row.upper)) refuse(row, text(value));
+        if (value != std::floor(value)) fail(DELAM_ERROR_ARGUMENT, "option '", key, "' = ", value, " must be a whole number");
+        this->*(*integer) = static_cast<std::int64_t>(value);
+    } else {
+        fail(DELAM_ERROR_ARGUMENT, "option '", key, "' is a text (", row.info.range, "), not a number");
+    }
+}
+
+void Options::set_text(const std::string& key, const std::string& value) {
+    const Row& row = find(key);
+    const auto* words = std::get_if<std::string Options::*>(&row.member);
+    if (words == nullptr) fail(DELAM_ERROR_ARGUMENT, "option '", key, "' is a number (", row.info.range, "), not a text");
+    if (value.find(" | ") != std::string::npos || !allows(row.info.range, value)) refuse(row, "'" + value + "'");
+    this->*(*words) = value;
+}
+
+std::span<const OptionInfo> option_table() {
+    static const std::vector<OptionInfo> table = [] {
+        std::vector<OptionInfo> list;
+        for (const Row& row : rows()) list.push_back(row.info);
+        return list;
+    }();
+    return table;
+}
+
+}  // namespace delam

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/problem.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace delam {
+
+double Pattern::at(double time) const {
+    const auto after = std::upper_bound(times.begin(), times.end(), time);
+    if (after == times.begin()) return values.front();
+    if (after == times.end()) return values.back();
+    const auto i = static_cast<std::size_t>(after - times.begin());
+    const double s = (time - times[i - 1]) / (times[i] - times[i - 1]);
+    return (1.0 - s) * values[i - 1] + s * values[i];
+}
+
+Problem::Problem(std::shared_ptr<const Mesh> mesh_) : mesh(std::move(mesh_)) {
+    material.resize(static_cast<std::size_t>(mesh->body_count()));
+    interfaces.resize(mesh->interfaces().size());
+    for (std::size_t i = 0; i < interfaces.size(); ++i) {
+        interfaces[i].adhesion.assign(static_cast<std::size_t>(mesh->interfaces()[i].pair_count()), 1.0);
+    }
+}
+
+std::int64_t Problem::pair_count() const {
+    std::int64_t count = 0;
+    for (const InterfaceGeometry& face : mesh->interfaces()) count += face.pair_count();
+    return count;
+}
+
+std::vector<double> Problem::factors(double time) const {
+    std::vector<double> factor;
+    factor.reserve(patterns.size());
+    for (const Pattern& pattern : patterns) factor.push_back(pattern.at(time));
+    return factor;
+}
+
+std::vector<double> Problem::prescribed_matrix() const {
+    std::vector<double> matrix(constraints.size() * patterns.size(), 0.0);
+    for (std::size_t i = 0; i < constraints.size(); ++i) {
+        std::copy(constraints[i].prescribed.begin(), constraints[i].prescribed.end(),
+                  matrix.begin() + static_cast<std::ptrdiff_t>(i * patterns.size()));
+    }
+    return matrix;
+}
+
+}  // namespace delam

@@ -1,0 +1,413 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The search runs on rigid pieces, not on nodes. Face-connected cells are one piece; pieces that enough tied pairs join become one
+// as well. What is left are a few pieces, hinges between them (a single pair, say) and the constraints: their rows act on three or
+// six motions per piece, and the null space of the small Gram matrix of the rows is what nothing resists.
+#include "scene/supports.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "base/error.hpp"
+#include "mesh/partition.hpp"
+
+namespace delam {
+namespace {
+
+// Relative pivot below which a motion counts as unresisted. Rows enter squared: supports closer than 1e-5 of the size of what they
+// hold do not count as holding its rotation.
+constexpr double pivot_tolerance = 1e-10;
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+class Sets {
+public:
+    explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+    std::size_t find(std::size_t i) {
+        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    bool join(std::size_t i, std::size_t j) {
+        i = find(i);
+        j = find(j);
+        if (i == j) return false;
+        parent_[std::max(i, j)] = std::min(i, j);
+        return true;
+    }
+
+private:
+    std::vector<std::size_t> parent_;
+};
+
+// Null space of a symmetric positive semidefinite n x n matrix by Cholesky with diagonal pivoting; one vector after another.
+std::vector<std::vector<double>> null_space(std::vector<double> g, std::size_t n) {
+    std::vector<std::size_t> order(n);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    double largest = 0.0;
+    for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, g[i * n + i]);
+    std::size_t rank = 0;
+    for (; rank < n; ++rank) {
+        std::size_t pivot = rank;
+        for (std::size_t i = rank + 1; i < n; ++i) {
+            if (g[i * n + i] > g[pivot * n + pivot]) pivot = i;
+        }
+        if (!(g[pivot * n + pivot] > pivot_tolerance * largest)) break;
+        std::swap(order[rank], order[pivot]);
+        for (std::size_t j = 0; j < n; ++j) std::swap(g[rank * n + j], g[pivot * n + j]);
+        for (std::size_t i = 0; i < n; ++i) std::swap(g[i * n + rank], g[i * n + pivot]);
+        // Row `rank` keeps u = D L^T; the trailing block keeps the Schur complement.
+        for (std::size_t i = rank + 1; i < n; ++i) {
+            const double factor = g[rank * n + i] / g[rank * n + rank];
+            if (factor == 0.0) continue;
+            for (std::size_t j = rank + 1; j < n; ++j) g[i * n + j] -= factor * g[rank * n + j];
+        }
+    }
+    std::vector<std::vector<double>> basis;
+    for (std::size_t free = rank; free < n; ++free) {
+        std::vector<double> x(n, 0.0);
+        x[free] = 1.0;
+        for (std::size_t i = rank; i-- > 0;) {
+            double sum = 0.0;
+            for (std::size_t j = i + 1; j < n; ++j) sum += g[i * n + j] * x[j];
+            x[i] = -sum / g[i * n + i];
+        }
+        std::vector<double> vector(n);
+        for (std::size_t i = 0; i < n; ++i) vector[order[i]] = x[i];
+        basis.push_back(std::move(vector));
+    }
+    return basis;
+}
+
+using Point = std::array<double, 3>;
+
+struct Tie {
+    std::size_t piece_a;
+    std::size_t piece_b;
+    Point place;
+};
+
+struct Frame {
+    Point centre{};
+    double length = 0.0;
+};
+
+class Search {
+public:
+    Search(const Problem& problem, bool tied)
+        : problem_(problem),
+          mesh_(*problem.mesh),
+          dimension_(at(mesh_.dimension())),
+          modes_(dimension_ == 2 ? 3 : 6),
+          cut_(partition(mesh_, 1)),
+          groups_(cut_.subdomain_body.size()) {
+        find_pieces();
+        find_ties(tied);
+        merge();
+    }
+    std::vector<FreeMotion> run();
+
+private:
+    const Problem& problem_;
+    const Mesh& mesh_;
+    std::size_t dimension_;
+    std::size_t modes_;
+    Partition cut_;
+    Sets groups_;
+    std::vector<std::int64_t> node_piece_;
+    std::vector<Tie> ties_;
+    std::map<std::size_t, Frame> frame_;  // of each group
+
+    Point place(std::int64_t node) const {
+        Point p{};
+        for (std::size_t d = 0; d < dimension_; ++d) p[d] = mesh_.node(node)[d];
+        return p;
+    }
+    std::size_t group(std::int64_t node) { return groups_.find(at(node_piece_[at(node)])); }
+
+    // Component c of rigid mode m at p: translations, then rotations about the centre, of unit displacement at distance `length`.
+    static double mode(const Frame& f, std::size_t dimension, std::size_t m, std::size_t c, const Point& p) {
+        if (m < dimension) return m == c ? 1.0 : 0.0;
+        const std::size_t axis = dimension == 2 ? 2 : m - dimension;
+        const std::size_t u = (axis + 1) % 3;
+        const std::size_t v = (axis + 2) % 3;
+        if (c == u) return -(p[v] - f.centre[v]) / f.length;
+        if (c == v) return (p[u] - f.centre[u]) / f.length;
+        return 0.0;
+    }
+
+    void find_pieces();
+    void find_ties(bool tied);
+    void merge();
+    void measure();
+    bool rigid(const std::vector<Point>& places, double length) const;
+    std::vector<FreeMotion> examine(const std::vector<std::size_t>& cluster);
+    std::vector<double> gram(const std::vector<std::size_t>& cluster);
+    FreeMotion describe(const std::vector<std::size_t>& cluster, const std::vector<double>& motion);
+    std::string words(const Frame& f, const double* motion) const;
+};
+
+// A node where two pieces of one body meet is a hinge: a tie of the pieces at one place.
+void Search::find_pieces() {
+    node_piece_.assign(at(mesh_.node_count()), -1);
+    for (std::int64_t c = 0; c < mesh_.cell_count(); ++c) {
+        const std::int64_t piece = cut_.cell_subdomain[at(c)];
+        for (const std::int64_t node : mesh_.cell(c)) {
+            if (node_piece_[at(node)] < 0) node_piece_[at(node)] = piece;
+            if (node_piece_[at(node)] != piece) ties_.push_back({at(node_piece_[at(node)]), at(piece), place(node)});
+        }
+    }
+}
+
+void Search::find_ties(bool tied) {
+    for (std::size_t i = 0; i < problem_.interfaces.size(); ++i) {
+        const InterfaceGeometry& face = mesh_.interfaces()[i];
+        for (std::size_t p = 0; p < face.node_a.size(); ++p) {
+            if (!tied && !problem_.interfaces[i].bonded && problem_.interfaces[i].adhesion[p] <= 0.0) continue;
+            ties_.push_back({at(node_piece_[at(face.node_a[p])]), at(node_piece_[at(face.node_b[p])]), place(face.node_a[p])});
+        }
+    }
+}
+
+void Search::measure() {
+    std::map<std::size_t, std::array<Point, 2>> box;
+    for (std::int64_t node = 0; node < mesh_.node_count(); ++node) {
+        if (node_piece_[at(node)] < 0) continue;
+        const Point p = place(node);
+        auto [entry, fresh] = box.try_emplace(group(node), std::array<Point, 2>{p, p});
+        for (std::size_t d = 0; d < dimension_ && !fresh; ++d) {
+            entry->second[0][d] = std::min(entry->second[0][d], p[d]);
+            entry->second[1][d] = std::max(entry->second[1][d], p[d]);
+        }
+    }
+    frame_.clear();
+    for (const auto& [g, corners] : box) {
+        Frame f;
+        for (std::size_t d = 0; d < dimension_; ++d) {
+            f.centre[d] = 0.5 * (corners[0][d] + corners[1][d]);
+            f.length = std::max(f.length, 0.5 * (corners[1][d] - corners[0][d]));
+        }
+        frame_[g] = f;
+    }
+}
+
+// Do ties at these places leave no relative motion at all?
+bool Search::rigid(const std::vector<Point>& places, double length) const {
+    Frame f;
+    f.length = length;
+    for (const Point& p : places) {
+        for (std::size_t d = 0; d < 3; ++d) f.centre[d] += p[d] / static_cast<double>(places.size());
+    }
+    std::vector<double> g(modes_ * modes_, 0.0);
+    for (const Point& p : places) {
+        for (std::size_t c = 0; c < dimension_; ++c) {
+            for (std::size_t i = 0; i < modes_; ++i) {
+                for (std::size_t j = 0; j < modes_; ++j) {
+                    g[i * modes_ + j] += mode(f, dimension_, i, c, p) * mode(f, dimension_, j, c, p) /
+                                         static_cast<double>(places.size());
+                }
+            }
+        }
+    }
+    return null_space(std::move(g), modes_).empty();
+}
+
+void Search::merge() {
+    for (bool merged = true; merged;) {
+        merged = false;
+        measure();
+        std::map<std::pair<std::size_t, std::size_t>, std::vector<Point>> joint;
+        for (const Tie& tie : ties_) {
+            const std::size_t a = groups_.find(tie.piece_a);
+            const std::size_t b = groups_.find(tie.piece_b);
+            if (a != b) joint[std::minmax(a, b)].push_back(tie.place);
+        }
+        for (const auto& [pair, places] : joint) {
+            if (rigid(places, std::min(frame_[pair.first].length, frame_[pair.second].length))) {
+                merged = groups_.join(pair.first, pair.second) || merged;
+            }
+        }
+    }
+}
+
+std::vector<double> Search::gram(const std::vector<std::size_t>& cluster) {
+    const std::size_t n = cluster.size() * modes_;
+    std::map<std::size_t, std::size_t> offset;
+    for (std::size_t i = 0; i < cluster.size(); ++i) offset[cluster[i]] = i * modes_;
+    std::vector<double> g(n * n, 0.0);
+    std::vector<double> row(n);
+    const auto add = [&](std::size_t group, std::size_t component, const Point& p, double factor) {
+        for (std::size_t m = 0; m < modes_; ++m) {
+            row[offset.at(group) + m] += factor * mode(frame_[group], dimension_, m, component, p);
+        }
+    };
+    const auto close = [&] {
+        for (std::size_t i = 0; i < n; ++i) {
+            if (row[i] == 0.0) continue;
+            for (std::size_t j = 0; j < n; ++j) g[i * n + j] += row[i] * row[j];
+        }
+        std::fill(row.begin(), row.end(), 0.0);
+    };
+    for (const Tie& tie : ties_) {
+        const std::size_t a = groups_.find(tie.piece_a);
+        const std::size_t b = groups_.find(tie.piece_b);
+        if (a == b || offset.find(a) == offset.end()) continue;
+        for (std::size_t c = 0; c < dimension_; ++c) {
+            add(a, c, tie.place, -1.0);
+            add(b, c, tie.place, 1.0);
+            close();
+        }
+    }
+    for (const Constraint& constraint : problem_.constraints) {
+        if (offset.find(group(constraint.dof.front() / mesh_.dimension())) == offset.end()) continue;
+        for (std::size_t i = 0; i < constraint.dof.size(); ++i) {
+            const std::int64_t node = constraint.dof[i] / mesh_.dimension();
+            add(group(node), at(constraint.dof[i] % mesh_.dimension()), place(node), constraint.coefficient[i]);
+        }
+        close();
+    }
+    return g;
+}
+
+std::string Search::words(const Frame& f, const double* motion) const {
+    Point t{};
+    Point w{};
+    for (std::size_t d = 0; d < dimension_; ++d) t[d] = motion[d];
+    for (std::size_t r = 0; r + dimension_ < modes_; ++r) w[dimension_ == 2 ? 2 : r] = motion[dimension_ + r] / f.length;
+    const auto norm = [](const Point& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); };
+    const auto list = [this](const Point& a) {
+        return dimension_ == 2 ? text("(", a[0], ", ", a[1], ")") : text("(", a[0], ", ", a[1], ", ", a[2], ")");
+    };
+    const auto tidy = [&](Point a, double scale) {
+        for (double& value : a) value = std::abs(value) < 1e-6 * scale ? 0.0 : value;
+        return list(a);
+    };
+    const auto direction = [&](Point a) {
+        const double length = norm(a);
+        for (std::size_t d = 0; d < 3; ++d) {
+            if (std::abs(a[d]) > (1.0 - 1e-8) * length) return std::string(1, "xyz"[d]);
+        }
+        for (double& value : a) value /= length;
+        return tidy(a, 1.0);
+    };
+    const double turn = norm(w);
+    if (turn * f.length < 1e-6 * norm(t)) return "translate along " + direction(t);
+    // The centre of the motion (the foot of its axis): c + w x t / |w|^2.
+    Point foot = f.centre;
+    for (std::size_t d = 0; d < 3; ++d) {
+        const std::size_t u = (d + 1) % 3;
+        const std::size_t v = (d + 2) % 3;
+        foot[d] += (w[u] * t[v] - w[v] * t[u]) / (turn * turn);
+    }
+    if (dimension_ == 2) return "rotate about the point " + tidy(foot, f.length);
+    const double slide = (t[0] * w[0] + t[1] * w[1] + t[2] * w[2]) / turn;
+    return text(std::abs(slide) > 1e-6 * turn * f.length ? "screw" : "rotate", " about the axis along ", direction(w),
+                " through ", tidy(foot, f.length));
+}
+
+FreeMotion Search::describe(const std::vector<std::size_t>& cluster, const std::vector<double>& motion) {
+    FreeMotion free{{}, "", 0.0, -1};
+    double largest = 0.0;
+    std::size_t mover = 0;
+    std::vector<double> size(cluster.size(), 0.0);
+    for (std::size_t i = 0; i < cluster.size(); ++i) {
+        for (std::size_t m = 0; m < modes_; ++m) size[i] = std::max(size[i], std::abs(motion[i * modes_ + m]));
+        if (size[i] > largest) {
+            largest = size[i];
+            mover = i;
+        }
+    }
+    free.description = words(frame_[cluster[mover]], &motion[mover * modes_]);
+    for (std::size_t piece = 0; piece < cut_.subdomain_body.size(); ++piece) {
+        const auto found = std::find(cluster.begin(), cluster.end(), groups_.find(piece));
+        if (found != cluster.end() && size[static_cast<std::size_t>(found - cluster.begin())] > 1e-6 * largest) {
+            free.bodies.push_back(cut_.subdomain_body[piece]);
+        }
+    }
+    std::sort(free.bodies.begin(), free.bodies.end());
+    free.bodies.erase(std::unique(free.bodies.begin(), free.bodies.end()), free.bodies.end());
+
+    std::vector<double> work(problem_.patterns.size(), 0.0);
+    std::vector<double> scale(problem_.patterns.size(), 0.0);
+    for (const NodalForce& force : problem_.forces) {
+        const std::int64_t node = force.dof / mesh_.dimension();
+        const auto found = std::find(cluster.begin(), cluster.end(), group(node));
+        if (found == cluster.end()) continue;
+        const std::size_t first = static_cast<std::size_t>(found - cluster.begin()) * modes_;
+        for (std::size_t m = 0; m < modes_; ++m) {
+            work[at(force.pattern)] += force.value * motion[first + m] / largest *
+                                       mode(frame_[*found], dimension_, m, at(force.dof % mesh_.dimension()), place(node));
+        }
+        scale[at(force.pattern)] += std::abs(force.value);
+    }
+    for (std::size_t p = 0; p < work.size(); ++p) {
+        const double relative = scale[p] > 0.0 ? std::abs(work[p]) / scale[p] : 0.0;
+        if (relative > free.force_work) {
+            free.force_work = relative;
+            free.force_pattern = static_cast<std::int64_t>(p);
+        }
+    }
+    return free;
+}
+
+// Free translations of the whole cluster are told first, since they read best; the rest is made orthogonal to them.
+std::vector<FreeMotion> Search::examine(const std::vector<std::size_t>& cluster) {
+    const std::size_t n = cluster.size() * modes_;
+    const std::vector<double> g = gram(cluster);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, g[i * n + i]);
+    std::vector<std::vector<double>> told;
+    const std::vector<std::vector<double>> basis = null_space(g, n);
+    const auto tell = [&](std::vector<double> motion) {
+        double before = 0.0;
+        for (const double value : motion) before += value * value;
+        for (const std::vector<double>& other : told) {
+            double along = 0.0;
+            for (std::size_t i = 0; i < n; ++i) along += motion[i] * other[i];
+            for (std::size_t i = 0; i < n; ++i) motion[i] -= along * other[i];
+        }
+        double after = 0.0;
+        for (const double value : motion) after += value * value;
+        if (after < 1e-12 * before) return;
+        for (double& value : motion) value /= std::sqrt(after);
+        told.push_back(std::move(motion));
+    };
+    for (std::size_t d = 0; d < dimension_ && !basis.empty(); ++d) {
+        std::vector<double> motion(n, 0.0);
+        for (std::size_t i = 0; i < cluster.size(); ++i) motion[i * modes_ + d] = 1.0;
+        double energy = 0.0;
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t j = 0; j < n; ++j) energy += motion[i] * g[i * n + j] * motion[j];
+        }
+        if (energy <= pivot_tolerance * largest) tell(std::move(motion));
+    }
+    for (const std::vector<double>& motion : basis) tell(motion);
+    std::vector<FreeMotion> list;
+    for (const std::vector<double>& motion : told) list.push_back(describe(cluster, motion));
+    return list;
+}
+
+std::vector<FreeMotion> Search::run() {
+    Sets clusters(cut_.subdomain_body.size());
+    for (const Tie& tie : ties_) clusters.join(groups_.find(tie.piece_a), groups_.find(tie.piece_b));
+    for (const Constraint& constraint : problem_.constraints) {
+        for (const std::int64_t dof : constraint.dof) {
+            clusters.join(group(constraint.dof.front() / mesh_.dimension()), group(dof / mesh_.dimension()));
+        }
+    }
+    std::map<std::size_t, std::vector<std::size_t>> members;
+    for (const auto& [g, f] : frame_) members[clusters.find(g)].push_back(g);
+    std::vector<FreeMotion> list;
+    for (const auto& [root, cluster] : members) {
+        for (FreeMotion& motion : examine(cluster)) list.push_back(std::move(motion));
+    }
+    return list;
+}
+
+}  // namespace
+
+std::vector<FreeMotion> free_motions(const Problem& problem, bool tied) { return Search(problem, tied).run(); }
+
+}  // namespace delam

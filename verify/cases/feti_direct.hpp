@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// FETI against the direct reference on the states of one ductile ENF march: one displacement step per load step at the exported adhesion.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "comparison.hpp"
+#include "direct.hpp"
+#include "enf.hpp"
+
+namespace cases {
+
+// Direct solutions of every `stride`-th of the 40 steps.
+struct DirectStates {
+    explicit DirectStates(int stride);
+
+    struct Entry {
+        double time;
+        std::vector<double> adhesion;
+        reference::State state;
+    };
+    reference::Scene scene;
+    reference::Exported exported;
+    std::vector<Entry> entries;
+};
+
+inline DirectStates::DirectStates(int stride) : scene(make_enf({})), exported(scene) {
+    constexpr int steps = 40;
+    const auto march = enf_march({}, steps);
+    reference::DirectReference direct(scene);
+    for (int k = stride; k <= steps; k += stride) {
+        const double time = enf_time(k, steps);
+        const auto& adhesion = march[static_cast<std::size_t>(k)];
+        entries.push_back({time, adhesion, direct.solve(time, adhesion)});
+    }
+}
+
+struct FetiChoice {
+    std::int64_t subdomains;
+    const char* preconditioner;
+    const char* gluing;
+    std::string text() const { return std::to_string(subdomains) + " subdomains, " + preconditioner + ", " + gluing; }
+};
+
+// Worst differences over all states; `each` sees every comparison (index of the state, comparison, Krylov iterations).
+template <class Each>
+void solve_all(const DirectStates& states, const FetiChoice& choice, Each&& each) {
+    Enf e;
+    e.subdomains = choice.subdomains;
+    e.preconditioner = choice.preconditioner;
+    e.gluing = choice.gluing;
+    e.linear_limit = 100000;  // the poor preconditioners take thousands on a compliant interface
+    const auto scene = make_enf(e);
+    reference::Solver solver(scene, 0.0);
+    for (std::size_t i = 0; i < states.entries.size(); ++i) {
+        const auto& entry = states.entries[i];
+        solver.equilibrate(entry.time, entry.adhesion);
+        each(i, reference::compare(solver, entry.state, states.exported, 1e-10), solver.value("linear_iterations"));
+        solver.rollback();
+    }
+}
+
+}  // namespace cases

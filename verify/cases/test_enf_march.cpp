@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The scene enf: ductile end-notched flexure, h = 0.5 mm, 40 steps. In every step the energy balance, both bounds of the two-sided
+// estimate, the KKT conditions outside the solver, and the displacement step against the direct reference.
+#include <algorithm>
+
+#include "acceptance.hpp"
+#include "comparison.hpp"
+#include "direct.hpp"
+#include "enf.hpp"
+#include "support.hpp"
+
+namespace {
+
+constexpr int steps = 40;
+
+struct StepRecord {
+    std::int32_t status;
+    double stored, dissipated, work, load_potential;
+    double lower, increment, upper, increment_lower;
+    reference::Acceptance acceptance;
+    reference::Comparison comparison;
+    std::vector<double> adhesion;
+};
+
+std::vector<StepRecord> march() {
+    const auto scene = cases::make_enf({});
+    const reference::Exported exported(scene);
+    reference::DirectReference direct(scene);
+    reference::Solver solver(scene, 0.0);
+    std::vector<StepRecord> records;
+    for (int k = 1; k <= steps; ++k) {
+        const double time = cases::enf_time(k, steps);
+        StepRecord r{};
+        r.status = solver.advance(time);
+        if (r.status < 0) scene.require(r.status, "delam_solver_advance");
+        solver.commit();
+        r.stored = solver.value("stored_bulk") + solver.value("stored_interface");
+        r.dissipated = solver.value("dissipated");
+        r.work = solver.value("work");
+        r.load_potential = solver.value("load_potential");
+        r.lower = solver.value("lower");
+        r.increment = solver.value("increment");
+        r.upper = solver.value("upper");
+        r.increment_lower = solver.value("increment_lower");
+        r.adhesion = solver.field("adhesion");
+        r.acceptance = reference::accept(solver, exported);
+        r.comparison = reference::compare(solver, direct.solve(time, r.adhesion), exported, 1e-10);
+        records.push_back(std::move(r));
+    }
+    return records;
+}
+
+// One march for all tests: made before Check forks.
+std::vector<StepRecord> records;
+std::string march_failure;
+
+void make_march() {
+    if (!records.empty()) return;
+    try {
+        records = march();
+    } catch (const std::exception& e) {
+        march_failure = e.what();
+    }
+}
+
+const std::vector<StepRecord>& all() {
+    cases::expect(march_failure.empty(), march_failure);
+    return records;
+}
+
+std::string at(std::size_t k) { return "step " + std::to_string(k + 1) + ": "; }
+
+CASE_TEST(every_step_converges) {
+    for (std::size_t k = 0; k < all().size(); ++k) {
+        cases::expect(all()[k].status == DELAM_OK, at(k) + delam_status_name(all()[k].status));
+    }
+    cases::expect(all().size() == steps, "steps");
+}
+
+CASE_TEST(energy_balance) {
+    const double work = all().back().work;
+    cases::expect(work > 0.0, "the device does work");
+    for (std::size_t k = 0; k < all().size(); ++k) {
+        const auto& r = all()[k];
+        cases::expect_below(std::abs(r.stored + r.dissipated - r.work), 1e-3 * work, at(k) + "|stored + dissipated - work|");
+        cases::expect(r.load_potential == 0.0, at(k) + "no dead load, no potential");
+    }
+}
+
+CASE_TEST(two_sided_estimate) {
+    double stored = 0.0;
+    double dissipated = 0.0;
+    for (std::size_t k = 0; k < all().size(); ++k) {
+        const auto& r = all()[k];
+        const double energy = std::max(std::abs(r.stored), std::abs(r.work));
+        cases::expect_below(r.lower, r.increment_lower + 1e-9 * energy, at(k) + "lower bound");
+        cases::expect_below(r.increment, r.upper + 1e-9 * energy, at(k) + "upper bound");
+        cases::expect_near(r.increment, r.stored - stored + r.dissipated - dissipated, 1e-12, energy, at(k) + "increment");
+        stored = r.stored;
+        dissipated = r.dissipated;
+    }
+}
+
+CASE_TEST(work_is_the_mean_of_the_bounds) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < all().size(); ++k) {
+        sum += 0.5 * (all()[k].lower + all()[k].upper);
+        cases::expect_near(all()[k].work, sum, 1e-12, all().back().work, at(k) + "work");
+    }
+}
+
+CASE_TEST(kkt_outside_the_solver) {
+    for (std::size_t k = 0; k < all().size(); ++k) {
+        cases::expect_below(all()[k].acceptance.worst(), 1e-10, at(k) + all()[k].acceptance.text());
+    }
+}
+
+CASE_TEST(against_direct) {
+    for (std::size_t k = 0; k < all().size(); ++k) {
+        cases::expect_below(all()[k].comparison.worst(), 1e-8, at(k) + all()[k].comparison.text());
+        cases::expect(all()[k].comparison.contacts == 0, at(k) + all()[k].comparison.text());
+    }
+}
+
+CASE_TEST(irreversible) {
+    double dissipated = 0.0;
+    std::vector<double> adhesion = all().front().adhesion;
+    for (std::size_t k = 0; k < all().size(); ++k) {
+        cases::expect(all()[k].dissipated >= dissipated, at(k) + "dissipated falls");
+        for (std::size_t p = 0; p < adhesion.size(); ++p) {
+            cases::expect(all()[k].adhesion[p] <= adhesion[p], at(k) + "adhesion grows at pair " + std::to_string(p));
+        }
+        dissipated = all()[k].dissipated;
+        adhesion = all()[k].adhesion;
+    }
+    cases::expect(dissipated > 0.0, "the interface is damaged in the end");
+}
+
+}  // namespace
+
+int main() {
+    Suite* suite = suite_create("enf march");
+    TCase* tests = tcase_create("ductile");
+    tcase_add_unchecked_fixture(tests, make_march, nullptr);
+    tcase_add_test(tests, every_step_converges);
+    tcase_add_test(tests, energy_balance);
+    tcase_add_test(tests, two_sided_estimate);
+    tcase_add_test(tests, work_is_the_mean_of_the_bounds);
+    tcase_add_test(tests, kkt_outside_the_solver);
+    tcase_add_test(tests, against_direct);
+    tcase_add_test(tests, irreversible);
+    suite_add_tcase(suite, tests);
+    return cases::run_suite(suite);
+}

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# shellcheck shell=bash
+# To be sourced: what a bare Debian 12 needs, and how the scripts set it up.
+
+# The library, the command line, the plots and the tests.
+DELAM_PACKAGES=(
+    g++ gcc make cmake ninja-build pkg-config git ca-certificates
+    libsuitesparse-dev libmetis-dev libopenblas-dev liblapack-dev
+    libcli11-dev libtomlplusplus-dev libfmt-dev libhdf5-dev nlohmann-json3-dev
+    libgsl-dev check
+    python3 python3-numpy python3-matplotlib python3-h5py
+)
+# The long tier of the tests.
+# shellcheck disable=SC2034
+DELAM_LONG_PACKAGES=(clang valgrind)
+
+# delam_install PACKAGE...: installs what is missing, as root or through sudo; else prints the command and fails.
+delam_install() {
+    local package missing=()
+    for package in "$@"; do
+        if [[ $(dpkg-query -W -f='${Status}' "$package" 2>/dev/null) != "install ok installed" ]]; then
+            missing+=("$package")
+        fi
+    done
+    if ((${#missing[@]} == 0)); then
+        return 0
+    fi
+    local as_root=()
+    if ((EUID != 0)); then
+        as_root=(sudo)
+        if ! command -v sudo >/dev/null || ! { sudo -n true 2>/dev/null || [[ -t 0 ]]; }; then
+            printf 'Missing packages. As root:\n    apt-get update && apt-get install --no-install-recommends %s\n' "${missing[*]}" >&2
+            return 1
+        fi
+    fi
+    printf 'installing %s\n' "${missing[*]}"
+    "${as_root[@]}" apt-get update -q
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -qy --no-install-recommends "${missing[@]}"
+}
+
+# OpenBLAS 0.3.21 takes recent Intel processors for a Prescott and runs at a third of the speed; name the kernels instead.
+delam_blas() {
+    if [[ -z ${OPENBLAS_CORETYPE:-} && -r /proc/cpuinfo ]]; then
+        if grep -qw avx512f /proc/cpuinfo; then
+            export OPENBLAS_CORETYPE=SkylakeX
+        elif grep -qw avx2 /proc/cpuinfo; then
+            export OPENBLAS_CORETYPE=Haswell
+        fi
+    fi
+    printf 'OPENBLAS_CORETYPE=%s\n' "${OPENBLAS_CORETYPE:-chosen by OpenBLAS}"
+}

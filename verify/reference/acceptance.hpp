@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Acceptance of a state outside the solver: the primal KKT conditions in physical units, from exported fields alone.
+#pragma once
+
+#include <string>
+
+#include "exported.hpp"
+
+namespace reference {
+
+// Worst violations, each relative to what the condition is measured by; 0 = none.
+struct Acceptance {
+    double gap = 0.0;               // penetration of the exported jump, over the largest jump
+    double gap_displacement = 0.0;  // the same from u_b - u_a, less the rounding of the displacements themselves
+    double jump_mismatch = 0.0;     // exported jump against u_b - u_a, likewise
+    double pressure = 0.0;          // pull at a closed pair, over the largest traction
+    double complementarity = 0.0;   // |gap * contact force|, over largest jump * largest force
+    double equilibrium = 0.0;       // K u - loads - supports - tractions, over the largest reaction
+    double supports = 0.0;          // prescribed values, over the largest displacement
+    double law = 0.0;               // t - zeta k [u] of open components, over the largest traction
+    double adhesion = 0.0;          // adhesion outside [0,1]
+
+    double worst() const;
+    std::string text() const;
+};
+
+// The pending, else the committed state of the solver; `exported` belongs to the solver's scene.
+Acceptance accept(const Solver& solver, const Exported& exported);
+
+}  // namespace reference

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The public C API with C++ manners, for verification: owned handles, statuses as exceptions, arrays as vectors.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "delam/delam.h"
+
+namespace reference {
+
+// Thrown on any status other than DELAM_OK where that is what was expected.
+class Failure : public std::runtime_error {
+public:
+    Failure(std::int32_t status, const std::string& text) : std::runtime_error(text), status_(status) {}
+    std::int32_t status() const { return status_; }
+
+private:
+    std::int32_t status_;
+};
+
+struct Destroy {
+    void operator()(delam_context* p) const { delam_context_destroy(&p); }
+    void operator()(delam_mesh* p) const { delam_mesh_destroy(&p); }
+    void operator()(delam_law* p) const { delam_law_destroy(&p); }
+    void operator()(delam_problem* p) const { delam_problem_destroy(&p); }
+    void operator()(delam_solver* p) const { delam_solver_destroy(&p); }
+};
+using Context = std::unique_ptr<delam_context, Destroy>;
+using Mesh = std::unique_ptr<delam_mesh, Destroy>;
+using Law = std::unique_ptr<delam_law, Destroy>;
+using Problem = std::unique_ptr<delam_problem, Destroy>;
+using SolverHandle = std::unique_ptr<delam_solver, Destroy>;
+
+// Parameters of the piecewise-linear law; SI or whatever the scene uses.
+struct LawData {
+    double normal_stiffness, tangential_stiffness;
+    double normal_onset, tangential_onset;
+    double normal_toughness, tangential_toughness;
+    double exponent = 2.0;
+};
+
+// What a displacement step needs to know of an interface.
+struct InterfaceStiffness {
+    double normal = 0.0;
+    double tangential = 0.0;
+    bool bonded = false;
+};
+
+// Pairs of one interface as the library exports them.
+struct Pairs {
+    std::vector<std::int64_t> node_a, node_b;
+    std::vector<double> weight;
+    std::vector<double> frame;  // [pairs][dim][dim]
+    std::size_t count() const { return weight.size(); }
+};
+
+// A scene under construction: context, mesh, laws, problem. Interfaces come before begin(), everything else after.
+class Scene {
+public:
+    Scene(int dimension, const std::vector<double>& lengths, const std::vector<std::int64_t>& divisions,
+          const std::vector<double>& thickness, const std::vector<std::int64_t>& layer_divisions, std::int32_t cell_type);
+    Scene(int dimension, const std::vector<double>& nodes, std::int32_t cell_type, const std::vector<std::int64_t>& cells,
+          const std::vector<std::int32_t>& bodies);
+
+    std::int64_t interface(std::int32_t body_a, std::int32_t body_b);
+    void begin();
+
+    void elastic(std::int32_t body, double young, double poisson);
+    void law(std::int64_t interface_index, const LawData& data);
+    void bonded(std::int64_t interface_index);
+    void adhesion(std::int64_t interface_index, const std::vector<std::int64_t>& pairs, const std::vector<double>& values);
+    std::int64_t pattern(const char* name, const std::vector<double>& times, const std::vector<double>& values);
+    // Held at zero.
+    void hold(const std::vector<std::int64_t>& nodes, const std::vector<double>& direction);
+    // Driven by one pattern with one coefficient per node.
+    void drive(const std::vector<std::int64_t>& nodes, const std::vector<double>& direction, std::int64_t pattern,
+               const std::vector<double>& coefficients);
+    void number(const char* key, double value);
+    void text(const char* key, const char* value);
+    void require(std::int32_t status, const char* call) const;
+
+    int dimension() const { return dimension_; }
+    const std::vector<double>& nodes() const { return nodes_; }
+    std::size_t node_count() const { return nodes_.size() / static_cast<std::size_t>(dimension_); }
+    double coordinate(std::int64_t node, int axis) const { return nodes_[static_cast<std::size_t>(node * dimension_ + axis)]; }
+    // Nodes of a body (-1: all) in a box.
+    std::vector<std::int64_t> find(std::int32_t body, const std::vector<double>& lower, const std::vector<double>& upper) const;
+    Pairs pairs(std::int64_t interface_index) const;
+    std::size_t pair_count() const;
+
+    delam_context* context() const { return context_.get(); }
+    delam_mesh* mesh() const { return mesh_.get(); }
+    delam_problem* problem() const { return problem_.get(); }
+    const std::vector<InterfaceStiffness>& stiffness() const { return stiffness_; }
+
+private:
+    void adopt_mesh();
+
+    int dimension_;
+    Context context_;
+    Mesh mesh_;
+    std::vector<double> nodes_;
+    std::vector<Law> laws_;
+    Problem problem_;
+    std::vector<InterfaceStiffness> stiffness_;
+};
+
+// A solver of a scene; the scene must outlive it (its context carries the messages).
+class Solver {
+public:
+    Solver(const Scene& scene, double time);
+
+    // Status DELAM_OK is required by the first form, returned by the second.
+    void step(double time);
+    std::int32_t advance(double time) { return delam_solver_advance(handle_.get(), time); }
+    void commit();
+    void rollback();
+    void equilibrate(double time, const std::vector<double>& adhesion);
+    double value(const std::string& key) const;
+    std::vector<double> values() const;
+    std::vector<double> field(const char* key) const;
+    std::vector<std::uint8_t> save() const;
+    std::int32_t load(const std::vector<std::uint8_t>& bytes);
+
+    delam_solver* get() const { return handle_.get(); }
+    const Scene& scene() const { return *scene_; }
+
+private:
+    const Scene* scene_;
+    SolverHandle handle_;
+};
+
+}  // namespace reference

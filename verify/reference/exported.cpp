@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "exported.hpp"
+
+#include <map>
+
+namespace reference {
+namespace {
+
+// The exported body DOFs count the body's nodes in ascending order; this puts them back onto the mesh.
+Csr global_stiffness(const Scene& scene) {
+    const auto d = static_cast<std::size_t>(scene.dimension());
+    const std::size_t nodes = scene.node_count();
+    std::vector<std::int32_t> label(nodes);
+    scene.require(delam_mesh_node_bodies(scene.mesh(), static_cast<std::int64_t>(nodes), label.data()),
+                  "delam_mesh_node_bodies");
+    std::map<std::int32_t, std::vector<std::int64_t>> members;
+    for (std::size_t i = 0; i < nodes; ++i) {
+        if (label[i] >= 0) members[label[i]].push_back(static_cast<std::int64_t>(i));
+    }
+
+    std::vector<std::vector<std::pair<std::int64_t, double>>> rows(nodes * d);
+    for (const auto& [body, list] : members) {
+        std::int64_t row_count = 0;
+        std::int64_t entries = 0;
+        scene.require(delam_problem_body_matrix(scene.problem(), body, &row_count, &entries, nullptr, nullptr, nullptr),
+                      "delam_problem_body_matrix");
+        if (static_cast<std::size_t>(row_count) != list.size() * d) throw Failure(0, "body matrix: rows do not match the body");
+        Csr local;
+        local.start.resize(static_cast<std::size_t>(row_count) + 1);
+        local.column.resize(static_cast<std::size_t>(entries));
+        local.value.resize(static_cast<std::size_t>(entries));
+        scene.require(delam_problem_body_matrix(scene.problem(), body, &row_count, &entries, local.start.data(),
+                                                local.column.data(), local.value.data()),
+                      "delam_problem_body_matrix");
+        const auto global = [&](std::size_t i) { return list[i / d] * static_cast<std::int64_t>(d) + static_cast<std::int64_t>(i % d); };
+        for (std::size_t i = 0; i < local.rows(); ++i) {
+            auto& row = rows[static_cast<std::size_t>(global(i))];
+            for (auto e = local.start[i]; e < local.start[i + 1]; ++e) {
+                const auto k = static_cast<std::size_t>(e);
+                row.emplace_back(global(static_cast<std::size_t>(local.column[k])), local.value[k]);
+            }
+        }
+    }
+    Csr all;
+    for (const auto& row : rows) {
+        for (const auto& [column, value] : row) {
+            all.column.push_back(column);
+            all.value.push_back(value);
+        }
+        all.start.push_back(static_cast<std::int64_t>(all.column.size()));
+    }
+    return all;
+}
+
+}  // namespace
+
+Exported::Exported(const Scene& scene) : dimension(scene.dimension()), dofs(scene.nodes().size()) {
+    stiffness = global_stiffness(scene);
+    alive.resize(dofs);
+    for (std::size_t i = 0; i < dofs; ++i) alive[i] = stiffness.start[i + 1] > stiffness.start[i];
+
+    for (std::size_t i = 0; i < scene.stiffness().size(); ++i) interfaces.push_back(scene.pairs(static_cast<std::int64_t>(i)));
+
+    std::int64_t rows = 0;
+    std::int64_t entries = 0;
+    std::int64_t pattern_count = 0;
+    scene.require(delam_problem_constraints(scene.problem(), &rows, &entries, &pattern_count, nullptr, nullptr, nullptr, nullptr),
+                  "delam_problem_constraints");
+    constraints.start.resize(static_cast<std::size_t>(rows) + 1);
+    constraints.column.resize(static_cast<std::size_t>(entries));
+    constraints.value.resize(static_cast<std::size_t>(entries));
+    patterns = static_cast<std::size_t>(pattern_count);
+    prescribed.resize(static_cast<std::size_t>(rows) * patterns);
+    scene.require(delam_problem_constraints(scene.problem(), &rows, &entries, &pattern_count, constraints.start.data(),
+                                            constraints.column.data(), constraints.value.data(), prescribed.data()),
+                  "delam_problem_constraints");
+
+    for (std::size_t p = 0; p < patterns; ++p) {
+        forces.emplace_back(dofs);
+        scene.require(delam_problem_forces(scene.problem(), static_cast<std::int64_t>(p), static_cast<std::int64_t>(dofs),
+                                           forces.back().data()),
+                      "delam_problem_forces");
+    }
+}
+
+void Exported::load(const Scene& scene, double time, std::vector<double>& values, std::vector<double>& force) const {
+    std::vector<double> factor(patterns);
+    scene.require(delam_problem_factors(scene.problem(), time, static_cast<std::int64_t>(patterns), factor.data()),
+                  "delam_problem_factors");
+    values.assign(constraints.rows(), 0.0);
+    force.assign(dofs, 0.0);
+    for (std::size_t p = 0; p < patterns; ++p) {
+        for (std::size_t c = 0; c < values.size(); ++c) values[c] += prescribed[c * patterns + p] * factor[p];
+        for (std::size_t i = 0; i < dofs; ++i) force[i] += forces[p][i] * factor[p];
+    }
+}
+
+}  // namespace reference

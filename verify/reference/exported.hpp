@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A scene as the public API exports it: everything the reference knows about the mechanics comes from here.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "api.hpp"
+
+namespace reference {
+
+struct Csr {
+    std::vector<std::int64_t> start{0};
+    std::vector<std::int64_t> column;
+    std::vector<double> value;
+    std::size_t rows() const { return start.size() - 1; }
+};
+
+struct Exported {
+    explicit Exported(const Scene& scene);
+
+    int dimension = 0;
+    std::size_t dofs = 0;     // dimension * mesh nodes
+    Csr stiffness;            // all bodies over mesh DOFs, both triangles
+    std::vector<bool> alive;  // DOFs that some cell touches
+    std::vector<Pairs> interfaces;
+    Csr constraints;  // over mesh DOFs
+    std::size_t patterns = 0;
+    std::vector<double> prescribed;           // [constraints][patterns]
+    std::vector<std::vector<double>> forces;  // [patterns][dofs]
+
+    // Load of a time: prescribed values [constraints] and dead forces [dofs].
+    void load(const Scene& scene, double time, std::vector<double>& values, std::vector<double>& force) const;
+};
+
+}  // namespace reference

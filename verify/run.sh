@@ -1,0 +1,116 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# bash verify/run.sh [--all]: installs, builds, runs the quick tier of the tests and the unit tests under AddressSanitizer and UBSan.
+#   --all   also the long tier, clang 14 without warnings, valgrind on the unit tests, the header in C99, C11 and C++17
+# Ends with the line "N passed, N failed"; exit code 0 only without failures.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+# shellcheck source=verify/packages.sh
+source verify/packages.sh
+
+all=no
+case "${1:-}" in
+    "") ;;
+    --all) all=yes ;;
+    *)
+        printf 'usage: bash verify/run.sh [--all]\n' >&2
+        exit 2
+        ;;
+esac
+
+passed=0
+failed=0
+failures=()
+
+# check WHAT COMMAND...: one command that passes or fails.
+check() {
+    local what=$1
+    shift
+    printf '\n== %s\n' "$what"
+    if "$@"; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        failures+=("$what")
+    fi
+}
+
+# tests PRESET OPTIONS...: ctest in the build folder of a preset; every test counts.
+tests() {
+    local folder=build/$1 report total=0 bad=0
+    shift
+    report=$PWD/$folder/ctest.xml
+    rm -f "$report"
+    printf '\n== ctest in %s %s\n' "$folder" "$*"
+    ctest --test-dir "$folder" --output-on-failure --no-tests=error --output-junit "$report" "$@" || true
+    if [[ -f $report ]]; then
+        total=$(sed -n 's/^[[:space:]]*tests="\([0-9]*\)".*/\1/p' "$report" | head -n 1)
+        bad=$(sed -n 's/^[[:space:]]*failures="\([0-9]*\)".*/\1/p' "$report" | head -n 1)
+    fi
+    if ((${total:-0} == 0)); then
+        failed=$((failed + 1))
+        failures+=("no tests ran in $folder")
+        return
+    fi
+    passed=$((passed + total - bad))
+    failed=$((failed + bad))
+    if ((bad > 0)); then
+        failures+=("$bad tests in $folder $*")
+    fi
+}
+
+build() {
+    local preset=$1
+    shift
+    cmake --preset "$preset" "$@" && cmake --build --preset "$preset"
+}
+
+header() {
+    local standard
+    for standard in c99 c11; do
+        gcc -x c -std=$standard -Wall -Wextra -Wpedantic -Werror -fsyntax-only include/delam/delam.h || return 1
+    done
+    g++ -x c++ -std=c++17 -Wall -Wextra -Wpedantic -Werror -fsyntax-only include/delam/delam.h
+}
+
+# valgrind does not know AVX-512.
+memory_checked() {
+    OPENBLAS_CORETYPE=Haswell CK_FORK=no CK_DEFAULT_TIMEOUT=0 valgrind --quiet --error-exitcode=9 --leak-check=full \
+        --errors-for-leak-kinds=definite "$1"
+}
+
+delam_install "${DELAM_PACKAGES[@]}"
+if [[ $all == yes ]]; then
+    delam_install "${DELAM_LONG_PACKAGES[@]}"
+fi
+delam_blas
+export OPENBLAS_NUM_THREADS=1
+
+check "build release" build release
+if ((failed == 0)); then
+    if [[ $all == yes ]]; then
+        tests release -j2
+    else
+        tests release -j2 --label-exclude long
+    fi
+fi
+check "build with sanitizers" build asan -DDELAM_BUILD_CLI=OFF -DDELAM_BUILD_EXAMPLES=OFF
+if [[ -f build/asan/verify/CTestTestfile.cmake ]]; then
+    CK_FORK=no tests asan -j2 --label-regex unit --label-exclude long
+fi
+if [[ $all == yes ]]; then
+    check "header in C99, C11, C++17" header
+    check "clang without warnings" build clang
+    for program in build/release/verify/unit_test_*; do
+        if [[ -x $program && -f $program && $program != *test_long_* ]]; then
+            check "valgrind $(basename "$program")" memory_checked "$program"
+        fi
+    done
+fi
+
+printf '\n'
+for failure in "${failures[@]}"; do
+    printf 'failed: %s\n' "$failure"
+done
+printf '%d passed, %d failed\n' "$passed" "$failed"
+((failed == 0))
