@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# shellcheck shell=bash
+# shellcheck shell=bash disable=SC2034
 # To be sourced: what a bare Debian 12 needs, and how the scripts set it up.
 
 # The library, the command line, the plots and the tests.
@@ -11,7 +11,6 @@ DELAM_PACKAGES=(
     python3 python3-numpy python3-matplotlib python3-h5py
 )
 # The long tier of the tests.
-# shellcheck disable=SC2034
 DELAM_LONG_PACKAGES=(clang valgrind)
 
 # delam_install PACKAGE...: installs what is missing, as root or through sudo; else prints the command and fails.

@@ -53,7 +53,7 @@ bool on_triangle(const Point& p, const Point& a, const Point& b, const Point& c,
 }
 
 bool on_face(const Mesh& mesh, const BoundaryFace& face, const Point& p, double distance) {
-    std::array<Point, 4> x;
+    std::array<Point, 4> x{};
     for (std::size_t k = 0; k < at(face.nodes); ++k) x[k] = position(mesh, face.node[k]);
     if (face.nodes == 2) return on_segment(p, x[0], x[1], distance);
     return on_triangle(p, x[0], x[1], x[2], distance) || (face.nodes == 4 && on_triangle(p, x[0], x[2], x[3], distance));

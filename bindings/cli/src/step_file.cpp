@@ -23,9 +23,8 @@ Field fetch(const Model& model, const delam_solver* solver, const std::string& k
     call(model.context.get(), delam_solver_field_shape(solver, key.c_str(), part, &rows, &columns), "field " + key);
     Field out{std::vector<double>(static_cast<std::size_t>(rows * columns)), static_cast<std::size_t>(rows),
               static_cast<std::size_t>(columns)};
-    // The solver recovers what is only asked for now, which does not change its state.
     call(model.context.get(),
-         delam_solver_field(const_cast<delam_solver*>(solver), key.c_str(), part, rows * columns, out.values.data()),
+         delam_solver_field(solver, key.c_str(), part, rows * columns, out.values.data()),
          "field " + key);
     return out;
 }

@@ -1,0 +1,303 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures of a result of `delam run`: plot.py DIR writes DIR/load-displacement.png, energies.png and snapshots.png.
+
+Reads DIR/history.csv, fields.h5 and result.json. Needs Debian's python3-numpy, python3-matplotlib and python3-h5py.
+"""
+import csv
+import json
+import os
+import sys
+
+import h5py
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import LineCollection
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+BLUE, RED, GREEN, ORANGE, GREY = "#1f5a99", "#b3312c", "#2f7d4f", "#d18b1f", "#7a7f87"
+ZETA = matplotlib.colors.LinearSegmentedColormap.from_list("zeta", ["#b3122a", "#f2a541", "#f5e9b8", "#2b6cb0", "#0b2e59"])
+plt.rcParams.update({
+    "font.size": 10, "axes.titlesize": 11, "axes.spines.top": False, "axes.spines.right": False,
+    "axes.grid": True, "grid.color": "#e4e6ea", "grid.linewidth": 0.8, "axes.axisbelow": True,
+    "axes.edgecolor": "#50555c", "lines.linewidth": 1.6, "legend.frameon": False, "figure.dpi": 110, "savefig.dpi": 150,
+})
+
+
+class Result:
+    """What a folder holds."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        with open(os.path.join(folder, "result.json"), encoding="utf-8") as file:
+            self.about = json.load(file)
+        with open(os.path.join(folder, "history.csv"), newline="", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+        self.history = {name: np.array([float(row[i]) for row in rows[1:]]) for i, name in enumerate(rows[0])}
+        units = self.about["units"]
+        flat = self.about["scene"]["dimension"] == 2
+        self.length, self.time = units["length"], units["time"]
+        self.force = f"{units['force']}/{units['length']}" if flat else units["force"]
+        work = "J" if (units["force"], units["length"]) == ("N", "m") else f"{units['force']} {units['length']}"
+        self.energy = f"{work}/{units['length']}" if flat else work
+
+    def patterns(self):
+        """(label, load column, reaction column) of each pattern."""
+        names = self.about["patterns"]
+        if len(names) <= 1:
+            return [(names[0]["name"] if names else "", names[0]["drives"] if names else "displacement", "load", "reaction")]
+        return [(p["name"], p["drives"], "load_" + p["name"], "reaction_" + p["name"]) for p in names]
+
+    def title(self, what):
+        about = self.about
+        name = about["scene"]["title"] or os.path.basename(about["scene"]["file"])
+        state = "" if about["status"] == "complete" else f"   INCOMPLETE ({about['steps_done']}/{about['steps']} steps)"
+        return f"{name} – {what}{state}"
+
+    def stamp(self, figure):
+        about = self.about
+        figure.text(0.995, 0.004, f"delam {about['version']} · commit {about['commit'][:12]} · scene {about['scene_hash']} · "
+                    f"{about.get('concept', '')} solution", ha="right", va="bottom", fontsize=7, color=GREY)
+
+    def save(self, figure, name):
+        # Beside and renamed, like every other file of a result.
+        path = os.path.join(self.folder, name)
+        figure.savefig(path + ".new", format="png")
+        os.replace(path + ".new", path)
+        plt.close(figure)
+
+
+def text_of(attribute):
+    return attribute.decode() if isinstance(attribute, bytes) else str(attribute)
+
+
+def axis(label, unit):
+    return f"{label} [{unit}]" if unit else label
+
+
+def plot_load(result):
+    patterns = result.patterns()
+    figure, axes = plt.subplots(1, len(patterns), figsize=(6.8 * len(patterns), 4.4), squeeze=False, layout="constrained")
+    failed = set(result.about.get("not_converged", []))
+    for ax, (name, drives, load, reaction) in zip(axes[0], patterns):
+        x, y = result.history[load], result.history[reaction]
+        # Of a dead force the factor is the load and (minus) the reaction the displacement of its points.
+        if drives == "force":
+            x, y = -y, x
+        ax.plot(x, y, color=BLUE, marker="o", markersize=3)
+        bad = [i for i, step in enumerate(result.history["step"]) if int(step) in failed]
+        if bad:
+            ax.plot(x[bad], y[bad], "x", color=RED, label="not converged")
+            ax.legend()
+        ax.set_xlabel(axis("conjugate displacement" if drives == "force" else "prescribed displacement", result.length))
+        ax.set_ylabel("load factor" if drives == "force" else axis("reaction", result.force))
+        if len(patterns) > 1:
+            ax.set_title(name, fontsize=10)
+    figure.suptitle(result.title("load and displacement"), fontsize=11)
+    result.stamp(figure)
+    result.save(figure, "load-displacement.png")
+
+
+def plot_energies(result):
+    h = result.history
+    t = h["time"]
+    figure, (top, bottom) = plt.subplots(2, 1, figsize=(7.2, 7.4), sharex=True, height_ratios=[3, 2], layout="constrained")
+    stored = h["stored_bulk"] + h["stored_interface"] + h.get("load_potential", 0)
+    top.plot(t, h["stored_bulk"], color=BLUE, label="stored, bodies")
+    top.plot(t, h["stored_interface"], color=GREEN, label="stored, interfaces")
+    if "load_potential" in h:
+        top.plot(t, h["load_potential"], color=GREY, label="potential of the dead loads")
+    top.plot(t, h["dissipated"], color=RED, label="dissipated")
+    top.plot(t, stored + h["dissipated"], color="black", label="total")
+    top.plot(t, h["work"] + stored[0], color=ORANGE, linestyle="--", label="work")
+    top.set_ylabel(axis("energy", result.energy))
+    top.legend(ncols=2, loc="upper left")
+
+    # The band of the two-sided estimate, cumulated and seen from its middle: at the scale of the work it would be a line.
+    lower, increment, upper = (np.cumsum(h[name]) for name in ("lower", "increment", "upper"))
+    middle = 0.5 * (lower + upper)
+    bottom.fill_between(t, lower - middle, upper - middle, color=BLUE, alpha=0.18, linewidth=0, label="lower .. upper bound")
+    bottom.plot(t, increment - middle, color="black", label="stored + dissipated")
+    bottom.axhline(0, color=ORANGE, linestyle="--", linewidth=1.2, label="work, (lower + upper)/2")
+    bottom.set_ylabel(axis("cumulated, minus work", result.energy))
+    bottom.set_xlabel(axis("time", result.time))
+    bottom.legend(loc="upper left", ncols=3, fontsize=8)
+    slack = 1e-9 * np.max(np.abs(stored), initial=1e-300)
+    broken = int(np.sum((h["increment"] < h["lower"] - slack) | (h["increment"] > h["upper"] + slack)))
+    bottom.set_title("two-sided estimate: met in every step" if broken == 0 else
+                     f"two-sided estimate: violated in {broken} of {len(t) - 1} steps", fontsize=9, loc="left")
+    room = max(np.max(np.abs(upper - middle), initial=0), np.max(np.abs(increment - middle), initial=0))
+    if room > 0:
+        bottom.set_ylim(-1.15 * room, 1.6 * room)
+    figure.suptitle(result.title("energies"), fontsize=11)
+    result.stamp(figure)
+    result.save(figure, "energies.png")
+
+
+def boundary_edges(cells):
+    """Edges of plane cells that belong to one cell only."""
+    edges = np.concatenate([np.stack([cells[:, i], cells[:, (i + 1) % cells.shape[1]]], 1) for i in range(cells.shape[1])])
+    _, index, count = np.unique(np.sort(edges, 1), axis=0, return_index=True, return_counts=True)
+    return edges[index[count == 1]], edges[index]
+
+
+def boundary_faces(cells):
+    """Faces of solid cells that belong to one cell only."""
+    local = {8: [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]],
+             4: [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]}[cells.shape[1]]
+    faces = np.concatenate([cells[:, f] for f in local])
+    _, index, count = np.unique(np.sort(faces, 1), axis=0, return_index=True, return_counts=True)
+    return faces[index[count == 1]]
+
+
+def snapshot_steps(file, instants):
+    """The stored step nearest to each instant, each once."""
+    names = sorted(file["steps"])
+    times = np.array([float(file["steps"][n].attrs["time"]) for n in names])
+    chosen = []
+    for instant in instants:
+        k = int(np.argmin(np.abs(times - instant)))
+        if times[0] <= instant <= times[-1] + 1e-9 * max(1.0, abs(times[-1])) and k not in chosen:
+            chosen.append(k)
+    return [(times[k], file["steps"][names[k]]) for k in (chosen or [len(names) - 1])]
+
+
+def load_text(result, time):
+    """Load and reaction at the row of this time."""
+    row = int(np.argmin(np.abs(result.history["time"] - time)))
+    _, drives, load, reaction = result.patterns()[0]
+    return (f"load {result.history[load][row]:.4g}" + (f" {result.length}" if drives != "force" else "") +
+            (f", reaction {result.history[reaction][row]:.4g} {result.force}" if drives != "force" else ""))
+
+
+def draw_plane(ax, file, step, scale, light_mesh):
+    points = file["mesh/points"][:, :2]
+    cells = file["mesh/cells"][()]
+    moved = points + scale * step["displacement"][:, :2]
+    outline, edges = boundary_edges(cells)
+    if light_mesh:
+        ax.add_collection(LineCollection(moved[edges], colors="#d3d7dd", linewidths=0.25))
+    ax.add_collection(LineCollection(moved[outline], colors="#50555c", linewidths=0.7))
+    drawn = None
+    for name in sorted(k for k in step if k.startswith("interface_")):
+        if "zeta" not in step[name]:
+            continue
+        zeta = step[name]["zeta"][()]
+        faces = file["interfaces"][name]["faces"][()]
+        for side in ("nodes_a", "nodes_b"):
+            at = moved[file["interfaces"][name][side][()]]
+            drawn = LineCollection(at[faces[:, :2]], cmap=ZETA, linewidths=2.0, norm=plt.Normalize(0, 1))
+            drawn.set_array(zeta[faces[:, :2]].mean(axis=1))
+            ax.add_collection(drawn)
+    low, high = moved.min(axis=0), moved.max(axis=0)
+    return drawn, low, high
+
+
+def plot_plane(result, file, shots, scale):
+    columns = 2 if len(shots) > 1 else 1
+    rows = -(-len(shots) // columns)
+    points = file["mesh/points"][:, :2]
+    light_mesh = len(file["mesh/cells"]) <= 20000
+    boxes = [(points + scale * s["displacement"][:, :2]) for _, s in shots]
+    low = np.min([b.min(axis=0) for b in boxes], axis=0)
+    high = np.max([b.max(axis=0) for b in boxes], axis=0)
+    pad = 0.02 * (high[0] - low[0])
+    ratio = (high[1] - low[1] + 2 * pad) / (high[0] - low[0] + 2 * pad)
+    width = 5.6
+    figure, axes = plt.subplots(rows, columns, squeeze=False, layout="constrained",
+                                figsize=(columns * width, rows * (max(width * ratio, 0.5) + 0.45) + 1.2))
+    drawn = None
+    for ax, (time, step) in zip(axes.flat, shots):
+        drawn = draw_plane(ax, file, step, scale, light_mesh)[0] or drawn
+        ax.set_xlim(low[0] - pad, high[0] + pad)
+        ax.set_ylim(low[1] - pad, high[1] + pad)
+        ax.set_aspect("equal")
+        ax.axis("off")
+        unit = f" {result.time}" if result.time else ""
+        ax.set_title(f"t = {time:.6g}{unit}   {load_text(result, time)}", fontsize=9, loc="left")
+    for ax in axes.flat[len(shots):]:
+        ax.axis("off")
+    return figure, axes, drawn
+
+
+def plot_solid(result, file, shots, scale):
+    """Bodies as a transparent skin above; the adhesion of the interfaces as maps seen from above below it."""
+    columns = min(len(shots), 5)
+    rows = -(-len(shots) // columns)
+    points = file["mesh/points"][()]
+    skin = boundary_faces(file["mesh/cells"][()])
+    names = sorted(file["interfaces"])
+    figure = plt.figure(figsize=(4.0 * columns, rows * (2.9 + 1.3 * len(names)) + 1.0), layout="constrained")
+    grid = figure.add_gridspec(rows * (1 + len(names)), columns, height_ratios=([2.4] + [1.0] * len(names)) * rows)
+    drawn = None
+    axes = []
+    for i, (time, step) in enumerate(shots):
+        row, column = divmod(i, columns)
+        moved = points + scale * step["displacement"][()]
+        ax = figure.add_subplot(grid[row * (1 + len(names)), column], projection="3d")
+        ax.add_collection3d(Poly3DCollection(moved[skin], facecolor=(0.75, 0.79, 0.84, 0.25), edgecolor="#8b9199", linewidths=0.15))
+        extent = np.ptp(moved, axis=0)
+        for setter, a in ((ax.set_xlim, 0), (ax.set_ylim, 1), (ax.set_zlim, 2)):
+            setter(moved[:, a].min(), moved[:, a].max())
+        ax.set_box_aspect(np.maximum(extent, 0.05 * extent.max()), zoom=1.35)
+        ax.view_init(elev=18, azim=-62)
+        ax.set_axis_off()
+        ax.set_title(f"t = {time:.6g}\n{load_text(result, time)}", fontsize=8)
+        for n, name in enumerate(names):
+            flat = figure.add_subplot(grid[row * (1 + len(names)) + 1 + n, column])
+            axes.append(flat)
+            at = file["interfaces"][name]["points"][:, :2]
+            zeta = step[name]["zeta"][()]
+            faces = file["interfaces"][name]["faces"][()]
+            triangles = np.concatenate([faces[:, :3], faces[:, [0, 2, 3]]]) if faces.shape[1] == 4 else faces[:, :3]
+            triangles = triangles[[len(set(t)) == 3 for t in triangles]]
+            drawn = flat.tripcolor(at[:, 0], at[:, 1], triangles, zeta, cmap=ZETA, vmin=0, vmax=1, shading="gouraud")
+            if zeta.min() < 0.5 < zeta.max():
+                flat.tricontour(at[:, 0], at[:, 1], triangles, zeta, levels=[0.5], colors="black", linewidths=0.9)
+            flat.set_aspect("equal")
+            flat.axis("off")
+            if len(names) > 1:
+                flat.set_title(text_of(file["interfaces"][name].attrs["name"]), fontsize=7)
+    return figure, axes, drawn
+
+
+def plot_snapshots(result):
+    output = result.about["output"]
+    scale = output["displacement_scale"]
+    with h5py.File(os.path.join(result.folder, "fields.h5"), "r") as file:
+        shots = snapshot_steps(file, output["snapshots"])
+        if "displacement" not in shots[0][1]:
+            print("plot.py: no displacement in fields.h5, so no snapshots.png", file=sys.stderr)
+            return
+        draw = plot_plane if result.about["scene"]["dimension"] == 2 else plot_solid
+        figure, axes, drawn = draw(result, file, shots, scale)
+        if drawn is not None:
+            bar = figure.colorbar(drawn, ax=axes, orientation="horizontal", shrink=0.4, aspect=45, pad=0.02)
+            bar.set_label("adhesion ζ (1 intact, 0 debonded)")
+            bar.outline.set_visible(False)
+        figure.suptitle(result.title(f"displacements × {scale:g}"), fontsize=11)
+        result.stamp(figure)
+        result.save(figure, "snapshots.png")
+
+
+def main():
+    if len(sys.argv) != 2 or sys.argv[1] in ("-h", "--help"):
+        print("usage: plot.py DIR", file=sys.stderr)
+        return 2
+    folder = sys.argv[1]
+    try:
+        result = Result(folder)
+    except FileNotFoundError as error:
+        print(f"plot.py: {folder} holds no result: {error.filename} is missing", file=sys.stderr)
+        return 2
+    plot_load(result)
+    plot_energies(result)
+    plot_snapshots(result)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Cells are the vertices of a graph, shared faces its edges. METIS cuts it evenly with short borders; what it leaves in
+// pieces or empty is mended here, so that every part is non-empty and connected and their number is the one asked for.
+#include "mesh/partition.hpp"
+
+#include <metis.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <limits>
+#include <mutex>
+#include <new>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+#include "mesh/faces.hpp"
+
+namespace delam {
+
+namespace {
+
+// Compressed adjacency of some cells, numbered from 0.
+struct Graph {
+    std::vector<idx_t> start{0};
+    std::vector<idx_t> neighbour;
+
+    std::size_t size() const { return start.size() - 1; }
+    std::span<const idx_t> around(std::size_t i) const {
+        return std::span(neighbour).subspan(at(start[i]), at(start[i + 1] - start[i]));
+    }
+};
+
+using Parts = std::vector<std::int32_t>;  // part of each vertex
+
+// METIS 5 reseeds rand() and installs handlers for SIGABRT and SIGTERM while it runs. Both belong to the host: its sequence of
+// random numbers goes on where it was, its handlers are put back. Process-wide state, hence one call at a time.
+class Visit {
+public:
+    Visit() : lock_(mutex()) {
+        sequence_ = initstate(1, buffer_.data(), buffer_.size());
+        for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], nullptr, &handlers_[i]);
+    }
+    ~Visit() {
+        for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &handlers_[i], nullptr);
+        setstate(sequence_);
+    }
+    Visit(const Visit&) = delete;
+    Visit& operator=(const Visit&) = delete;
+
+private:
+    static constexpr std::array<int, 2> signals{SIGABRT, SIGTERM};
+    static std::mutex& mutex() {
+        static std::mutex one;
+        return one;
+    }
+    std::lock_guard<std::mutex> lock_;
+    std::array<char, 128> buffer_{};
+    char* sequence_ = nullptr;
+    std::array<struct sigaction, 2> handlers_{};
+};
+
+Parts cut_with_metis(Graph& graph, idx_t parts) {
+    auto vertices = static_cast<idx_t>(graph.size());
+    idx_t constraints = 1;
+    idx_t cut = 0;
+    std::array<idx_t, METIS_NOPTIONS> options{};
+    METIS_SetDefaultOptions(options.data());
+    options[METIS_OPTION_SEED] = 1;
+    options[METIS_OPTION_CONTIG] = 1;
+    std::vector<idx_t> part(graph.size(), 0);
+    int status = METIS_OK;
+    {
+        const Visit visit;
+        status = METIS_PartGraphKway(&vertices, &constraints, graph.start.data(), graph.neighbour.data(), nullptr, nullptr,
+                                     nullptr, &parts, nullptr, nullptr, options.data(), &cut, part.data());
+    }
+    if (status == METIS_ERROR_MEMORY) throw std::bad_alloc();
+    if (status != METIS_OK) fail(DELAM_ERROR_INTERNAL, "METIS_PartGraphKway: status ", status);
+    return {part.begin(), part.end()};
+}
+
+// Pieces that hang together within their part: the piece of each vertex, numbered by their first vertices.
+std::int32_t pieces(const Graph& graph, const Parts& part, std::vector<std::int32_t>& piece) {
+    piece.assign(graph.size(), -1);
+    std::int32_t count = 0;
+    std::vector<std::size_t> open;
+    for (std::size_t first = 0; first < graph.size(); ++first) {
+        if (piece[first] >= 0) continue;
+        open.assign(1, first);
+        piece[first] = count;
+        while (!open.empty()) {
+            const std::size_t i = open.back();
+            open.pop_back();
+            for (const idx_t j : graph.around(i)) {
+                if (piece[at(j)] >= 0 || part[at(j)] != part[i]) continue;
+                piece[at(j)] = count;
+                open.push_back(at(j));
+            }
+        }
+        ++count;
+    }
+    return count;
+}
+
+// Each part keeps its largest piece; the other ones join the part that they share most faces with. Repeats until no part is
+// in pieces; each round lessens their number, since what is joined touches its new part.
+void mend(const Graph& graph, Parts& part, std::int32_t parts) {
+    std::vector<std::int32_t> piece;
+    for (;;) {
+        const std::int32_t count = pieces(graph, part, piece);
+        std::vector<std::int64_t> size(at(count), 0);
+        std::vector<std::int32_t> owner(at(count), 0);
+        for (std::size_t i = 0; i < graph.size(); ++i) {
+            ++size[at(piece[i])];
+            owner[at(piece[i])] = part[i];
+        }
+        std::vector<std::int32_t> main(at(parts), -1);
+        for (std::int32_t p = 0; p < count; ++p) {
+            std::int32_t& m = main[at(owner[at(p)])];
+            if (m < 0 || size[at(p)] > size[at(m)]) m = p;
+        }
+        std::int32_t loose = -1;  // the first small piece
+        for (std::int32_t p = 0; p < count && loose < 0; ++p)
+            if (main[at(owner[at(p)])] != p) loose = p;
+        if (loose < 0) return;
+        std::vector<std::int64_t> faces(at(parts), 0);
+        for (std::size_t i = 0; i < graph.size(); ++i) {
+            if (piece[i] != loose) continue;
+            for (const idx_t j : graph.around(i))
+                if (piece[at(j)] != loose) ++faces[at(part[at(j)])];
+        }
+        const auto target = static_cast<std::int32_t>(std::max_element(faces.begin(), faces.end()) - faces.begin());
+        for (std::size_t i = 0; i < graph.size(); ++i)
+            if (piece[i] == loose) part[i] = target;
+    }
+}
+
+// Breadth-first tree over one part: its vertices in order, parents before children.
+struct Tree {
+    std::vector<std::size_t> order;
+    std::vector<std::size_t> parent;  // by vertex
+};
+Tree breadth_first(const Graph& graph, const Parts& part, std::size_t root) {
+    constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+    Tree tree{{root}, std::vector<std::size_t>(graph.size(), none)};
+    tree.parent[root] = root;
+    for (std::size_t k = 0; k < tree.order.size(); ++k) {
+        const std::size_t i = tree.order[k];
+        for (const idx_t j : graph.around(i)) {
+            if (part[at(j)] != part[root] || tree.parent[at(j)] != none) continue;
+            tree.parent[at(j)] = i;
+            tree.order.push_back(at(j));
+        }
+    }
+    return tree;
+}
+
+// Cuts a connected part in two connected ones: a branch of a breadth-first tree, as near to half of it as there is, becomes
+// `fresh`. The tree starts from a vertex far out, so that its branches are long.
+void halve(const Graph& graph, Parts& part, std::int32_t old, std::int32_t fresh) {
+    const auto first = static_cast<std::size_t>(std::find(part.begin(), part.end(), old) - part.begin());
+    const std::size_t far = breadth_first(graph, part, first).order.back();
+    const Tree tree = breadth_first(graph, part, far);
+    std::vector<std::size_t> weight(graph.size(), 1);  // of the branch that a vertex carries
+    for (std::size_t k = tree.order.size() - 1; k > 0; --k) weight[tree.parent[tree.order[k]]] += weight[tree.order[k]];
+    const auto off_half = [&](std::size_t i) {
+        const std::size_t twice = 2 * weight[i];
+        return twice > tree.order.size() ? twice - tree.order.size() : tree.order.size() - twice;
+    };
+    const std::size_t branch = *std::min_element(tree.order.begin() + 1, tree.order.end(),
+                                                 [&](std::size_t i, std::size_t j) { return off_half(i) < off_half(j); });
+    part[branch] = fresh;
+    for (const std::size_t i : tree.order)  // parents come before their children
+        if (i != far && part[tree.parent[i]] == fresh) part[i] = fresh;
+}
+
+// Parts 0 .. parts-1 of a connected graph, each non-empty and connected. Below a few vertices per part METIS is not asked: it
+// would leave parts empty and print about it.
+Parts cut(Graph& graph, std::int32_t parts) {
+    constexpr std::size_t enough = 12;
+    Parts part(graph.size(), 0);
+    if (parts > 1 && graph.size() >= enough * at(parts)) {
+        part = cut_with_metis(graph, parts);
+        mend(graph, part, parts);
+    }
+    for (;;) {
+        std::vector<std::int64_t> size(at(parts), 0);
+        for (const std::int32_t p : part) ++size[at(p)];
+        const auto empty = std::find(size.begin(), size.end(), 0);
+        if (empty == size.end()) return part;
+        const auto largest = std::max_element(size.begin(), size.end());
+        halve(graph, part, static_cast<std::int32_t>(largest - size.begin()),
+              static_cast<std::int32_t>(empty - size.begin()));
+    }
+}
+
+Graph graph_of(const FaceTable& table, std::span<const std::size_t> members, std::span<const idx_t> number) {
+    Graph graph;
+    for (const std::size_t i : members) {
+        for (std::size_t f = 0; f < at(FaceTable::stride); ++f) {
+            const std::int64_t j = table.neighbour[i * at(FaceTable::stride) + f];
+            if (j >= 0) graph.neighbour.push_back(number[at(j)]);
+        }
+        graph.start.push_back(static_cast<idx_t>(graph.neighbour.size()));
+    }
+    return graph;
+}
+
+// A face-connected part of a body.
+struct Component {
+    std::int32_t body;
+    std::vector<std::size_t> cells;  // positions in the list of all cells
+    std::int64_t parts = 1;
+};
+
+// One part for each component, then each further one where the cells per part are most numerous.
+void share_out(std::vector<Component>& components, std::int64_t subdomains) {
+    using Load = std::pair<double, std::size_t>;
+    const auto load = [&](std::size_t c) {
+        return static_cast<double>(components[c].cells.size()) / static_cast<double>(components[c].parts);
+    };
+    const auto lighter = [](const Load& a, const Load& b) {
+        return a.first < b.first || (a.first == b.first && a.second > b.second);
+    };
+    std::vector<Load> heap;
+    for (std::size_t c = 0; c < components.size(); ++c) heap.emplace_back(load(c), c);
+    std::make_heap(heap.begin(), heap.end(), lighter);
+    for (auto n = static_cast<std::int64_t>(components.size()); n < subdomains; ++n) {
+        std::pop_heap(heap.begin(), heap.end(), lighter);
+        const std::size_t c = heap.back().second;
+        ++components[c].parts;
+        heap.back() = {load(c), c};
+        std::push_heap(heap.begin(), heap.end(), lighter);
+    }
+}
+
+}  // namespace
+
+Partition partition(const Mesh& mesh, std::int64_t subdomains) {
+    const std::int64_t cells = mesh.cell_count();
+    if (subdomains < 0 || subdomains > std::max<std::int64_t>(cells, 1))
+        fail(DELAM_ERROR_ARGUMENT, "subdomains ", subdomains, ": must be in 0..", cells, ", the number of cells");
+    if (cells > std::numeric_limits<idx_t>::max() / FaceTable::stride)
+        fail(DELAM_ERROR_ARGUMENT, cells, " cells: METIS was built for fewer");
+
+    std::vector<std::int64_t> all(at(cells));
+    Parts body(at(cells));
+    for (std::int64_t c = 0; c < cells; ++c) {
+        all[at(c)] = c;
+        body[at(c)] = mesh.cell_body(c);
+    }
+    const FaceTable table = match_faces(mesh, all);  // bodies share no nodes, hence no faces
+    std::vector<std::size_t> members(at(cells));
+    std::vector<idx_t> number(at(cells));
+    for (std::size_t c = 0; c < at(cells); ++c) {
+        members[c] = c;
+        number[c] = static_cast<idx_t>(c);
+    }
+    std::vector<std::int32_t> piece;
+    const std::int32_t count = pieces(graph_of(table, members, number), body, piece);
+    std::vector<Component> components(at(count));
+    for (std::size_t c = 0; c < at(cells); ++c) {
+        Component& component = components[at(piece[c])];
+        component.body = body[c];
+        number[c] = static_cast<idx_t>(component.cells.size());
+        component.cells.push_back(c);
+    }
+    std::stable_sort(components.begin(), components.end(),
+                     [](const Component& a, const Component& b) { return a.body < b.body; });
+    share_out(components, subdomains);
+
+    Partition result;
+    result.cell_subdomain.assign(at(cells), -1);
+    for (const Component& component : components) {
+        Graph graph = graph_of(table, component.cells, number);
+        const Parts part = cut(graph, static_cast<std::int32_t>(component.parts));
+        std::vector<std::int32_t> name(at(component.parts), -1);  // parts are named in the order of their first cells
+        for (std::size_t k = 0; k < component.cells.size(); ++k) {
+            std::int32_t& n = name[at(part[k])];
+            if (n < 0) {
+                n = static_cast<std::int32_t>(result.subdomain_body.size());
+                result.subdomain_body.push_back(component.body);
+            }
+            result.cell_subdomain[component.cells[k]] = n;
+        }
+    }
+    return result;
+}
+
+}  // namespace delam

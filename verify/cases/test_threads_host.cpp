@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A guest in the host's process: independent contexts in threads, cancel from anywhere, no output, no signal handlers, no rand().
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <thread>
+
+#include "small_march.hpp"
+
+namespace {
+
+using reference::Scene;
+using reference::Solver;
+
+constexpr int few = 10;
+
+cases::Bits march(std::int64_t subdomains) {
+    const Scene scene = cases::small_enf(subdomains);
+    Solver solver(scene, 0.0);
+    cases::walk(solver, 1, few);
+    return cases::read_bits(solver);
+}
+
+CASE_TEST(two_threads_same_bits) {
+    const auto alone = march(6);
+    cases::Bits in_thread[2];
+    std::string failure[2];
+    std::thread threads[2];
+    for (int t = 0; t < 2; ++t) {
+        threads[t] = std::thread([&, t] {
+            try {
+                in_thread[t] = march(6);
+            } catch (const std::exception& e) {
+                failure[t] = e.what();
+            }
+        });
+    }
+    for (auto& thread : threads) thread.join();
+    const Scene scene = cases::small_enf(6);
+    const Solver names(scene, 0.0);
+    for (int t = 0; t < 2; ++t) {
+        cases::expect(failure[t].empty(), failure[t]);
+        cases::expect_same(names, in_thread[t], alone, "thread " + std::to_string(t));
+    }
+}
+
+struct Watch {
+    int calls = 0;
+    int stop_at = -1;
+    std::thread::id thread;
+    bool other_thread = false;
+};
+
+std::int32_t watch(const char* stage, std::int64_t, std::int64_t, void* user) {
+    auto& w = *static_cast<Watch*>(user);
+    ++w.calls;
+    if (stage == nullptr || std::this_thread::get_id() != w.thread) w.other_thread = true;
+    return w.stop_at >= 0 && w.calls >= w.stop_at ? 1 : 0;
+}
+
+// Cancelled at the first, second, ... call of the progress callback, the solver goes on as if the step had never been asked for.
+CASE_TEST(cancel_through_progress) {
+    const Scene scene = cases::small_enf();
+    Solver solver(scene, 0.0);
+    cases::walk(solver, 1, few);
+    const auto committed = cases::read_bits(solver);
+
+    Watch w;
+    w.thread = std::this_thread::get_id();
+    scene.require(delam_context_set_progress(scene.context(), watch, &w), "delam_context_set_progress");
+    solver.step(cases::small_time(few + 1));
+    const auto pending = cases::read_bits(solver);
+    solver.rollback();
+    const int calls = w.calls;
+    cases::expect(calls > 0, "progress is reported during a step");
+    cases::expect(!w.other_thread, "callbacks come on the caller's thread");
+
+    for (int stop = 1; stop <= calls; stop = stop < 4 ? stop + 1 : 2 * stop) {
+        w.calls = 0;
+        w.stop_at = stop;
+        const std::int32_t status = solver.advance(cases::small_time(few + 1));
+        cases::expect(status == DELAM_CANCELLED, "stopped at " + std::to_string(stop) + ": " + delam_status_name(status));
+        cases::expect_same(solver, cases::read_bits(solver), committed, "after cancelling");
+    }
+    w.stop_at = -1;
+    solver.step(cases::small_time(few + 1));
+    cases::expect_same(solver, cases::read_bits(solver), pending, "the step after all");
+    scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "delam_context_set_progress");
+    solver.commit();
+    solver.step(cases::small_time(few + 2));
+}
+
+struct Handshake {
+    std::atomic<bool> inside{false};
+    std::atomic<bool> cancelled{false};
+};
+
+// The callback lets the step go on only when the other thread has asked for its end.
+std::int32_t meet(const char*, std::int64_t, std::int64_t, void* user) {
+    auto& h = *static_cast<Handshake*>(user);
+    h.inside = true;
+    while (!h.cancelled) std::this_thread::yield();
+    return 0;
+}
+
+CASE_TEST(cancel_from_another_thread) {
+    const Scene scene = cases::small_enf();
+    Solver solver(scene, 0.0);
+    cases::walk(solver, 1, few);
+    const auto committed = cases::read_bits(solver);
+    Handshake h;
+    scene.require(delam_context_set_progress(scene.context(), meet, &h), "delam_context_set_progress");
+    std::atomic<bool> over{false};
+    std::thread other([&] {
+        while (!h.inside && !over) std::this_thread::yield();
+        delam_context_cancel(scene.context());
+        h.cancelled = true;
+    });
+    const std::int32_t status = solver.advance(cases::small_time(few + 1));
+    over = true;
+    other.join();
+    cases::expect(status == DELAM_CANCELLED, std::string("status ") + delam_status_name(status));
+    cases::expect_same(solver, cases::read_bits(solver), committed, "after cancelling");
+    scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "delam_context_set_progress");
+    solver.step(cases::small_time(few + 1));  // the request was consumed
+}
+
+// Runs a scene and provokes errors with both streams in a file; returns what was written.
+std::string written_during(void (*work)()) {
+    std::fflush(stdout);
+    std::fflush(stderr);
+    char name[] = "/tmp/delam-output-XXXXXX";
+    const int file = mkstemp(name);
+    cases::expect(file >= 0, "temporary file");
+    const int out = dup(1);
+    const int err = dup(2);
+    dup2(file, 1);
+    dup2(file, 2);
+    std::string failure;
+    try {
+        work();
+    } catch (const std::exception& e) {
+        failure = e.what();
+    }
+    std::fflush(stdout);
+    std::fflush(stderr);
+    dup2(out, 1);
+    dup2(err, 2);
+    close(out);
+    close(err);
+    std::string text(static_cast<std::size_t>(lseek(file, 0, SEEK_END)), '\0');
+    lseek(file, 0, SEEK_SET);
+    const auto got = read(file, text.data(), text.size());
+    close(file);
+    unlink(name);
+    cases::expect(failure.empty(), failure);
+    cases::expect(got == static_cast<ssize_t>(text.size()), "reading back");
+    return text;
+}
+
+void provoke() {
+    march(8);
+    Scene scene(2, {1.0}, {2}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
+    scene.interface(0, 1);
+    scene.begin();
+    delam_solver* solver = nullptr;
+    cases::expect(delam_solver_create(scene.problem(), 0.0, &solver) < 0, "an empty scene is refused");
+    cases::expect(solver == nullptr, "*out is NULL on error");
+    cases::expect(delam_problem_set_elastic(scene.problem(), 0, -1.0, 0.3) == DELAM_ERROR_ARGUMENT, "negative modulus");
+    cases::expect(delam_problem_set_elastic(scene.problem(), 0, std::nan(""), 0.3) == DELAM_ERROR_ARGUMENT, "NaN");
+    cases::expect(delam_problem_set_text(scene.problem(), "no such option", "x") < 0, "unknown option");
+    cases::expect(delam_solver_commit(nullptr) == DELAM_ERROR_HANDLE, "NULL handle");
+    std::int64_t index = 0;
+    cases::expect(delam_mesh_add_interface(scene.mesh(), 0, 7, 0.0, &index) < 0, "unknown body");
+}
+
+CASE_TEST(nothing_is_printed) {
+    const std::string text = written_during(provoke);
+    cases::expect(text.empty(), "the library wrote: " + text.substr(0, 200));
+}
+
+CASE_TEST(signals_and_rand_are_untouched) {
+    struct sigaction before[NSIG] = {};
+    for (int s = 1; s < NSIG; ++s) sigaction(s, nullptr, &before[s]);
+    std::srand(20100609);
+    int expected[8];
+    for (int& r : expected) r = std::rand();
+    std::srand(20100609);
+    int seen[8];
+    for (int i = 0; i < 4; ++i) seen[i] = std::rand();
+    provoke();
+    for (int i = 4; i < 8; ++i) seen[i] = std::rand();
+    for (int i = 0; i < 8; ++i) cases::expect(seen[i] == expected[i], "rand() was used or reseeded");
+    for (int s = 1; s < NSIG; ++s) {
+        struct sigaction now = {};
+        sigaction(s, nullptr, &now);
+        cases::expect(now.sa_handler == before[s].sa_handler && now.sa_flags == before[s].sa_flags,
+                      "handler of signal " + std::to_string(s) + " changed");
+    }
+}
+
+}  // namespace
+
+int main() {
+    Suite* suite = suite_create("threads and host");
+    TCase* tests = tcase_create("guest");
+    tcase_add_test(tests, two_threads_same_bits);
+    tcase_add_test(tests, cancel_through_progress);
+    tcase_add_test(tests, cancel_from_another_thread);
+    tcase_add_test(tests, nothing_is_printed);
+    tcase_add_test(tests, signals_and_rand_are_untouched);
+    suite_add_tcase(suite, tests);
+    return cases::run_suite(suite);
+}

@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Options, patterns, the check of a scene with its supports, and the hash.
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+#include "mesh/layers.hpp"
+#include "scene/problem.hpp"
+
+// Last: its macro fail() would break delam::fail().
+#include <check.h>
+
+using namespace delam;
+
+namespace {
+
+// The error that an action ends with: its status and words. Status 0: none.
+struct Outcome {
+    std::int32_t status = 0;
+    std::string words;
+    bool says(const std::string& part) const { return words.find(part) != std::string::npos; }
+};
+
+Outcome outcome(const std::function<void()>& action) {
+    try {
+        action();
+        return {};
+    } catch (const Error& e) {
+        return {e.status(), e.what()};
+    }
+}
+
+void expect(const Problem& problem, const std::string& part) {
+    const Outcome o = outcome([&] { validate(problem); });
+    ck_assert_msg(o.status == DELAM_ERROR_PROBLEM && o.says(part), "expected '%s', got %d '%s'", part.c_str(), o.status,
+                  o.words.c_str());
+}
+
+void expect_valid(const Problem& problem) {
+    const Outcome o = outcome([&] { validate(problem); });
+    ck_assert_msg(o.status == 0, "got %d '%s'", o.status, o.words.c_str());
+}
+
+Law ductile() {
+    Law law;
+    law.normal_stiffness = law.tangential_stiffness = 125e9;
+    law.normal_onset = law.tangential_onset = 100.0;
+    law.normal_toughness = law.tangential_toughness = 250.0;
+    return law;
+}
+
+// Layers of 4 x 1 (x 1) with an interface between neighbours, materials and laws; no supports yet.
+Problem stack(int dimension, std::size_t layers) {
+    const std::vector<double> lengths{4.0, 1.0};
+    const std::vector<std::int64_t> divisions{4, 1};
+    const std::vector<double> thickness(layers, 1.0);
+    const std::vector<std::int64_t> layer_divisions(layers, 1);
+    const auto axes = static_cast<std::size_t>(dimension - 1);
+    auto mesh = std::make_shared<Mesh>(make_layers(dimension, std::span(lengths).first(axes), std::span(divisions).first(axes),
+                                                   thickness, layer_divisions,
+                                                   dimension == 2 ? CellType::quad4 : CellType::hex8));
+    for (std::size_t i = 0; i + 1 < layers; ++i) {
+        mesh->add_interface(static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1), 1e-6);
+    }
+    Problem problem(mesh);
+    for (auto& material : problem.material) material = Elastic{75e9, 0.3};
+    for (auto& interface : problem.interfaces) interface.law = ductile();
+    return problem;
+}
+
+std::int64_t node_at(const Problem& problem, std::int32_t body, std::vector<double> place) {
+    for (const std::int64_t node : problem.mesh->body_nodes(body)) {
+        const auto p = problem.mesh->node(node);
+        if (std::equal(p.begin(), p.end(), place.begin())) return node;
+    }
+    ck_abort_msg("no such node");
+    return -1;
+}
+
+void hold(Problem& problem, std::int64_t node, int component) {
+    problem.constraints.push_back({{problem.mesh->dimension() * node + component}, {1.0}, {}});
+}
+
+// Statically determinate: left corner u_x = u_y = 0, right corner u_y = 0.
+void hold_bottom(Problem& problem) {
+    hold(problem, node_at(problem, 0, {0.0, 0.0}), 0);
+    hold(problem, node_at(problem, 0, {0.0, 0.0}), 1);
+    hold(problem, node_at(problem, 0, {4.0, 0.0}), 1);
+}
+
+void debond(Problem& problem, std::size_t interface) {
+    for (double& zeta : problem.interfaces[interface].adhesion) zeta = 0.0;
+}
+
+void push(Problem& problem, std::int64_t node, int component) {
+    problem.patterns.push_back({"push", {0.0, 1.0}, {0.0, 1.0}, Pattern::Drives::force});
+    problem.forces.push_back({static_cast<std::int64_t>(problem.patterns.size()) - 1,
+                              problem.mesh->dimension() * node + component, 1.0});
+}
+
+}  // namespace
+
+START_TEST(options_follow_their_table) {
+    Options options;
+    for (const OptionInfo& info : option_table()) {
+        const std::string type = info.type;
+        const auto set = [&](double value) { return outcome([&] { options.set_number(info.key, value); }); };
+        if (type == "text") {
+            ck_assert_int_eq(outcome([&] { options.set_text(info.key, info.initial); }).status, 0);
+            const Outcome o = outcome([&] { options.set_text(info.key, "nonsense"); });
+            ck_assert_int_eq(o.status, DELAM_ERROR_ARGUMENT);
+            ck_assert(o.says(info.key) && o.says("'nonsense'") && o.says(info.range));
+            ck_assert_int_eq(outcome([&] { options.set_text(info.key, info.range); }).status, DELAM_ERROR_ARGUMENT);
+            ck_assert(set(1.0).says("is a text"));
+            continue;
+        }
+        ck_assert_int_eq(set(std::stod(info.initial)).status, 0);
+        ck_assert(outcome([&] { options.set_text(info.key, "1"); }).says("is a number"));
+        for (const double bad : {-1.0, 1e17, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+            const Outcome o = set(bad);
+            ck_assert_int_eq(o.status, DELAM_ERROR_ARGUMENT);
+            ck_assert(o.says(info.key) && o.says(info.range));
+        }
+        if (type == "integer") ck_assert(set(1.5).says("whole number"));
+        if (type == "real") ck_assert_int_eq(set(0.0).status, DELAM_ERROR_ARGUMENT);
+    }
+    const Options fresh;
+    ck_assert_double_eq(options.damage_tolerance, fresh.damage_tolerance);
+    ck_assert_double_eq(options.backtracking_tolerance, fresh.backtracking_tolerance);
+    ck_assert_double_eq(options.linear_tolerance, fresh.linear_tolerance);
+    ck_assert(options.minimisation_limit == fresh.minimisation_limit && options.contact_limit == fresh.contact_limit);
+    ck_assert(options.subdomains == fresh.subdomains && options.linear_limit == fresh.linear_limit);
+    ck_assert(options.gluing == fresh.gluing && options.preconditioner == fresh.preconditioner);
+    ck_assert(options.scaling == fresh.scaling);
+    const Outcome o = outcome([&] { options.set_number("linear_tolerence", 1e-9); });
+    ck_assert(o.says("'linear_tolerence' is not known") && o.says("linear_tolerance"));
+}
+END_TEST
+
+START_TEST(patterns_are_piecewise_linear) {
+    const Pattern pattern{"p", {1.0, 2.0, 4.0}, {0.0, 3.0, -1.0}};
+    ck_assert_double_eq(pattern.at(-5.0), 0.0);
+    ck_assert_double_eq(pattern.at(1.0), 0.0);
+    ck_assert_double_eq(pattern.at(1.5), 1.5);
+    ck_assert_double_eq(pattern.at(2.0), 3.0);
+    ck_assert_double_eq(pattern.at(3.0), 1.0);
+    ck_assert_double_eq(pattern.at(4.0), -1.0);
+    ck_assert_double_eq(pattern.at(9.0), -1.0);
+    const Pattern constant{"c", {0.0}, {2.0}};
+    ck_assert_double_eq(constant.at(-1.0), 2.0);
+    ck_assert_double_eq(constant.at(1.0), 2.0);
+}
+END_TEST
+
+START_TEST(incomplete_scenes_are_refused_by_name) {
+    Problem good = stack(2, 2);
+    hold_bottom(good);
+    expect_valid(good);
+
+    Problem problem = good;
+    problem.material[1].reset();
+    expect(problem, "body 1: no material");
+
+    problem = good;
+    problem.interfaces[0].law.reset();
+    expect(problem, "interface 0: no law");
+
+    problem.interfaces[0].bonded = true;
+    expect_valid(problem);
+    problem.interfaces[0].adhesion[2] = 0.0;
+    expect(problem, "pair 2 has an adhesion of 0");
+
+    problem = good;
+    problem.interfaces[0].law->normal_toughness = 50.0;
+    expect(problem, "interface 0: ");
+
+    problem = good;
+    problem.patterns.push_back({"idle", {0.0}, {1.0}});
+    expect(problem, "pattern 'idle' drives neither");
+
+    problem = good;
+    hold(problem, node_at(problem, 0, {0.0, 0.0}), 0);
+    expect(problem, "constraint 3 prescribes what earlier ones");
+
+    // A mean over nodes that are held already, and the same mean twice.
+    problem = good;
+    const std::int64_t left = node_at(problem, 0, {0.0, 0.0});
+    const std::int64_t right = node_at(problem, 0, {4.0, 0.0});
+    const std::int64_t middle = node_at(problem, 0, {2.0, 0.0});
+    problem.constraints.push_back({{2 * left + 1, 2 * right + 1}, {0.5, 0.5}, {}});
+    expect(problem, "constraint 3 (a mean)");
+    problem.constraints.back() = {{2 * left + 1, 2 * middle + 1}, {0.5, 0.5}, {}};
+    expect_valid(problem);
+    problem.constraints.push_back(problem.constraints.back());
+    expect(problem, "constraint 4 (a mean)");
+}
+END_TEST
+
+START_TEST(missing_supports_are_described) {
+    Problem problem = stack(2, 2);
+    expect(problem, "missing support: no displacement is prescribed anywhere");
+
+    hold(problem, node_at(problem, 0, {0.0, 0.0}), 1);
+    hold(problem, node_at(problem, 0, {4.0, 0.0}), 1);
+    expect(problem, "bodies 0, 1 can translate along x");
+
+    hold(problem, node_at(problem, 1, {0.0, 2.0}), 0);
+    expect_valid(problem);
+
+    problem.constraints.clear();
+    hold(problem, node_at(problem, 0, {4.0, 0.0}), 0);
+    hold(problem, node_at(problem, 0, {4.0, 0.0}), 1);
+    expect(problem, "bodies 0, 1 can rotate about the point (4, 0)");
+
+    // A support on a slope leaves the motion along it.
+    problem.constraints.clear();
+    for (const double x : {0.0, 4.0}) {
+        const std::int64_t node = node_at(problem, 0, {x, 0.0});
+        problem.constraints.push_back({{2 * node, 2 * node + 1}, {0.6, 0.8}, {}});
+    }
+    expect(problem, "translate along (");
+}
+END_TEST
+
+START_TEST(missing_supports_in_space_are_described) {
+    Problem problem = stack(3, 2);
+    const std::int64_t a = node_at(problem, 0, {0.0, 0.0, 0.0});
+    const std::int64_t b = node_at(problem, 0, {4.0, 0.0, 0.0});
+    for (int c = 0; c < 3; ++c) hold(problem, a, c);
+    hold(problem, b, 1);
+    hold(problem, b, 2);
+    expect(problem, "bodies 0, 1 can rotate about the axis along x through (2, 0, 0)");
+    hold(problem, node_at(problem, 0, {0.0, 1.0, 0.0}), 2);
+    expect_valid(problem);
+    problem.constraints.erase(problem.constraints.begin());
+    expect(problem, "bodies 0, 1 can translate along x");
+}
+END_TEST
+
+START_TEST(floating_plies_are_legal) {
+    // The upper ply lies loose on the lower one: held by contact, or free.
+    Problem loose = stack(2, 2);
+    hold_bottom(loose);
+    debond(loose, 0);
+    expect_valid(loose);
+
+    // A dead force on it is another matter; one on the ply that is held is not.
+    Problem pulled = loose;
+    push(pulled, node_at(loose, 1, {0.0, 2.0}), 0);
+    expect(pulled, "dead forces of pattern 'push'");
+    Problem held = loose;
+    push(held, node_at(loose, 0, {0.0, 1.0}), 0);
+    expect_valid(held);
+
+    // Two plies glued to each other, loose on a third; a ply hanging at a single pair (2D: it can turn there).
+    Problem pair = stack(2, 3);
+    hold_bottom(pair);
+    debond(pair, 0);
+    expect_valid(pair);
+    Problem hinge = loose;
+    hinge.interfaces[0].adhesion.front() = 1.0;
+    expect_valid(hinge);
+    push(hinge, node_at(hinge, 1, {4.0, 2.0}), 0);
+    expect(hinge, "body 1 can rotate about the point (0, 1)");
+
+    // Supports on the loose ply alone do not excuse those missing on the structure.
+    Problem nothing = stack(2, 2);
+    debond(nothing, 0);
+    expect(nothing, "no displacement is prescribed");
+    hold(nothing, node_at(nothing, 0, {0.0, 0.0}), 0);
+    expect(nothing, "bodies 0, 1 can translate along y");
+}
+END_TEST
+
+START_TEST(bodies_without_contact_need_their_own_supports) {
+    const std::vector<double> lengths{1.0};
+    const std::vector<std::int64_t> divisions{1};
+    const std::vector<double> thickness{1.0, 1.0};
+    const std::vector<std::int64_t> layer_divisions{1, 1};
+    Problem problem(std::make_shared<Mesh>(make_layers(2, lengths, divisions, thickness, layer_divisions, CellType::tri3)));
+    for (auto& material : problem.material) material = Elastic{1.0, 0.0};
+    hold(problem, node_at(problem, 0, {0.0, 0.0}), 0);
+    hold(problem, node_at(problem, 0, {0.0, 0.0}), 1);
+    hold(problem, node_at(problem, 0, {1.0, 0.0}), 1);
+    expect(problem, "body 1 can translate along x; body 1 can translate along y; body 1 can rotate about the point (0.5, 1.5)");
+}
+END_TEST
+
+START_TEST(cells_that_share_a_node_are_hinged) {
+    // Two squares touch at (1, 1): one body for the host, two pieces that turn about the common node.
+    const std::vector<double> nodes{0, 0, 1, 0, 0, 1, 1, 1, 2, 1, 1, 2, 2, 2};
+    auto mesh = std::make_shared<Mesh>(2, nodes);
+    const std::vector<std::int64_t> cells{0, 1, 3, 2, 3, 4, 6, 5};
+    const std::vector<std::int32_t> labels{7, 7};
+    mesh->add_cells(CellType::quad4, cells, labels);
+    Problem problem(mesh);
+    problem.material[0] = Elastic{1.0, 0.0};
+    for (const std::int64_t node : {0, 1}) {
+        hold(problem, node, 1);
+        if (node == 0) hold(problem, node, 0);
+    }
+    expect(problem, "body 7 can rotate about the point (1, 1)");
+    hold(problem, 6, 0);
+    expect_valid(problem);
+}
+END_TEST
+
+START_TEST(supports_do_not_depend_on_units) {
+    for (const double unit : {1e-6, 1.0, 1e6}) {
+        const std::vector<double> lengths{120.0 * unit};
+        const std::vector<std::int64_t> divisions{240};
+        const std::vector<double> thickness{3.0 * unit, 3.0 * unit};
+        const std::vector<std::int64_t> layer_divisions{6, 6};
+        auto mesh = std::make_shared<Mesh>(make_layers(2, lengths, divisions, thickness, layer_divisions, CellType::quad4));
+        mesh->add_interface(0, 1, 1e-6);
+        Problem problem(mesh);
+        for (auto& material : problem.material) material = Elastic{75e9, 0.3};
+        problem.interfaces[0].law = ductile();
+        // Neighbouring nodes hold a rotation as well, if softly.
+        hold(problem, 0, 0);
+        hold(problem, 0, 1);
+        expect(problem, "rotate about the point (0, 0)");
+        hold(problem, 1, 1);
+        expect_valid(problem);
+    }
+}
+END_TEST
+
+START_TEST(hash_changes_with_every_datum) {
+    Problem base = stack(2, 2);
+    hold_bottom(base);
+    push(base, node_at(base, 0, {0.0, 1.0}), 0);
+    base.patterns.push_back({"move", {0.0, 1.0}, {0.0, 1.0}, Pattern::Drives::displacement});
+    base.constraints[0].prescribed = {0.0, 1.0};
+    const std::uint64_t origin = hash(base);
+    ck_assert(hash(Problem(base)) == origin);
+    const std::vector<std::function<void(Problem&)>> changes{
+        [](Problem& p) { p.plane = Plane::stress; },
+        [](Problem& p) { p.material[1]->young = 76e9; },
+        [](Problem& p) { p.material[1]->poisson = 0.31; },
+        [](Problem& p) { p.material[0].reset(); },
+        [](Problem& p) { p.interfaces[0].bonded = true; },
+        [](Problem& p) { p.interfaces[0].law.reset(); },
+        [](Problem& p) { p.interfaces[0].adhesion[1] = 0.5; },
+        [](Problem& p) { p.interfaces[0].law->normal_stiffness *= 2.0; },
+        [](Problem& p) { p.interfaces[0].law->tangential_stiffness *= 2.0; },
+        [](Problem& p) { p.interfaces[0].law->normal_onset *= 0.5; },
+        [](Problem& p) { p.interfaces[0].law->tangential_onset *= 0.5; },
+        [](Problem& p) { p.interfaces[0].law->normal_toughness *= 2.0; },
+        [](Problem& p) { p.interfaces[0].law->tangential_toughness *= 2.0; },
+        [](Problem& p) { p.interfaces[0].law->onset_exponent_1 = 1.0; },
+        [](Problem& p) { p.interfaces[0].law->onset_exponent_2 = 1.0; },
+        [](Problem& p) { p.interfaces[0].law->toughness_exponent_1 = 1.0; },
+        [](Problem& p) { p.interfaces[0].law->toughness_exponent_2 = 1.0; },
+        [](Problem& p) { p.patterns[0].name = "pull"; },
+        [](Problem& p) { p.patterns[0].times[1] = 2.0; },
+        [](Problem& p) { p.patterns[0].values[1] = 2.0; },
+        [](Problem& p) { p.patterns[0].drives = Pattern::Drives::nothing; },
+        [](Problem& p) { p.constraints.pop_back(); },
+        [](Problem& p) { p.constraints[0].dof[0] += 1; },
+        [](Problem& p) { p.constraints[0].coefficient[0] = 0.5; },
+        [](Problem& p) { p.constraints[0].prescribed[1] = 2.0; },
+        [](Problem& p) { p.forces[0].pattern = 1; },
+        [](Problem& p) { p.forces[0].dof += 1; },
+        [](Problem& p) { p.forces[0].value = 2.0; },
+        [](Problem& p) { p.options.damage_tolerance = 1e-6; },
+        [](Problem& p) { p.options.minimisation_limit = 7; },
+        [](Problem& p) { p.options.backtracking_tolerance = 1e-4; },
+        [](Problem& p) { p.options.contact_limit = 7; },
+        [](Problem& p) { p.options.subdomains = 7; },
+        [](Problem& p) { p.options.gluing = "redundant"; },
+        [](Problem& p) { p.options.preconditioner = "lumped"; },
+        [](Problem& p) { p.options.scaling = "multiplicity"; },
+        [](Problem& p) { p.options.linear_tolerance = 1e-9; },
+        [](Problem& p) { p.options.linear_limit = 7; },
+    };
+    std::vector<std::uint64_t> seen{origin, hash(stack(2, 2)), hash(stack(2, 3)), hash(stack(3, 2))};
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        Problem changed = base;
+        changes[i](changed);
+        seen.push_back(hash(changed));
+    }
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) ck_assert_msg(seen[i] != seen[j], "changes %zu and %zu hash alike", i, j);
+    }
+}
+END_TEST
+
+int main() {
+    Suite* suite = suite_create("scene");
+    TCase* tests = tcase_create("scene");
+    tcase_add_test(tests, options_follow_their_table);
+    tcase_add_test(tests, patterns_are_piecewise_linear);
+    tcase_add_test(tests, incomplete_scenes_are_refused_by_name);
+    tcase_add_test(tests, missing_supports_are_described);
+    tcase_add_test(tests, missing_supports_in_space_are_described);
+    tcase_add_test(tests, floating_plies_are_legal);
+    tcase_add_test(tests, bodies_without_contact_need_their_own_supports);
+    tcase_add_test(tests, cells_that_share_a_node_are_hinged);
+    tcase_add_test(tests, supports_do_not_depend_on_units);
+    tcase_add_test(tests, hash_changes_with_every_datum);
+    suite_add_tcase(suite, tests);
+    SRunner* runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? 0 : 1;
+}
