@@ -4,8 +4,8 @@
  *
  *     enf [history.csv]        without an argument the history goes to standard output
  *
- * Two arms of 120 mm x 3 mm lie on each other, bonded by an interface but for a notch of 30 mm at the left end. The bottom
- * corners are held, the top of mid-span is pressed down to 6 mm in 40 steps. SI units, per metre of width.
+ * Two arms of 120 mm x 3 mm lie on each other, bonded by an interface but for a notch of 30 mm at the left end. The
+ * bottom corners are held, the top of mid-span is pressed down to 6 mm in 40 steps. SI units, per metre of width.
  */
 #include <stdint.h>
 #include <stdio.h>
@@ -44,7 +44,8 @@ static int make_mesh(scene *s) {
     const double thickness[2] = {height, height};
     const int64_t layer_divisions[2] = {6, 6};
     int64_t interface_index = 0;
-    TRY(delam_mesh_create_layers(s->context, 2, lengths, divisions, 2, thickness, layer_divisions, DELAM_QUAD4, &s->mesh));
+    TRY(delam_mesh_create_layers(s->context, 2, lengths, divisions, 2, thickness, layer_divisions, DELAM_QUAD4,
+                                 &s->mesh));
     TRY(delam_mesh_add_interface(s->mesh, 0, 1, 0.0, &interface_index));
     return 0;
 }

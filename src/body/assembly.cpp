@@ -55,17 +55,19 @@ NodeGraph node_graph(std::span<const std::vector<std::int64_t>> cells, std::size
 
 }  // namespace
 
-// The pattern is known from the graph of nodes before any number is: element matrices are added straight into their places,
-// cell after cell, and no list of all their entries ever exists. Both triangles receive the same numbers in the same order.
-SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> cells, std::span<const std::int64_t> nodes,
-                                const Elastic& material, Plane plane) {
+// The pattern is known from the graph of nodes before any number is: element matrices are added straight into their
+// places, cell after cell, and no list of all their entries ever exists. Both triangles receive the same numbers in
+// the same order.
+SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> cells,
+                                std::span<const std::int64_t> nodes, const Elastic& material, Plane plane) {
     const std::size_t dim = at(mesh.dimension());
     std::vector<std::vector<std::int64_t>> local(cells.size());
     for (std::size_t c = 0; c < cells.size(); ++c) {
         for (const std::int64_t n : mesh.cell(cells[c])) {
             const auto place = std::lower_bound(nodes.begin(), nodes.end(), n);
             if (place == nodes.end() || *place != n)
-                fail(DELAM_ERROR_INTERNAL, "node ", n, " of cell ", cells[c], " is not among the nodes to assemble over");
+                fail(DELAM_ERROR_INTERNAL, "node ", n, " of cell ", cells[c],
+                     " is not among the nodes to assemble over");
             local[c].push_back(place - nodes.begin());
         }
     }
@@ -97,7 +99,8 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> 
                 const std::size_t offset = at(std::lower_bound(first, last, local[c][b]) - first) * dim;
                 for (std::size_t i = 0; i < dim; ++i) {
                     const std::size_t place = at(k.start[node * dim + i]) + offset;
-                    for (std::size_t j = 0; j < dim; ++j) k.value[place + j] += matrix[(a * dim + i) * size + b * dim + j];
+                    for (std::size_t j = 0; j < dim; ++j)
+                        k.value[place + j] += matrix[(a * dim + i) * size + b * dim + j];
                 }
             }
         }
@@ -109,7 +112,8 @@ std::vector<double> centre_stress(const Mesh& mesh, std::span<const Elastic> mat
                                   std::span<const double> displacement) {
     const std::size_t dim = at(mesh.dimension());
     std::vector<std::vector<double>> elasticity;
-    for (const Elastic& material : materials) elasticity.push_back(elasticity_matrix(material, mesh.dimension(), plane));
+    for (const Elastic& material : materials)
+        elasticity.push_back(elasticity_matrix(material, mesh.dimension(), plane));
 
     std::vector<double> stress;
     stress.reserve(at(mesh.cell_count()) * (dim == 2 ? 4 : 6));

@@ -3,12 +3,14 @@
 
 #include <array>
 
+#include "body/exact_translations.hpp"
+
 namespace delam {
 
 namespace {
 
-// The strain operator B of one node at one point, [strains][components]: u_i,j collected as xx, yy, 2xy in the plane and
-// xx, yy, zz, 2xy, 2yz, 2zx in space.
+// The strain operator B of one node at one point, [strains][components]: u_i,j collected as xx, yy, 2xy in the plane
+// and xx, yy, zz, 2xy, 2yz, 2zx in space.
 using NodeStrain = std::array<double, 18>;
 
 NodeStrain node_strain(int dimension, const double* g) {
@@ -19,8 +21,8 @@ NodeStrain node_strain(int dimension, const double* g) {
 
 }  // namespace
 
-// K = int B^T D B dx, summed over the Gauss points node by node; the blocks below the diagonal are copied from those above,
-// and within a diagonal block likewise, so that K equals its transpose bit for bit.
+// K = int B^T D B dx, summed over the Gauss points node by node; the blocks below the diagonal are copied from those
+// above, and within a diagonal block likewise, so that K equals its transpose bit for bit.
 std::vector<double> element_stiffness(CellType type, std::span<const double> coordinates,
                                       std::span<const double> elasticity) {
     const CellTopology& shape = topology(type);
@@ -52,6 +54,7 @@ std::vector<double> element_stiffness(CellType type, std::span<const double> coo
     }
     for (std::size_t i = 0; i < size; ++i)
         for (std::size_t j = 0; j < i; ++j) k[i * size + j] = k[j * size + i];
+    make_translations_exact(k, nodes, dim);
     return k;
 }
 

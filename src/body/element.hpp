@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Isoparametric elements with full Gauss quadrature: stiffness and centre strains of a single cell. The shape functions, and
-// with them smallest_jacobian(), are the mesh's (mesh/shape.hpp).
+// Isoparametric elements with full Gauss quadrature: stiffness and centre strains of a single cell. The shape
+// functions, and with them smallest_jacobian(), are the mesh's (mesh/shape.hpp).
 #pragma once
 
 #include <span>
@@ -16,7 +16,8 @@ namespace delam {
 std::vector<double> element_stiffness(CellType type, std::span<const double> coordinates,
                                       std::span<const double> elasticity);
 
-// Strains (engineering, order of elasticity_matrix) at the cell's centre from its nodal displacements [nodes][dimension].
+// Strains (engineering, order of elasticity_matrix) at the cell's centre from its nodal displacements
+// [nodes][dimension].
 std::vector<double> centre_strain(CellType type, std::span<const double> coordinates,
                                   std::span<const double> displacement);
 

@@ -6,8 +6,9 @@
 
 namespace delam {
 
-// Hooke's law with the Lame constants  mu = E / (2(1+nu)),  lambda = E nu / ((1+nu)(1-2nu)). Plane stress has the same form in
-// the plane once lambda is replaced by  2 lambda mu / (lambda + 2 mu) = E nu / (1-nu^2), which makes sigma_zz vanish.
+// Hooke's law with the Lame constants  mu = E / (2(1+nu)),  lambda = E nu / ((1+nu)(1-2nu)). Plane stress has the
+// same form in the plane once lambda is replaced by  2 lambda mu / (lambda + 2 mu) = E nu / (1-nu^2), which makes
+// sigma_zz vanish.
 std::vector<double> elasticity_matrix(const Elastic& material, int dimension, Plane plane) {
     const double e = material.young;
     const double nu = material.poisson;

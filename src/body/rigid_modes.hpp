@@ -10,9 +10,9 @@
 
 namespace delam {
 
-// Orthonormal basis of the rigid motions sampled at `nodes`, column-major [dimension*nodes][3 or 6]. Built about the centroid and
-// with rotations scaled by the size of the point set, so that the result does not depend on units or position. Nodes that cannot tell
-// all motions apart (in space: all on one line) give fewer columns.
+// Orthonormal basis of the rigid motions sampled at `nodes`, column-major [dimension*nodes][3 or 6]. Built about the
+// centroid and with rotations scaled by the size of the point set, so that the result does not depend on units or
+// position. Nodes that cannot tell all motions apart (in space: all on one line) give fewer columns.
 std::vector<double> rigid_modes(const Mesh& mesh, std::span<const std::int64_t> nodes);
 
 }  // namespace delam

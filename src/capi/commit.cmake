@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Writes the commit of SOURCE into HEADER, "unknown" outside git; "+" marks uncommitted changes.
+cmake_minimum_required(VERSION 3.25)
 set(COMMIT unknown)
 find_program(GIT git)
 if(GIT AND EXISTS ${SOURCE}/.git)

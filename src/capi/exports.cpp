@@ -25,9 +25,10 @@ const SparseMatrix& body_matrix(const delam_problem& problem, std::int32_t body)
         fail(DELAM_ERROR_PROBLEM, "body ", core.mesh->body_label(body), ": no material (delam_problem_set_elastic)");
     }
     delam_problem::BodyMatrix& last = problem.assembled;
-    if (last.body != body || last.young != material->young || last.poisson != material->poisson || last.plane != core.plane) {
-        SparseMatrix matrix = assemble_stiffness(*core.mesh, core.mesh->body_cells(body), core.mesh->body_nodes(body), *material,
-                                                 core.plane);
+    if (last.body != body || last.young != material->young || last.poisson != material->poisson ||
+        last.plane != core.plane) {
+        SparseMatrix matrix = assemble_stiffness(*core.mesh, core.mesh->body_cells(body), core.mesh->body_nodes(body),
+                                                 *material, core.plane);
         last = {body, material->young, material->poisson, core.plane, std::move(matrix)};
     }
     return last.matrix;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The opaque handles and the one guard that every entry point runs behind.
 //
-// Objects share the context's innards, so that handles may be destroyed in any order. A magic number at the head of each handle tells a
-// foreign or destroyed one as far as that can be seen.
+// Objects share the context's innards, so that handles may be destroyed in any order. A magic number at the head of
+// each handle tells a foreign or destroyed one as far as that can be seen.
 #pragma once
 
 #include <cstdint>
@@ -93,7 +93,8 @@ inline std::int32_t report(Context& context, std::int32_t status, const char* wh
     return status;
 }
 
-// Runs body behind the exception barrier; its error text goes into the context of `self`. body returns void or a status.
+// Runs body behind the exception barrier; its error text goes into the context of `self`. body returns void or a
+// status.
 template <class H, class Body>
 std::int32_t guard(const H* self, Body&& body) noexcept {
     if (!alive(self)) return DELAM_ERROR_HANDLE;
@@ -139,7 +140,8 @@ void require_base(std::int32_t index_base);
 // A second handle argument of a call.
 template <class H>
 void require_handle(const H* handle, const char* name) {
-    if (!alive(handle)) fail(DELAM_ERROR_HANDLE, name, handle == nullptr ? " is NULL" : " is a foreign or destroyed handle");
+    if (!alive(handle))
+        fail(DELAM_ERROR_HANDLE, name, handle == nullptr ? " is NULL" : " is a foreign or destroyed handle");
 }
 // The index as 0-based, after a check of base <= value < base + size. what: "nodes[3]".
 std::int64_t require_index(std::int64_t value, std::int64_t size, std::int32_t index_base, const std::string& what);

@@ -47,8 +47,10 @@ int32_t delam_law_set(delam_law* law, const char* key, double value) {
         }
         Law changed = *law->core;
         if (!changed.set(key, value)) {
-            fail(DELAM_ERROR_ARGUMENT, "law parameter '", key, "' is not known; known are normal_stiffness, tangential_stiffness, "
-                 "normal_onset, tangential_onset, normal_toughness, tangential_toughness, onset_exponent_1, onset_exponent_2, "
+            fail(DELAM_ERROR_ARGUMENT, "law parameter '", key,
+                 "' is not known; known are normal_stiffness, tangential_stiffness, "
+                 "normal_onset, tangential_onset, normal_toughness, tangential_toughness, onset_exponent_1, "
+                 "onset_exponent_2, "
                  "toughness_exponent_1, toughness_exponent_2");
         }
         *law->core = changed;
@@ -59,7 +61,8 @@ int32_t delam_law_check(const delam_law* law) {
     return guard(law, [&] { law->core->validate(); });
 }
 
-int32_t delam_law_toughness(const delam_law* law, int64_t count, const double* mixity, double* onset, double* toughness) {
+int32_t delam_law_toughness(const delam_law* law, int64_t count, const double* mixity, double* onset,
+                            double* toughness) {
     return guard(law, [&] {
         require_count(count, "count");
         require_fraction(mixity, count, "mixity");
@@ -72,8 +75,8 @@ int32_t delam_law_toughness(const delam_law* law, int64_t count, const double* m
     });
 }
 
-int32_t delam_law_respond(const delam_law* law, int32_t dimension, int64_t count, const double* jump, const double* mixity,
-                          const double* adhesion_old, double* adhesion, double* traction) {
+int32_t delam_law_respond(const delam_law* law, int32_t dimension, int64_t count, const double* jump,
+                          const double* mixity, const double* adhesion_old, double* adhesion, double* traction) {
     return guard(law, [&] {
         if (dimension != 2 && dimension != 3) fail(DELAM_ERROR_ARGUMENT, "dimension = ", dimension, ", must be 2 or 3");
         require_count(count, "count");

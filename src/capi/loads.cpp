@@ -63,13 +63,15 @@ std::vector<std::int64_t> require_patterns(const Problem& problem, std::int64_t 
         const Pattern& pattern = problem.patterns[size(list[size(i)])];
         if (pattern.drives != Pattern::Drives::nothing && pattern.drives != drives) {
             fail(DELAM_ERROR_PROBLEM, "pattern '", pattern.name, "' drives ",
-                 drives == Pattern::Drives::force ? "prescribed displacements" : "forces", " already, it cannot drive both");
+                 drives == Pattern::Drives::force ? "prescribed displacements" : "forces",
+                 " already, it cannot drive both");
         }
     }
     return list;
 }
 
-std::vector<double> prescribed(const Problem& problem, const std::vector<std::int64_t>& patterns, const double* coefficients) {
+std::vector<double> prescribed(const Problem& problem, const std::vector<std::int64_t>& patterns,
+                               const double* coefficients) {
     std::vector<double> list(problem.patterns.size(), 0.0);
     for (std::size_t p = 0; p < patterns.size(); ++p) list[size(patterns[p])] += coefficients[p];
     return list;
@@ -127,7 +129,8 @@ int32_t delam_problem_add_pattern(delam_problem* problem, const char* name, int6
         require_finite(values, count, "values");
         for (std::int64_t i = 1; i < count; ++i) {
             if (times[i] <= times[i - 1]) {
-                fail(DELAM_ERROR_ARGUMENT, "times[", i, "] = ", times[i], " must be > times[", i - 1, "] = ", times[i - 1]);
+                fail(DELAM_ERROR_ARGUMENT, "times[", i, "] = ", times[i], " must be > times[", i - 1,
+                     "] = ", times[i - 1]);
             }
         }
         std::vector<Pattern>& patterns = problem->core->patterns;
@@ -146,9 +149,9 @@ int32_t delam_problem_add_pattern(delam_problem* problem, const char* name, int6
     });
 }
 
-int32_t delam_problem_prescribe_nodes(delam_problem* problem, int64_t count, const int64_t* nodes, const double* direction,
-                                      int64_t pattern_count, const int64_t* patterns, const double* coefficients,
-                                      int32_t index_base) {
+int32_t delam_problem_prescribe_nodes(delam_problem* problem, int64_t count, const int64_t* nodes,
+                                      const double* direction, int64_t pattern_count, const int64_t* patterns,
+                                      const double* coefficients, int32_t index_base) {
     return guard(problem, [&] {
         Problem& core = *problem->core;
         const std::int64_t dimension = core.mesh->dimension();
@@ -165,8 +168,9 @@ int32_t delam_problem_prescribe_nodes(delam_problem* problem, int64_t count, con
             const std::int64_t node = require_node(*core.mesh, nodes[i], index_base, text("nodes[", i, "]"));
             std::vector<Direction>& others = held[node];
             if (depends(others, unit)) {
-                fail(DELAM_ERROR_PROBLEM, "nodes[", i, "] = ", nodes[i], ": the displacement of this node is prescribed along (",
-                     unit[0], ", ", unit[1], dimension == 3 ? text(", ", unit[2]) : "", ") already");
+                fail(DELAM_ERROR_PROBLEM, "nodes[", i, "] = ", nodes[i],
+                     ": the displacement of this node is prescribed along (", unit[0], ", ", unit[1],
+                     dimension == 3 ? text(", ", unit[2]) : "", ") already");
             }
             others.push_back(unit);
             Constraint constraint;

@@ -70,7 +70,8 @@ void require_box(const Mesh& mesh, const double* lower, const double* upper) {
     require_finite(lower, mesh.dimension(), "lower");
     require_finite(upper, mesh.dimension(), "upper");
     for (int d = 0; d < mesh.dimension(); ++d) {
-        if (lower[d] > upper[d]) fail(DELAM_ERROR_ARGUMENT, "lower[", d, "] = ", lower[d], " > upper[", d, "] = ", upper[d]);
+        if (lower[d] > upper[d])
+            fail(DELAM_ERROR_ARGUMENT, "lower[", d, "] = ", lower[d], " > upper[", d, "] = ", upper[d]);
     }
 }
 
@@ -103,9 +104,9 @@ int32_t delam_mesh_create(delam_context* context, int32_t dimension, int64_t nod
     });
 }
 
-int32_t delam_mesh_create_layers(delam_context* context, int32_t dimension, const double* lengths, const int64_t* divisions,
-                                 int64_t layer_count, const double* thickness, const int64_t* layer_divisions,
-                                 int32_t cell_type, delam_mesh** out) {
+int32_t delam_mesh_create_layers(delam_context* context, int32_t dimension, const double* lengths,
+                                 const int64_t* divisions, int64_t layer_count, const double* thickness,
+                                 const int64_t* layer_divisions, int32_t cell_type, delam_mesh** out) {
     if (out != nullptr) *out = nullptr;
     return guard(context, [&] {
         require_pointer(out, "out");
@@ -140,8 +141,8 @@ int32_t delam_mesh_add_cells(delam_mesh* mesh, int32_t cell_type, int64_t cell_c
         std::vector<std::int64_t> nodes(size(cell_count * per_cell));
         for (std::int64_t i = 0; i < cell_count * per_cell; ++i) {
             if (connectivity[i] < index_base || connectivity[i] - index_base >= core.node_count()) {
-                fail(DELAM_ERROR_ARGUMENT, "connectivity: cell ", i / per_cell + index_base, " has node ", connectivity[i],
-                     ", outside ", index_base, " .. ", core.node_count() - 1 + index_base);
+                fail(DELAM_ERROR_ARGUMENT, "connectivity: cell ", i / per_cell + index_base, " has node ",
+                     connectivity[i], ", outside ", index_base, " .. ", core.node_count() - 1 + index_base);
             }
             nodes[size(i)] = connectivity[i] - index_base;
         }
@@ -154,7 +155,8 @@ int32_t delam_mesh_add_cells(delam_mesh* mesh, int32_t cell_type, int64_t cell_c
     });
 }
 
-int32_t delam_mesh_add_interface(delam_mesh* mesh, int32_t body_a, int32_t body_b, double tolerance, int64_t* out_interface) {
+int32_t delam_mesh_add_interface(delam_mesh* mesh, int32_t body_a, int32_t body_b, double tolerance,
+                                 int64_t* out_interface) {
     return guard(mesh, [&] {
         require_pointer(out_interface, "out_interface");
         if (!(tolerance >= 0.0 && tolerance < 0.5)) {
@@ -162,7 +164,8 @@ int32_t delam_mesh_add_interface(delam_mesh* mesh, int32_t body_a, int32_t body_
         }
         require_body(*mesh->core, body_a, "body_a", false);
         require_body(*mesh->core, body_b, "body_b", false);
-        if (body_a == body_b) fail(DELAM_ERROR_ARGUMENT, "body_a and body_b are both ", body_a, ", expected two bodies");
+        if (body_a == body_b)
+            fail(DELAM_ERROR_ARGUMENT, "body_a and body_b are both ", body_a, ", expected two bodies");
         *out_interface = mesh->core->add_interface(body_a, body_b, tolerance == 0.0 ? 1e-6 : tolerance);
     });
 }
@@ -254,23 +257,24 @@ int32_t delam_mesh_interface_faces(const delam_mesh* mesh, int64_t interface_ind
     });
 }
 
-int32_t delam_mesh_find_nodes(const delam_mesh* mesh, int32_t body, const double* lower, const double* upper, int64_t capacity,
-                              int64_t* nodes, int64_t* count) {
+int32_t delam_mesh_find_nodes(const delam_mesh* mesh, int32_t body, const double* lower, const double* upper,
+                              int64_t capacity, int64_t* nodes, int64_t* count) {
     return guard(mesh, [&] {
         const Mesh& core = *mesh->core;
         require_pointer(count, "count");
         require_count(capacity, "capacity");
         require_array(nodes, capacity, "nodes");
         require_box(core, lower, upper);
-        const std::vector<std::int64_t> found =
-            find_nodes(core, require_body(core, body, "body", true), view(lower, core.dimension()), view(upper, core.dimension()));
+        const std::vector<std::int64_t> found = find_nodes(
+            core, require_body(core, body, "body", true), view(lower, core.dimension()), view(upper, core.dimension()));
         give(found, capacity, nodes);
         *count = static_cast<std::int64_t>(found.size());
     });
 }
 
 int32_t delam_mesh_find_patch(const delam_mesh* mesh, int32_t body, const double* lower, const double* upper,
-                              const double* direction, int64_t capacity, int64_t* nodes, double* weights, int64_t* count) {
+                              const double* direction, int64_t capacity, int64_t* nodes, double* weights,
+                              int64_t* count) {
     return guard(mesh, [&] {
         const Mesh& core = *mesh->core;
         const int dimension = core.dimension();

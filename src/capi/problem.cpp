@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scene: materials, laws, options and the questions about it. Supports and loads: loads.cpp; what was assembled: exports.cpp.
+// The scene: materials, laws, options and the questions about it. Supports and loads: loads.cpp; what was assembled:
+// exports.cpp.
 #include "scene/problem.hpp"
 
 #include <cmath>
@@ -95,8 +96,8 @@ int32_t delam_problem_set_adhesion(delam_problem* problem, int64_t interface_ind
             if (!(adhesion[i] >= 0.0 && adhesion[i] <= 1.0)) {
                 fail(DELAM_ERROR_ARGUMENT, "adhesion[", i, "] = ", adhesion[i], " is outside 0 .. 1");
             }
-            const std::int64_t pair = require_index(pairs[i], static_cast<std::int64_t>(changed.size()), index_base,
-                                                    text("pairs[", i, "]"));
+            const std::int64_t pair =
+                require_index(pairs[i], static_cast<std::int64_t>(changed.size()), index_base, text("pairs[", i, "]"));
             changed[static_cast<std::size_t>(pair)] = adhesion[i];
         }
         interface.adhesion = std::move(changed);

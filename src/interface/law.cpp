@@ -37,20 +37,22 @@ double onset_at(const Law& law, double mixity) {
     return interaction(law.normal_onset, law.tangential_onset, law.onset_exponent_1, law.onset_exponent_2, mixity);
 }
 double total_at(const Law& law, double mixity) {
-    return interaction(law.normal_toughness, law.tangential_toughness, law.toughness_exponent_1, law.toughness_exponent_2,
-                       mixity);
+    return interaction(law.normal_toughness, law.tangential_toughness, law.toughness_exponent_1,
+                       law.toughness_exponent_2, mixity);
 }
 
-// The natural coordinate of a mixity is x = ln(psi^2), B = 1/(1+exp(-x)): either toughness runs from one asymptote to the
-// other around its own crossing psi^2 = G_t/G_n, over a width of one over the exponents. The range is what doubles can tell.
+// The natural coordinate of a mixity is x = ln(psi^2), B = 1/(1+exp(-x)): either toughness runs from one asymptote to
+// the other around its own crossing psi^2 = G_t/G_n, over a width of one over the exponents. The range is what
+// doubles can tell.
 double mixity_of(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 double excess(const Law& law, double x) {
     const double b = mixity_of(x);
     return std::log(total_at(law, b) / onset_at(law, b));
 }
 
-// Smallest ln(Gc/Go) over the mixities between the pure modes: where, how much. Sampled evenly in B, and around both crossings
-// with a spacing that grows with the distance; the deepest dips of the samples are then refined by golden sections.
+// Smallest ln(Gc/Go) over the mixities between the pure modes: where, how much. Sampled evenly in B, and around both
+// crossings with a spacing that grows with the distance; the deepest dips of the samples are then refined by golden
+// sections.
 std::pair<double, double> least_excess(const Law& law) {
     constexpr double lowest = -740.0;
     constexpr double highest = 36.5;
@@ -86,7 +88,8 @@ std::pair<double, double> least_excess(const Law& law) {
             const double d = a + golden * (b - a);
             const double fc = excess(law, c);
             const double fd = excess(law, d);
-            least = std::min({least, {c, fc}, {d, fd}}, [](const auto& u, const auto& v) { return u.second < v.second; });
+            least =
+                std::min({least, {c, fc}, {d, fd}}, [](const auto& u, const auto& v) { return u.second < v.second; });
             if (fc < fd) b = d;
             else a = c;
         }
@@ -114,7 +117,8 @@ void Law::validate() const {
     if (normal_toughness < normal_onset * (1.0 - rounding))
         fail(DELAM_ERROR_PROBLEM, "law: normal_toughness ", normal_toughness, " < normal_onset ", normal_onset);
     if (tangential_toughness < tangential_onset * (1.0 - rounding))
-        fail(DELAM_ERROR_PROBLEM, "law: tangential_toughness ", tangential_toughness, " < tangential_onset ", tangential_onset);
+        fail(DELAM_ERROR_PROBLEM, "law: tangential_toughness ", tangential_toughness, " < tangential_onset ",
+             tangential_onset);
 
     // G(B) grows with G_n and G_t, so with the same exponents on both sides the pure modes decide. With different ones
     // Gc may dip below Go in between.
@@ -122,7 +126,8 @@ void Law::validate() const {
     const auto [x, value] = least_excess(*this);
     if (value >= -rounding) return;
     const double b = mixity_of(x);
-    fail(DELAM_ERROR_PROBLEM, "law: toughness ", total_at(*this, b), " < onset ", onset_at(*this, b), " at mixity B = ", b,
+    fail(DELAM_ERROR_PROBLEM, "law: toughness ", total_at(*this, b), " < onset ", onset_at(*this, b),
+         " at mixity B = ", b,
          " although the pure modes are fine: Gc(B) >= Go(B) is needed for every B in [0,1]; change the exponents");
 }
 
@@ -139,8 +144,8 @@ double stored_slides(const Toughness& t, double zeta) {
     return -(t.total - t.onset) * (zeta * (1.0 - zeta) * (t.total / (t.onset * (1.0 - zeta) + t.total * zeta)));
 }
 
-// With s = sqrt(Go/Y) the stationary point (Gc s - Go)/D is a difference of close numbers over a small one when D << Go.
-// Multiplied by Gc s + Go it becomes
+// With s = sqrt(Go/Y) the stationary point (Gc s - Go)/D is a difference of close numbers over a small one when D is
+// small beside Go. Multiplied by Gc s + Go it becomes
 //
 //     zeta = (Gc^2/Go - Y) Go^2 / (D Y (Gc s + Go)),     Gc^2/Go - Y = (Gc - Y) + Gc D/Go,
 //

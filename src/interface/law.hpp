@@ -3,7 +3,8 @@
 //
 // With Y = Y_n + Y_t, Y_c = k_c [u]_c^2 / 2, and onset and total toughness Go, Gc at the mixity B = Y_t/Y:
 //   stored       zeta Y                         dissipated   g(zeta) = Gc Go (1-zeta) / (Go + D zeta),  D = Gc - Go
-//   or (slides)  zeta Y + f(zeta)               dissipated   Gc (zeta_old - zeta),  f = -Gc D zeta (1-zeta) / (Go + D zeta)
+//   or (slides)  zeta Y + f(zeta)               dissipated   Gc (zeta_old - zeta),
+//                f(zeta) = -Gc D zeta (1-zeta) / (Go + D zeta)
 // Both splits have the same minimiser over 0 <= zeta <= zeta_old:
 //   zeta = clamp((Gc sqrt(Go/Y) - Go) / D, 0, zeta_old);   D = 0: zeta_old while Y < Gc, else 0.
 #pragma once

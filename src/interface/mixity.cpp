@@ -19,9 +19,9 @@ namespace {
 //
 //     phi(t) = exp(-p t) + rho exp(-q t) - 1 = 0,   rho = (a/c)^q in [0,1],   t >= 0.
 //
-// phi is convex and decreasing, so Newton's method started left of the root climbs to it and never passes it. Both terms
-// share the larger exponent's bound, (1+rho) exp(-max(p,q) t) <= 1 at the root, which gives the start; each of them being
-// at most 1/2 gives the right end of the bracket. Only ratios enter: the result does not know the units.
+// phi is convex and decreasing, so Newton's method started left of the root climbs to it and never passes it. Both
+// terms share the larger exponent's bound, (1+rho) exp(-max(p,q) t) <= 1 at the root, which gives the start; each of
+// them being at most 1/2 gives the right end of the bracket. Only ratios enter: the result does not know the units.
 double decay(double rho, double p, double q) {
     if (!(rho > 0.0)) return 0.0;
     double left = std::log1p(rho) / std::max(p, q);

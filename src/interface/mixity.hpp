@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mode mixity B = Y_t / (Y_n + Y_t) = psi^2/(1+psi^2) in [0,1], and the interaction criterion of Valoroso and Champaney (2006).
+// Mode mixity B = Y_t / (Y_n + Y_t) = psi^2/(1+psi^2) in [0,1], and the interaction criterion of Valoroso and
+// Champaney (2006).
 #pragma once
 
 namespace delam {

@@ -131,6 +131,23 @@ void SparseCholesky::solve(std::span<const double> b, std::span<double> x) const
     std::memcpy(x.data(), impl.x_buffer->x, b.size() * sizeof(double));
 }
 
+void SparseCholesky::solve_leading(std::span<const double> b, std::span<double> x) const {
+    const Impl& impl = *impl_;
+    const auto leading = static_cast<std::size_t>(impl.size - impl.trailing);
+    if (leading == 0) return;
+    std::vector<double> v(static_cast<std::size_t>(impl.size), 0.0);
+    std::copy(b.begin(), b.end(), v.begin());
+    for (const int system : {CHOLMOD_P, CHOLMOD_L, CHOLMOD_Lt, CHOLMOD_Pt}) {
+        cholmod_dense rhs = view(v);
+        cholmod_l_solve2(system, impl.factor, &rhs, nullptr, &impl.x_buffer, nullptr, &impl.y_work, &impl.e_work,
+                         &impl.common);
+        impl.check("solve");
+        std::memcpy(v.data(), impl.x_buffer->x, v.size() * sizeof(double));
+        if (system == CHOLMOD_L) std::fill(v.begin() + static_cast<std::ptrdiff_t>(leading), v.end(), 0.0);
+    }
+    std::copy(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(leading), x.begin());
+}
+
 double SparseCholesky::factor_entries() const {
     const cholmod_factor* l = impl_->factor;
     return l == nullptr ? 0.0 : static_cast<double>(l->is_super != 0 ? l->xsize : l->nzmax);

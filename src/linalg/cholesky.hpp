@@ -24,6 +24,8 @@ public:
     // Numeric factorisation of a matrix with the pattern that was analysed. False: not positive definite.
     bool factorise(const SparseMatrix& matrix);
     void solve(std::span<const double> b, std::span<double> x) const;
+    // x = A_ll^-1 b over the leading variables alone (all but the trailing ones): forward, drop the trailing part, backward.
+    void solve_leading(std::span<const double> b, std::span<double> x) const;
     // Lower factor L_tt of the trailing variables: L_tt L_tt^T is the Schur complement onto them.
     DenseMatrix trailing_factor() const;
     double factor_entries() const;

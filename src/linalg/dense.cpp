@@ -18,6 +18,7 @@ void dgemm_(const char*, const char*, const int*, const int*, const int*, const 
 void dsyrk_(const char*, const char*, const int*, const int*, const double*, const double*, const int*, const double*,
             double*, const int*);
 void dtrsv_(const char*, const char*, const char*, const int*, const double*, const int*, double*, const int*);
+void dpotrf_(const char*, const int*, double*, const int*, int*);
 void dpotri_(const char*, const int*, double*, const int*, int*);
 void dgesv_(const int*, const int*, double*, const int*, int*, double*, const int*, int*);
 void dsyev_(const char*, const char*, const int*, double*, const int*, double*, double*, const int*, int*);
@@ -94,14 +95,28 @@ DenseMatrix lower_times_transpose(const DenseMatrix& lower) {
     return product;
 }
 
-DenseMatrix inverse_of_factor(const DenseMatrix& lower) {
-    DenseMatrix inverse = lower;
-    const int n = narrow(lower.rows), lda = leading(lower.rows);
+DenseMatrix inverse_definite(DenseMatrix a) {
+    const int n = narrow(a.rows), lda = leading(a.rows);
     int info = 0;
-    if (n > 0) dpotri_("L", &n, inverse.value.data(), &lda, &info);
-    if (info != 0) fail(DELAM_ERROR_NUMERICAL, "a zero pivot in the boundary block of a subdomain (row ", info, ")");
-    mirror_lower(inverse);
-    return inverse;
+    if (n > 0) dpotrf_("L", &n, a.value.data(), &lda, &info);
+    if (info == 0 && n > 0) dpotri_("L", &n, a.value.data(), &lda, &info);
+    if (info != 0) fail(DELAM_ERROR_NUMERICAL, "a dense block of ", n, " rows is not positive definite (row ", info, ")");
+    mirror_lower(a);
+    return a;
+}
+
+DenseMatrix orthonormalised(DenseMatrix a) {
+    const auto rows = static_cast<std::size_t>(a.rows);
+    const auto column = [&a, rows](std::int64_t j) {
+        return std::span<double>(a.value).subspan(static_cast<std::size_t>(j) * rows, rows);
+    };
+    for (std::int64_t j = 0; j < a.columns; ++j) {
+        for (int pass = 0; pass < 2; ++pass)
+            for (std::int64_t i = 0; i < j; ++i) add_scaled(-dot(column(i), column(j)), column(i), column(j));
+        const double norm = std::sqrt(dot(column(j), column(j)));
+        for (double& v : column(j)) v /= norm;
+    }
+    return a;
 }
 
 DenseMatrix solve_general(DenseMatrix a, DenseMatrix b) {

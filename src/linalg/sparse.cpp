@@ -10,8 +10,9 @@
 
 namespace delam {
 
-// Rows by a counting sort, which keeps the order given; within a row, duplicates meet in a dense marker (Gustavson, ACM
-// TOMS 4, 1978) and only the distinct columns are sorted. Linear in the triplets, and every sum runs in the order given.
+// Rows by a counting sort, which keeps the order given; within a row, duplicates meet in a dense marker (Gustavson,
+// ACM TOMS 4, 1978) and only the distinct columns are sorted. Linear in the triplets, and every sum runs in the order
+// given.
 SparseMatrix from_triplets(std::int64_t rows, std::int64_t columns, std::vector<Triplet> triplets) {
     const auto at = [](std::int64_t i) { return static_cast<std::size_t>(i); };
     SparseMatrix m;
@@ -32,7 +33,7 @@ SparseMatrix from_triplets(std::int64_t rows, std::int64_t columns, std::vector<
     }
     triplets = {};
 
-    std::vector<std::int64_t> place(at(columns), -1);  // of a column among the distinct ones; stale if before the row's first
+    std::vector<std::int64_t> place(at(columns), -1);  // of a column's entry in the row; stale if before its first
     m.start.assign(1, 0);
     m.start.reserve(at(rows) + 1);
     std::int64_t filled = 0;

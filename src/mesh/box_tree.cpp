@@ -51,8 +51,9 @@ void BoxTree::grow(std::int64_t begin, std::int64_t end) {
         if (hull.high[i] - hull.low[i] > hull.high[axis] - hull.low[axis]) axis = i;
     const auto middle_of = [&](std::int64_t k) { return boxes_[at(k)].low[axis] + boxes_[at(k)].high[axis]; };
     const std::int64_t half = begin + (end - begin) / 2;
-    std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end,
-                     [&](std::int64_t a, std::int64_t b) { return std::pair(middle_of(a), a) < std::pair(middle_of(b), b); });
+    std::nth_element(
+        order_.begin() + begin, order_.begin() + half, order_.begin() + end,
+        [&](std::int64_t a, std::int64_t b) { return std::pair(middle_of(a), a) < std::pair(middle_of(b), b); });
     grow(begin, half);
     branches_[self].right = static_cast<std::int64_t>(branches_.size());
     grow(half, end);

@@ -34,7 +34,8 @@ std::array<std::int64_t, 4> face_nodes(const Mesh& mesh, std::int64_t cell, int 
     return nodes;
 }
 
-// The half cross product of the diagonals of a quadrilateral holds for a warped one too: it depends on the boundary alone.
+// The half cross product of the diagonals of a quadrilateral holds for a warped one too: it depends on the boundary
+// alone.
 std::array<double, 3> area_vector(const Mesh& mesh, std::span<const std::int64_t> nodes) {
     if (mesh.dimension() == 2) {
         const auto p = mesh.node(nodes[0]);
@@ -91,8 +92,8 @@ FaceTable match_faces(const Mesh& mesh, std::span<const std::int64_t> cells) {
                 const std::int64_t a = sorted[i].place / FaceTable::stride;
                 const std::int64_t b = sorted[j].place / FaceTable::stride;
                 if (here >= 0 || there >= 0 || !opposite(walk(sorted[i].place), walk(sorted[j].place)))
-                    fail(DELAM_ERROR_MESH, "cells ", cells[at(a)], " and ", cells[at(b)], " lie on the same side of the face ",
-                         "they share: they overlap");
+                    fail(DELAM_ERROR_MESH, "cells ", cells[at(a)], " and ", cells[at(b)],
+                         " lie on the same side of the face they share: they overlap");
                 here = b;
                 there = a;
             }

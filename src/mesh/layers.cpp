@@ -12,8 +12,9 @@ namespace delam {
 
 namespace {
 
-// Corners of a box in VTK order, and how simplices fill it: in 3D the six tetrahedra around the diagonal 0-6 (Kuhn 1960), one
-// per order of the axes. Every box is split alike and opposite faces carry the same diagonal, so that boxes match each other.
+// Corners of a box in VTK order, and how simplices fill it: in 3D the six tetrahedra around the diagonal 0-6 (Kuhn
+// 1960), one per order of the axes. Every box is split alike and opposite faces carry the same diagonal, so that
+// boxes match each other.
 constexpr int two_triangles[] = {0, 1, 2, 0, 2, 3};
 constexpr int six_tetrahedra[] = {0, 1, 2, 6, 0, 5, 1, 6, 0, 2, 3, 6, 0, 3, 7, 6, 0, 4, 5, 6, 0, 7, 4, 6};
 constexpr int one_square[] = {0, 1, 2, 3};
@@ -101,7 +102,8 @@ Mesh make_layers(int dimension, std::span<const double> lengths, std::span<const
                                                    n + level, n + 1 + level, n + 1 + up + level, n + up + level};
                     const std::span<const int> cells = split(type);
                     for (const int c : cells) connectivity.push_back(corner[c]);
-                    labels.insert(labels.end(), cells.size() / at(topology(type).nodes), static_cast<std::int32_t>(layer));
+                    labels.insert(labels.end(), cells.size() / at(topology(type).nodes),
+                                  static_cast<std::int32_t>(layer));
                 }
             }
         }

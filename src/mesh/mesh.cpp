@@ -73,7 +73,8 @@ void Mesh::add_cells(CellType type, std::span<const std::int64_t> connectivity, 
         const std::int32_t label = label_of(c);
         if (label < 0) fail(DELAM_ERROR_ARGUMENT, "cell ", number, ": body ", label, ": must be >= 0");
         if (std::binary_search(joined.begin(), joined.end(), label))
-            fail(DELAM_ERROR_STATE, "cell ", number, ": body ", label, " has an interface already; add all its cells before");
+            fail(DELAM_ERROR_STATE, "cell ", number, ": body ", label,
+                 " has an interface already; add all its cells before");
         for (std::size_t k = 0; k < per_cell; ++k) {
             const std::int64_t node = connectivity[c * per_cell + k];
             if (node < 0 || node >= node_count())
@@ -85,7 +86,8 @@ void Mesh::add_cells(CellType type, std::span<const std::int64_t> connectivity, 
                      "; each body needs nodes of its own");
             if (owner < 0) taken.push_back(node);
             owner = label;
-            std::copy_n(nodes_.begin() + node * dimension_, dim, coordinates.begin() + static_cast<std::ptrdiff_t>(k * dim));
+            std::copy_n(nodes_.begin() + node * dimension_, dim,
+                        coordinates.begin() + static_cast<std::ptrdiff_t>(k * dim));
         }
         // The Jacobian of a sound cell is comparable with the product of its extents; beside their largest power, 1e-14
         // leaves room for very flat cells and is still far above rounding.

@@ -36,7 +36,8 @@ public:
     std::int64_t node_count() const { return static_cast<std::int64_t>(nodes_.size()) / dimension_; }
     std::span<const double> nodes() const { return nodes_; }
     std::span<const double> node(std::int64_t i) const {
-        return std::span<const double>(nodes_).subspan(static_cast<std::size_t>(i * dimension_), static_cast<std::size_t>(dimension_));
+        return std::span<const double>(nodes_).subspan(static_cast<std::size_t>(i * dimension_),
+                                                       static_cast<std::size_t>(dimension_));
     }
 
     std::int64_t cell_count() const { return static_cast<std::int64_t>(cell_type_.size()); }
@@ -44,8 +45,9 @@ public:
     // Nodes of a cell.
     std::span<const std::int64_t> cell(std::int64_t c) const {
         const auto i = static_cast<std::size_t>(c);
-        return std::span<const std::int64_t>(connectivity_).subspan(static_cast<std::size_t>(cell_offset_[i]),
-                                                                    static_cast<std::size_t>(cell_offset_[i + 1] - cell_offset_[i]));
+        return std::span<const std::int64_t>(connectivity_)
+            .subspan(static_cast<std::size_t>(cell_offset_[i]),
+                     static_cast<std::size_t>(cell_offset_[i + 1] - cell_offset_[i]));
     }
     // Index of the body of a cell, 0 .. body_count-1, in ascending order of labels.
     std::int32_t cell_body(std::int64_t c) const;

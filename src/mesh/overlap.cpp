@@ -56,7 +56,8 @@ bool on_face(const Mesh& mesh, const BoundaryFace& face, const Point& p, double 
     std::array<Point, 4> x{};
     for (std::size_t k = 0; k < at(face.nodes); ++k) x[k] = position(mesh, face.node[k]);
     if (face.nodes == 2) return on_segment(p, x[0], x[1], distance);
-    return on_triangle(p, x[0], x[1], x[2], distance) || (face.nodes == 4 && on_triangle(p, x[0], x[2], x[3], distance));
+    return on_triangle(p, x[0], x[1], x[2], distance) ||
+           (face.nodes == 4 && on_triangle(p, x[0], x[2], x[3], distance));
 }
 
 // One way round: the centroid of a face, and its corners drawn in by a thousandth, so that faces which only touch along

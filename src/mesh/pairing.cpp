@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// From two bodies to an interface: their boundary nodes are matched in space, then their boundary faces through the nodes,
-// and what the faces know (area, normal) is brought to the node pairs.
+// From two bodies to an interface: their boundary nodes are matched in space, then their boundary faces through the
+// nodes, and what the faces know (area, normal) is brought to the node pairs.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -66,8 +66,8 @@ BoxTree tree_of(const Mesh& mesh, std::span<const std::int64_t> nodes) {
 }
 
 // Node of a that each node of b coincides with, by mesh node; -1: none.
-std::vector<std::int64_t> match_nodes(const Mesh& mesh, std::span<const std::int64_t> a, std::span<const std::int64_t> b,
-                                      double distance) {
+std::vector<std::int64_t> match_nodes(const Mesh& mesh, std::span<const std::int64_t> a,
+                                      std::span<const std::int64_t> b, double distance) {
     std::vector<std::int64_t> partner(at(mesh.node_count()), -1);
     const BoxTree tree = tree_of(mesh, a);
     for (const std::int64_t node : b) {
@@ -94,8 +94,8 @@ struct Matching {
     std::vector<BoundaryFace> left_a, left_b;                   // faces without a match
 };
 
-Matching match_boundaries(const Mesh& mesh, std::span<const BoundaryFace> faces_a, std::span<const BoundaryFace> faces_b,
-                          std::span<const std::int64_t> partner) {
+Matching match_boundaries(const Mesh& mesh, std::span<const BoundaryFace> faces_a,
+                          std::span<const BoundaryFace> faces_b, std::span<const std::int64_t> partner) {
     std::vector<std::pair<FaceKey, std::size_t>> known;
     known.reserve(faces_a.size());
     for (std::size_t f = 0; f < faces_a.size(); ++f) known.emplace_back(sorted_key(nodes_of(faces_a[f])), f);
@@ -118,8 +118,8 @@ Matching match_boundaries(const Mesh& mesh, std::span<const BoundaryFace> faces_
         }
         const BoundaryFace& other = faces_a[found->second];
         if (dot(area_vector(mesh, nodes_of(face)), area_vector(mesh, nodes_of(other))) >= 0.0)
-            fail(DELAM_ERROR_MESH, "cells ", other.cell, " and ", face.cell, " of the two bodies lie on the same side of the ",
-                 "face they share at ", place(mesh, face.node[0]), ": the bodies overlap");
+            fail(DELAM_ERROR_MESH, "cells ", other.cell, " and ", face.cell, " of the two bodies lie on the same side ",
+                 "of the face they share at ", place(mesh, face.node[0]), ": the bodies overlap");
         used[found->second] = 1;
         for (std::size_t k = 0; k < at(face.nodes); ++k) m.node.emplace_back(image[k], face.node[k]);
     }
@@ -128,13 +128,13 @@ Matching match_boundaries(const Mesh& mesh, std::span<const BoundaryFace> faces_
     m.node.erase(std::unique(m.node.begin(), m.node.end()), m.node.end());
     for (std::size_t i = 1; i < m.node.size(); ++i)
         if (m.node[i].first == m.node[i - 1].first)
-            fail(DELAM_ERROR_MESH, "nodes ", m.node[i - 1].second, " and ", m.node[i].second, " both coincide with node ",
-                 m.node[i].first, " at ", place(mesh, m.node[i].first));
+            fail(DELAM_ERROR_MESH, "nodes ", m.node[i - 1].second, " and ", m.node[i].second,
+                 " both coincide with node ", m.node[i].first, " at ", place(mesh, m.node[i].first));
     return m;
 }
 
-// Orders places by x, then y, then z, where coordinates closer than `distance` count as equal: rounding in the nodes of a
-// straight interface must not shuffle it.
+// Orders places by x, then y, then z, where coordinates closer than `distance` count as equal: rounding in the nodes
+// of a straight interface must not shuffle it.
 std::vector<std::size_t> spatial_order(const Mesh& mesh, std::span<const std::pair<std::int64_t, std::int64_t>> pairs,
                                        double distance) {
     std::vector<std::size_t> order(pairs.size());
@@ -152,9 +152,9 @@ std::vector<std::size_t> spatial_order(const Mesh& mesh, std::span<const std::pa
     return order;
 }
 
-// Integrals of the nodal shape functions over a face: the trapezoid on edges, a third each on triangles; on quadrilaterals
-//     w_a = int N_a |x_xi x x_eta| dxi deta
-// by 2 x 2 Gauss points, at which all N_a are positive.
+// Integrals of the nodal shape functions over a face: the trapezoid on edges, a third each on triangles; on
+// quadrilaterals, by 2 x 2 Gauss points at which all N_a are positive,
+//     w_a = int N_a |x_xi x x_eta| dxi deta.
 std::array<double, 4> vertex_weights(const Mesh& mesh, std::span<const std::int64_t> nodes) {
     std::array<double, 4> weights{};
     if (nodes.size() != 4) {
@@ -183,8 +183,9 @@ std::array<double, 4> vertex_weights(const Mesh& mesh, std::span<const std::int6
     return weights;
 }
 
-// Rows normal, tangent(s). In the plane the tangent is the normal turned clockwise; in space the first one is the x axis laid
-// into the face, or the y axis where the normal is close to x, and the second completes a right-handed frame.
+// Rows normal, tangent(s). In the plane the tangent is the normal turned clockwise; in space the first one is the x
+// axis laid into the face, or the y axis where the normal is close to x, and the second completes a right-handed
+// frame.
 void write_frame(int dimension, const Point& area, double* frame) {
     const double length = std::hypot(area[0], area[1], area[2]);
     Point n;
@@ -262,7 +263,8 @@ std::int64_t Mesh::add_interface(std::int32_t label_a, std::int32_t label_b, dou
         fail(DELAM_ERROR_ARGUMENT, "tolerance ", tolerance, ": must be in [0, 0.5)");
     for (std::size_t i = 0; i < interfaces_.size(); ++i)
         if (std::minmax(interfaces_[i].body_a, interfaces_[i].body_b) == std::minmax(a, b))
-            fail(DELAM_ERROR_ARGUMENT, "bodies ", label_a, " and ", label_b, " are joined by interface ", i, " already");
+            fail(DELAM_ERROR_ARGUMENT, "bodies ", label_a, " and ", label_b, " are joined by interface ", i,
+                 " already");
 
     const double edge = std::min(shortest_edge(*this, a), shortest_edge(*this, b));
     const double distance = (tolerance > 0.0 ? tolerance : 1e-6) * edge;
@@ -276,17 +278,18 @@ std::int64_t Mesh::add_interface(std::int32_t label_a, std::int32_t label_b, dou
     if (left_a >= 0) {
         const BoundaryFace& face_a = m.left_a[at(left_a)];
         const BoundaryFace& face_b = m.left_b[at(left_b)];
-        fail(DELAM_ERROR_MESH, "bodies ", label_a, " and ", label_b, ": a face of cell ", face_b.cell, " with a corner at ",
-             place(*this, face_b.node[0]), " lies on a face of cell ", face_a.cell, " with a corner at ",
-             place(*this, face_a.node[0]), ", but their nodes do not match within ", distance);
+        fail(DELAM_ERROR_MESH, "bodies ", label_a, " and ", label_b, ": a face of cell ", face_b.cell,
+             " with a corner at ", place(*this, face_b.node[0]), " lies on a face of cell ", face_a.cell,
+             " with a corner at ", place(*this, face_a.node[0]), ", but their nodes do not match within ", distance);
     }
     if (m.on_a.empty()) {
         const BoxTree tree = tree_of(*this, nodes_a);
         std::pair nearest{std::numeric_limits<double>::infinity(), std::int64_t{-1}};
         for (const std::int64_t node : nodes_b)
             nearest = std::min(nearest, {tree.nearest(position(*this, node), nearest.first).distance, node});
-        fail(DELAM_ERROR_MESH, "bodies ", label_a, " and ", label_b, ": no boundary faces coincide; their boundary nodes come as ",
-             "close as ", nearest.first, " (node ", nearest.second, "), faces count as one within ", distance);
+        fail(DELAM_ERROR_MESH, "bodies ", label_a, " and ", label_b,
+             ": no boundary faces coincide; their boundary nodes come as close as ", nearest.first, " (node ",
+             nearest.second, "), faces count as one within ", distance);
     }
     InterfaceGeometry result = geometry(*this, m, distance);
     result.body_a = a;

@@ -35,8 +35,9 @@ struct Graph {
 
 using Parts = std::vector<std::int32_t>;  // part of each vertex
 
-// METIS 5 reseeds rand() and installs handlers for SIGABRT and SIGTERM while it runs. Both belong to the host: its sequence of
-// random numbers goes on where it was, its handlers are put back. Process-wide state, hence one call at a time.
+// METIS 5 reseeds rand() and installs handlers for SIGABRT and SIGTERM while it runs. Both belong to the host: its
+// sequence of random numbers goes on where it was, its handlers are put back. Process-wide state, hence one call at a
+// time.
 class Visit {
 public:
     Visit() : lock_(mutex()) {
@@ -74,8 +75,8 @@ Parts cut_with_metis(Graph& graph, idx_t parts) {
     int status = METIS_OK;
     {
         const Visit visit;
-        status = METIS_PartGraphKway(&vertices, &constraints, graph.start.data(), graph.neighbour.data(), nullptr, nullptr,
-                                     nullptr, &parts, nullptr, nullptr, options.data(), &cut, part.data());
+        status = METIS_PartGraphKway(&vertices, &constraints, graph.start.data(), graph.neighbour.data(), nullptr,
+                                     nullptr, nullptr, &parts, nullptr, nullptr, options.data(), &cut, part.data());
     }
     if (status == METIS_ERROR_MEMORY) throw std::bad_alloc();
     if (status != METIS_OK) fail(DELAM_ERROR_INTERNAL, "METIS_PartGraphKway: status ", status);
@@ -105,8 +106,8 @@ std::int32_t pieces(const Graph& graph, const Parts& part, std::vector<std::int3
     return count;
 }
 
-// Each part keeps its largest piece; the other ones join the part that they share most faces with. Repeats until no part is
-// in pieces; each round lessens their number, since what is joined touches its new part.
+// Each part keeps its largest piece; the other ones join the part that they share most faces with. Repeats until no
+// part is in pieces; each round lessens their number, since what is joined touches its new part.
 void mend(const Graph& graph, Parts& part, std::int32_t parts) {
     std::vector<std::int32_t> piece;
     for (;;) {
@@ -158,8 +159,8 @@ Tree breadth_first(const Graph& graph, const Parts& part, std::size_t root) {
     return tree;
 }
 
-// Cuts a connected part in two connected ones: a branch of a breadth-first tree, as near to half of it as there is, becomes
-// `fresh`. The tree starts from a vertex far out, so that its branches are long.
+// Cuts a connected part in two connected ones: a branch of a breadth-first tree, as near to half of it as there is,
+// becomes `fresh`. The tree starts from a vertex far out, so that its branches are long.
 void halve(const Graph& graph, Parts& part, std::int32_t old, std::int32_t fresh) {
     const auto first = static_cast<std::size_t>(std::find(part.begin(), part.end(), old) - part.begin());
     const std::size_t far = breadth_first(graph, part, first).order.back();
@@ -170,15 +171,16 @@ void halve(const Graph& graph, Parts& part, std::int32_t old, std::int32_t fresh
         const std::size_t twice = 2 * weight[i];
         return twice > tree.order.size() ? twice - tree.order.size() : tree.order.size() - twice;
     };
-    const std::size_t branch = *std::min_element(tree.order.begin() + 1, tree.order.end(),
-                                                 [&](std::size_t i, std::size_t j) { return off_half(i) < off_half(j); });
+    const std::size_t branch =
+        *std::min_element(tree.order.begin() + 1, tree.order.end(),
+                          [&](std::size_t i, std::size_t j) { return off_half(i) < off_half(j); });
     part[branch] = fresh;
     for (const std::size_t i : tree.order)  // parents come before their children
         if (i != far && part[tree.parent[i]] == fresh) part[i] = fresh;
 }
 
-// Parts 0 .. parts-1 of a connected graph, each non-empty and connected. Below a few vertices per part METIS is not asked: it
-// would leave parts empty and print about it.
+// Parts 0 .. parts-1 of a connected graph, each non-empty and connected. Below a few vertices per part METIS is not
+// asked: it would leave parts empty and print about it.
 Parts cut(Graph& graph, std::int32_t parts) {
     constexpr std::size_t enough = 12;
     Parts part(graph.size(), 0);

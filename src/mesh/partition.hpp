@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cuts bodies into subdomains with METIS. Every subdomain is connected through whole faces, so that its only stress-free
-// motions are the rigid ones.
+// Cuts bodies into subdomains with METIS. Every subdomain is connected through whole faces, so that its only
+// stress-free motions are the rigid ones.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,9 @@ struct Partition {
     std::vector<std::int32_t> subdomain_body;  // [subdomains] body index, ascending
 };
 
-// At least one subdomain for each face-connected part of each body, `subdomains` in all where that is more, shared out by
-// the number of cells. The same input gives the same partition. A body whose cells hang together by a node or an edge only is cut there.
+// At least one subdomain for each face-connected part of each body, `subdomains` in all where that is more, shared
+// out by the number of cells. The same input gives the same partition. A body whose cells hang together by a node or
+// an edge only is cut there.
 Partition partition(const Mesh& mesh, std::int64_t subdomains);
 
 }  // namespace delam

@@ -13,7 +13,8 @@ namespace delam {
 
 namespace {
 
-constexpr double widening = 1e-9;  // of the mesh's size: nodes written with a few digits still lie on the box they should
+// A share of the mesh's size: nodes written with a few digits still lie on the box they should.
+constexpr double widening = 1e-9;
 
 void check(const Mesh& mesh, std::int32_t body, std::span<const double> lower, std::span<const double> upper) {
     if (body < -1 || body >= mesh.body_count())
@@ -62,8 +63,8 @@ public:
     Window(const Mesh& mesh, std::span<const double> lower, std::span<const double> upper)
         : mesh_(mesh), lower_(lower), upper_(upper), slack_(widening * mesh.size()) {}
 
-    // Axes along which the box cuts this face. A face that is flat along an axis is never cut there: it is in or out, with
-    // the slack; so a box may be a mere plane, and slack adds nothing to a patch. False: the face is outside.
+    // Axes along which the box cuts this face. A face that is flat along an axis is never cut there: it is in or out,
+    // with the slack; so a box may be a mere plane, and slack adds nothing to a patch. False: the face is outside.
     bool look_at(std::span<const std::int64_t> nodes) {
         cut_.fill(false);
         for (std::size_t i = 0; i < at(mesh_.dimension()); ++i) {
@@ -84,8 +85,8 @@ public:
         return true;
     }
 
-    // Liang and Barsky (ACM TOG 3, 1984): the stretch [from, to] of an edge inside; N_1 = s and N_0 = 1-s are then integrated
-    // exactly by their values at its middle.
+    // Liang and Barsky (ACM TOG 3, 1984): the stretch [from, to] of an edge inside; N_1 = s and N_0 = 1-s are then
+    // integrated exactly by their values at its middle.
     void add_edge(std::span<const std::int64_t> nodes, std::span<double> weight) const {
         const auto p = mesh_.node(nodes[0]);
         const auto q = mesh_.node(nodes[1]);
@@ -105,7 +106,8 @@ public:
         weight[at(nodes[1])] += length * middle;
     }
 
-    // Linear functions are integrated exactly over a triangle by their mean at the corners; the clipped polygon is a fan.
+    // Linear functions are integrated exactly over a triangle by their mean at the corners; the clipped polygon
+    // is a fan.
     void add_triangle(const std::array<std::int64_t, 3>& nodes, double factor, std::span<double> weight) const {
         std::vector<Vertex> polygon(3);
         for (std::size_t k = 0; k < 3; ++k) {

@@ -15,7 +15,8 @@ constexpr ReferencePoint cube_corner[] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1},
 
 // Gauss points of order 3 per direction sit at +-1/sqrt(3): the corners, drawn in.
 constexpr double gauss = 0.57735026918962576451;
-constexpr ReferencePoint square_gauss[] = {{-gauss, -gauss, 0}, {gauss, -gauss, 0}, {gauss, gauss, 0}, {-gauss, gauss, 0}};
+constexpr ReferencePoint square_gauss[] = {
+    {-gauss, -gauss, 0}, {gauss, -gauss, 0}, {gauss, gauss, 0}, {-gauss, gauss, 0}};
 constexpr ReferencePoint cube_gauss[] = {{-gauss, -gauss, -gauss}, {gauss, -gauss, -gauss}, {gauss, gauss, -gauss},
                                          {-gauss, gauss, -gauss},  {-gauss, -gauss, gauss}, {gauss, -gauss, gauss},
                                          {gauss, gauss, gauss},    {-gauss, gauss, gauss}};
@@ -122,7 +123,8 @@ PhysicalGradient physical_gradient(CellType type, std::span<const double> coordi
     const Matrix3 inv = inverse(cell.dimension, j, result.jacobian);
     for (std::size_t a = 0; a < static_cast<std::size_t>(cell.nodes); ++a)
         for (std::size_t c = 0; c < dim; ++c)
-            for (std::size_t r = 0; r < dim; ++r) result.gradient[a * dim + c] += reference[a * dim + r] * inv[3 * r + c];
+            for (std::size_t r = 0; r < dim; ++r)
+                result.gradient[a * dim + c] += reference[a * dim + r] * inv[3 * r + c];
     return result;
 }
 
@@ -133,7 +135,8 @@ double smallest_jacobian(CellType type, std::span<const double> coordinates) {
     const auto visit = [&](std::span<const ReferencePoint> points) {
         for (const ReferencePoint& p : points) {
             const ShapeGradient gradient = reference_gradient(type, p);
-            smallest = std::min(smallest, determinant(cell.dimension, tangent(cell.dimension, cell.nodes, local, gradient)));
+            smallest =
+                std::min(smallest, determinant(cell.dimension, tangent(cell.dimension, cell.nodes, local, gradient)));
         }
     };
     visit(quadrature(type).points);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shape functions of the four cell types on their reference cells: the triangle or tetrahedron with corners 0, e1, e2 (, e3),
-// the square [-1,1]^2 and the cube [-1,1]^3; corners in the order of VTK.
+// Shape functions of the four cell types on their reference cells: the triangle or tetrahedron with corners 0, e1, e2
+// (, e3), the square [-1,1]^2 and the cube [-1,1]^3; corners in the order of VTK.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FNV-1a, 64 bits (Fowler, Noll, Vo), over the scene. Every list goes in with its length, so that entries cannot move from one
-// list to its neighbour unnoticed.
+// FNV-1a, 64 bits (Fowler, Noll, Vo), over the scene. Every list goes in with its length, so that entries cannot move
+// from one list to its neighbour unnoticed.
 #include <bit>
 #include <span>
 

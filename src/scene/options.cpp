@@ -15,8 +15,8 @@ namespace {
 
 using Member = std::variant<double Options::*, std::int64_t Options::*, std::string Options::*>;
 
-// One line of the table: what people read, where the value lives, and the closed (integer) or open (real) interval of numbers. The
-// words of a text option are those of its range, parted by " | ".
+// One line of the table: what people read, where the value lives, and the closed (integer) or open (real) interval of
+// numbers. The words of a text option are those of its range, parted by " | ".
 struct Row {
     OptionInfo info;
     Member member;
@@ -30,19 +30,29 @@ const std::array<Row, 10>& rows() {
     static const std::array<Row, 10> table{{
         {{"damage_tolerance", "real", "-", "1e-5", "0 < value < 1",
           "alternate minimisation stops when no adhesion changes by more (delta)"},
-         &Options::damage_tolerance, 0.0, 1.0},
+         &Options::damage_tolerance,
+         0.0,
+         1.0},
         {{"minimisation_limit", "integer", "-", "5000", "1 <= value <= 2^53",
           "largest number of alternate minimisation steps in a load step"},
-         &Options::minimisation_limit, 1.0, most},
+         &Options::minimisation_limit,
+         1.0,
+         most},
         {{"backtracking_tolerance", "real", "-", "1e-3", "0 < value < 1",
           "relative tolerance of the two-sided energy estimate (eta)"},
-         &Options::backtracking_tolerance, 0.0, 1.0},
+         &Options::backtracking_tolerance,
+         0.0,
+         1.0},
         {{"contact_limit", "integer", "-", "200", "1 <= value <= 2^53",
           "active-set steps of a displacement solve before the safeguarded fallback takes over"},
-         &Options::contact_limit, 1.0, most},
+         &Options::contact_limit,
+         1.0,
+         most},
         {{"subdomains", "integer", "-", "0", "0 <= value <= 1000000",
           "subdomains that the bodies are cut into, at least one for each connected part; 0: chosen by size"},
-         &Options::subdomains, 0.0, 1e6},
+         &Options::subdomains,
+         0.0,
+         1e6},
         {{"gluing", "text", "-", "orthonormal", "orthonormal | redundant",
           "multipliers where several subdomains meet in a node"},
          &Options::gluing},
@@ -54,10 +64,14 @@ const std::array<Row, 10>& rows() {
          &Options::scaling},
         {{"linear_tolerance", "real", "-", "1e-12", "0 < value < 1",
           "relative residual at which the projected conjugate gradients stop"},
-         &Options::linear_tolerance, 0.0, 1.0},
+         &Options::linear_tolerance,
+         0.0,
+         1.0},
         {{"linear_limit", "integer", "-", "2000", "1 <= value <= 2^53",
           "largest number of conjugate gradient iterations in a linear solve"},
-         &Options::linear_limit, 1.0, most},
+         &Options::linear_limit,
+         1.0,
+         most},
     }};
     return table;
 }
@@ -93,7 +107,8 @@ void Options::set_number(const std::string& key, double value) {
         this->*(*real) = value;
     } else if (const auto* integer = std::get_if<std::int64_t Options::*>(&row.member)) {
         if (!(value >= row.lower && value <= row.upper)) refuse(row, text(value));
-        if (value != std::floor(value)) fail(DELAM_ERROR_ARGUMENT, "option '", key, "' = ", value, " must be a whole number");
+        if (value != std::floor(value))
+            fail(DELAM_ERROR_ARGUMENT, "option '", key, "' = ", value, " must be a whole number");
         this->*(*integer) = static_cast<std::int64_t>(value);
     } else {
         fail(DELAM_ERROR_ARGUMENT, "option '", key, "' is a text (", row.info.range, "), not a number");
@@ -103,7 +118,8 @@ void Options::set_number(const std::string& key, double value) {
 void Options::set_text(const std::string& key, const std::string& value) {
     const Row& row = find(key);
     const auto* words = std::get_if<std::string Options::*>(&row.member);
-    if (words == nullptr) fail(DELAM_ERROR_ARGUMENT, "option '", key, "' is a number (", row.info.range, "), not a text");
+    if (words == nullptr)
+        fail(DELAM_ERROR_ARGUMENT, "option '", key, "' is a number (", row.info.range, "), not a text");
     if (value.find(" | ") != std::string::npos || !allows(row.info.range, value)) refuse(row, "'" + value + "'");
     this->*(*words) = value;
 }

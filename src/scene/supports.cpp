@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The search runs on rigid pieces, not on nodes. Face-connected cells are one piece; pieces that enough tied pairs join become one
-// as well. What is left are a few pieces, hinges between them (a single pair, say) and the constraints: their rows act on three or
-// six motions per piece, and the null space of the small Gram matrix of the rows is what nothing resists.
+// The search runs on rigid pieces, not on nodes. Face-connected cells are one piece; pieces that enough tied pairs join
+// become one as well. What is left are a few pieces, hinges between them (a single pair, say) and the constraints:
+// their rows act on three or six motions per piece, and the null space of the small Gram matrix of the rows is what
+// nothing resists.
 #include "scene/supports.hpp"
 
 #include <algorithm>
@@ -17,8 +18,8 @@
 namespace delam {
 namespace {
 
-// Relative pivot below which a motion counts as unresisted. Rows enter squared: supports closer than 1e-5 of the size of what they
-// hold do not count as holding its rotation.
+// Relative pivot below which a motion counts as unresisted. Rows enter squared: supports closer than 1e-5 of the size
+// of what they hold do not count as holding its rotation.
 constexpr double pivot_tolerance = 1e-10;
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
@@ -42,7 +43,8 @@ private:
     std::vector<std::size_t> parent_;
 };
 
-// Null space of a symmetric positive semidefinite n x n matrix by Cholesky with diagonal pivoting; one vector after another.
+// Null space of a symmetric positive semidefinite n x n matrix by Cholesky with diagonal pivoting; one vector after
+// another.
 std::vector<std::vector<double>> null_space(std::vector<double> g, std::size_t n) {
     std::vector<std::size_t> order(n);
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -127,7 +129,8 @@ private:
     }
     std::size_t group(std::int64_t node) { return groups_.find(at(node_piece_[at(node)])); }
 
-    // Component c of rigid mode m at p: translations, then rotations about the centre, of unit displacement at distance `length`.
+    // Component c of rigid mode m at p: translations, then rotations about the centre, of unit displacement at distance
+    // `length`.
     static double mode(const Frame& f, std::size_t dimension, std::size_t m, std::size_t c, const Point& p) {
         if (m < dimension) return m == c ? 1.0 : 0.0;
         const std::size_t axis = dimension == 2 ? 2 : m - dimension;
@@ -166,7 +169,8 @@ void Search::find_ties(bool tied) {
         const InterfaceGeometry& face = mesh_.interfaces()[i];
         for (std::size_t p = 0; p < face.node_a.size(); ++p) {
             if (!tied && !problem_.interfaces[i].bonded && problem_.interfaces[i].adhesion[p] <= 0.0) continue;
-            ties_.push_back({at(node_piece_[at(face.node_a[p])]), at(node_piece_[at(face.node_b[p])]), place(face.node_a[p])});
+            ties_.push_back(
+                {at(node_piece_[at(face.node_a[p])]), at(node_piece_[at(face.node_b[p])]), place(face.node_a[p])});
         }
     }
 }
@@ -275,7 +279,8 @@ std::string Search::words(const Frame& f, const double* motion) const {
     Point t{};
     Point w{};
     for (std::size_t d = 0; d < dimension_; ++d) t[d] = motion[d];
-    for (std::size_t r = 0; r + dimension_ < modes_; ++r) w[dimension_ == 2 ? 2 : r] = motion[dimension_ + r] / f.length;
+    for (std::size_t r = 0; r + dimension_ < modes_; ++r)
+        w[dimension_ == 2 ? 2 : r] = motion[dimension_ + r] / f.length;
     const auto norm = [](const Point& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); };
     const auto list = [this](const Point& a) {
         return dimension_ == 2 ? text("(", a[0], ", ", a[1], ")") : text("(", a[0], ", ", a[1], ", ", a[2], ")");
@@ -337,8 +342,9 @@ FreeMotion Search::describe(const std::vector<std::size_t>& cluster, const std::
         if (found == cluster.end()) continue;
         const std::size_t first = static_cast<std::size_t>(found - cluster.begin()) * modes_;
         for (std::size_t m = 0; m < modes_; ++m) {
-            work[at(force.pattern)] += force.value * motion[first + m] / largest *
-                                       mode(frame_[*found], dimension_, m, at(force.dof % mesh_.dimension()), place(node));
+            work[at(force.pattern)] +=
+                force.value * motion[first + m] / largest *
+                mode(frame_[*found], dimension_, m, at(force.dof % mesh_.dimension()), place(node));
         }
         scale[at(force.pattern)] += std::abs(force.value);
     }

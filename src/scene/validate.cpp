@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Is the scene complete, free of contradictions, and held?
 //
-// Two questions are asked about supports. With every interface glued, notches included, nothing may be free: a rigid motion
-// left over then is a support that was forgotten. With the initial adhesion alone, parts may be free (a fully debonded ply lies
-// between its neighbours, held by contact or not at all) unless a dead force drives them.
+// Two questions are asked about supports. With every interface glued, notches included, nothing may be free: a rigid
+// motion left over then is a support that was forgotten. With the initial adhesion alone, parts may be free (a fully
+// debonded ply lies between its neighbours, held by contact or not at all) unless a dead force drives them.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -33,8 +33,8 @@ void check_interfaces(const Problem& problem) {
         if (interface.bonded) {
             for (std::size_t p = 0; p < interface.adhesion.size(); ++p) {
                 if (interface.adhesion[p] < 1.0) {
-                    fail(DELAM_ERROR_PROBLEM, "interface ", i, " is bonded for ever, but pair ", p, " has an adhesion of ",
-                         interface.adhesion[p], ", not 1");
+                    fail(DELAM_ERROR_PROBLEM, "interface ", i, " is bonded for ever, but pair ", p,
+                         " has an adhesion of ", interface.adhesion[p], ", not 1");
                 }
             }
         } else if (!interface.law) {
@@ -57,8 +57,8 @@ void check_loads(const Problem& problem) {
     }
 }
 
-// Prescribed nodes are independent of each other already when they are added. What is left of a prescribed mean, once the
-// prescribed directions are projected out, must not vanish, nor may these rests depend on each other.
+// Prescribed nodes are independent of each other already when they are added. What is left of a prescribed mean, once
+// the prescribed directions are projected out, must not vanish, nor may these rests depend on each other.
 void check_means(const Problem& problem) {
     const std::int64_t dimension = problem.mesh->dimension();
     std::map<std::int64_t, std::vector<std::vector<double>>> held;  // orthonormal directions at a node
@@ -70,7 +70,8 @@ void check_means(const Problem& problem) {
             continue;
         }
         std::vector<double> direction(static_cast<std::size_t>(dimension), 0.0);
-        for (std::size_t k = 0; k < c.dof.size(); ++k) direction[static_cast<std::size_t>(c.dof[k] % dimension)] = c.coefficient[k];
+        for (std::size_t k = 0; k < c.dof.size(); ++k)
+            direction[static_cast<std::size_t>(c.dof[k] % dimension)] = c.coefficient[k];
         auto& others = held[c.dof.front() / dimension];
         for (const std::vector<double>& other : others) {
             double along = 0.0;
@@ -79,7 +80,8 @@ void check_means(const Problem& problem) {
         }
         double length = 0.0;
         for (const double value : direction) length += value * value;
-        if (length < 1e-20) fail(DELAM_ERROR_PROBLEM, "constraint ", i, " prescribes what earlier ones at its node do already");
+        if (length < 1e-20)
+            fail(DELAM_ERROR_PROBLEM, "constraint ", i, " prescribes what earlier ones at its node do already");
         for (double& value : direction) value /= std::sqrt(length);
         others.push_back(std::move(direction));
     }
@@ -135,7 +137,8 @@ std::string names(const Mesh& mesh, const std::vector<std::int32_t>& bodies) {
 }
 
 void check_supports(const Problem& problem) {
-    if (problem.constraints.empty()) fail(DELAM_ERROR_PROBLEM, "missing support: no displacement is prescribed anywhere");
+    if (problem.constraints.empty())
+        fail(DELAM_ERROR_PROBLEM, "missing support: no displacement is prescribed anywhere");
     const std::vector<FreeMotion> missing = free_motions(problem, true);
     if (!missing.empty()) {
         std::string list;
@@ -146,8 +149,8 @@ void check_supports(const Problem& problem) {
     }
     for (const FreeMotion& motion : free_motions(problem, false)) {
         if (motion.force_work > 1e-9) {
-            fail(DELAM_ERROR_PROBLEM, "missing support: ", names(*problem.mesh, motion.bodies), " can ", motion.description,
-                 " where nothing adheres, and the dead forces of pattern '",
+            fail(DELAM_ERROR_PROBLEM, "missing support: ", names(*problem.mesh, motion.bodies), " can ",
+                 motion.description, " where nothing adheres, and the dead forces of pattern '",
                  problem.patterns[static_cast<std::size_t>(motion.force_pattern)].name, "' act along");
         }
     }

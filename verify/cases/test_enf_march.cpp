@@ -50,7 +50,7 @@ std::vector<StepRecord> march() {
     return records;
 }
 
-// One march for all tests: made before Check forks.
+// One march for all tests, made before Check forks; the tests only look at its numbers.
 std::vector<StepRecord> records;
 std::string march_failure;
 

@@ -148,19 +148,37 @@ CASE_TEST(idle_plies) {
     for (const double u : solver.field("displacement")) cases::expect(std::isfinite(u), where + ": displacement");
 }
 
-// A dead load that pulls a loose ply away has no equilibrium, and the solver says so.
-CASE_TEST(no_equilibrium) {
-    Scene scene = plies(2, {1}, 0.0, {}, 3);
+void lift_by_force(Scene& scene, double force) {
     const auto load = scene.pattern("lift", {0.0, 1.0}, {0.0, 1.0});
     const auto top = scene.find(2, {0.0, 3 * ply}, {length, 3 * ply});
     std::vector<double> forces;
-    for (std::size_t i = 0; i < top.size(); ++i) forces.insert(forces.end(), {0.0, 10.0});
+    for (std::size_t i = 0; i < top.size(); ++i) forces.insert(forces.end(), {0.0, force / static_cast<double>(top.size())});
     scene.require(delam_problem_add_forces(scene.problem(), load, static_cast<std::int64_t>(top.size()), top.data(), forces.data(), 0),
                   "delam_problem_add_forces");
+}
+
+// A dead load on a ply that is loose from the start is refused with the scene.
+CASE_TEST(dead_load_on_a_loose_ply) {
+    Scene scene = plies(2, {1}, 0.0, {}, 3);
+    lift_by_force(scene, 10.0);
+    cases::expect(delam_problem_check(scene.problem()) == DELAM_ERROR_PROBLEM, "the scene is refused");
+    cases::expect(std::string(delam_context_message(scene.context())) != "", "a message says why");
+}
+
+// A dead load that grows beyond the interface's strength tears a ply off: no equilibrium, and the solver says so.
+CASE_TEST(dead_load_tears_a_ply_off) {
+    Scene scene = plies(2, {}, 0.0, {}, 3);
+    const double strength = std::sqrt(2.0 * law.normal_stiffness * law.normal_onset);
+    lift_by_force(scene, 2.0 * strength * length);
     Solver solver(scene, 0.0);
+    solver.step(0.25);
+    solver.commit();
+    cases::expect(solver.value("dissipated") == 0.0, "half the strength breaks nothing");
+    const auto u = solver.field("displacement");
     const std::int32_t status = solver.advance(1.0);
     cases::expect(status == DELAM_LIMIT, std::string("status ") + delam_status_name(status));
     cases::expect(std::string(delam_context_message(scene.context())) != "", "a message says why");
+    cases::expect(solver.field("displacement") == u, "the committed state is what is left");
 }
 
 // Intact triple layers with two interfaces, one perfectly bonded or both compliant, bent: against the reference.
@@ -273,7 +291,8 @@ int main() {
     tcase_add_loop_test(tests, pressed_plies, 0, 6);
     tcase_add_loop_test(tests, lifted_plies, 0, 6);
     tcase_add_loop_test(tests, idle_plies, 0, 6);
-    tcase_add_test(tests, no_equilibrium);
+    tcase_add_test(tests, dead_load_on_a_loose_ply);
+    tcase_add_test(tests, dead_load_tears_a_ply_off);
     tcase_add_loop_test(tests, bent_layers, 0, 4);
     tcase_add_loop_test(tests, cross_point, 0, 2);
     suite_add_tcase(suite, tests);

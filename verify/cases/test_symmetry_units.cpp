@@ -78,7 +78,7 @@ CASE_TEST(upper_and_lower) {
     const auto right = scene.find(-1, {length, 0.0}, {length, 2 * arm});
     scene.hold(right, {1.0, 0.0});
     scene.hold(right, {0.0, 1.0});
-    const auto load = scene.pattern("open", {0.0, 1.0}, {0.0, 2e-4});
+    const auto load = scene.pattern("open", {0.0, 1.0}, {0.0, 1e-3});
     scene.drive(scene.find(1, {0.0, 2 * arm}, {0.0, 2 * arm}), {0.0, 1.0}, load, {0.5});
     scene.drive(scene.find(0, {0.0, 0.0}, {0.0, 0.0}), {0.0, -1.0}, load, {0.5});
     scene.number("subdomains", 5);
@@ -122,7 +122,7 @@ Record bending(double a, double b) {
     const auto right = scene.find(-1, {length * a, 0.0}, {length * a, 2 * arm * a});
     scene.hold(right, {1.0, 0.0});
     scene.hold(right, {0.0, 1.0});
-    const auto load = scene.pattern("lift", {0.0, 1.0}, {0.0, 4e-4 * a});
+    const auto load = scene.pattern("lift", {0.0, 1.0}, {0.0, 1.5e-3 * a});
     scene.drive(scene.find(1, {0.0, 2 * arm * a}, {0.0, 2 * arm * a}), {0.0, 1.0}, load, {1.0});
     scene.number("subdomains", 4);
     scene.number("damage_tolerance", damage_tolerance);

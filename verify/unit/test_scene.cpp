@@ -60,8 +60,8 @@ Problem stack(int dimension, std::size_t layers) {
     const std::vector<double> thickness(layers, 1.0);
     const std::vector<std::int64_t> layer_divisions(layers, 1);
     const auto axes = static_cast<std::size_t>(dimension - 1);
-    auto mesh = std::make_shared<Mesh>(make_layers(dimension, std::span(lengths).first(axes), std::span(divisions).first(axes),
-                                                   thickness, layer_divisions,
+    auto mesh = std::make_shared<Mesh>(make_layers(dimension, std::span(lengths).first(axes),
+                                                   std::span(divisions).first(axes), thickness, layer_divisions,
                                                    dimension == 2 ? CellType::quad4 : CellType::hex8));
     for (std::size_t i = 0; i + 1 < layers; ++i) {
         mesh->add_interface(static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1), 1e-6);
@@ -98,8 +98,8 @@ void debond(Problem& problem, std::size_t interface) {
 
 void push(Problem& problem, std::int64_t node, int component) {
     problem.patterns.push_back({"push", {0.0, 1.0}, {0.0, 1.0}, Pattern::Drives::force});
-    problem.forces.push_back({static_cast<std::int64_t>(problem.patterns.size()) - 1,
-                              problem.mesh->dimension() * node + component, 1.0});
+    problem.forces.push_back(
+        {static_cast<std::int64_t>(problem.patterns.size()) - 1, problem.mesh->dimension() * node + component, 1.0});
 }
 
 }  // namespace
@@ -120,7 +120,8 @@ START_TEST(options_follow_their_table) {
         }
         ck_assert_int_eq(set(std::stod(info.initial)).status, 0);
         ck_assert(outcome([&] { options.set_text(info.key, "1"); }).says("is a number"));
-        for (const double bad : {-1.0, 1e17, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        for (const double bad :
+             {-1.0, 1e17, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
             const Outcome o = set(bad);
             ck_assert_int_eq(o.status, DELAM_ERROR_ARGUMENT);
             ck_assert(o.says(info.key) && o.says(info.range));
@@ -281,12 +282,14 @@ START_TEST(bodies_without_contact_need_their_own_supports) {
     const std::vector<std::int64_t> divisions{1};
     const std::vector<double> thickness{1.0, 1.0};
     const std::vector<std::int64_t> layer_divisions{1, 1};
-    Problem problem(std::make_shared<Mesh>(make_layers(2, lengths, divisions, thickness, layer_divisions, CellType::tri3)));
+    Problem problem(
+        std::make_shared<Mesh>(make_layers(2, lengths, divisions, thickness, layer_divisions, CellType::tri3)));
     for (auto& material : problem.material) material = Elastic{1.0, 0.0};
     hold(problem, node_at(problem, 0, {0.0, 0.0}), 0);
     hold(problem, node_at(problem, 0, {0.0, 0.0}), 1);
     hold(problem, node_at(problem, 0, {1.0, 0.0}), 1);
-    expect(problem, "body 1 can translate along x; body 1 can translate along y; body 1 can rotate about the point (0.5, 1.5)");
+    expect(problem,
+           "body 1 can translate along x; body 1 can translate along y; body 1 can rotate about the point (0.5, 1.5)");
 }
 END_TEST
 
@@ -315,7 +318,8 @@ START_TEST(supports_do_not_depend_on_units) {
         const std::vector<std::int64_t> divisions{240};
         const std::vector<double> thickness{3.0 * unit, 3.0 * unit};
         const std::vector<std::int64_t> layer_divisions{6, 6};
-        auto mesh = std::make_shared<Mesh>(make_layers(2, lengths, divisions, thickness, layer_divisions, CellType::quad4));
+        auto mesh =
+            std::make_shared<Mesh>(make_layers(2, lengths, divisions, thickness, layer_divisions, CellType::quad4));
         mesh->add_interface(0, 1, 1e-6);
         Problem problem(mesh);
         for (auto& material : problem.material) material = Elastic{75e9, 0.3};

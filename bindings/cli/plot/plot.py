@@ -19,7 +19,8 @@ from matplotlib.collections import LineCollection
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 BLUE, RED, GREEN, ORANGE, GREY = "#1f5a99", "#b3312c", "#2f7d4f", "#d18b1f", "#7a7f87"
-ZETA = matplotlib.colors.LinearSegmentedColormap.from_list("zeta", ["#b3122a", "#f2a541", "#f5e9b8", "#2b6cb0", "#0b2e59"])
+ZETA = matplotlib.colors.LinearSegmentedColormap.from_list(
+    "zeta", ["#b3122a", "#f2a541", "#f5e9b8", "#2b6cb0", "#0b2e59"])
 plt.rcParams.update({
     "font.size": 10, "axes.titlesize": 11, "axes.spines.top": False, "axes.spines.right": False,
     "axes.grid": True, "grid.color": "#e4e6ea", "grid.linewidth": 0.8, "axes.axisbelow": True,
@@ -48,7 +49,8 @@ class Result:
         """(label, load column, reaction column) of each pattern."""
         names = self.about["patterns"]
         if len(names) <= 1:
-            return [(names[0]["name"] if names else "", names[0]["drives"] if names else "displacement", "load", "reaction")]
+            first = names[0] if names else {"name": "", "drives": "displacement"}
+            return [(first["name"], first["drives"], "load", "reaction")]
         return [(p["name"], p["drives"], "load_" + p["name"], "reaction_" + p["name"]) for p in names]
 
     def title(self, what):
@@ -59,8 +61,11 @@ class Result:
 
     def stamp(self, figure):
         about = self.about
-        figure.text(0.995, 0.004, f"delam {about['version']} · commit {about['commit'][:12]} · scene {about['scene_hash']} · "
-                    f"{about.get('concept', '')} solution", ha="right", va="bottom", fontsize=7, color=GREY)
+        foot = 0.22 / figure.get_size_inches()[1]
+        figure.get_layout_engine().set(rect=(0, foot, 1, 1 - foot))
+        figure.text(0.995, 0.004, f"delam {about['version']} · commit {about['commit'][:13]} · "
+                    f"scene {about['scene_hash']} · {about['concept']} solution",
+                    ha="right", va="bottom", fontsize=7, color=GREY)
 
     def save(self, figure, name):
         # Beside and renamed, like every other file of a result.
@@ -80,7 +85,8 @@ def axis(label, unit):
 
 def plot_load(result):
     patterns = result.patterns()
-    figure, axes = plt.subplots(1, len(patterns), figsize=(6.8 * len(patterns), 4.4), squeeze=False, layout="constrained")
+    figure, axes = plt.subplots(1, len(patterns), figsize=(6.8 * len(patterns), 4.4), squeeze=False,
+                                layout="constrained")
     failed = set(result.about.get("not_converged", []))
     for ax, (name, drives, load, reaction) in zip(axes[0], patterns):
         x, y = result.history[load], result.history[reaction]
@@ -104,7 +110,8 @@ def plot_load(result):
 def plot_energies(result):
     h = result.history
     t = h["time"]
-    figure, (top, bottom) = plt.subplots(2, 1, figsize=(7.2, 7.4), sharex=True, height_ratios=[3, 2], layout="constrained")
+    figure, (top, bottom) = plt.subplots(2, 1, figsize=(7.2, 7.4), sharex=True, height_ratios=[3, 2],
+                                          layout="constrained")
     stored = h["stored_bulk"] + h["stored_interface"] + h.get("load_potential", 0)
     top.plot(t, h["stored_bulk"], color=BLUE, label="stored, bodies")
     top.plot(t, h["stored_interface"], color=GREEN, label="stored, interfaces")
@@ -116,10 +123,11 @@ def plot_energies(result):
     top.set_ylabel(axis("energy", result.energy))
     top.legend(ncols=2, loc="upper left")
 
-    # The band of the two-sided estimate, cumulated and seen from its middle: at the scale of the work it would be a line.
+    # The band of the two-sided estimate, cumulated and seen from its middle; at the scale of the work it is a line.
     lower, increment, upper = (np.cumsum(h[name]) for name in ("lower", "increment", "upper"))
     middle = 0.5 * (lower + upper)
-    bottom.fill_between(t, lower - middle, upper - middle, color=BLUE, alpha=0.18, linewidth=0, label="lower .. upper bound")
+    bottom.fill_between(t, lower - middle, upper - middle, color=BLUE, alpha=0.18, linewidth=0,
+                        label="lower .. upper bound")
     bottom.plot(t, increment - middle, color="black", label="stored + dissipated")
     bottom.axhline(0, color=ORANGE, linestyle="--", linewidth=1.2, label="work, (lower + upper)/2")
     bottom.set_ylabel(axis("cumulated, minus work", result.energy))
@@ -139,7 +147,8 @@ def plot_energies(result):
 
 def boundary_edges(cells):
     """Edges of plane cells that belong to one cell only."""
-    edges = np.concatenate([np.stack([cells[:, i], cells[:, (i + 1) % cells.shape[1]]], 1) for i in range(cells.shape[1])])
+    corners = cells.shape[1]
+    edges = np.concatenate([np.stack([cells[:, i], cells[:, (i + 1) % corners]], 1) for i in range(corners)])
     _, index, count = np.unique(np.sort(edges, 1), axis=0, return_index=True, return_counts=True)
     return edges[index[count == 1]], edges[index]
 
@@ -192,8 +201,7 @@ def draw_plane(ax, file, step, scale, light_mesh):
             drawn = LineCollection(at[faces[:, :2]], cmap=ZETA, linewidths=2.0, norm=plt.Normalize(0, 1))
             drawn.set_array(zeta[faces[:, :2]].mean(axis=1))
             ax.add_collection(drawn)
-    low, high = moved.min(axis=0), moved.max(axis=0)
-    return drawn, low, high
+    return drawn
 
 
 def plot_plane(result, file, shots, scale):
@@ -202,18 +210,21 @@ def plot_plane(result, file, shots, scale):
     points = file["mesh/points"][:, :2]
     light_mesh = len(file["mesh/cells"]) <= 20000
     boxes = [(points + scale * s["displacement"][:, :2]) for _, s in shots]
-    low = np.min([b.min(axis=0) for b in boxes], axis=0)
-    high = np.max([b.max(axis=0) for b in boxes], axis=0)
-    pad = 0.02 * (high[0] - low[0])
-    ratio = (high[1] - low[1] + 2 * pad) / (high[0] - low[0] + 2 * pad)
+    left = min(b[:, 0].min() for b in boxes)
+    right = max(b[:, 0].max() for b in boxes)
+    pad = 0.02 * (right - left)
+    # One scale for all; every row only as high as what it shows.
+    spans = [(min(b[:, 1].min() for b in boxes[r:r + columns]), max(b[:, 1].max() for b in boxes[r:r + columns]))
+             for r in range(0, len(boxes), columns)]
     width = 5.6
-    figure, axes = plt.subplots(rows, columns, squeeze=False, layout="constrained",
-                                figsize=(columns * width, rows * (max(width * ratio, 0.5) + 0.45) + 1.2))
+    heights = [max(width * (high - low + 2 * pad) / (right - left + 2 * pad), 0.4) + 0.3 for low, high in spans]
+    figure, axes = plt.subplots(rows, columns, squeeze=False, layout="constrained", height_ratios=heights,
+                                figsize=(columns * width, sum(heights) + 1.3))
     drawn = None
-    for ax, (time, step) in zip(axes.flat, shots):
-        drawn = draw_plane(ax, file, step, scale, light_mesh)[0] or drawn
-        ax.set_xlim(low[0] - pad, high[0] + pad)
-        ax.set_ylim(low[1] - pad, high[1] + pad)
+    for i, (ax, (time, step)) in enumerate(zip(axes.flat, shots)):
+        drawn = draw_plane(ax, file, step, scale, light_mesh) or drawn
+        ax.set_xlim(left - pad, right + pad)
+        ax.set_ylim(spans[i // columns][0] - pad, spans[i // columns][1] + pad)
         ax.set_aspect("equal")
         ax.axis("off")
         unit = f" {result.time}" if result.time else ""
@@ -238,7 +249,8 @@ def plot_solid(result, file, shots, scale):
         row, column = divmod(i, columns)
         moved = points + scale * step["displacement"][()]
         ax = figure.add_subplot(grid[row * (1 + len(names)), column], projection="3d")
-        ax.add_collection3d(Poly3DCollection(moved[skin], facecolor=(0.75, 0.79, 0.84, 0.25), edgecolor="#8b9199", linewidths=0.15))
+        ax.add_collection3d(Poly3DCollection(moved[skin], facecolor=(0.75, 0.79, 0.84, 0.25), edgecolor="#8b9199",
+                                                linewidths=0.15))
         extent = np.ptp(moved, axis=0)
         for setter, a in ((ax.set_xlim, 0), (ax.set_ylim, 1), (ax.set_zlim, 2)):
             setter(moved[:, a].min(), moved[:, a].max())

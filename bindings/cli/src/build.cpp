@@ -36,7 +36,8 @@ Mesh build_mesh(const delam_context* owner, delam_context* context, const Scene&
     return mesh;
 }
 
-// Inside, or on an end that the interface itself ends at: an end within the interface is a tip, and its pair stays bonded.
+// Inside, or on an end that the interface itself ends at: an end within the interface is a tip, and its pair stays
+// bonded.
 bool inside(double x, double lower, double upper, double length, double slack) {
     const bool from = lower <= slack ? x >= lower - slack : x > lower + slack;
     const bool to = upper >= length - slack ? x <= upper + slack : x < upper - slack;
@@ -47,12 +48,14 @@ void set_adhesion(const Model& model, const Scene& scene, std::int64_t index, co
     const delam_context* context = model.context.get();
     std::int64_t pairs = 0;
     std::int64_t nodes = 0;
-    call(context, delam_mesh_interface_size(model.mesh.get(), index, nullptr, nullptr, &pairs, nullptr, nullptr), data.place);
+    call(context, delam_mesh_interface_size(model.mesh.get(), index, nullptr, nullptr, &pairs, nullptr, nullptr),
+         data.place);
     call(context, delam_mesh_size(model.mesh.get(), nullptr, &nodes, nullptr, nullptr, nullptr), data.place);
     const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
     std::vector<std::int64_t> face_a(static_cast<std::size_t>(pairs));
     std::vector<double> coordinates(static_cast<std::size_t>(nodes) * dimension);
-    call(context, delam_mesh_interface_pairs(model.mesh.get(), index, face_a.data(), nullptr, nullptr, nullptr), data.place);
+    call(context, delam_mesh_interface_pairs(model.mesh.get(), index, face_a.data(), nullptr, nullptr, nullptr),
+         data.place);
     call(context, delam_mesh_nodes(model.mesh.get(), nodes * scene.geometry.dimension, coordinates.data()), data.place);
     const double slack = 1e-6 * scene.geometry.smallest_edge;
     for (const Region& region : data.regions) {
@@ -61,14 +64,15 @@ void set_adhesion(const Model& model, const Scene& scene, std::int64_t index, co
             const double* at = coordinates.data() + static_cast<std::size_t>(face_a[i]) * dimension;
             bool in = true;
             for (std::size_t axis = 0; axis + 1 < dimension; ++axis)
-                in = in && inside(at[axis], region.lower[axis], region.upper[axis], scene.geometry.lengths[axis], slack);
+                in =
+                    in && inside(at[axis], region.lower[axis], region.upper[axis], scene.geometry.lengths[axis], slack);
             if (in) chosen.push_back(static_cast<std::int64_t>(i));
         }
         if (chosen.empty()) throw SceneFailure(region.place, "no pair of the interface is in this region");
         const std::vector<double> adhesion(chosen.size(), region.adhesion);
         call(context,
-             delam_problem_set_adhesion(model.problem.get(), index, static_cast<std::int64_t>(chosen.size()), chosen.data(),
-                                        adhesion.data(), 0),
+             delam_problem_set_adhesion(model.problem.get(), index, static_cast<std::int64_t>(chosen.size()),
+                                        chosen.data(), adhesion.data(), 0),
              region.place);
     }
 }
@@ -88,7 +92,8 @@ void set_interfaces(const Model& model, const Scene& scene) {
         const Law law(handle);
         call(context, status, from.place);
         for (const auto& [key, value] : from.parameters)
-            call(context, delam_law_set(law.get(), key.c_str(), value), {from.place.file, from.place.path + "." + key, from.place.line});
+            call(context, delam_law_set(law.get(), key.c_str(), value),
+                 {from.place.file, from.place.path + "." + key, from.place.line});
         call(context, delam_law_check(law.get()), from.place);
         call(context, delam_problem_set_law(model.problem.get(), index, law.get()), data.place);
         set_adhesion(model, scene, index, data);
@@ -110,10 +115,11 @@ void prescribe(const Model& model, const Scene& scene, const Prescription& data)
     for (const std::vector<double>& direction : data.directions) {
         const std::int32_t status =
             at.weights.empty()
-                ? delam_problem_prescribe_nodes(model.problem.get(), count, at.nodes.data(), direction.data(), pattern_count,
-                                                patterns.data(), all.data(), 0)
-                : delam_problem_prescribe_mean(model.problem.get(), count, at.nodes.data(), at.weights.data(), direction.data(),
-                                               pattern_count, patterns.data(), coefficients.data(), 0);
+                ? delam_problem_prescribe_nodes(model.problem.get(), count, at.nodes.data(), direction.data(),
+                                                pattern_count, patterns.data(), all.data(), 0)
+                : delam_problem_prescribe_mean(model.problem.get(), count, at.nodes.data(), at.weights.data(),
+                                               direction.data(), pattern_count, patterns.data(), coefficients.data(),
+                                               0);
         call(model.context.get(), status, data.place);
     }
 }
@@ -169,8 +175,9 @@ Model build(Context context, const Scene& scene) {
     for (const SolverOption& option : scene.options) {
         const auto* number = std::get_if<double>(&option.value);
         call(owner,
-             number != nullptr ? delam_problem_set_number(problem, option.key.c_str(), *number)
-                               : delam_problem_set_text(problem, option.key.c_str(), std::get<std::string>(option.value).c_str()),
+             number != nullptr
+                 ? delam_problem_set_number(problem, option.key.c_str(), *number)
+                 : delam_problem_set_text(problem, option.key.c_str(), std::get<std::string>(option.value).c_str()),
              option.place);
     }
     call(owner, delam_problem_check(problem), {scene.file, "", 0});

@@ -12,11 +12,14 @@ namespace cli {
 
 inline Exit exit_code(std::int32_t status) {
     switch (status) {
-        case DELAM_CANCELLED: return exit_interrupted;
+        case DELAM_CANCELLED:
+            return exit_interrupted;
         case DELAM_ERROR_ARGUMENT:
         case DELAM_ERROR_MESH:
-        case DELAM_ERROR_PROBLEM: return exit_scene;
-        default: return exit_numerical;
+        case DELAM_ERROR_PROBLEM:
+            return exit_scene;
+        default:
+            return exit_numerical;
     }
 }
 
@@ -33,7 +36,8 @@ inline void call(const delam_context* context, std::int32_t status, const Place&
 inline void call(const delam_context* context, std::int32_t status, const std::string& what) {
     if (status == DELAM_OK) return;
     if (status == DELAM_CANCELLED) throw Failure(exit_interrupted, "interrupted");
-    throw Failure(exit_numerical, what + ": " + delam_context_message(context) + " (" + delam_status_name(status) + ")");
+    throw Failure(exit_numerical,
+                  what + ": " + delam_context_message(context) + " (" + delam_status_name(status) + ")");
 }
 
 }  // namespace cli

@@ -19,7 +19,8 @@ int check(const std::string& scene_file) {
 
     std::int64_t primal = 0;
     std::int64_t dual = 0;
-    call(model.context.get(), delam_problem_dofs(model.problem.get(), &primal, &dual), std::string("numbers of unknowns"));
+    call(model.context.get(), delam_problem_dofs(model.problem.get(), &primal, &dual),
+         std::string("numbers of unknowns"));
     fmt::print("{}: correct\n", scene_file);
     if (!scene.title.empty()) fmt::print("title       {}\n", scene.title);
     fmt::print("scene hash  {}\n", hash_of(model));
@@ -31,7 +32,8 @@ int check(const std::string& scene_file) {
         const InterfaceData& data = scene.interfaces[i];
         std::int64_t pairs = 0;
         call(model.context.get(),
-             delam_mesh_interface_size(model.mesh.get(), static_cast<std::int64_t>(i), nullptr, nullptr, &pairs, nullptr, nullptr),
+             delam_mesh_interface_size(model.mesh.get(), static_cast<std::int64_t>(i), nullptr, nullptr, &pairs,
+                                       nullptr, nullptr),
              data.place);
         fmt::print("interface   \"{}\", {} pairs, {}, {} regions with adhesion of their own\n", data.name, pairs,
                    data.bonded ? "bonded for ever" : "law \"" + scene.laws[data.law].name + "\"", data.regions.size());
@@ -40,12 +42,13 @@ int check(const std::string& scene_file) {
     std::int64_t entries = 0;
     std::int64_t patterns = 0;
     call(model.context.get(),
-         delam_problem_constraints(model.problem.get(), &constraints, &entries, &patterns, nullptr, nullptr, nullptr, nullptr),
+         delam_problem_constraints(model.problem.get(), &constraints, &entries, &patterns, nullptr, nullptr, nullptr,
+                                   nullptr),
          std::string("constraints"));
     fmt::print("supports    {} prescribed displacements (supports and loads)\n", constraints);
     for (const PatternData& pattern : scene.patterns)
-        fmt::print("pattern     \"{}\", {} instants from {} to {}\n", pattern.name, pattern.times.size(), pattern.times.front(),
-                   pattern.times.back());
+        fmt::print("pattern     \"{}\", {} instants from {} to {}\n", pattern.name, pattern.times.size(),
+                   pattern.times.front(), pattern.times.back());
     fmt::print("time        {} to {} in {} steps\n", scene.times.front(), scene.times.back(), scene.step_count());
     fmt::print("\n{}", delam_solver_plan(solver.get()));
     return exit_done;

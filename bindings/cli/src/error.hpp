@@ -40,8 +40,8 @@ struct Place {
 
     [[nodiscard]] std::string text() const {
         std::string out = file;
-        if (line > 0) out += ":" + std::to_string(line);
-        if (!path.empty()) out += ": " + path;
+        if (line > 0) out.append(":").append(std::to_string(line));
+        if (!path.empty()) out.append(": ").append(path);
         return out;
     }
 };

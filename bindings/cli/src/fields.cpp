@@ -31,17 +31,20 @@ XdmfBlock write_interface(const Model& model, const InterfaceData& data, std::in
     std::int64_t faces = 0;
     std::int32_t per_face = 0;
     const delam_mesh* mesh = model.mesh.get();
-    call(model.context.get(), delam_mesh_interface_size(mesh, index, nullptr, nullptr, &pairs, &faces, &per_face), what);
+    call(model.context.get(), delam_mesh_interface_size(mesh, index, nullptr, nullptr, &pairs, &faces, &per_face),
+         what);
     std::vector<std::int64_t> a(static_cast<std::size_t>(pairs));
     std::vector<std::int64_t> b(a.size());
     std::vector<double> weights(a.size());
     std::vector<double> frames(a.size() * dimension * dimension);
     std::vector<std::int64_t> connectivity(static_cast<std::size_t>(faces * per_face));
-    call(model.context.get(), delam_mesh_interface_pairs(mesh, index, a.data(), b.data(), weights.data(), frames.data()), what);
+    call(model.context.get(),
+         delam_mesh_interface_pairs(mesh, index, a.data(), b.data(), weights.data(), frames.data()), what);
     call(model.context.get(), delam_mesh_interface_faces(mesh, index, connectivity.data()), what);
     std::vector<double> at(3 * a.size());
     for (std::size_t i = 0; i < a.size(); ++i)
-        std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(3 * a[i]), 3, at.begin() + static_cast<std::ptrdiff_t>(3 * i));
+        std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(3 * a[i]), 3,
+                    at.begin() + static_cast<std::ptrdiff_t>(3 * i));
     const h5::Group group(h5::new_group(parent, "interface_" + std::to_string(index)), "fields.h5");
     h5::attribute(group.get(), "name", data.name);
     h5::attribute(group.get(), "body_a", static_cast<std::int64_t>(data.lower));
@@ -52,7 +55,10 @@ XdmfBlock write_interface(const Model& model, const InterfaceData& data, std::in
     h5::write(group.get(), "nodes_b", b, 0);
     h5::write(group.get(), "weights", weights, 0);
     h5::write(group.get(), "frames", frames, dimension * dimension);
-    return {data.name, pairs, faces, per_face, per_face == 2 ? "Polyline" : per_face == 3 ? "Triangle" : "Quadrilateral"};
+    return {data.name, pairs, faces, per_face,
+            per_face == 2   ? "Polyline"
+            : per_face == 3 ? "Triangle"
+                            : "Quadrilateral"};
 }
 
 // Mesh and interfaces; returns what the XDMF file has to say about them.
@@ -106,7 +112,7 @@ Fields::Fields(std::string folder, const Scene& scene) : folder_(std::move(folde
 
 std::string Fields::step_path(std::size_t step) const { return fmt::format("{}/step_{:08d}.h5", folder_, step); }
 
-void Fields::write_step(const Model& model, const delam_solver* solver, const Scene& scene, std::size_t step) {
+void Fields::write_step(const Model& model, delam_solver* solver, const Scene& scene, std::size_t step) {
     const std::string bytes = step_bytes(model, solver, scene, static_cast<std::int64_t>(step), scene.times[step]);
     const std::string path = step_path(step);
     Appender(path, 0).append(bytes);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fields.h5 and fields.xdmf: the fields of the chosen steps. While the march runs each step is a small file of its own; they
-// are put together once, when a result is published, so the cost stays linear in the number of steps.
+// fields.h5 and fields.xdmf: the fields of the chosen steps. While the march runs each step is a small file of its own;
+// they are put together once, when a result is published, so the cost stays linear in the number of steps.
 #pragma once
 
 #include <set>
@@ -18,7 +18,7 @@ public:
 
     // Steps every n-th, the first, the last and those nearest to the snapshot instants.
     [[nodiscard]] bool chosen(std::size_t step) const { return chosen_.contains(step); }
-    void write_step(const Model& model, const delam_solver* solver, const Scene& scene, std::size_t step);
+    void write_step(const Model& model, delam_solver* solver, const Scene& scene, std::size_t step);
     // Step files so far to the disk, before a state that counts on them is written.
     void synchronise_steps();
     // Puts steps 0 .. last together as folder/fields.h5 and folder/fields.xdmf.

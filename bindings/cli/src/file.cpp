@@ -20,7 +20,8 @@ std::string system_text(int code) { return std::strerror(code); }
 // Closes on every way out; close() itself may report a write that failed late.
 class Descriptor {
 public:
-    Descriptor(const std::string& path, int flags) : path_(path), value_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
+    Descriptor(const std::string& path, int flags)
+        : path_(path), value_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
         if (value_ < 0) throw OutputFailure(path, system_text(errno));
     }
     ~Descriptor() {
@@ -113,7 +114,9 @@ void synchronise(const std::string& path) {
 }
 
 Appender::Appender(std::string path, std::int64_t length)
-    : path_(std::move(path)), descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666)), length_(length) {
+    : path_(std::move(path)),
+      descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666)),
+      length_(length) {
     if (descriptor_ < 0) throw OutputFailure(path_, system_text(errno));
     if (::ftruncate(descriptor_, static_cast<off_t>(length)) != 0 ||
         ::lseek(descriptor_, static_cast<off_t>(length), SEEK_SET) < 0) {

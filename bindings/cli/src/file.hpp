@@ -17,7 +17,8 @@ void write_atomic(const std::string& path, std::string_view bytes);
 void rename_file(const std::string& from, const std::string& to);
 // Missing is fine.
 void remove_file(const std::string& path);
-// Reserves room beside `path` and frees it again: tells a full disk before a library that cannot recover from one meets it.
+// Reserves room beside `path` and frees it again: tells a full disk before a library that cannot recover from one meets
+// it.
 void require_room(const std::string& path, std::int64_t bytes);
 // To the disk, folder entries of `folder` included.
 void synchronise(const std::string& path);

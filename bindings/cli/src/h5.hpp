@@ -50,11 +50,17 @@ inline void require(herr_t status, const std::string& what) {
 template <class T>
 hid_t type_of();
 template <>
-inline hid_t type_of<double>() { return H5T_NATIVE_DOUBLE; }
+inline hid_t type_of<double>() {
+    return H5T_NATIVE_DOUBLE;
+}
 template <>
-inline hid_t type_of<std::int64_t>() { return H5T_NATIVE_INT64; }
+inline hid_t type_of<std::int64_t>() {
+    return H5T_NATIVE_INT64;
+}
 template <>
-inline hid_t type_of<std::int32_t>() { return H5T_NATIVE_INT32; }
+inline hid_t type_of<std::int32_t>() {
+    return H5T_NATIVE_INT32;
+}
 
 // columns 0: a vector.
 template <class T>
@@ -68,8 +74,8 @@ void write(hid_t parent, const std::string& name, const std::vector<T>& values, 
         require(H5Pset_shuffle(properties.get()), name);
         require(H5Pset_deflate(properties.get(), 1), name);
     }
-    const Data data(H5Dcreate2(parent, name.c_str(), type_of<T>(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
-                    name);
+    const Data data(
+        H5Dcreate2(parent, name.c_str(), type_of<T>(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), name);
     if (!values.empty())
         require(H5Dwrite(data.get(), type_of<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
 }

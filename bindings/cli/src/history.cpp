@@ -33,9 +33,9 @@ History::History(const Model& model, const delam_solver* solver, const Scene& sc
             columns_.emplace_back("reaction_" + pattern.name, "reaction:" + pattern.name);
         }
     }
-    for (const char* key : {"stored_bulk", "stored_interface", "dissipated", "stored_interface_slides", "dissipated_slides",
-                            "work", "lower", "increment", "upper", "increment_lower", "am_iterations", "linear_iterations",
-                            "contact_pairs", "debonded_length", "backtracks"})
+    for (const char* key : {"stored_bulk", "stored_interface", "dissipated", "stored_interface_slides",
+                            "dissipated_slides", "work", "lower", "increment", "upper", "increment_lower",
+                            "am_iterations", "linear_iterations", "contact_pairs", "debonded_length", "backtracks"})
         same(key);
     if (!scene.forces.empty()) same("load_potential");
 
@@ -46,8 +46,9 @@ History::History(const Model& model, const delam_solver* solver, const Scene& sc
         if (const char* name = delam_solver_value_name(solver, i)) known.emplace_back(name);
     for (const std::string& key : scene.output.columns) {
         if (std::find(known.begin(), known.end(), key) == known.end())
-            throw SceneFailure({scene.output.place.file, scene.output.place.path + ".columns", scene.output.place.line},
-                               fmt::format("\"{}\": no such value{}; one of {}", key, suggestion(key, known), listing(known)));
+            throw SceneFailure(
+                {scene.output.place.file, scene.output.place.path + ".columns", scene.output.place.line},
+                fmt::format("\"{}\": no such value{}; one of {}", key, suggestion(key, known), listing(known)));
         const auto same_key = [&key](const auto& column) { return column.second == key; };
         if (std::none_of(columns_.begin(), columns_.end(), same_key)) columns_.emplace_back(key, key);
     }
@@ -69,7 +70,7 @@ std::string History::row(delam_solver* solver) const {
     std::string out;
     for (const auto& [title, key] : columns_) {
         if (!out.empty()) out += ',';
-        const double number = value(solver, key);
+        const double number = value(solver, key) + 0.0;  // no -0
         const bool counted = std::find(std::begin(counts), std::end(counts), key) != std::end(counts);
         out += counted ? fmt::format("{:.0f}", number) : fmt::format("{:.17g}", number);
     }

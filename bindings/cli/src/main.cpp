@@ -33,14 +33,16 @@ std::string joined(int count, char** words) {
 int guarded(int argc, char** argv) {
     CLI::App app("delam: delamination of layered structures by energy minimisation");
     app.footer(footer);
-    app.set_version_flag("--version", fmt::format("delam {} (commit {}, ABI {})", delam_version(), delam_commit(), delam_abi()));
+    app.set_version_flag("--version",
+                         fmt::format("delam {} (commit {}, ABI {})", delam_version(), delam_commit(), delam_abi()));
     app.require_subcommand(1);
     std::string scene;
     std::string folder;
     bool resume = false;
     CLI::App* run = app.add_subcommand("run", "march through the load steps of a scene and write the results");
     run->add_option("scene", scene, "scene file (TOML, see SCENE.md)")->required();
-    run->add_option("--out,-o", folder, "folder for the results; a result that is there is replaced when the new one is whole")
+    run->add_option("--out,-o", folder,
+                    "folder for the results; a result that is there is replaced when the new one is whole")
         ->required();
     run->add_flag("--resume", resume, "go on after an interruption, from the last saved step");
     run->footer(footer);

@@ -55,13 +55,15 @@ void OutputFolder::begin() {
 }
 
 void OutputFolder::publish() {
-    // A run may go on after this, so it keeps its own history and state. The copies are complete before anything old goes away.
+    // A run may go on after this, so it keeps its own history and state. The copies are complete before anything old
+    // goes away.
     for (const char* name : {"history.csv", "state.bin"}) {
         const std::string from = running_ + "/" + name;
         write_atomic(running_ + "/published_" + name, read_bytes(from));
     }
     remove_file(path_ + "/result.json");
-    for (const char* name : {"history.csv", "state.bin"}) rename_file(running_ + "/published_" + name, path_ + "/" + name);
+    for (const char* name : {"history.csv", "state.bin"})
+        rename_file(running_ + "/published_" + name, path_ + "/" + name);
     for (const char* name : {"fields.h5", "fields.xdmf"}) rename_file(running_ + "/" + name, path_ + "/" + name);
     synchronise(path_);
     rename_file(running_ + "/result.json", path_ + "/result.json");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The output folder DIR and, in it, the folder `running` where everything is written until it is whole.
 //
-// DIR/result.json is removed before the first file of a new result is moved in and comes back last: a folder with result.json holds
-// one result and never a mixture.
+// DIR/result.json is removed before the first file of a new result is moved in and comes back last: a folder with
+// result.json holds one result and never a mixture.
 #pragma once
 
 #include <string>

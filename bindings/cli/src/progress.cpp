@@ -27,7 +27,12 @@ std::size_t terminal_width() {
 }  // namespace
 
 Progress::Progress(std::int64_t total, std::int64_t first)
-    : total_(total), first_(first), step_(first), terminal_(isatty(STDOUT_FILENO) == 1), start_(Clock::now()), redraw_(start_) {}
+    : total_(total),
+      first_(first),
+      step_(first),
+      terminal_(isatty(STDOUT_FILENO) == 1),
+      start_(Clock::now()),
+      redraw_(start_) {}
 
 std::string Progress::left() const {
     const std::int64_t done = step_ - first_;
@@ -38,7 +43,8 @@ std::string Progress::left() const {
 
 void Progress::step(std::int64_t step, double time, double load, std::int64_t iterations, bool converged) {
     step_ = step;
-    last_ = fmt::format("time {:.6g}  load {:.6g}  {} iterations{}", time, load, iterations, converged ? "" : " NOT CONVERGED");
+    last_ = fmt::format("time {:.6g}  load {:.6g}  {} iterations{}", time, load, iterations,
+                        converged ? "" : " NOT CONVERGED");
     if (terminal_) {
         draw("");
         return;
@@ -56,8 +62,9 @@ void Progress::draw(const std::string& stage) {
     redraw_ = Clock::now();
     constexpr std::int64_t width = 24;
     const auto full = static_cast<std::size_t>(total_ > 0 ? width * step_ / total_ : width);
-    std::string line = fmt::format("[{}{}] {}/{}  {}  left {}  {}", std::string(full, '#'),
-                                   std::string(static_cast<std::size_t>(width) - full, '.'), step_, total_, last_, left(), stage);
+    std::string line =
+        fmt::format("[{}{}] {}/{}  {}  left {}  {}", std::string(full, '#'),
+                    std::string(static_cast<std::size_t>(width) - full, '.'), step_, total_, last_, left(), stage);
     line.resize(std::min(line.size(), terminal_width() - 1));
     fmt::print("\r\033[K{}", line);
     std::fflush(stdout);

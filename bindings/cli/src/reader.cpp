@@ -44,14 +44,16 @@ std::string joined(const std::string& path, std::string_view key) {
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
 double checked_number(const toml::node& node, const Place& where, const Range& range) {
-    if (!node.is_number()) throw SceneFailure(where, fmt::format("{}: a number {} is expected", shown(node), range.text));
+    if (!node.is_number())
+        throw SceneFailure(where, fmt::format("{}: a number {} is expected", shown(node), range.text));
     const double value = *node.value<double>();
     if (!range.contains(value)) throw SceneFailure(where, fmt::format("{} is not allowed: {}", value, range.text));
     return value;
 }
 
 std::int64_t checked_whole(const toml::node& node, const Place& where, std::int64_t least) {
-    if (!node.is_integer()) throw SceneFailure(where, fmt::format("{}: a whole number >= {} is expected", shown(node), least));
+    if (!node.is_integer())
+        throw SceneFailure(where, fmt::format("{}: a whole number >= {} is expected", shown(node), least));
     const std::int64_t value = *node.value<std::int64_t>();
     if (value < least) throw SceneFailure(where, fmt::format("{} is not allowed: a whole number >= {}", value, least));
     return value;
@@ -65,11 +67,12 @@ std::string checked_text(const toml::node& node, const Place& where) {
 template <class Value, class Check>
 std::vector<Value> checked_list(const toml::node& node, const Place& where, std::size_t count, Check&& check) {
     const toml::array* list = node.as_array();
-    const auto expected = count > 0 ? fmt::format("a list of {} is expected", count) : std::string("a list is expected");
+    const auto expected =
+        count > 0 ? fmt::format("a list of {} is expected", count) : std::string("a list is expected");
     if (list == nullptr) throw SceneFailure(where, fmt::format("{}: {}", shown(node), expected));
     if ((count > 0 && list->size() != count) || list->empty())
-        throw SceneFailure(where, fmt::format("{} entries: {}", list->size(),
-                                              count > 0 ? expected : "at least one is expected"));
+        throw SceneFailure(
+            where, fmt::format("{} entries: {}", list->size(), count > 0 ? expected : "at least one is expected"));
     std::vector<Value> out;
     for (std::size_t i = 0; i < list->size(); ++i) {
         const toml::node& entry = *list->get(i);
@@ -96,7 +99,8 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& kn
     std::vector<std::pair<std::size_t, std::string>> near;
     for (const std::string& name : known) {
         const std::size_t d = distance(word, name);
-        const bool part = word.size() >= 3 && (name.find(word) != std::string::npos || word.find(name) != std::string_view::npos);
+        const bool part =
+            word.size() >= 3 && (name.find(word) != std::string::npos || word.find(name) != std::string_view::npos);
         if (d <= std::max<std::size_t>(2, name.size() / 3) || part) near.emplace_back(d, name);
     }
     if (near.empty()) return "";
@@ -175,9 +179,9 @@ std::vector<double> Table::numbers(std::string_view key, const Range& range, std
 }
 
 std::vector<std::int64_t> Table::wholes(std::string_view key, std::int64_t least, std::size_t count) const {
-    return checked_list<std::int64_t>(need(key), place(key), count, [least](const toml::node& node, const Place& where) {
-        return checked_whole(node, where, least);
-    });
+    return checked_list<std::int64_t>(
+        need(key), place(key), count,
+        [least](const toml::node& node, const Place& where) { return checked_whole(node, where, least); });
 }
 
 std::vector<std::string> Table::texts(std::string_view key) const {

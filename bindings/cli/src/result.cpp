@@ -53,7 +53,8 @@ std::string hash_of(const Model& model) {
 std::string result_text(const Model& model, const Scene& scene, const Outcome& outcome) {
     std::int64_t primal = 0;
     std::int64_t dual = 0;
-    call(model.context.get(), delam_problem_dofs(model.problem.get(), &primal, &dual), std::string("numbers of unknowns"));
+    call(model.context.get(), delam_problem_dofs(model.problem.get(), &primal, &dual),
+         std::string("numbers of unknowns"));
     Json patterns = Json::array();
     for (std::size_t i = 0; i < scene.patterns.size(); ++i) {
         bool force = false;
@@ -73,7 +74,8 @@ std::string result_text(const Model& model, const Scene& scene, const Outcome& o
         {"steps_done", outcome.steps_done},
         {"steps", scene.step_count()},
         {"not_converged", outcome.not_converged},
-        {"scene", {{"file", scene.file}, {"title", scene.title}, {"schema", 1}, {"dimension", scene.geometry.dimension}}},
+        {"scene",
+         {{"file", scene.file}, {"title", scene.title}, {"schema", 1}, {"dimension", scene.geometry.dimension}}},
         {"scene_hash", outcome.problem_hash},
         {"scene_file_hash", scene.file_hash},
         {"scene_content_hash", scene.content_hash},

@@ -34,8 +34,13 @@ extern "C" void on_log(std::int32_t level, const char* text, void* user) {
 class Run {
 public:
     Run(const Scene& scene, const Model& model, Solver solver, OutputFolder& folder)
-        : scene_(scene), model_(model), solver_(std::move(solver)), folder_(folder), history_(model, solver_.get(), scene),
-          fields_(folder.running(), scene), running_history_(folder.running() + "/history.csv"),
+        : scene_(scene),
+          model_(model),
+          solver_(std::move(solver)),
+          folder_(folder),
+          history_(model, solver_.get(), scene),
+          fields_(folder.running(), scene),
+          running_history_(folder.running() + "/history.csv"),
           running_state_(folder.running() + "/state.bin") {
         state_.content_hash = scene.content_hash;
         state_.problem_hash = hash_of(model);
@@ -83,7 +88,8 @@ public:
             if (status == DELAM_NOT_CONVERGED) state_.not_converged.push_back(state_.step);
             record();
             progress.step(state_.step, time, history_.load(solver_.get()),
-                          static_cast<std::int64_t>(history_.value(solver_.get(), "am_iterations")), status == DELAM_OK);
+                          static_cast<std::int64_t>(history_.value(solver_.get(), "am_iterations")),
+                          status == DELAM_OK);
             if (std::chrono::steady_clock::now() - saved_ > std::chrono::seconds(1)) save();
         }
         return state_.not_converged.empty() ? exit_done : exit_not_converged;
@@ -152,18 +158,21 @@ std::optional<State> find_state(const OutputFolder& folder, const Scene& scene, 
     if (!std::filesystem::exists(path)) return std::nullopt;
     State state = unpack(path, read_bytes(path));
     if (state.content_hash != scene.content_hash || state.problem_hash != hash_of(model))
-        throw Failure(exit_scene, fmt::format("{}: the scene is not the one that {} was started with; run again without --resume",
-                                              scene.file, folder.path()));
+        throw Failure(exit_scene,
+                      fmt::format("{}: the scene is not the one that {} was started with; run again without --resume",
+                                  scene.file, folder.path()));
     return state;
 }
 
 int already_complete(const OutputFolder& folder, const Scene& scene) {
     std::string content;
     bool converged = true;
-    if (std::filesystem::exists(folder.running() + "/state.bin") || folder.status(content, converged) != "complete") return -1;
+    if (std::filesystem::exists(folder.running() + "/state.bin") || folder.status(content, converged) != "complete")
+        return -1;
     if (content != scene.content_hash)
-        throw Failure(exit_scene, fmt::format("{}: the scene is not the one of the result in {}; run again without --resume",
-                                              scene.file, folder.path()));
+        throw Failure(exit_scene,
+                      fmt::format("{}: the scene is not the one of the result in {}; run again without --resume",
+                                  scene.file, folder.path()));
     fmt::print("{}: complete already\n", folder.path());
     return converged ? exit_done : exit_not_converged;
 }
@@ -185,7 +194,8 @@ int run(const std::string& scene_file, const std::string& folder_path, bool resu
     delam_context_set_progress(model.context.get(), on_progress, &progress);
     fmt::print("delam {} ({}): {}{}\n", delam_version(), delam_commit(), scene_file,
                scene.title.empty() ? "" : ", " + scene.title);
-    if (resume) fmt::print("{}\n", state ? fmt::format("resumed after step {}", first) : "nothing to resume: started anew");
+    if (resume)
+        fmt::print("{}\n", state ? fmt::format("resumed after step {}", first) : "nothing to resume: started anew");
     std::fflush(stdout);
 
     Outcome outcome;
@@ -193,15 +203,18 @@ int run(const std::string& scene_file, const std::string& folder_path, bool resu
     Run work(scene, model, new_solver(model, scene), folder);
     Exit code = exit_done;
     try {
-        if (state) work.resume(*state);
-        else work.begin();
+        if (state)
+            work.resume(*state);
+        else
+            work.begin();
         code = work.march(progress, outcome);
         progress.finish();
         work.publish(outcome);
     } catch (const OutputFailure& failure) {
         progress.finish();
-        throw Failure(exit_output, fmt::format("{}\nfinished steps are kept in {}; go on with: delam run {} --out {} --resume",
-                                               failure.what(), folder.running(), scene_file, folder_path));
+        throw Failure(exit_output,
+                      fmt::format("{}\nfinished steps are kept in {}; go on with: delam run {} --out {} --resume",
+                                  failure.what(), folder.running(), scene_file, folder_path));
     }
     const auto total = scene.step_count();
     if (code == exit_interrupted || code == exit_numerical) {
@@ -214,8 +227,8 @@ int run(const std::string& scene_file, const std::string& folder_path, bool resu
         return code;
     }
     if (code == exit_not_converged)
-        fmt::print(stderr, "delam: {} of {} steps did not converge, the first is step {}\n", outcome.not_converged.size(), total,
-                   outcome.not_converged.front());
+        fmt::print(stderr, "delam: {} of {} steps did not converge, the first is step {}\n",
+                   outcome.not_converged.size(), total, outcome.not_converged.front());
     fmt::print("wrote {}: history.csv, fields.h5, fields.xdmf, result.json, state.bin\n", folder_path);
     return code;
 }

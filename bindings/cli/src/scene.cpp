@@ -18,9 +18,8 @@ namespace cli {
 namespace {
 
 const std::vector<std::string> law_parameters{
-    "normal_stiffness",     "tangential_stiffness", "normal_onset",     "tangential_onset",
-    "normal_toughness",     "tangential_toughness", "onset_exponent_1", "onset_exponent_2",
-    "toughness_exponent_1", "toughness_exponent_2"};
+    "normal_stiffness",     "tangential_stiffness", "normal_onset",     "tangential_onset",     "normal_toughness",
+    "tangential_toughness", "onset_exponent_1",     "onset_exponent_2", "toughness_exponent_1", "toughness_exponent_2"};
 
 // Number of cells of size h in a length, which must be a whole number of them.
 std::int64_t cells_of_size(const Table& table, std::string_view key, double length, double h) {
@@ -52,7 +51,8 @@ void read_geometry(const Table& root, Scene& scene) {
         const std::string cell = table.choice("cell", {"quad4", "tri3"}, "quad4");
         geometry.cell_type = cell == "quad4" ? DELAM_QUAD4 : DELAM_TRI3;
     }
-    if (table.has("divisions") == table.has("h")) table.fail("h", "give either h (edge of a cell) or divisions (numbers of cells)");
+    if (table.has("divisions") == table.has("h"))
+        table.fail("h", "give either h (edge of a cell) or divisions (numbers of cells)");
     if (table.has("h")) {
         const double h = table.number("h", positive);
         for (const double length : geometry.lengths) geometry.divisions.push_back(cells_of_size(table, "h", length, h));
@@ -120,8 +120,8 @@ void read_laws(const Table& root, Scene& scene) {
 
 Region read_region(const Table& table, const Geometry& geometry, bool with_value) {
     const std::size_t axes = geometry.lengths.size();
-    std::vector<std::string> known = axes == 1 ? std::vector<std::string>{"from", "to"}
-                                               : std::vector<std::string>{"from", "to", "lower", "upper"};
+    std::vector<std::string> known =
+        axes == 1 ? std::vector<std::string>{"from", "to"} : std::vector<std::string>{"from", "to", "lower", "upper"};
     if (with_value) known.push_back("value");
     table.only(known);
     Region region;
@@ -154,14 +154,14 @@ void read_interfaces(const Table& root, Scene& scene) {
         interface.lower = find_named(table, "lower", table.text("lower"), scene.layers, "layer");
         interface.upper = find_named(table, "upper", table.text("upper"), scene.layers, "layer");
         if (interface.upper != interface.lower + 1)
-            table.fail("upper", fmt::format("\"{}\" does not lie directly on \"{}\" (layers are listed from the bottom up)",
-                                            scene.layers[interface.upper].name, scene.layers[interface.lower].name));
+            table.fail("upper",
+                       fmt::format("\"{}\" does not lie directly on \"{}\" (layers are listed from the bottom up)",
+                                   scene.layers[interface.upper].name, scene.layers[interface.lower].name));
         interface.name = scene.layers[interface.lower].name + "-" + scene.layers[interface.upper].name;
         for (const InterfaceData& other : scene.interfaces)
             if (other.lower == interface.lower) table.fail("lower", "there is another interface between these layers");
         interface.bonded = table.flag("bonded", false);
-        if (interface.bonded == table.has("law"))
-            table.fail("law", "give either law = \"NAME\" or bonded = true");
+        if (interface.bonded == table.has("law")) table.fail("law", "give either law = \"NAME\" or bonded = true");
         if (interface.bonded && (table.has("notch") || table.has("adhesion")))
             table.fail(table.has("notch") ? "notch" : "adhesion", "is not allowed where bonded = true");
         if (!interface.bonded) interface.law = find_named(table, "law", table.text("law"), scene.laws, "law");
@@ -182,8 +182,8 @@ void read_time(const Table& root, Scene& scene) {
         scene.times = table.numbers("instants", any_number);
         for (std::size_t i = 1; i < scene.times.size(); ++i)
             if (!(scene.times[i] > scene.times[i - 1]))
-                table.fail("instants", fmt::format("entry {} is {}: > {} is expected (strictly increasing)", i, scene.times[i],
-                                                   scene.times[i - 1]));
+                table.fail("instants", fmt::format("entry {} is {}: > {} is expected (strictly increasing)", i,
+                                                   scene.times[i], scene.times[i - 1]));
         if (scene.times.size() < 2) table.fail("instants", "at least two are expected: the initial state and one step");
         return;
     }
@@ -269,7 +269,8 @@ Scene read_scene(const std::string& file) {
     try {
         parsed = toml::parse(std::string_view(bytes), std::string_view(file));
     } catch (const toml::parse_error& e) {
-        throw SceneFailure({file, "", static_cast<int>(e.source().begin.line)}, "not TOML: " + std::string(e.description()));
+        throw SceneFailure({file, "", static_cast<int>(e.source().begin.line)},
+                           "not TOML: " + std::string(e.description()));
     }
     std::ostringstream content;
     content << parsed;
@@ -280,8 +281,8 @@ Scene read_scene(const std::string& file) {
     if (!root.has("schema")) root.fail("schema", "is missing: schema = 1 is expected");
     if (const auto schema = root.whole("schema", 1); schema != 1)
         root.fail("schema", fmt::format("{} is not known to this program: 1 is", schema));
-    root.only({"schema", "title", "geometry", "layers", "materials", "laws", "interfaces", "patterns", "supports", "loads",
-               "forces", "time", "solver", "output", "units"});
+    root.only({"schema", "title", "geometry", "layers", "materials", "laws", "interfaces", "patterns", "supports",
+               "loads", "forces", "time", "solver", "output", "units"});
     scene.title = root.text("title", "");
     read_geometry(root, scene);
     read_materials(root, scene);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene as the file says it (schema 1, see SCENE.md), checked as far as that goes without a mesh. Every part keeps its
-// place in the file, so that later errors can name it.
+// A scene as the file says it (schema 1, see SCENE.md), checked as far as that goes without a mesh. Every part keeps
+// its place in the file, so that later errors can name it.
 #pragma once
 
 #include <array>
@@ -48,7 +48,8 @@ struct LawData {
     Place place;
 };
 
-// Adhesion of the pairs of an interface inside an in-plane box. Ends inside the interface are open: the pair there keeps its bond.
+// Adhesion of the pairs of an interface inside an in-plane box. Ends inside the interface are open: the pair there
+// keeps its bond.
 struct Region {
     std::array<double, 2> lower{};
     std::array<double, 2> upper{};

@@ -21,7 +21,8 @@ std::size_t axis_of(const Table& table, std::string_view key, char letter, const
     const std::string axes = geometry.dimension == 2 ? "xy" : "xyz";
     const std::size_t axis = axes.find(letter);
     if (axis == std::string::npos)
-        table.fail(key, fmt::format("'{}' is no component: one of {}", letter, geometry.dimension == 2 ? "x, y" : "x, y, z"));
+        table.fail(
+            key, fmt::format("'{}' is no component: one of {}", letter, geometry.dimension == 2 ? "x, y" : "x, y, z"));
     return axis;
 }
 
@@ -31,12 +32,14 @@ Patch read_patch(const Table& table, const Geometry& geometry) {
     const std::vector<double> centre = table.numbers("centre", any_number, dimension);
     const std::string face = table.text("face");
     if (face.size() != 2 || (face[0] != '+' && face[0] != '-'))
-        table.fail("face", fmt::format("\"{}\" is not allowed: the outward normal, e.g. \"+y\" for the top in 2D", face));
+        table.fail("face",
+                   fmt::format("\"{}\" is not allowed: the outward normal, e.g. \"+y\" for the top in 2D", face));
     const std::size_t normal_axis = axis_of(table, "face", face[1], geometry);
     Patch patch{centre, centre, std::vector<double>(dimension, 0.0)};
     patch.normal[normal_axis] = face[0] == '+' ? 1.0 : -1.0;
-    const std::vector<double> sizes = table.is_list("length") ? table.numbers("length", positive, dimension - 1)
-                                                              : std::vector<double>(dimension - 1, table.number("length", positive));
+    const std::vector<double> sizes = table.is_list("length")
+                                          ? table.numbers("length", positive, dimension - 1)
+                                          : std::vector<double>(dimension - 1, table.number("length", positive));
     const double slack = 1e-6 * geometry.smallest_edge;
     std::size_t next = 0;
     for (std::size_t axis = 0; axis < dimension; ++axis) {
@@ -73,7 +76,8 @@ Selection read_selection(const Table& table, const Scene& scene) {
 }
 
 std::vector<double> read_direction(const Table& table, const Geometry& geometry) {
-    std::vector<double> direction = table.numbers("direction", any_number, static_cast<std::size_t>(geometry.dimension));
+    std::vector<double> direction =
+        table.numbers("direction", any_number, static_cast<std::size_t>(geometry.dimension));
     if (std::all_of(direction.begin(), direction.end(), [](double d) { return std::fpclassify(d) == FP_ZERO; }))
         table.fail("direction", "is zero: any length > 0");
     return direction;
@@ -102,7 +106,8 @@ std::vector<Term> read_terms(const Table& table, const Scene& scene) {
                     from.number("coefficient", any_number, 1.0)};
     };
     if (!table.has("terms")) return {one(table)};
-    if (table.has("pattern") || table.has("coefficient")) table.fail("terms", "give either terms or pattern and coefficient");
+    if (table.has("pattern") || table.has("coefficient"))
+        table.fail("terms", "give either terms or pattern and coefficient");
     std::vector<Term> out;
     for (const Table& term : table.tables("terms")) {
         term.only({"pattern", "coefficient"});
@@ -122,13 +127,14 @@ void read_patterns(const Table& root, Scene& scene) {
         const bool plain = std::all_of(pattern.name.begin(), pattern.name.end(), [](char c) {
             return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '-';
         });
-        if (!plain) table.fail("name", fmt::format("\"{}\" is not allowed: letters, digits, '_' and '-'", pattern.name));
+        if (!plain)
+            table.fail("name", fmt::format("\"{}\" is not allowed: letters, digits, '_' and '-'", pattern.name));
         pattern.times = table.numbers("times", any_number);
         pattern.values = table.numbers("values", any_number, pattern.times.size());
         for (std::size_t i = 1; i < pattern.times.size(); ++i)
             if (!(pattern.times[i] > pattern.times[i - 1]))
-                table.fail("times", fmt::format("entry {} is {}: > {} is expected (strictly increasing)", i, pattern.times[i],
-                                                pattern.times[i - 1]));
+                table.fail("times", fmt::format("entry {} is {}: > {} is expected (strictly increasing)", i,
+                                                pattern.times[i], pattern.times[i - 1]));
         pattern.place = table.place();
         scene.patterns.push_back(std::move(pattern));
     }
@@ -142,8 +148,9 @@ void read_supports_and_loads(const Table& root, Scene& scene) {
     }
     for (const Table& table : root.tables("loads")) {
         table.only(with_selection({"component", "direction", "pattern", "coefficient", "terms"}));
-        scene.prescriptions.push_back({read_selection(table, scene), read_directions(table, "component", scene.geometry),
-                                       read_terms(table, scene), table.place()});
+        scene.prescriptions.push_back({read_selection(table, scene),
+                                       read_directions(table, "component", scene.geometry), read_terms(table, scene),
+                                       table.place()});
     }
 }
 

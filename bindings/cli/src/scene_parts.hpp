@@ -11,10 +11,11 @@ void read_patterns(const Table& root, Scene& scene);
 void read_supports_and_loads(const Table& root, Scene& scene);
 void read_forces(const Table& root, Scene& scene);
 
-// Index of the named entry (anything with .name), or an error at `key` that suggests near names. what: "layer", "law", ...
+// Index of the named entry (anything with .name), or an error at `key` that suggests near names. what: "layer", "law",
+// ...
 template <class Entry>
-std::size_t find_named(const Table& table, std::string_view key, const std::string& name, const std::vector<Entry>& entries,
-                       const std::string& what) {
+std::size_t find_named(const Table& table, std::string_view key, const std::string& name,
+                       const std::vector<Entry>& entries, const std::string& what) {
     std::vector<std::string> known;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         if (entries[i].name == name) return i;

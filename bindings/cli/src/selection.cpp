@@ -30,10 +30,12 @@ Nodes all_nodes(const delam_context* context, const delam_mesh* mesh, const Plac
     return out;
 }
 
-std::string layer_name(const Scene& scene, std::int32_t body) { return scene.layers[static_cast<std::size_t>(body)].name; }
+std::string layer_name(const Scene& scene, std::int32_t body) {
+    return scene.layers[static_cast<std::size_t>(body)].name;
+}
 
-Selected select_point(const delam_context* context, const delam_mesh* mesh, const Scene& scene, const Selection& selection,
-                      const Point& point) {
+Selected select_point(const delam_context* context, const delam_mesh* mesh, const Scene& scene,
+                      const Selection& selection, const Point& point) {
     const Nodes nodes = all_nodes(context, mesh, selection.place);
     const std::size_t dimension = point.at.size();
     std::vector<std::int64_t> hits;
@@ -42,7 +44,8 @@ Selected select_point(const delam_context* context, const delam_mesh* mesh, cons
     for (std::size_t i = 0; i < nodes.bodies.size(); ++i) {
         if (selection.body >= 0 && nodes.bodies[i] != selection.body) continue;
         double square = 0;
-        for (std::size_t a = 0; a < dimension; ++a) square += std::pow(nodes.coordinates[i * dimension + a] - point.at[a], 2);
+        for (std::size_t a = 0; a < dimension; ++a)
+            square += std::pow(nodes.coordinates[i * dimension + a] - point.at[a], 2);
         const double distance = std::sqrt(square);
         if (distance < nearest) {
             nearest = distance;
@@ -53,15 +56,17 @@ Selected select_point(const delam_context* context, const delam_mesh* mesh, cons
     const Place where{selection.place.file, selection.place.path + ".point", selection.place.line};
     if (hits.empty()) {
         const auto* at = nodes.coordinates.data() + nearest_node * dimension;
-        throw SceneFailure(where, fmt::format("{}: no node within {:.3g}; the nearest is at [{}] in layer \"{}\", {:.3g} away",
-                                              point.at, selection.tolerance, fmt::join(at, at + dimension, ", "),
-                                              layer_name(scene, nodes.bodies[nearest_node]), nearest));
+        throw SceneFailure(where,
+                           fmt::format("{}: no node within {:.3g}; the nearest is at [{}] in layer \"{}\", {:.3g} away",
+                                       point.at, selection.tolerance, fmt::join(at, at + dimension, ", "),
+                                       layer_name(scene, nodes.bodies[nearest_node]), nearest));
     }
     if (hits.size() > 1) {
         std::vector<std::string> names;
-        for (const std::int64_t node : hits) names.push_back(layer_name(scene, nodes.bodies[static_cast<std::size_t>(node)]));
-        throw SceneFailure(where, fmt::format("{}: {} nodes are there, of layers {}; name one with layer = \"..\"", point.at,
-                                              hits.size(), fmt::join(names, ", ")));
+        for (const std::int64_t node : hits)
+            names.push_back(layer_name(scene, nodes.bodies[static_cast<std::size_t>(node)]));
+        throw SceneFailure(where, fmt::format("{}: {} nodes are there, of layers {}; name one with layer = \"..\"",
+                                              point.at, hits.size(), fmt::join(names, ", ")));
     }
     return {hits, {}};
 }
@@ -75,16 +80,19 @@ Selected select_box(const delam_context* context, const delam_mesh* mesh, const 
     }
     Selected out;
     std::int64_t count = 0;
-    call(context, delam_mesh_find_nodes(mesh, selection.body, lower.data(), upper.data(), 0, nullptr, &count), selection.place);
-    if (count == 0) throw SceneFailure(selection.place, fmt::format("no node is in the box {} .. {}", box.lower, box.upper));
+    call(context, delam_mesh_find_nodes(mesh, selection.body, lower.data(), upper.data(), 0, nullptr, &count),
+         selection.place);
+    if (count == 0)
+        throw SceneFailure(selection.place, fmt::format("no node is in the box {} .. {}", box.lower, box.upper));
     out.nodes.resize(static_cast<std::size_t>(count));
-    call(context, delam_mesh_find_nodes(mesh, selection.body, lower.data(), upper.data(), count, out.nodes.data(), &count),
+    call(context,
+         delam_mesh_find_nodes(mesh, selection.body, lower.data(), upper.data(), count, out.nodes.data(), &count),
          selection.place);
     return out;
 }
 
-Selected select_patch(const delam_context* context, const delam_mesh* mesh, const Scene& scene, const Selection& selection,
-                      const Patch& patch) {
+Selected select_patch(const delam_context* context, const delam_mesh* mesh, const Scene& scene,
+                      const Selection& selection, const Patch& patch) {
     Selected out;
     const std::int32_t first = selection.body < 0 ? 0 : selection.body;
     const std::int32_t last = selection.body < 0 ? static_cast<std::int32_t>(scene.layers.size()) - 1 : selection.body;
@@ -93,8 +101,8 @@ Selected select_patch(const delam_context* context, const delam_mesh* mesh, cons
         std::int64_t count = 0;
         const auto find = [&](std::int64_t capacity, std::int64_t* nodes, double* weights) {
             call(context,
-                 delam_mesh_find_patch(mesh, body, patch.lower.data(), patch.upper.data(), patch.normal.data(), capacity, nodes,
-                                       weights, &count),
+                 delam_mesh_find_patch(mesh, body, patch.lower.data(), patch.upper.data(), patch.normal.data(),
+                                       capacity, nodes, weights, &count),
                  selection.place);
         };
         find(0, nullptr, nullptr);
@@ -115,7 +123,8 @@ Selected select_patch(const delam_context* context, const delam_mesh* mesh, cons
 }  // namespace
 
 Selected select(const delam_context* context, const delam_mesh* mesh, const Scene& scene, const Selection& selection) {
-    if (const auto* point = std::get_if<Point>(&selection.shape)) return select_point(context, mesh, scene, selection, *point);
+    if (const auto* point = std::get_if<Point>(&selection.shape))
+        return select_point(context, mesh, scene, selection, *point);
     if (const auto* box = std::get_if<Box>(&selection.shape)) return select_box(context, mesh, selection, *box);
     return select_patch(context, mesh, scene, selection, std::get<Patch>(selection.shape));
 }

@@ -17,14 +17,13 @@ struct Field {
     std::size_t columns = 0;
 };
 
-Field fetch(const Model& model, const delam_solver* solver, const std::string& key, std::int64_t part) {
+Field fetch(const Model& model, delam_solver* solver, const std::string& key, std::int64_t part) {
     std::int64_t rows = 0;
     std::int64_t columns = 0;
     call(model.context.get(), delam_solver_field_shape(solver, key.c_str(), part, &rows, &columns), "field " + key);
     Field out{std::vector<double>(static_cast<std::size_t>(rows * columns)), static_cast<std::size_t>(rows),
               static_cast<std::size_t>(columns)};
-    call(model.context.get(),
-         delam_solver_field(solver, key.c_str(), part, rows * columns, out.values.data()),
+    call(model.context.get(), delam_solver_field(solver, key.c_str(), part, rows * columns, out.values.data()),
          "field " + key);
     return out;
 }
@@ -42,7 +41,7 @@ bool wants(const Scene& scene, const std::string& name) {
     return std::find(scene.output.fields.begin(), scene.output.fields.end(), name) != scene.output.fields.end();
 }
 
-void write_interface(const Model& model, const delam_solver* solver, const Scene& scene, hid_t parent, std::int64_t index,
+void write_interface(const Model& model, delam_solver* solver, const Scene& scene, hid_t parent, std::int64_t index,
                      const Field& displacement) {
     const h5::Group group(h5::new_group(parent, "interface_" + std::to_string(index)), "fields.h5");
     for (const auto& [name, key] : {std::pair{"zeta", "adhesion"}, {"mixity", "mixity"}, {"contact", "contact"}})
@@ -53,11 +52,12 @@ void write_interface(const Model& model, const delam_solver* solver, const Scene
     // Mean of the two faces, so that the block can be warped together with the bodies.
     std::int64_t pairs = 0;
     const std::string what = "pairs of an interface";
-    call(model.context.get(), delam_mesh_interface_size(model.mesh.get(), index, nullptr, nullptr, &pairs, nullptr, nullptr),
-         what);
+    call(model.context.get(),
+         delam_mesh_interface_size(model.mesh.get(), index, nullptr, nullptr, &pairs, nullptr, nullptr), what);
     std::vector<std::int64_t> a(static_cast<std::size_t>(pairs));
     std::vector<std::int64_t> b(a.size());
-    call(model.context.get(), delam_mesh_interface_pairs(model.mesh.get(), index, a.data(), b.data(), nullptr, nullptr), what);
+    call(model.context.get(), delam_mesh_interface_pairs(model.mesh.get(), index, a.data(), b.data(), nullptr, nullptr),
+         what);
     std::vector<double> mean(a.size() * 3);
     for (std::size_t i = 0; i < a.size(); ++i)
         for (std::size_t c = 0; c < 3; ++c)
@@ -68,7 +68,7 @@ void write_interface(const Model& model, const delam_solver* solver, const Scene
 
 }  // namespace
 
-std::string step_bytes(const Model& model, const delam_solver* solver, const Scene& scene, std::int64_t step, double time) {
+std::string step_bytes(const Model& model, delam_solver* solver, const Scene& scene, std::int64_t step, double time) {
     const h5::Properties access(H5Pcreate(H5P_FILE_ACCESS), "fields.h5");
     h5::require(H5Pset_fapl_core(access.get(), std::size_t{1} << 20, false), "fields.h5");
     const h5::File file(H5Fcreate("step", H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), "fields.h5");
@@ -81,7 +81,8 @@ std::string step_bytes(const Model& model, const delam_solver* solver, const Sce
             displacement = padded(fetch(model, solver, "displacement", -1), 3);
             h5::write(group.get(), "displacement", displacement.values, 3);
         }
-        if (wants(scene, "stress")) h5::write(group.get(), "stress", padded(fetch(model, solver, "stress", -1), 6).values, 6);
+        if (wants(scene, "stress"))
+            h5::write(group.get(), "stress", padded(fetch(model, solver, "stress", -1), 6).values, 6);
         for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
             write_interface(model, solver, scene, group.get(), static_cast<std::int64_t>(i), displacement);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The fields of one step as the bytes of a small HDF5 file (group "step"). The file is made in memory, so that only checked
-// writes of our own touch the disk while the march runs.
+// The fields of one step as the bytes of a small HDF5 file (group "step"). The file is made in memory, so that only
+// checked writes of our own touch the disk while the march runs.
 #pragma once
 
 #include <string>
@@ -9,6 +9,6 @@
 
 namespace cli {
 
-std::string step_bytes(const Model& model, const delam_solver* solver, const Scene& scene, std::int64_t step, double time);
+std::string step_bytes(const Model& model, delam_solver* solver, const Scene& scene, std::int64_t step, double time);
 
 }  // namespace cli

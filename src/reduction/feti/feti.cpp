@@ -16,6 +16,8 @@ std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 // Largest part of a load's resultant that may be left unbalanced before the part counts as not held.
 constexpr double unbalanced = 1e-8;
+// Residuals below this part of the loads' own energy norm are rounding.
+constexpr double rounding = 1e-14;
 
 // The dense boundary blocks pay as long as a subdomain stays small: about 20,000 DOFs in the plane, 4,000 in space.
 std::int64_t chosen_subdomains(const Problem& problem) {
@@ -58,10 +60,6 @@ Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monito
                                                        subdomains_[s].flexibility(di - first, dj - first);
                 }
     }
-    // A row on held DOFs alone has no flexibility in this generalised inverse; the projector only needs a scale.
-    double typical = 0.0;
-    for (const double f : flexibility_diagonal_) typical = std::max(typical, f);
-    for (double& f : flexibility_diagonal_) f = std::max(f, 1e-3 * typical);
     prescribed_ = problem_.prescribed_matrix();
     precompute_forces();
 }
@@ -108,16 +106,17 @@ void Feti::precompute_forces() {
             const Subdomain& sub = subdomains_[s];
             const auto& f = force_[p][s];
             if (!f.empty()) {
-                std::vector<double> u(f.size());
-                sub.apply_inverse(f, u);
-                for (std::size_t i = 0; i < sub.boundary.size(); ++i)
-                    boundary[index(rows_.offset[s]) + i] = u[index(sub.boundary[i])];
+                const std::vector<double> load = sub.condense_load(f);
+                std::vector<double> u(load.size());
+                multiply_symmetric(sub.flexibility, load, u);
+                std::copy(u.begin(), u.end(), boundary.begin() + rows_.offset[s]);
                 for (std::int64_t k = 0; k < sub.rigid_count; ++k)
                     for (std::size_t i = 0; i < f.size(); ++i)
                         force_resultant_[p][first + index(k)] += sub.rigid(static_cast<std::int64_t>(i), k) * f[i];
                 for (std::size_t q = 0; q < patterns; ++q)
                     if (!force_[q][s].empty())
-                        force_work_(static_cast<std::int64_t>(q), static_cast<std::int64_t>(p)) += dot(force_[q][s], u);
+                        force_work_(static_cast<std::int64_t>(q), static_cast<std::int64_t>(p)) +=
+                            dot(sub.condense_load(force_[q][s]), u) + sub.interior_work(force_[q][s], f);
             }
             first += index(sub.rigid_count);
         }
@@ -179,6 +178,9 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     response.balanced = resultant == 0.0 || left <= unbalanced;
     if (!response.balanced) return;
 
+    const bool unpreconditioned = problem_.options.preconditioner == "none";
+    double stiffness_scale = 0.0;
+    for (const double w : weight) stiffness_scale = std::max(stiffness_scale, w);
     ProjectedSystem system;
     system.apply = [&](std::span<const double> x, std::span<double> y) {
         apply_flexibility(x, y);
@@ -186,6 +188,8 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     };
     system.precondition = [&](std::span<const double> r, std::span<double> z) {
         preconditioner_->apply(r, z);
+        if (unpreconditioned)  // in units of a stiffness, like the others
+            for (double& v : z) v *= stiffness_scale;
         mask(z);
     };
     system.project = [&](std::span<double> x) { coarse_->project(x); };
@@ -193,7 +197,10 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
         coarse_->project_transposed(x);
         mask(x);
     };
-    const CgResult cg = projected_cg(system, rhs, lambda, problem_.options.linear_tolerance, problem_.options.linear_limit,
+    double load = 0.0;  // energy of the loads if nothing could give way: the scale of rounding
+    for (std::size_t i = 0; i < rows; ++i) load += weight[i] * rhs[i] * rhs[i];
+    const CgResult cg = projected_cg(system, rhs, lambda, problem_.options.linear_tolerance, rounding * std::sqrt(load),
+                                     problem_.options.linear_limit,
                                      [&](std::int64_t iteration) { monitor_.progress("linear solve", iteration, 0); });
     response.iterations = cg.iterations;
     response.residual = cg.residual;
@@ -244,21 +251,27 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
 std::vector<double> Feti::local_displacement(std::size_t subdomain, std::span<const double> theta, const Response& response,
                                              std::vector<double>* load) const {
     const Subdomain& sub = subdomains_[subdomain];
-    std::vector<double> f(index(sub.dofs()), 0.0), u(f.size());
+    std::vector<double> f(index(sub.dofs()), 0.0);
     for (std::size_t p = 0; p < theta.size(); ++p)
         if (!force_[p][subdomain].empty()) add_scaled(theta[p], force_[p][subdomain], f);
+    const bool loaded = std::any_of(f.begin(), f.end(), [](double v) { return v != 0.0; });
+    std::vector<double> on_boundary = loaded ? sub.condense_load(f) : std::vector<double>(sub.boundary.size(), 0.0);
     for (std::size_t i = 0; i < sub.boundary.size(); ++i) {
         const std::size_t d = index(rows_.offset[subdomain]) + i;
+        double pull = 0.0;
         for (std::int64_t e = b_transposed_.start[d]; e < b_transposed_.start[d + 1]; ++e)
-            f[index(sub.boundary[i])] -=
-                b_transposed_.value[index(e)] * response.multipliers[index(b_transposed_.column[index(e)])];
+            pull += b_transposed_.value[index(e)] * response.multipliers[index(b_transposed_.column[index(e)])];
+        on_boundary[i] -= pull;
+        f[index(sub.boundary[i])] -= pull;
     }
-    sub.apply_inverse(f, u);
+    std::vector<double> u_boundary(sub.boundary.size());
+    multiply_symmetric(sub.flexibility, on_boundary, u_boundary);
     std::size_t first = 0;
     for (std::size_t s = 0; s < subdomain; ++s) first += index(subdomains_[s].rigid_count);
     for (std::int64_t k = 0; k < sub.rigid_count; ++k)
-        for (std::size_t i = 0; i < u.size(); ++i)
-            u[i] += sub.rigid(static_cast<std::int64_t>(i), k) * response.rigid[first + index(k)];
+        for (std::size_t i = 0; i < u_boundary.size(); ++i)
+            u_boundary[i] += sub.rigid_boundary(static_cast<std::int64_t>(i), k) * response.rigid[first + index(k)];
+    std::vector<double> u = sub.extend(u_boundary, f);
     if (load != nullptr) *load = std::move(f);
     return u;
 }

@@ -18,11 +18,13 @@ struct Direction {
 
 constexpr std::size_t kept_directions = 400;  // beyond that the memory is better used elsewhere
 constexpr int restarts = 4;
+constexpr double rounding = 1e-14;  // of the energy norm of the start
+constexpr double stagnation_slack = 100.0;  // times the tolerance or the floor
 
 }  // namespace
 
 CgResult projected_cg(const ProjectedSystem& system, std::span<const double> b, std::span<double> lambda, double tolerance,
-                      std::int64_t limit, const std::function<void(std::int64_t)>& each_iteration) {
+                      double floor, std::int64_t limit, const std::function<void(std::int64_t)>& each_iteration) {
     const std::size_t n = b.size();
     CgResult result;
     std::vector<double> a_lambda(n), r(n), z(n), ap(n);
@@ -31,6 +33,7 @@ CgResult projected_cg(const ProjectedSystem& system, std::span<const double> b, 
         system.apply(lambda, a_lambda);
         for (std::size_t i = 0; i < n; ++i) r[i] = b[i] - a_lambda[i];
         system.project_transposed(r);
+        if (round == 0) floor = std::max(floor, rounding * std::sqrt(std::max(0.0, dot(lambda, a_lambda))));
         std::vector<Direction> directions;
         while (true) {
             system.precondition(r, z);
@@ -38,11 +41,13 @@ CgResult projected_cg(const ProjectedSystem& system, std::span<const double> b, 
             const double rz = std::max(0.0, dot(r, z));
             const double energy = std::max(dot(lambda, a_lambda), rz);
             result.residual = energy > 0.0 ? std::sqrt(rz / energy) : 0.0;
-            const bool reached = result.residual <= tolerance;
+            const bool reached = result.residual <= tolerance || std::sqrt(rz) <= floor;
             if (directions.empty()) {  // the residual is a true one here
-                result.converged = reached;
                 // Rounding bounds what can be reached: a restart that gains nothing has met that bound.
-                if (reached || result.residual > 0.5 * previous || result.iterations >= limit) return result;
+                const bool stagnated = result.residual > 0.5 * previous;
+                result.converged = reached || (stagnated && (result.residual <= stagnation_slack * tolerance ||
+                                                             std::sqrt(rz) <= stagnation_slack * floor));
+                if (reached || stagnated || result.iterations >= limit) return result;
                 previous = result.residual;
             } else if (reached || result.iterations >= limit) {
                 break;
@@ -62,6 +67,8 @@ CgResult projected_cg(const ProjectedSystem& system, std::span<const double> b, 
             each_iteration(++result.iterations);
         }
     }
+    // The last round ended by its recursion; its true residual has not been measured again.
+    result.converged = result.residual <= stagnation_slack * tolerance;
     return result;
 }
 

@@ -23,9 +23,11 @@ struct CgResult {
     bool converged = false;
 };
 
-// lambda: balanced start in, solution out. Stops at sqrt(r^T z) <= tolerance * sqrt(lambda^T A lambda) for the true residual: the recursion is restarted
-// until a freshly computed residual agrees.
+// lambda: balanced start in, solution out. Stops at sqrt(r^T z) <= tolerance * sqrt(lambda^T A lambda) for the true residual: the
+// recursion is restarted until a freshly computed residual agrees. Where rounding (sqrt(r^T z) <= floor) ends the descent first,
+// that is the solution: a structure in pieces moves without any force, and no relative measure of forces applies. A descent that
+// rounding ends within 100 times either bound counts as converged too; the residual says so.
 CgResult projected_cg(const ProjectedSystem& system, std::span<const double> b, std::span<double> lambda, double tolerance,
-                      std::int64_t limit, const std::function<void(std::int64_t)>& each_iteration);
+                      double floor, std::int64_t limit, const std::function<void(std::int64_t)>& each_iteration);
 
 }  // namespace delam

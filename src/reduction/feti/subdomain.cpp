@@ -75,24 +75,19 @@ void Subdomain::condense(const Mesh& mesh, std::span<const std::int64_t> cells, 
 
     std::vector<std::int64_t> free_boundary, held;  // positions within `boundary`
     for (std::int64_t i = 0; i < nb; ++i) (is_held[static_cast<std::size_t>(i)] != 0 ? held : free_boundary).push_back(i);
-    order_.clear();
+    interior_.clear();
     for (std::int64_t d = 0; d < stiffness.rows; ++d)
-        if (is_boundary[static_cast<std::size_t>(d)] == 0) order_.push_back(d);
-    for (const std::int64_t i : free_boundary) order_.push_back(boundary[static_cast<std::size_t>(i)]);
+        if (is_boundary[static_cast<std::size_t>(d)] == 0) interior_.push_back(d);
+    std::vector<std::int64_t> order = interior_;
+    for (const std::int64_t i : free_boundary) order.push_back(boundary[static_cast<std::size_t>(i)]);
 
     const auto nf = static_cast<std::int64_t>(free_boundary.size());
-    const SparseMatrix definite = permuted(stiffness, order_);
+    const SparseMatrix definite = permuted(stiffness, order);
     factor_ = std::make_unique<SparseCholesky>(definite, nf);
     if (!factor_->factorise(definite))
         fail(DELAM_ERROR_NUMERICAL, "the stiffness of body ", mesh.body_label(body),
              " is not positive definite beyond its rigid motions: check its material and the shapes of its cells");
     const DenseMatrix lower = factor_->trailing_factor();
-
-    const DenseMatrix inverse = inverse_of_factor(lower);
-    flexibility = DenseMatrix(nb, nb);
-    for (std::int64_t j = 0; j < nf; ++j)
-        for (std::int64_t i = 0; i < nf; ++i)
-            flexibility(free_boundary[static_cast<std::size_t>(i)], free_boundary[static_cast<std::size_t>(j)]) = inverse(i, j);
 
     rigid_boundary = DenseMatrix(nb, rigid_count);
     for (std::int64_t r = 0; r < rigid_count; ++r)
@@ -104,8 +99,6 @@ void Subdomain::condense(const Mesh& mesh, std::span<const std::int64_t> cells, 
             if (stiffness.column[static_cast<std::size_t>(e)] == static_cast<std::int64_t>(d))
                 diagonal[static_cast<std::size_t>(i)] = stiffness.value[static_cast<std::size_t>(e)];
     }
-    if (!with_schur) return;
-
     // S R_b = 0 split into free rows and held rows h:  S_fh = -S_ff T,  S_hh = T^T S_ff T  with  T = R_f R_h^-1.
     const DenseMatrix free_block = lower_times_transpose(lower);
     DenseMatrix held_motions(rigid_count, rigid_count), free_motions(rigid_count, nf);  // transposed
@@ -134,14 +127,50 @@ void Subdomain::condense(const Mesh& mesh, std::span<const std::int64_t> cells, 
         for (std::int64_t g = 0; g < rigid_count; ++g)
             schur(row, held[static_cast<std::size_t>(g)]) = 0.5 * (corner(h, g) + corner(g, h));
     }
+
+    const DenseMatrix q = orthonormalised(rigid_boundary);
+    double rho = 0.0;
+    for (std::int64_t i = 0; i < nb; ++i) rho = std::max(rho, schur(i, i));
+    flexibility = schur;
+    for (std::int64_t r = 0; r < rigid_count; ++r)
+        for (std::int64_t j = 0; j < nb; ++j)
+            for (std::int64_t i = 0; i < nb; ++i) flexibility(i, j) += rho * q(i, r) * q(j, r);
+    flexibility = inverse_definite(std::move(flexibility));
+    if (!with_schur) schur = DenseMatrix();
 }
 
-void Subdomain::apply_inverse(std::span<const double> b, std::span<double> x) const {
-    std::vector<double> rhs(order_.size()), solution(order_.size());
-    for (std::size_t i = 0; i < order_.size(); ++i) rhs[i] = b[static_cast<std::size_t>(order_[i])];
-    factor_->solve(rhs, solution);
-    std::fill(x.begin(), x.end(), 0.0);
-    for (std::size_t i = 0; i < order_.size(); ++i) x[static_cast<std::size_t>(order_[i])] = solution[i];
+std::vector<double> Subdomain::solve_interior(std::span<const double> g) const {
+    std::vector<double> b(interior_.size()), x(interior_.size());
+    for (std::size_t i = 0; i < b.size(); ++i) b[i] = g[static_cast<std::size_t>(interior_[i])];
+    factor_->solve_leading(b, x);
+    return x;
+}
+
+std::vector<double> Subdomain::extend(std::span<const double> boundary_values, std::span<const double> f) const {
+    std::vector<double> u(static_cast<std::size_t>(dofs()), 0.0), g(u.size());
+    for (std::size_t i = 0; i < boundary.size(); ++i) u[static_cast<std::size_t>(boundary[i])] = boundary_values[i];
+    multiply(stiffness, u, g);
+    for (std::size_t i = 0; i < g.size(); ++i) g[i] = f[i] - g[i];
+    const std::vector<double> inside = solve_interior(g);
+    for (std::size_t i = 0; i < inside.size(); ++i) u[static_cast<std::size_t>(interior_[i])] = inside[i];
+    return u;
+}
+
+std::vector<double> Subdomain::condense_load(std::span<const double> f) const {
+    const std::vector<double> inside = solve_interior(f);
+    std::vector<double> u(static_cast<std::size_t>(dofs()), 0.0), g(u.size()), condensed(boundary.size());
+    for (std::size_t i = 0; i < inside.size(); ++i) u[static_cast<std::size_t>(interior_[i])] = inside[i];
+    multiply(stiffness, u, g);
+    for (std::size_t i = 0; i < boundary.size(); ++i)
+        condensed[i] = f[static_cast<std::size_t>(boundary[i])] - g[static_cast<std::size_t>(boundary[i])];
+    return condensed;
+}
+
+double Subdomain::interior_work(std::span<const double> f, std::span<const double> g) const {
+    const std::vector<double> inside = solve_interior(g);
+    double work = 0.0;
+    for (std::size_t i = 0; i < inside.size(); ++i) work += f[static_cast<std::size_t>(interior_[i])] * inside[i];
+    return work;
 }
 
 }  // namespace delam

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One subdomain, condensed once onto its boundary DOFs (those that any multiplier touches).
 //
-// A floating subdomain's K is singular with the rigid motions R as its kernel. Holding as many DOFs as there are motions,
-// chosen on the boundary by a rank-revealing QR of R, leaves a definite matrix; its inverse, padded with zeros, is a generalised inverse of K. With
-// the boundary eliminated last, the trailing factor L gives both blocks that FETI lives on:
-//   F_s = (K^+)_bb = (L L^T)^-1    and    S_s = L L^T,
-// where the rows of S_s at the held DOFs follow from S_s R_b = 0.
+// A floating subdomain's K is singular with the rigid motions R as its kernel. Holding as many boundary DOFs as there are
+// motions, chosen by a rank-revealing QR of R, leaves a definite matrix. With the boundary eliminated last, its trailing factor L
+// gives S_s = L L^T on the boundary DOFs that are not held; the rows at the held ones follow from S_s R_b = 0. Then
+//   F_s = (S_s + rho Q Q^T)^-1,  Q: orthonormal basis of R_b,
+// is a generalised inverse on the boundary that favours no DOF: rounding in K R stays spread out instead of ending as a false
+// force at the held DOFs. The interior follows from the boundary: u_i = K_ii^-1 (f_i - K_ib u_b).
 #pragma once
 
 #include <cstdint>
@@ -35,12 +36,19 @@ struct Subdomain {
 
     // Numerical set-up, after nodes, boundary and body are known.
     void condense(const Mesh& mesh, std::span<const std::int64_t> cells, const Elastic& material, Plane plane, bool with_schur);
-    // x = K^+ b over all local DOFs.
-    void apply_inverse(std::span<const double> b, std::span<double> x) const;
+    // u over all local DOFs from its boundary values, in equilibrium with f inside. f: local DOFs, only the interior is read.
+    std::vector<double> extend(std::span<const double> boundary_values, std::span<const double> f) const;
+    // Forces on the interior carried to the boundary: f_b - K_bi K_ii^-1 f_i.
+    std::vector<double> condense_load(std::span<const double> f) const;
+    // f_i^T K_ii^-1 g_i, what loads inside do while the boundary is held.
+    double interior_work(std::span<const double> f, std::span<const double> g) const;
     std::int64_t dofs() const { return stiffness.rows; }
 
 private:
-    std::vector<std::int64_t> order_;  // free local DOFs: interior, then boundary
+    // K_ii^-1 of the interior entries of g, [interior DOFs].
+    std::vector<double> solve_interior(std::span<const double> g) const;
+
+    std::vector<std::int64_t> interior_;  // local DOFs
     std::unique_ptr<SparseCholesky> factor_;
 };
 

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of the command line share: a small scene, running the program, expectations."""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+DELAM = os.environ["DELAM"]
+failures = []
+
+SCENE = """
+schema = 1
+title = "small ENF"
+[geometry]
+dimension = 2
+length = 0.120
+h = 0.0015
+[[materials]]
+name = "arm"
+young = 75e9
+poisson = 0.3
+[[layers]]
+name = "lower"
+thickness = 0.003
+material = "arm"
+[[layers]]
+name = "upper"
+thickness = 0.003
+material = "arm"
+[[laws]]
+name = "ductile"
+normal_stiffness = 125e9
+tangential_stiffness = 125e9
+normal_onset = 100.0
+tangential_onset = 100.0
+normal_toughness = 250.0
+tangential_toughness = 250.0
+[[interfaces]]
+lower = "lower"
+upper = "upper"
+law = "ductile"
+notch = [{ from = 0.0, to = 0.030 }]
+[[supports]]
+point = [0.0, 0.0]
+fix = ["y"]
+[[supports]]
+point = [0.120, 0.0]
+fix = ["x", "y"]
+[[patterns]]
+name = "press"
+times = [0.0, 2.0]
+values = [0.0, 0.006]
+[[loads]]
+point = [0.060, 0.006]
+direction = [0.0, -1.0]
+pattern = "press"
+[time]
+end = 2.0
+steps = 20
+"""
+
+
+def changed(old, new, scene=SCENE):
+    assert old in scene, old
+    return scene.replace(old, new, 1)
+
+
+def folder():
+    return tempfile.mkdtemp(prefix="delam_cli_")
+
+
+def write(text):
+    path = os.path.join(folder(), "scene.toml")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+    return path
+
+
+def delam(*words, **options):
+    """Exit code, standard output, standard error."""
+    done = subprocess.run([DELAM, *words], capture_output=True, text=True, timeout=200, check=False, **options)
+    return done.returncode, done.stdout, done.stderr
+
+
+def expect(condition, what):
+    print(("ok    " if condition else "FAIL  ") + what)
+    if not condition:
+        failures.append(what)
+
+
+def expect_error(answer, code, *patterns):
+    """The exit code, one readable message, nothing that looks like a crash."""
+    status, _, error = answer
+    shown = error.strip().replace("\n", " | ")
+    expect(status == code and all(re.search(p, error) for p in patterns) and error.startswith("delam: "),
+           f"exit {code} and {patterns}: got exit {status}: {shown}")
+
+
+def read(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def finish():
+    sys.exit(1 if failures else 0)

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The files of a result, and what happens when they cannot be written."""
+import json
+import os
+import resource
+
+import h5py
+from support import SCENE, changed, delam, expect, expect_error, finish, folder, read, write
+
+HEADER = ("step,time,load,reaction,stored_bulk,stored_interface,dissipated,stored_interface_slides,dissipated_slides,"
+          "work,lower,increment,upper,increment_lower,am_iterations,linear_iterations,"
+          "contact_pairs,debonded_length,backtracks")
+
+scene = write(SCENE)
+out = os.path.join(folder(), "a", "b")
+code, text, _ = delam("run", scene, "--out", out)
+expect(code == 0 and "step 20/20" in text, "a run, with plain lines")
+files = ["fields.h5", "fields.xdmf", "history.csv", "result.json", "state.bin"]
+expect(sorted(os.listdir(out)) == files, "its files and no other")
+rows = read(os.path.join(out, "history.csv")).decode().splitlines()
+expect(rows[0] == HEADER, "columns of history.csv")
+expect(len(rows) == 22 and all(len(r.split(",")) == 19 for r in rows), "rows of history.csv")
+values = [[float(x) for x in r.split(",")] for r in rows[1:]]
+expect(values[0][:3] == [0, 0, 0] and values[-1][:3] == [20, 2, 0.006], "first and last row")
+expect(all(v[3] > 0 for v in values[1:]), "the reaction is positive")
+about = json.loads(read(os.path.join(out, "result.json")))
+expect(about["status"] == "complete" and about["steps_done"] == 20, "result.json")
+expect(about["unknowns"] == {"primal": 972, "dual": 162}, "numbers of unknowns")
+provenance = ("version", "commit", "scene_hash", "scene_file_hash", "options", "command", "started", "ended")
+expect(all(about[k] for k in provenance), "provenance")
+with h5py.File(os.path.join(out, "fields.h5")) as file:
+    expect(len(file["steps"]) == 21 and file["mesh/points"].shape == (486, 3), "steps and mesh in fields.h5")
+    last = file["steps/00000020"]
+    expect(last["displacement"].shape == (486, 3) and last["stress"].shape == (320, 6), "fields of the bodies")
+    zeta = last["interface_0/zeta"][()]
+    expect(zeta.shape == (81,) and (zeta[:20] == 0).all() and zeta.max() <= 1, "fields of the interface")
+    first = file["steps/00000000/interface_0/zeta"][()]
+    expect((first[:20] == 0).all() and (first[20:] == 1).all(), "the pair at the tip of the notch is bonded")
+    with open(os.path.join(out, "fields.xdmf"), encoding="utf-8") as xdmf:
+        for path in {p.split("<")[0] for p in xdmf.read().split("fields.h5:")[1:]}:
+            if path not in file:
+                expect(False, "fields.xdmf names " + path)
+
+two = changed("[[loads]]", '[[patterns]]\nname = "side"\ntimes = [0, 2]\nvalues = [0, 1]\n[[forces]]\n'
+              'point = [0.03, 0.006]\nforce = [0.0, -100.0]\npattern = "side"\n[[loads]]')
+two = changed("steps = 20", 'steps = 4\n[output]\nevery = 3\nsnapshots = [1.0]\ncolumns = ["front"]', two)
+other = folder()
+expect(delam("run", write(two), "--out", other)[0] == 0, "two patterns and a dead force")
+rows = read(os.path.join(other, "history.csv")).decode().splitlines()
+several = HEADER.replace("load,reaction", "load_press,reaction_press,load_side,reaction_side")
+expect(rows[0] == several + ",load_potential,front",
+       "columns with several patterns and dead forces")
+with h5py.File(os.path.join(other, "fields.h5")) as file:
+    expect(sorted(file["steps"]) == ["00000000", "00000002", "00000003", "00000004"],
+           "every third step, snapshot and last")
+
+limited = changed("steps = 20", "steps = 8\n[solver]\nminimisation_limit = 1")
+stiff = folder()
+expect_error(delam("run", write(limited), "--out", stiff), 1, "did not converge")
+expect(json.loads(read(os.path.join(stiff, "result.json")))["not_converged"], "the steps are listed")
+
+# As root every folder is writable, but nothing can be below a file.
+expect_error(delam("run", scene, "--out", scene + "/out"), 3, "cannot write .*scene.toml/out")
+
+# A full disk, small enough to fail in the march and then while the result is put together; the earlier result stays.
+before = {name: read(os.path.join(out, name)) for name in os.listdir(out)}
+largest = max(len(b) for b in before.values())
+for limit in (1000, 20000, largest - 1000):
+    answer = delam("run", scene, "--out", out,
+                   preexec_fn=lambda n=limit: resource.setrlimit(resource.RLIMIT_FSIZE, (n, n)))
+    expect_error(answer, 3, "cannot write .*running/", "File too large", "--resume")
+    after = {name: read(os.path.join(out, name)) for name in os.listdir(out) if name != "running"}
+    expect(after == before, f"files of at most {limit} bytes: the earlier result stays")
+code, text, _ = delam("run", scene, "--out", out, "--resume")
+expect(code == 0 and read(os.path.join(out, "history.csv")) == before["history.csv"], "resumed once there is room")
+expect("running" not in os.listdir(out), "nothing is left over")
+finish()

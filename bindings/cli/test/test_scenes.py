@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bad scenes: every message names the place, the value and what is allowed; good ones pass `check`."""
+from support import SCENE, changed, delam, expect, expect_error, finish, write
+
+
+def refuse(text, *patterns, code=2):
+    expect_error(delam("check", write(text)), code, *patterns)
+
+
+code, out, _ = delam("check", write(SCENE))
+expect(code == 0 and "unknowns" in out and "left out" in out, "check prints the plan")
+code, out, _ = delam("--version")
+expect(code == 0 and out.startswith("delam "), "--version")
+code, out, _ = delam("--help")
+expect(code == 0 and "Exit codes" in out, "--help documents the exit codes")
+expect(delam()[0] == 2 and delam("run")[0] == 2 and delam("fly")[0] == 2, "wrong usage is exit 2")
+
+refuse(changed("young = 75e9", "yuong = 75e9"), r"scene\.toml:10: materials\[0\]\.yuong", "did you mean 'young'")
+refuse(changed("[time]", "[tiem]"), "tiem", "did you mean 'time'")
+refuse(changed("young = 75e9", "young = -75e9"), r"scene\.toml:10: materials\[0\]\.young", "-75000000000", "> 0")
+refuse(changed("poisson = 0.3", "poisson = 0.5"), r"materials\[0\]\.poisson", "0.5", r"in \(-1, 0.5\)")
+refuse(changed("young = 75e9", "young = nan"), r"materials\[0\]\.young", "nan")
+refuse(changed("thickness = 0.003", "thickness = inf"), r"layers\[0\]\.thickness", "inf")
+refuse(changed("values = [0.0, 0.006]", "values = [0.0, nan]"), r"patterns\[0\]\.values\[1\]", "nan")
+refuse(changed("young = 75e9", 'young = "stiff"'), r"materials\[0\]\.young", "number")
+refuse(changed('fix = ["x", "y"]', 'fix = ["y"]'), "scene.toml")
+refuse(changed('material = "arm"', 'material = "amr"'), r"layers\[0\]\.material", "did you mean 'arm'")
+refuse(changed('law = "ductile"', 'law = "brittle"'), r"interfaces\[0\]\.law", "defined: ductile")
+refuse(changed("normal_toughness = 250.0", "normal_toughness = 50.0"), r"laws\[0\]")
+refuse(changed("normal_onset = 100.0\n", ""), r"laws\[0\]", "normal_onset")
+refuse(changed("tangential_toughness = 250.0", "tangential_toughness = 250.0\ntoughness_exponent_1 = 0.3\n"
+               "toughness_exponent_2 = 0.3"), r"laws\[0\]")
+refuse(changed("h = 0.0015", "h = 0.0007"), r"geometry\.h", "evenly")
+refuse(changed("point = [0.060, 0.006]", "point = [0.0604, 0.006]"), r"loads\[0\]\.point", "nearest", "upper")
+refuse(changed("point = [0.060, 0.006]", "point = [0.060, 0.003]"), r"loads\[0\]\.point", "lower, upper", "layer")
+refuse(changed("schema = 1", "schema = 2"), "schema", "2")
+refuse(changed("schema = 1\n", ""), "schema", "missing")
+refuse(changed("steps = 20", "steps = 0"), r"time\.steps", ">= 1")
+refuse(changed("end = 2.0\nsteps = 20", "instants = [0, 1, 1]"), r"time\.instants", "strictly increasing")
+refuse(SCENE + "[solver]\ndamage_tolerence = 1e-5\n", r"solver\.damage_tolerence", "did you mean 'damage_tolerance'")
+refuse(SCENE + "[solver]\ndamage_tolerance = -1.0\n", r"solver\.damage_tolerance")
+refuse(SCENE + "[solver]\npreconditioner = 3\n", r"solver\.preconditioner", "text")
+refuse(SCENE + '[output]\nfields = ["strss"]\n', r"output\.fields", "did you mean 'stress'")
+refuse(SCENE + '[output]\ncolumns = ["frnt"]\n', r"output\.columns", "front")
+refuse(SCENE + "x = = 1\n", r"scene\.toml:\d+", "TOML")
+expect_error(delam("check", "/nowhere/scene.toml"), 2, "/nowhere/scene.toml", "No such file")
+
+patch = changed("point = [0.060, 0.006]", 'patch = { centre = [0.060, 0.006], length = 0.002, face = "+y" }')
+expect(delam("check", write(patch))[0] == 0, "a load on a patch")
+refuse(changed('face = "+y"', 'face = "-y"', patch), r"loads\[0\]\.patch", "boundary face")
+force = changed("[time]", '[[patterns]]\nname = "gravity"\ntimes = [0, 2]\nvalues = [0, 1]\n[[forces]]\n'
+                'point = [0.06, 0.006]\nforce = [0.0, -10.0]\npattern = "gravity"\n[time]')
+expect(delam("check", write(force))[0] == 0, "dead forces")
+finish()

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdio>
+#include <cstring>
+#include <exception>
+
+#include "table.hpp"
+
+int main(int argc, char** argv) {
+    harness::Options options;
+    const char* name = nullptr;
+    bool understood = true;
+    for (int i = 1; i < argc; ++i) {
+        if (std::strcmp(argv[i], "--json") == 0) {
+            options.json = true;
+        } else if (std::strcmp(argv[i], "--quick") == 0) {
+            options.quick = true;
+        } else if (name == nullptr && argv[i][0] != '-') {
+            name = argv[i];
+        } else {
+            understood = false;
+        }
+    }
+    const struct {
+        const char* name;
+        harness::Table (*make)(const harness::Options&);
+    } tables[] = {{"pcg", harness::pcg},
+                  {"contact", harness::contact},
+                  {"balance", harness::balance},
+                  {"feti-direct", harness::feti_direct}};
+    for (const auto& table : tables) {
+        if (!understood || name == nullptr || std::strcmp(name, table.name) != 0) continue;
+        try {
+            const harness::Table result = table.make(options);
+            options.json ? result.print_json() : result.print_text();
+            return 0;
+        } catch (const std::exception& e) {
+            std::fprintf(stderr, "delam_harness %s: %s\n", name, e.what());
+            return 1;
+        }
+    }
+    std::fprintf(stderr, "usage: delam_harness [--json] [--quick] pcg | contact | balance | feti-direct\n");
+    return 1;
+}

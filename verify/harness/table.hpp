@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A table that is printed as aligned text or as JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace harness {
+
+struct Cell {
+    Cell(const char* t) : text(t), quoted(true) {}
+    Cell(std::string t) : text(std::move(t)), quoted(true) {}
+    Cell(int v) : text(std::to_string(v)) {}
+    Cell(long v) : text(std::to_string(v)) {}
+    Cell(double v);
+
+    std::string text;
+    bool quoted = false;
+};
+
+struct Table {
+    std::string name;
+    std::string note;  // what was measured, in words
+    std::vector<std::string> columns;
+    std::vector<std::vector<Cell>> rows;
+
+    void print_text() const;
+    void print_json() const;
+};
+
+struct Options {
+    bool json = false;
+    bool quick = false;
+};
+
+Table pcg(const Options& options);
+Table contact(const Options& options);
+Table balance(const Options& options);
+Table feti_direct(const Options& options);
+
+// One line on stderr, so that long tables show where they are.
+void progress(const std::string& text);
+
+}  // namespace harness

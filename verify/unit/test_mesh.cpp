@@ -1,0 +1,660 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes, interfaces, patches and partitions against counts and integrals known beforehand.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <csignal>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <numeric>
+#include <random>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+#include "mesh/box_tree.hpp"
+#include "mesh/layers.hpp"
+#include "mesh/mesh.hpp"
+#include "mesh/partition.hpp"
+#include "mesh/selection.hpp"
+
+#include <check.h>  // last: it has a macro named fail
+
+using namespace delam;
+
+namespace {
+
+using Labels = std::vector<std::int32_t>;
+using Indices = std::vector<std::int64_t>;
+using Numbers = std::vector<double>;
+
+constexpr CellType all_types[] = {CellType::tri3, CellType::quad4, CellType::tet4, CellType::hex8};
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+// Text of the error that an action ends with; empty when there is none.
+std::string refusal(std::int32_t status, const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& e) {
+        ck_assert_msg(e.status() == status, "status %d: %s", e.status(), e.what());
+        return e.what();
+    }
+    return "";
+}
+#define ck_assert_refused(status, part, action)                                                     \
+    do {                                                                                            \
+        const std::string said = refusal(status, [&] { action; });                                  \
+        ck_assert_msg(said.find(part) != std::string::npos, "\"%s\" lacks \"%s\"", said.c_str(), part); \
+    } while (0)
+
+Mesh layers(CellType type, Numbers lengths, Indices divisions, Numbers thickness, Indices layer_divisions) {
+    return make_layers(topology(type).dimension, lengths, divisions, thickness, layer_divisions, type);
+}
+
+// A mesh with the same cells, its nodes and cells in another order and its nodes mapped.
+Mesh rebuilt(const Mesh& mesh, unsigned seed, const std::function<void(std::span<double>)>& map = {}) {
+    const std::size_t dim = at(mesh.dimension());
+    std::mt19937 random(seed);
+    Indices place(at(mesh.node_count()));
+    std::iota(place.begin(), place.end(), std::int64_t{0});
+    Indices order(at(mesh.cell_count()));
+    std::iota(order.begin(), order.end(), std::int64_t{0});
+    if (seed != 0) {
+        std::shuffle(place.begin(), place.end(), random);
+        std::shuffle(order.begin(), order.end(), random);
+    }
+    Numbers nodes(mesh.nodes().size());
+    for (std::int64_t n = 0; n < mesh.node_count(); ++n) {
+        const std::span<double> target = std::span(nodes).subspan(at(place[at(n)]) * dim, dim);
+        std::copy(mesh.node(n).begin(), mesh.node(n).end(), target.begin());
+        if (map) map(target);
+    }
+    Mesh result(mesh.dimension(), nodes);
+    for (const std::int64_t c : order) {  // one by one: a host may
+        Indices cell;
+        for (const std::int64_t n : mesh.cell(c)) cell.push_back(place[at(n)]);
+        result.add_cells(mesh.cell_type(c), cell, Labels{mesh.body_label(mesh.cell_body(c))});
+    }
+    return result;
+}
+
+double sum(std::span<const double> x) { return std::accumulate(x.begin(), x.end(), 0.0); }
+
+void check_frames(const Mesh& mesh, const InterfaceGeometry& i) {
+    const std::size_t dim = at(mesh.dimension());
+    for (std::size_t p = 0; p < i.node_a.size(); ++p) {
+        const double* f = &i.frame[p * dim * dim];
+        for (std::size_t r = 0; r < dim; ++r)
+            for (std::size_t s = 0; s < dim; ++s) {
+                double product = 0.0;
+                for (std::size_t k = 0; k < dim; ++k) product += f[r * dim + k] * f[s * dim + k];
+                ck_assert(std::abs(product - (r == s ? 1.0 : 0.0)) <= 1e-15 * 4);
+            }
+        if (dim == 3) ck_assert(f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6]) +
+                                    f[2] * (f[3] * f[7] - f[4] * f[6]) > 0.99);
+    }
+}
+
+}  // namespace
+
+// The arms of the published ENF and MMF meshes: 120 mm x 3 mm in square cells.
+START_TEST(two_arms) {
+    const struct {
+        double h;
+        std::int64_t along, through;
+    } cases[] = {{1e-3, 121, 4}, {0.75e-3, 161, 5}, {0.5e-3, 241, 7}};
+    for (const auto& c : cases) {
+        Mesh mesh = layers(CellType::quad4, {0.12}, {c.along - 1}, {3e-3, 3e-3}, {c.through - 1, c.through - 1});
+        ck_assert_int_eq(mesh.body_count(), 2);
+        for (std::int32_t b = 0; b < 2; ++b) ck_assert_uint_eq(mesh.body_nodes(b).size(), at(c.along * c.through));
+        ck_assert_int_eq(mesh.add_interface(0, 1, 0.0), 0);
+        const InterfaceGeometry& i = mesh.interfaces()[0];
+        ck_assert_int_eq(i.pair_count(), c.along);
+        ck_assert_int_eq(i.face_count(), c.along - 1);
+        ck_assert_int_eq(i.body_a, 0);
+        ck_assert_int_eq(i.body_b, 1);
+        ck_assert(std::abs(sum(i.weight) - 0.12) <= 1e-15);
+        for (std::size_t p = 0; p < i.weight.size(); ++p) {
+            const double expected = p == 0 || p + 1 == i.weight.size() ? c.h / 2.0 : c.h;
+            ck_assert(std::abs(i.weight[p] - expected) <= 1e-12 * c.h);
+            const double frame[] = {0, 1, 1, 0};
+            ck_assert(std::equal(frame, frame + 4, &i.frame[4 * p]));
+            ck_assert(std::abs(mesh.node(i.node_a[p])[0] - c.h * static_cast<double>(p)) <= 1e-15);
+            ck_assert(mesh.node(i.node_a[p])[1] == 3e-3 && mesh.node(i.node_b[p])[1] == 3e-3);
+            ck_assert_int_eq(mesh.node_body(i.node_a[p]), 0);
+            ck_assert_int_eq(mesh.node_body(i.node_b[p]), 1);
+        }
+    }
+}
+END_TEST
+
+START_TEST(layered_blocks) {
+    for (const CellType type : all_types) {
+        const bool plane = topology(type).dimension == 2;
+        const Numbers lengths = plane ? Numbers{2.0} : Numbers{2.0, 1.5};
+        const Indices divisions = plane ? Indices{5} : Indices{5, 4};
+        Mesh mesh = layers(type, lengths, divisions, {0.3, 0.1, 0.2}, {2, 1, 3});
+        const std::int64_t level = plane ? 6 : 30;
+        const std::int64_t boxes = plane ? 5 : 20;
+        const std::int64_t per_box = type == CellType::tri3 ? 2 : type == CellType::tet4 ? 6 : 1;
+        ck_assert_int_eq(mesh.node_count(), level * (3 + 2 + 4));
+        ck_assert_int_eq(mesh.cell_count(), boxes * per_box * (2 + 1 + 3));
+        ck_assert_int_eq(mesh.body_count(), 3);
+        ck_assert(mesh.size() == 2.0);
+        // x fastest, the last axis slowest
+        ck_assert(mesh.node(1)[0] == 0.4 && mesh.node(1)[1] == 0.0);
+        ck_assert(mesh.node(level)[0] == 0.0 && std::abs(mesh.node(level)[plane ? 1 : 2] - 0.15) < 1e-15);
+        // Boundary: closed, of the right extent.
+        for (std::int32_t b = 0; b < 3; ++b) {
+            const Numbers box{2.0, plane ? std::array{0.3, 0.1, 0.2}[at(b)] : 1.5, std::array{0.3, 0.1, 0.2}[at(b)]};
+            const double extent = plane ? 2.0 * (box[0] + box[1])
+                                        : 2.0 * (box[0] * box[1] + box[1] * box[2] + box[2] * box[0]);
+            double found = 0.0;
+            for (std::size_t axis = 0; axis < lengths.size() + 1; ++axis)
+                for (const double sign : {-1.0, 1.0}) {
+                    Numbers direction(lengths.size() + 1, 0.0);
+                    direction[axis] = sign;
+                    found += sum(find_patch(mesh, b, Numbers{-9, -9, -9}, Numbers{9, 9, 9}, direction).weights);
+                }
+            ck_assert(std::abs(found - extent) <= 1e-14 * extent);
+        }
+        ck_assert_int_eq(mesh.add_interface(0, 1, 0.0), 0);
+        ck_assert_int_eq(mesh.add_interface(2, 1, 0.0), 1);
+        const InterfaceGeometry& up = mesh.interfaces()[0];
+        const InterfaceGeometry& down = mesh.interfaces()[1];
+        for (const InterfaceGeometry* i : {&up, &down}) {
+            ck_assert_int_eq(i->pair_count(), level);
+            ck_assert_int_eq(i->face_count(), type == CellType::tet4 ? 2 * boxes : boxes);
+            ck_assert_int_eq(i->nodes_per_face, plane ? 2 : type == CellType::tet4 ? 3 : 4);
+            ck_assert(std::abs(sum(i->weight) - (plane ? 2.0 : 3.0)) <= 1e-14);
+            ck_assert(*std::min_element(i->weight.begin(), i->weight.end()) > 0.0);
+            check_frames(mesh, *i);
+            for (std::int64_t p = 1; p < level; ++p) {
+                const auto x = mesh.node(i->node_a[at(p - 1)]);
+                const auto y = mesh.node(i->node_a[at(p)]);
+                ck_assert(std::lexicographical_compare(x.begin(), x.end(), y.begin(), y.end()));
+            }
+        }
+        // Body 2 lies above body 1, so the normal from 2 to 1 looks down.
+        ck_assert(up.frame[plane ? 1 : 2] == 1.0 && down.frame[plane ? 1 : 2] == -1.0);
+        if (!plane) {
+            const double frame[] = {0, 0, 1, 1, 0, 0, 0, 1, 0};
+            ck_assert(std::equal(frame, frame + 9, up.frame.begin()));
+        }
+    }
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "thickness[1]", layers(CellType::quad4, {1}, {1}, {1, 0}, {1, 1}));
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "divisions[0] 0", layers(CellType::quad4, {1}, {0}, {1}, {1}));
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "3D block",
+                      make_layers(3, Numbers{1, 1}, Indices{1, 1}, Numbers{1}, Indices{1}, CellType::quad4));
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "nodes: at most",
+                      layers(CellType::hex8, {1, 1}, {100000, 100000}, {1}, {1}));
+}
+END_TEST
+
+// The order of nodes and cells is the host's affair: pairs come out the same in space, bit for bit, also where
+// rounding has moved the nodes of the two sides a little and the interface is upright.
+START_TEST(shuffled_nodes) {
+    for (const CellType type : all_types) {
+        const bool plane = topology(type).dimension == 2;
+        const Mesh plain = layers(type, plane ? Numbers{2.0} : Numbers{2.0, 1.5}, plane ? Indices{9} : Indices{5, 4},
+                                  {0.3, 0.2}, {2, 1});
+        std::mt19937 random(11);
+        std::uniform_real_distribution<double> jitter(-1e-9, 1e-9);
+        Numbers noise(plain.nodes().size());
+        const auto upright = [](std::span<double> x) { std::swap(x[0], x.back()); x[0] = -x[0]; };
+        Mesh first = rebuilt(plain, 0, upright);
+        Mesh second = rebuilt(plain, 5, upright);
+        Mesh third = rebuilt(plain, 6, [&](std::span<double> x) {
+            upright(x);
+            for (double& v : x) v += jitter(random);
+        });
+        for (Mesh* mesh : {&first, &second, &third}) mesh->add_interface(0, 1, 0.0);
+        const InterfaceGeometry& a = first.interfaces()[0];
+        const InterfaceGeometry& b = second.interfaces()[0];
+        const InterfaceGeometry& c = third.interfaces()[0];
+        ck_assert(a.weight == b.weight && a.frame == b.frame && a.face == b.face);
+        ck_assert(a.face == c.face);
+        ck_assert_int_eq(c.pair_count(), a.pair_count());
+        for (std::size_t p = 0; p < a.node_a.size(); ++p) {
+            ck_assert(std::ranges::equal(first.node(a.node_a[p]), second.node(b.node_a[p])));
+            ck_assert(std::ranges::equal(first.node(a.node_b[p]), second.node(b.node_b[p])));
+            for (std::size_t k = 0; k < at(first.dimension()); ++k) {
+                ck_assert(std::abs(first.node(a.node_a[p])[k] - third.node(c.node_a[p])[k]) < 1e-8);
+                ck_assert(std::abs(first.node(a.node_b[p])[k] - third.node(c.node_b[p])[k]) < 1e-8);
+            }
+        }
+        check_frames(first, a);
+        check_frames(third, c);
+        ck_assert(std::abs(a.frame[0] + 1.0) < 1e-14);  // from body 0 at x = -0.3..0 to body 1 at x = -0.5..-0.3
+    }
+}
+END_TEST
+
+// A circular interface: normals are radial, weights are those of the polygon.
+START_TEST(curved_interface) {
+    const int n = 60;
+    Numbers nodes;
+    Indices cells;
+    Labels labels;
+    for (const double radius : {1.0, 1.5, 1.5, 2.0})
+        for (int i = 0; i < n; ++i)
+            nodes.insert(nodes.end(), {radius * std::cos(2 * M_PI * i / n), radius * std::sin(2 * M_PI * i / n)});
+    for (int ring = 0; ring < 2; ++ring)
+        for (int i = 0; i < n; ++i) {
+            const int j = (i + 1) % n;
+            const int base = 2 * n * ring;
+            cells.insert(cells.end(), {base + i, base + n + i, base + n + j, base + j});
+            labels.push_back(4 - ring);  // labels need not start at 0, nor be in order
+        }
+    Mesh mesh(2, nodes);
+    mesh.add_cells(CellType::quad4, cells, labels);
+    mesh.add_interface(4, 3, 0.0);
+    const InterfaceGeometry& i = mesh.interfaces()[0];
+    ck_assert_int_eq(i.pair_count(), n);
+    ck_assert(std::abs(sum(i.weight) - 2 * n * 1.5 * std::sin(M_PI / n)) < 1e-12);
+    for (std::size_t p = 0; p < at(n); ++p) {
+        const auto x = mesh.node(i.node_a[p]);
+        ck_assert(std::abs(i.frame[4 * p] - x[0] / 1.5) < 1e-14);
+        ck_assert(std::abs(i.frame[4 * p + 1] - x[1] / 1.5) < 1e-14);
+        ck_assert(i.frame[4 * p + 2] == i.frame[4 * p + 1] && i.frame[4 * p + 3] == -i.frame[4 * p]);
+    }
+}
+END_TEST
+
+// A distorted quadrilateral face: the weights are the integrals of its bilinear shape functions, whose sum is the area.
+START_TEST(weights_of_distorted_faces) {
+    Mesh plain = layers(CellType::hex8, {2.0, 1.0}, {4, 3}, {0.5, 0.5}, {1, 1});
+    Mesh mesh = rebuilt(plain, 0, [](std::span<double> x) {
+        const double bump = x[0] * (2.0 - x[0]) * x[1] * (1.0 - x[1]);
+        x[0] += 0.3 * bump;
+        x[1] -= 0.4 * bump;
+    });
+    mesh.add_interface(0, 1, 0.0);
+    const InterfaceGeometry& i = mesh.interfaces()[0];
+    ck_assert(std::abs(sum(i.weight) - 2.0) < 1e-14);
+    ck_assert(*std::min_element(i.weight.begin(), i.weight.end()) > 0.0);
+    double moment = 0.0;
+    for (std::size_t p = 0; p < i.node_a.size(); ++p) moment += i.weight[p] * mesh.node(i.node_a[p])[1];
+    ck_assert(std::abs(moment - 1.0) < 1e-2);  // a nodal rule: near the exact first moment, not on it
+}
+END_TEST
+
+START_TEST(refused_cells) {
+    const Numbers square{0, 0, 1, 0, 1, 1, 0, 1, 2, 0, 2, 1};
+    Mesh mesh(2, square);
+    ck_assert_refused(DELAM_ERROR_MESH, "cell 0 (body 7): smallest Jacobian -",
+                      mesh.add_cells(CellType::quad4, Indices{0, 3, 2, 1}, Labels{7}));
+    ck_assert_refused(DELAM_ERROR_MESH, "degenerate", mesh.add_cells(CellType::tri3, Indices{0, 1, 4}, {}));
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "node 6: must be in 0..5",
+                      mesh.add_cells(CellType::tri3, Indices{0, 1, 6}, {}));
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "body -2", mesh.add_cells(CellType::tri3, Indices{0, 1, 2}, Labels{-2}));
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "3D cells in a 2D mesh",
+                      mesh.add_cells(CellType::tet4, Indices{0, 1, 2, 3}, {}));
+    ck_assert_refused(DELAM_ERROR_MESH, "node 1 belongs to bodies 3 and 5; each body needs nodes of its own",
+                      mesh.add_cells(CellType::quad4, Indices{0, 1, 2, 3, 1, 4, 5, 2}, (Labels{3, 5})));
+    // After all that the mesh is as it was.
+    ck_assert_int_eq(mesh.cell_count(), 0);
+    ck_assert_int_eq(mesh.body_count(), 0);
+    for (std::int64_t n = 0; n < 6; ++n) ck_assert_int_eq(mesh.node_body(n), -1);
+    mesh.add_cells(CellType::quad4, Indices{0, 1, 2, 3, 1, 4, 5, 2}, Labels{3, 3});
+    ck_assert_int_eq(mesh.body_count(), 1);
+    ck_assert_int_eq(mesh.body_of_label(3), 0);
+    ck_assert_int_eq(mesh.body_of_label(0), -1);
+    mesh.add_cells(CellType::tri3, Indices{0, 1, 2}, Labels{3});
+    ck_assert_refused(DELAM_ERROR_MESH, "overlap", boundary_faces(mesh, 0));
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "not finite", Mesh(2, Numbers{0, std::nan("")}));
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "dimension 4", Mesh(4, Numbers{0, 0, 0, 0}));
+    // The same cell in metres and in nanometres is as sound.
+    for (const double unit : {1e-9, 1e9}) {
+        Mesh scaled = rebuilt(layers(CellType::tet4, {1, 1}, {1, 1}, {1e-3}, {1}), 0, [&](std::span<double> x) {
+            for (double& v : x) v *= unit;
+        });
+        ck_assert_int_eq(scaled.cell_count(), 6);
+    }
+}
+END_TEST
+
+// Two blocks, the upper one cut and placed at will.
+Mesh two_blocks(CellType type, std::int64_t lower_cells, std::int64_t upper_cells, double length, double shift,
+                double gap) {
+    const bool plane = topology(type).dimension == 2;
+    const auto block = [&](std::int64_t cells, double extent) {
+        return layers(type, plane ? Numbers{extent} : Numbers{extent, 1.0}, plane ? Indices{cells} : Indices{cells, 2},
+                      {0.5}, {1});
+    };
+    const Mesh lower = block(lower_cells, 1.0);
+    const Mesh upper = block(upper_cells, length);
+    Numbers nodes(lower.nodes().begin(), lower.nodes().end());
+    for (std::int64_t n = 0; n < upper.node_count(); ++n) {
+        Numbers x(upper.node(n).begin(), upper.node(n).end());
+        x[0] += shift;
+        x.back() += 0.5 + gap;
+        nodes.insert(nodes.end(), x.begin(), x.end());
+    }
+    Mesh mesh(lower.dimension(), nodes);
+    for (std::int64_t c = 0; c < lower.cell_count(); ++c) mesh.add_cells(type, lower.cell(c), Labels{0});
+    for (std::int64_t c = 0; c < upper.cell_count(); ++c) {
+        Indices cell(upper.cell(c).begin(), upper.cell(c).end());
+        for (std::int64_t& n : cell) n += lower.node_count();
+        mesh.add_cells(type, cell, Labels{1});
+    }
+    return mesh;
+}
+
+START_TEST(refused_interfaces) {
+    for (const CellType type : all_types) {
+        // Half the cells, shifted cells, cells that share corners only at one end, a sliver of overlap.
+        const struct {
+            std::int64_t lower, upper;
+            double length, shift;
+        } unmatched[] = {{4, 2, 1.0, 0.0}, {2, 4, 1.0, 0.0},  {4, 4, 1.0, 0.1},
+                         {4, 3, 0.9, 0.0}, {1, 1, 1.0, 0.99}, {4, 1, 0.3, 0.0}};
+        for (const auto& u : unmatched) {
+            Mesh mesh = two_blocks(type, u.lower, u.upper, u.length, u.shift, 0.0);
+            ck_assert_refused(DELAM_ERROR_MESH, "do not match", mesh.add_interface(0, 1, 0.0));
+            ck_assert_uint_eq(mesh.interfaces().size(), 0);
+        }
+        Mesh apart = two_blocks(type, 4, 4, 1.0, 0.0, 0.125);
+        ck_assert_refused(DELAM_ERROR_MESH, "as close as 0.125", apart.add_interface(0, 1, 0.0));
+        Mesh corner = two_blocks(type, 4, 4, 1.0, 1.0, 0.0);
+        ck_assert_refused(DELAM_ERROR_MESH, "as close as 0", corner.add_interface(0, 1, 0.0));
+        // A shorter body on a longer one is fine, and so is one that overhangs in steps of whole cells.
+        Mesh shorter = two_blocks(type, 4, 2, 0.5, 0.25, 0.0);
+        shorter.add_interface(0, 1, 0.0);
+        ck_assert(std::abs(sum(shorter.interfaces()[0].weight) - 0.5) < 1e-14);
+        Mesh overhanging = two_blocks(type, 4, 4, 1.0, 0.25, 0.0);
+        overhanging.add_interface(0, 1, 0.0);
+        ck_assert(std::abs(sum(overhanging.interfaces()[0].weight) - 0.75) < 1e-14);
+        // Tolerance is relative to the shortest edge, 1/4.
+        Mesh near = two_blocks(type, 4, 4, 1.0, 0.0, 0.024);
+        ck_assert_refused(DELAM_ERROR_MESH, "as close as 0.024", near.add_interface(0, 1, 0.09));
+        near.add_interface(0, 1, 0.1);
+        // Sitting inside each other.
+        Mesh inside = two_blocks(type, 4, 4, 1.0, 0.0, -0.5);
+        ck_assert_refused(DELAM_ERROR_MESH, "overlap", inside.add_interface(0, 1, 0.0));
+    }
+    Mesh mesh = two_blocks(CellType::quad4, 4, 4, 1.0, 0.0, 0.0);
+    for (const double bad : {-0.1, 0.5, std::nan("")})
+        ck_assert_refused(DELAM_ERROR_ARGUMENT, "[0, 0.5)", mesh.add_interface(0, 1, bad));
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "body_b 3", mesh.add_interface(0, 3, 0.0));
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "both 1", mesh.add_interface(1, 1, 0.0));
+    mesh.add_interface(0, 1, 0.0);
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "interface 0 already", mesh.add_interface(0, 1, 0.0));
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "interface 0 already", mesh.add_interface(1, 0, 0.0));
+    ck_assert_refused(DELAM_ERROR_STATE, "has an interface already",
+                      mesh.add_cells(CellType::tri3, Indices{0, 1, 5}, Labels{1}));
+}
+END_TEST
+
+// A body that comes later with a label in between moves the indices of the others; interfaces follow.
+START_TEST(late_bodies) {
+    const Numbers nodes{0, 0, 1, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 2, 0, 2, 5, 5, 6, 5, 6, 6, 5, 6};
+    Mesh mesh(2, nodes);
+    mesh.add_cells(CellType::quad4, Indices{0, 1, 2, 3, 4, 5, 6, 7}, Labels{2, 9});
+    mesh.add_interface(9, 2, 0.0);
+    ck_assert_int_eq(mesh.interfaces()[0].body_a, 1);
+    mesh.add_cells(CellType::quad4, Indices{8, 9, 10, 11}, Labels{4});
+    ck_assert_int_eq(mesh.body_label(mesh.interfaces()[0].body_a), 9);
+    ck_assert_int_eq(mesh.body_label(mesh.interfaces()[0].body_b), 2);
+    ck_assert_int_eq(mesh.interfaces()[0].body_a, 2);
+}
+END_TEST
+
+START_TEST(nodes_in_boxes) {
+    const Mesh mesh = layers(CellType::quad4, {1.0}, {10}, {0.2, 0.2}, {2, 2});
+    ck_assert_uint_eq(find_nodes(mesh, -1, Numbers{0, 0.2}, Numbers{1, 0.2}).size(), 22);
+    ck_assert_uint_eq(find_nodes(mesh, 1, Numbers{0, 0.2}, Numbers{1, 0.2}).size(), 11);
+    ck_assert(find_nodes(mesh, 0, Numbers{0.3, 0.0}, Numbers{0.4, 0.0}) ==
+              (Indices{3, 4}));  // 0.3 is not a sum of tenths
+    ck_assert(find_nodes(mesh, 0, Numbers{0.35, 0.0}, Numbers{0.36, 0.0}).empty());
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "axis 1", find_nodes(mesh, 0, Numbers{0, 1}, Numbers{1, 0}));
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "body index 2", find_nodes(mesh, 2, Numbers{0, 0}, Numbers{1, 1}));
+}
+END_TEST
+
+// Shape functions sum to one and carry linear fields: the weights and their first moments are those of the patch
+// itself, wherever the box ends.
+START_TEST(patches) {
+    for (const CellType type : all_types) {
+        const bool plane = topology(type).dimension == 2;
+        const double top = 0.7;
+        const Mesh mesh =
+            layers(type, plane ? Numbers{2.0} : Numbers{2.0, 1.5}, plane ? Indices{7} : Indices{7, 5}, {top}, {3});
+        const Numbers up = plane ? Numbers{0, 3} : Numbers{0, 0, 3};
+        std::mt19937 random(2);
+        std::uniform_real_distribution<double> point(0.0, 1.0);
+        for (int trial = 0; trial < 50; ++trial) {
+            Numbers low;
+            Numbers high;
+            double extent = 1.0;
+            for (std::size_t i = 0; i + 1 < up.size(); ++i) {
+                const double length = i == 0 ? 2.0 : 1.5;
+                const auto [a, b] = std::minmax({point(random) * length, point(random) * length});
+                low.push_back(trial == 0 ? -1.0 : a);
+                high.push_back(trial == 0 ? 9.0 : b);
+                extent *= trial == 0 ? length : b - a;
+            }
+            low.push_back(trial % 2 == 0 ? top : -5.0);  // a mere plane, or a box
+            high.push_back(trial % 2 == 0 ? top : 5.0);
+            const Patch patch = find_patch(mesh, 0, low, high, up);
+            ck_assert(std::abs(sum(patch.weights) - extent) <= 1e-13);
+            ck_assert(std::is_sorted(patch.nodes.begin(), patch.nodes.end()));
+            for (std::size_t axis = 0; axis + 1 < up.size(); ++axis) {
+                const double length = axis == 0 ? 2.0 : 1.5;
+                const double middle = 0.5 * (std::max(low[axis], 0.0) + std::min(high[axis], length));
+                double moment = 0.0;
+                for (std::size_t k = 0; k < patch.nodes.size(); ++k)
+                    moment += patch.weights[k] * mesh.node(patch.nodes[k])[axis];
+                ck_assert(std::abs(moment - middle * extent) <= 1e-13);
+            }
+            for (std::size_t k = 0; k < patch.nodes.size(); ++k) {
+                ck_assert(patch.weights[k] > 0.0);
+                ck_assert(mesh.node(patch.nodes[k]).back() == top);
+            }
+        }
+        ck_assert(find_patch(mesh, 0, Numbers{-9, -9, 5}, Numbers{9, plane ? -1.0 : 9.0, 9}, up).nodes.empty());
+        ck_assert_refused(DELAM_ERROR_ARGUMENT, "direction", find_patch(mesh, 0, Numbers{0, 0, 0}, Numbers{1, 1, 1},
+                                                                        Numbers(up.size(), 0.0)));
+        // A box that ends on nodes takes nothing of the faces beyond, whatever the rounding.
+        const Patch aligned = find_patch(mesh, 0, Numbers{2.0 * 3 / 7, -1, -1}, Numbers{2.0 * (4.0 / 7), 9, 9}, up);
+        for (const std::int64_t n : aligned.nodes) ck_assert(mesh.node(n)[0] > 0.8 && mesh.node(n)[0] < 1.2);
+    }
+    // On quadrilaterals no corner is preferred: a full square face gives a quarter each.
+    const Mesh cube = layers(CellType::hex8, {1, 1}, {1, 1}, {1}, {1});
+    const Patch face = find_patch(cube, 0, Numbers{-1, -1, -1}, Numbers{2, 2, 2}, Numbers{0, 0, 1});
+    for (const double w : face.weights) ck_assert(std::abs(w - 0.25) <= 1e-15);
+    // 45 degrees belong to both directions.
+    const Numbers roof{0, 0, 1, 0, 0, 1};
+    Mesh triangle(2, roof);
+    triangle.add_cells(CellType::tri3, Indices{0, 1, 2}, {});
+    for (const Numbers& direction : {Numbers{1, 0}, Numbers{0, 1}})
+        ck_assert(std::abs(sum(find_patch(triangle, 0, Numbers{0, 0}, Numbers{1, 1}, direction).weights) -
+                           std::sqrt(2.0)) < 1e-14);
+    const Patch oblique = find_patch(triangle, 0, Numbers{0.25, 0.0}, Numbers{1.0, 0.5}, Numbers{1, 1});
+    ck_assert(std::abs(sum(oblique.weights) - 0.5 * std::sqrt(2.0)) < 1e-14);
+}
+END_TEST
+
+namespace {
+
+// Non-empty, of one body each, connected through whole faces (by flooding over faces as sets of nodes).
+void check_partition(const Mesh& mesh, const Partition& parts) {
+    const std::size_t count = parts.subdomain_body.size();
+    ck_assert(std::is_sorted(parts.subdomain_body.begin(), parts.subdomain_body.end()));
+    ck_assert_uint_eq(parts.cell_subdomain.size(), at(mesh.cell_count()));
+    std::vector<Indices> cells(count);
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
+        const std::int32_t s = parts.cell_subdomain[at(c)];
+        ck_assert(s >= 0 && at(s) < count);
+        ck_assert_int_eq(parts.subdomain_body[at(s)], mesh.cell_body(c));
+        cells[at(s)].push_back(c);
+    }
+    const auto faces = [&](std::int64_t c) {
+        std::vector<std::set<std::int64_t>> result;
+        const CellTopology& shape = topology(mesh.cell_type(c));
+        for (std::size_t f = 0; f < at(shape.faces); ++f) {
+            std::set<std::int64_t> nodes;
+            for (std::size_t k = 0; k < at(shape.face_nodes); ++k) nodes.insert(mesh.cell(c)[at(shape.face[f][k])]);
+            result.push_back(nodes);
+        }
+        return result;
+    };
+    for (const Indices& members : cells) {
+        ck_assert(!members.empty());
+        std::set<std::set<std::int64_t>> reached;
+        for (const auto& f : faces(members[0])) reached.insert(f);
+        std::set<std::int64_t> left(members.begin() + 1, members.end());
+        for (bool moved = true; moved;) {
+            moved = false;
+            for (auto c = left.begin(); c != left.end();) {
+                const auto own = faces(*c);
+                if (std::any_of(own.begin(), own.end(), [&](const auto& f) { return reached.contains(f); })) {
+                    reached.insert(own.begin(), own.end());
+                    c = left.erase(c);
+                    moved = true;
+                } else {
+                    ++c;
+                }
+            }
+        }
+        ck_assert(left.empty());
+    }
+}
+
+}  // namespace
+
+START_TEST(partitions) {
+    for (const CellType type : all_types) {
+        const bool plane = topology(type).dimension == 2;
+        const Mesh mesh = layers(type, plane ? Numbers{4.0} : Numbers{4.0, 2.0}, plane ? Indices{40} : Indices{10, 5},
+                                 {1, 0.5}, {6, 3});
+        for (std::int64_t n = 0; n <= 64; ++n) {
+            const Partition parts = partition(mesh, n);
+            ck_assert_uint_eq(parts.subdomain_body.size(), at(std::max<std::int64_t>(n, 2)));
+            check_partition(mesh, parts);
+            const Partition again = partition(mesh, n);
+            ck_assert(parts.cell_subdomain == again.cell_subdomain);
+        }
+        std::vector<std::int64_t> size(16, 0);
+        for (const std::int32_t s : partition(mesh, 16).cell_subdomain) ++size[at(s)];
+        const auto [smallest, largest] = std::minmax_element(size.begin(), size.end());
+        ck_assert_msg(*largest <= 2 * *smallest, "%lld .. %lld cells", static_cast<long long>(*smallest),
+                      static_cast<long long>(*largest));
+    }
+    // Down to single cells.
+    const Mesh tiny = layers(CellType::tri3, {1}, {4}, {1}, {2});
+    for (std::int64_t n = 1; n <= tiny.cell_count(); ++n) {
+        const Partition parts = partition(tiny, n);
+        ck_assert_uint_eq(parts.subdomain_body.size(), at(n));
+        check_partition(tiny, parts);
+    }
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "subdomains 17: must be in 0..16", partition(tiny, 17));
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "subdomains -1", partition(tiny, -1));
+}
+END_TEST
+
+// Two squares of one body that touch in a node, and one far away: three subdomains at least.
+START_TEST(parts_that_touch_in_a_node) {
+    const Numbers nodes{0, 0, 1, 0, 1, 1, 0, 1, 2, 1, 2, 2, 1, 2, 5, 5, 6, 5, 6, 6, 5, 6};
+    Mesh mesh(2, nodes);
+    mesh.add_cells(CellType::quad4, Indices{0, 1, 2, 3, 2, 4, 5, 6, 7, 8, 9, 10}, {});
+    const Partition parts = partition(mesh, 1);
+    ck_assert_uint_eq(parts.subdomain_body.size(), 3);
+    check_partition(mesh, parts);
+}
+END_TEST
+
+static void host_handler(int) {}
+
+START_TEST(host_is_left_alone) {
+    const Mesh mesh = layers(CellType::quad4, {4.0}, {60}, {1, 0.5}, {10, 5});
+    std::srand(42);
+    std::array<int, 12> expected{};
+    for (int& r : expected) r = std::rand();
+    std::srand(42);
+    std::array<int, 12> found{};
+    for (std::size_t i = 0; i < 5; ++i) found[i] = std::rand();
+    const Partition before = partition(mesh, 12);
+    for (std::size_t i = 5; i < 12; ++i) found[i] = std::rand();
+    ck_assert(found == expected);
+    std::srand(4711);  // nor does the host's sequence reach the partition
+    ck_assert(partition(mesh, 12).cell_subdomain == before.cell_subdomain);
+
+    struct sigaction own {};
+    own.sa_handler = host_handler;
+    own.sa_flags = SA_RESTART;
+    sigemptyset(&own.sa_mask);
+    sigaddset(&own.sa_mask, SIGUSR1);
+    for (const int signal : {SIGABRT, SIGTERM}) sigaction(signal, &own, nullptr);
+    partition(mesh, 12);
+    for (const int signal : {SIGABRT, SIGTERM}) {
+        struct sigaction now {};
+        sigaction(signal, nullptr, &now);
+        ck_assert(now.sa_handler == host_handler);
+        ck_assert((now.sa_flags & SA_RESTART) != 0 && sigismember(&now.sa_mask, SIGUSR1) == 1);
+    }
+}
+END_TEST
+
+START_TEST(box_search) {
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> point(0.0, 1.0);
+    const auto draw = [&] { return Point{point(random), point(random), point(random)}; };
+    std::vector<Box> boxes;
+    for (int i = 0; i < 500; ++i) {
+        const Point p = draw();
+        boxes.push_back({p, {p[0] + 0.2 * point(random), p[1] + 0.2 * point(random), p[2]+ 0.2 * point(random)}});
+    }
+    const BoxTree tree(boxes);
+    for (int i = 0; i < 300; ++i) {
+        const Point p = draw();
+        std::set<std::int64_t> expected;
+        std::pair best{1e9, std::int64_t{-1}};
+        for (std::size_t k = 0; k < boxes.size(); ++k) {
+            double d[3];
+            for (std::size_t a = 0; a < 3; ++a) d[a] = std::max({boxes[k].low[a] - p[a], p[a] - boxes[k].high[a], 0.0});
+            const double distance = std::hypot(d[0], d[1], d[2]);
+            if (distance == 0.0) expected.insert(static_cast<std::int64_t>(k));
+            best = std::min(best, {distance, static_cast<std::int64_t>(k)});
+        }
+        std::set<std::int64_t> found;
+        tree.containing(p, [&](std::int64_t k) { found.insert(k); });
+        ck_assert(found == expected);
+        const BoxTree::Nearest nearest = tree.nearest(p);
+        ck_assert(nearest.index == best.second && nearest.distance == best.first);
+        if (best.first > 0.0) ck_assert(tree.nearest(p, 0.99 * best.first).index == -1);
+    }
+    ck_assert(BoxTree({}).nearest(draw()).index == -1);
+}
+END_TEST
+
+int main() {
+    Suite* suite = suite_create("mesh");
+    TCase* cases = tcase_create("mesh");
+    tcase_set_timeout(cases, 240);
+    tcase_add_test(cases, two_arms);
+    tcase_add_test(cases, layered_blocks);
+    tcase_add_test(cases, shuffled_nodes);
+    tcase_add_test(cases, curved_interface);
+    tcase_add_test(cases, weights_of_distorted_faces);
+    tcase_add_test(cases, refused_cells);
+    tcase_add_test(cases, refused_interfaces);
+    tcase_add_test(cases, late_bodies);
+    tcase_add_test(cases, nodes_in_boxes);
+    tcase_add_test(cases, patches);
+    tcase_add_test(cases, partitions);
+    tcase_add_test(cases, parts_that_touch_in_a_node);
+    tcase_add_test(cases, host_is_left_alone);
+    tcase_add_test(cases, box_search);
+    suite_add_tcase(suite, cases);
+    SRunner* runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
