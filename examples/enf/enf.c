@@ -131,8 +131,9 @@ static int make_loads(scene *s) {
         return 1;
     }
     TRY(delam_problem_add_pattern(s->problem, "load", 2, times, values, &pattern));
-    TRY(delam_problem_prescribe_nodes(s->problem, 2, corners, along_y, 0, NULL, NULL, 0));
+    TRY(delam_problem_prescribe_nodes(s->problem, 1, &corners[0], along_y, 0, NULL, NULL, 0));
     TRY(delam_problem_prescribe_nodes(s->problem, 1, &corners[1], along_x, 0, NULL, NULL, 0));
+    TRY(delam_problem_prescribe_nodes(s->problem, 1, &corners[1], along_y, 0, NULL, NULL, 0));
     TRY(delam_problem_prescribe_nodes(s->problem, 1, &top, down, 1, &pattern, &one, 0));
     return 0;
 }
@@ -175,7 +176,7 @@ static int write_row(scene *s) {
     for (i = 0; i < sizeof columns / sizeof columns[0]; ++i) {
         double value = 0.0;
         TRY(delam_solver_value(s->solver, columns[i][1], &value));
-        fprintf(s->file, "%s%.17g", i == 0 ? "" : ",", value);
+        fprintf(s->file, "%s%.17g", i == 0 ? "" : ",", value + 0.0); /* no "-0" */
     }
     fputc('\n', s->file);
     return 0;
