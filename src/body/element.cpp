@@ -3,7 +3,6 @@
 
 #include <array>
 
-#include "body/exact_translations.hpp"
 
 namespace delam {
 
@@ -54,7 +53,6 @@ std::vector<double> element_stiffness(CellType type, std::span<const double> coo
     }
     for (std::size_t i = 0; i < size; ++i)
         for (std::size_t j = 0; j < i; ++j) k[i * size + j] = k[j * size + i];
-    make_translations_exact(k, nodes, dim);
     return k;
 }
 

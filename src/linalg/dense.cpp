@@ -20,7 +20,6 @@ void dsyrk_(const char*, const char*, const int*, const int*, const double*, con
 void dtrsv_(const char*, const char*, const char*, const int*, const double*, const int*, double*, const int*);
 void dpotrf_(const char*, const int*, double*, const int*, int*);
 void dpotri_(const char*, const int*, double*, const int*, int*);
-void dgesv_(const int*, const int*, double*, const int*, int*, double*, const int*, int*);
 void dsyev_(const char*, const char*, const int*, double*, const int*, double*, double*, const int*, int*);
 void dgeqp3_(const int*, const int*, double*, const int*, int*, double*, double*, const int*, int*);
 void dpstrf_(const char*, const int*, double*, const int*, int*, int*, const double*, double*, int*);
@@ -73,16 +72,6 @@ DenseMatrix multiply(const DenseMatrix& a, const DenseMatrix& b) {
     return c;
 }
 
-DenseMatrix multiply_transposed(const DenseMatrix& a, const DenseMatrix& b) {
-    DenseMatrix c(a.columns, b.columns);
-    const int m = narrow(a.columns), n = narrow(b.columns), k = narrow(a.rows);
-    const int lda = leading(a.rows), ldb = leading(b.rows), ldc = leading(c.rows);
-    const double alpha = 1.0, beta = 0.0;
-    if (m > 0 && n > 0 && k > 0)
-        dgemm_("T", "N", &m, &n, &k, &alpha, a.value.data(), &lda, b.value.data(), &ldb, &beta, c.value.data(), &ldc);
-    return c;
-}
-
 DenseMatrix lower_times_transpose(const DenseMatrix& lower) {
     DenseMatrix product(lower.rows, lower.rows);
     const int n = narrow(lower.rows), lda = leading(lower.rows);
@@ -117,15 +106,6 @@ DenseMatrix orthonormalised(DenseMatrix a) {
         for (double& v : column(j)) v /= norm;
     }
     return a;
-}
-
-DenseMatrix solve_general(DenseMatrix a, DenseMatrix b) {
-    const int n = narrow(a.rows), nrhs = narrow(b.columns), lda = leading(a.rows), ldb = leading(b.rows);
-    std::vector<int> pivot(static_cast<std::size_t>(n));
-    int info = 0;
-    if (n > 0) dgesv_(&n, &nrhs, a.value.data(), &lda, pivot.data(), b.value.data(), &ldb, &info);
-    if (info != 0) fail(DELAM_ERROR_NUMERICAL, "a singular small system (pivot ", info, ")");
-    return b;
 }
 
 Eigen eigen_symmetric(DenseMatrix a) {

@@ -26,17 +26,12 @@ void add_scaled(double a, std::span<const double> x, std::span<double> y);
 void multiply_symmetric(const DenseMatrix& s, std::span<const double> x, std::span<double> y);
 // C = A B
 DenseMatrix multiply(const DenseMatrix& a, const DenseMatrix& b);
-// C = A^T B
-DenseMatrix multiply_transposed(const DenseMatrix& a, const DenseMatrix& b);
 // L L^T, full symmetric, from a lower triangle (the upper one is taken as zero).
 DenseMatrix lower_times_transpose(const DenseMatrix& lower);
 // A^-1, full symmetric, of a positive definite A (LAPACK dpotrf, dpotri).
 DenseMatrix inverse_definite(DenseMatrix a);
 // Orthonormal basis of the columns' span (modified Gram-Schmidt, twice); they must be independent.
 DenseMatrix orthonormalised(DenseMatrix a);
-// X with A X = B for a small general A (LAPACK dgesv); Error(DELAM_ERROR_NUMERICAL) when A is singular.
-DenseMatrix solve_general(DenseMatrix a, DenseMatrix b);
-
 // Eigenpairs of a symmetric matrix, ascending; vectors in columns (LAPACK dsyev).
 struct Eigen {
     std::vector<double> value;

@@ -70,24 +70,11 @@ void Subdomain::condense(const Mesh& mesh, std::span<const std::int64_t> cells, 
     const auto nb = static_cast<std::int64_t>(boundary.size());
     std::vector<std::uint8_t> is_boundary(static_cast<std::size_t>(stiffness.rows), 0);
     for (const std::int64_t d : boundary) is_boundary[static_cast<std::size_t>(d)] = 1;
-    std::vector<std::uint8_t> is_held(static_cast<std::size_t>(nb), 0);
-    for (std::int64_t r = 0; r < rigid_count; ++r) is_held[static_cast<std::size_t>(pivots.order[static_cast<std::size_t>(r)])] = 1;
-
-    std::vector<std::int64_t> free_boundary, held;  // positions within `boundary`
-    for (std::int64_t i = 0; i < nb; ++i) (is_held[static_cast<std::size_t>(i)] != 0 ? held : free_boundary).push_back(i);
     interior_.clear();
     for (std::int64_t d = 0; d < stiffness.rows; ++d)
         if (is_boundary[static_cast<std::size_t>(d)] == 0) interior_.push_back(d);
     std::vector<std::int64_t> order = interior_;
-    for (const std::int64_t i : free_boundary) order.push_back(boundary[static_cast<std::size_t>(i)]);
-
-    const auto nf = static_cast<std::int64_t>(free_boundary.size());
-    const SparseMatrix definite = permuted(stiffness, order);
-    factor_ = std::make_unique<SparseCholesky>(definite, nf);
-    if (!factor_->factorise(definite))
-        fail(DELAM_ERROR_NUMERICAL, "the stiffness of body ", mesh.body_label(body),
-             " is not positive definite beyond its rigid motions: check its material and the shapes of its cells");
-    const DenseMatrix lower = factor_->trailing_factor();
+    order.insert(order.end(), boundary.begin(), boundary.end());
 
     rigid_boundary = DenseMatrix(nb, rigid_count);
     for (std::int64_t r = 0; r < rigid_count; ++r)
@@ -99,34 +86,18 @@ void Subdomain::condense(const Mesh& mesh, std::span<const std::int64_t> cells, 
             if (stiffness.column[static_cast<std::size_t>(e)] == static_cast<std::int64_t>(d))
                 diagonal[static_cast<std::size_t>(i)] = stiffness.value[static_cast<std::size_t>(e)];
     }
-    // S R_b = 0 split into free rows and held rows h:  S_fh = -S_ff T,  S_hh = T^T S_ff T  with  T = R_f R_h^-1.
-    const DenseMatrix free_block = lower_times_transpose(lower);
-    DenseMatrix held_motions(rigid_count, rigid_count), free_motions(rigid_count, nf);  // transposed
-    for (std::int64_t r = 0; r < rigid_count; ++r) {
-        for (std::int64_t h = 0; h < rigid_count; ++h)
-            held_motions(r, h) = rigid_boundary(held[static_cast<std::size_t>(h)], r);
-        for (std::int64_t f = 0; f < nf; ++f) free_motions(r, f) = rigid_boundary(free_boundary[static_cast<std::size_t>(f)], r);
-    }
-    // held_motions = R_h^T, and R_f^T = R_h^T T^T, so T^T solves R_h^T T^T = R_f^T.
-    const DenseMatrix t_transposed = solve_general(std::move(held_motions), std::move(free_motions));
-    DenseMatrix t(nf, rigid_count);
-    for (std::int64_t r = 0; r < rigid_count; ++r)
-        for (std::int64_t f = 0; f < nf; ++f) t(f, r) = t_transposed(r, f);
-    const DenseMatrix coupling = multiply(free_block, t);
-    const DenseMatrix corner = multiply_transposed(t, coupling);
-    schur = DenseMatrix(nb, nb);
-    for (std::int64_t j = 0; j < nf; ++j)
-        for (std::int64_t i = 0; i < nf; ++i)
-            schur(free_boundary[static_cast<std::size_t>(i)], free_boundary[static_cast<std::size_t>(j)]) = free_block(i, j);
-    for (std::int64_t h = 0; h < rigid_count; ++h) {
-        const std::int64_t row = held[static_cast<std::size_t>(h)];
-        for (std::int64_t f = 0; f < nf; ++f) {
-            const std::int64_t column = free_boundary[static_cast<std::size_t>(f)];
-            schur(row, column) = schur(column, row) = -coupling(f, h);
-        }
-        for (std::int64_t g = 0; g < rigid_count; ++g)
-            schur(row, held[static_cast<std::size_t>(g)]) = 0.5 * (corner(h, g) + corner(g, h));
-    }
+    SparseMatrix shifted = permuted(stiffness, order);
+    const double tau = *std::max_element(diagonal.begin(), diagonal.end());
+    const auto ni = static_cast<std::int64_t>(interior_.size());
+    for (std::int64_t r = ni; r < shifted.rows; ++r)
+        for (std::int64_t e = shifted.start[static_cast<std::size_t>(r)]; e < shifted.start[static_cast<std::size_t>(r) + 1]; ++e)
+            if (shifted.column[static_cast<std::size_t>(e)] == r) shifted.value[static_cast<std::size_t>(e)] += tau;
+    factor_ = std::make_unique<SparseCholesky>(shifted, nb);
+    if (!factor_->factorise(shifted))
+        fail(DELAM_ERROR_NUMERICAL, "the stiffness of body ", mesh.body_label(body),
+             " is not positive definite beyond its rigid motions: check its material and the shapes of its cells");
+    schur = lower_times_transpose(factor_->trailing_factor());
+    for (std::int64_t i = 0; i < nb; ++i) schur(i, i) -= tau;
 
     const DenseMatrix q = orthonormalised(rigid_boundary);
     double rho = 0.0;
