@@ -47,22 +47,22 @@ struct PivotedColumns {
 };
 PivotedColumns pivoted_columns(DenseMatrix a, double tolerance);
 
-// Symmetric positive semi-definite matrix by pivoted Cholesky (LAPACK dpstrf). solve() gives one solution of a consistent
-// system, zero in the variables that were not pivots: a generalised inverse. The matrix is scaled to a unit diagonal first;
-// `tolerance` is the smallest pivot of the scaled matrix that counts.
+// Largest set of rows of a positive semi-definite matrix that is independent (LAPACK dpstrf); pivots below tolerance times the
+// largest diagonal entry count as zero.
+std::vector<std::int64_t> independent_rows(DenseMatrix a, double tolerance);
+
+// Cholesky factor of the principal block of a positive semi-definite matrix on an independent set of rows. solve() gives the
+// solution of a consistent system that is zero elsewhere: a generalised inverse.
 class SemidefiniteFactor {
 public:
     SemidefiniteFactor() = default;
-    explicit SemidefiniteFactor(DenseMatrix a, double tolerance);
+    SemidefiniteFactor(const DenseMatrix& a, std::span<const std::int64_t> rows);
     void solve(std::span<double> x) const;
-    std::int64_t rank() const { return rank_; }
-    std::int64_t size() const { return factor_.rows; }
 
 private:
     DenseMatrix factor_;
-    std::vector<double> scale_;
-    std::vector<std::int64_t> pivot_;
-    std::int64_t rank_ = 0;
+    std::vector<double> scale_;  // to a unit diagonal
+    std::vector<std::int64_t> rows_;
 };
 
 }  // namespace delam

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The end-notched flexure test of the slides: two arms of 120 mm x 3 mm, notch of 30 mm at the left, plane strain, held at the bottom
-// corners, pressed down at the top of mid-span by 3 mm per unit time.
+// The end-notched flexure test of the slides: two arms of 120 mm x 3 mm, notch of 30 mm at the left, plane strain, held
+// at the bottom corners, pressed down at the top of mid-span by 3 mm per unit time.
 #pragma once
 
 #include <cmath>

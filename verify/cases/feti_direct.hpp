@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FETI against the direct reference on the states of one ductile ENF march: one displacement step per load step at the exported adhesion.
+// FETI against the direct reference on the states of one ductile ENF march: one displacement step per load step at the
+// exported adhesion.
 #pragma once
 
 #include <string>
@@ -44,9 +45,10 @@ struct FetiChoice {
     std::string text() const { return std::to_string(subdomains) + " subdomains, " + preconditioner + ", " + gluing; }
 };
 
-// `each` sees every state: its index, the comparison, the status and the Krylov iterations. The contact set of one state is the first
-// guess of the next, as in a march. The preconditioners that are not made for compliant interfaces may stall just above the linear
-// tolerance and say so (DELAM_NOT_CONVERGED); what counts here is how far the state they end with is from the reference's.
+// `each` sees every state: its index, the comparison, the status and the Krylov iterations. The contact set of one
+// state is the first guess of the next, as in a march. The preconditioners that are not made for compliant interfaces
+// may stall just above the linear tolerance and say so (DELAM_NOT_CONVERGED); what counts here is how far the state
+// they end with is from the reference's.
 template <class Each>
 void solve_all(const DirectStates& states, const FetiChoice& choice, Each&& each) {
     Enf e;
@@ -61,7 +63,8 @@ void solve_all(const DirectStates& states, const FetiChoice& choice, Each&& each
         const auto& entry = states.entries[i];
         const std::int32_t status = delam_solver_equilibrate(solver.get(), entry.time, entry.adhesion.data());
         if (status != DELAM_NOT_CONVERGED || !may_stall) scene.require(status, "delam_solver_equilibrate");
-        each(i, reference::compare(solver, entry.state, states.exported, 1e-10), status, solver.value("linear_iterations"));
+        each(i, reference::compare(solver, entry.state, states.exported, 1e-10), status,
+             solver.value("linear_iterations"));
         solver.commit();
     }
 }

@@ -14,7 +14,8 @@ struct Bits {
     std::vector<std::vector<double>> fields;
 };
 
-inline constexpr const char* all_fields[] = {"displacement", "stress", "jump", "traction", "adhesion", "mixity", "contact", "reaction"};
+inline constexpr const char* all_fields[] = {"displacement", "stress", "jump",    "traction",
+                                             "adhesion",     "mixity", "contact", "reaction"};
 
 inline Bits read_bits(const reference::Solver& solver) {
     Bits bits{solver.values(), {}};

@@ -21,8 +21,8 @@ inline void expect(bool condition, const std::string& text) {
 inline void expect_near(double value, double exact, double tolerance, double scale, const std::string& what) {
     if (std::abs(value - exact) <= tolerance * scale) return;
     char line[300];
-    std::snprintf(line, sizeof line, "%s: %.17g instead of %.17g, off by %.2e of %.3g (allowed %.1e)", what.c_str(), value, exact,
-                  std::abs(value - exact) / scale, scale, tolerance);
+    std::snprintf(line, sizeof line, "%s: %.17g instead of %.17g, off by %.2e of %.3g (allowed %.1e)", what.c_str(),
+                  value, exact, std::abs(value - exact) / scale, scale, tolerance);
     throw std::runtime_error(line);
 }
 
@@ -60,8 +60,8 @@ inline int run_suite(Suite* suite) {
 }  // namespace cases
 
 // The loop index of tcase_add_loop_test is `loop`.
-#define CASE_TEST(name)                                                \
-    static void name##_body(int loop);                                 \
-    START_TEST(name) { cases::run_body(name##_body, _i); }             \
-    END_TEST                                                           \
+#define CASE_TEST(name)                                    \
+    static void name##_body(int loop);                     \
+    START_TEST(name) { cases::run_body(name##_body, _i); } \
+    END_TEST                                               \
     static void name##_body([[maybe_unused]] int loop)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scene enf: ductile end-notched flexure, h = 0.5 mm, 40 steps. In every step the energy balance, both bounds of the two-sided
-// estimate, the KKT conditions outside the solver, and the displacement step against the direct reference.
+// The scene enf: ductile end-notched flexure, h = 0.5 mm, 40 steps. In every step the energy balance, both bounds of
+// the two-sided estimate, the KKT conditions outside the solver, and the displacement step against the direct
+// reference.
 #include <algorithm>
 
 #include "acceptance.hpp"
@@ -82,7 +83,8 @@ CASE_TEST(energy_balance) {
     cases::expect(work > 0.0, "the device does work");
     for (std::size_t k = 0; k < all().size(); ++k) {
         const auto& r = all()[k];
-        cases::expect_below(std::abs(r.stored + r.dissipated - r.work), 1e-3 * work, at(k) + "|stored + dissipated - work|");
+        cases::expect_below(std::abs(r.stored + r.dissipated - r.work), 1e-3 * work,
+                            at(k) + "|stored + dissipated - work|");
         cases::expect(r.load_potential == 0.0, at(k) + "no dead load, no potential");
     }
 }
@@ -95,7 +97,8 @@ CASE_TEST(two_sided_estimate) {
         const double energy = std::max(std::abs(r.stored), std::abs(r.work));
         cases::expect_below(r.lower, r.increment_lower + 1e-9 * energy, at(k) + "lower bound");
         cases::expect_below(r.increment, r.upper + 1e-9 * energy, at(k) + "upper bound");
-        cases::expect_near(r.increment, r.stored - stored + r.dissipated - dissipated, 1e-12, energy, at(k) + "increment");
+        cases::expect_near(r.increment, r.stored - stored + r.dissipated - dissipated, 1e-12, energy,
+                           at(k) + "increment");
         stored = r.stored;
         dissipated = r.dissipated;
     }

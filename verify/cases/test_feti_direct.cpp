@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FETI against the direct reference: every eighth state of the ductile ENF march, 8 subdomains, every preconditioner but none.
+// FETI against the direct reference: every eighth state of the ductile ENF march, 8 subdomains, every preconditioner
+// but none.
 #include "feti_direct.hpp"
 #include "support.hpp"
 

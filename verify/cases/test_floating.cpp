@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plies that only contact holds, or nothing at all; several interfaces; four blocks around a cross point. The state must pass the
-// KKT conditions outside the solver. A free slide makes displacements non-unique, so the reference pins one node where that
-// changes neither stresses nor energies.
+// Plies that only contact holds, or nothing at all; several interfaces; four blocks around a cross point. The state
+// must pass the KKT conditions outside the solver. A free slide makes displacements non-unique, so the reference pins
+// one node where that changes neither stresses nor energies.
 #include <algorithm>
 
 #include "acceptance.hpp"
@@ -39,9 +39,11 @@ std::vector<std::int64_t> all_pairs(const Scene& scene, std::int64_t interface_i
     return pairs;
 }
 
-// Three plies on a held bottom face; `loose` interfaces have lost all adhesion. Nodes of the top face near mid-span are driven by
-// `push` along the stacking axis; with push 0 nothing touches the top. `pinned`: bodies of which one node is held laterally.
-Scene plies(int d, const std::vector<std::int64_t>& loose, double push, const std::vector<std::int32_t>& pinned, int subdomains) {
+// Three plies on a held bottom face; `loose` interfaces have lost all adhesion. Nodes of the top face near mid-span are
+// driven by `push` along the stacking axis; with push 0 nothing touches the top. `pinned`: bodies of which one node is
+// held laterally.
+Scene plies(int d, const std::vector<std::int64_t>& loose, double push, const std::vector<std::int32_t>& pinned,
+            int subdomains) {
     Scene scene(d, d == 2 ? std::vector<double>{length} : std::vector<double>{length, width},
                 d == 2 ? std::vector<std::int64_t>{20} : std::vector<std::int64_t>{8, 4}, {ply, ply, ply}, {2, 2, 2},
                 d == 2 ? DELAM_QUAD4 : DELAM_HEX8);
@@ -86,14 +88,16 @@ struct Loose {
     std::vector<std::int32_t> pinned;
     const char* name;
 };
-const Loose loose_cases[] = {{{1}, {2}, "top ply"}, {{0}, {1}, "two plies together"}, {{0, 1}, {1, 2}, "middle and top ply"}};
+const Loose loose_cases[] = {
+    {{1}, {2}, "top ply"}, {{0}, {1}, "two plies together"}, {{0, 1}, {1, 2}, "middle and top ply"}};
 
 // Pressed down in the middle, the loose plies rest on what is below; their ends may lift off.
 CASE_TEST(pressed_plies) {
     const int d = loop / 3 == 0 ? 2 : 3;
     const Loose& l = loose_cases[loop % 3];
     for (const int subdomains : {3, 7}) {
-        const std::string where = std::string(l.name) + ", " + std::to_string(d) + "D, " + std::to_string(subdomains) + " subdomains";
+        const std::string where =
+            std::string(l.name) + ", " + std::to_string(d) + "D, " + std::to_string(subdomains) + " subdomains";
         const Scene floating = plies(d, l.interfaces, press, {}, subdomains);
         Solver solver(floating, 0.0);
         solver.equilibrate(1.0, {});
@@ -111,8 +115,10 @@ CASE_TEST(pressed_plies) {
         cases::expect(comparison.contacts == 0, where + ", pinned: " + comparison.text());
         const double energy = state.stored_bulk + state.stored_interface;
         cases::expect_near(solver.value("stored_bulk"), state.stored_bulk, 1e-8, energy, where + ": stored bulk");
-        cases::expect_near(solver.value("stored_interface"), state.stored_interface, 1e-8, energy, where + ": stored interface");
-        cases::expect_near(solver.value("reaction:push"), state.pattern[0], 1e-8, state.pattern[0], where + ": reaction");
+        cases::expect_near(solver.value("stored_interface"), state.stored_interface, 1e-8, energy,
+                           where + ": stored interface");
+        cases::expect_near(solver.value("reaction:push"), state.pattern[0], 1e-8, state.pattern[0],
+                           where + ": reaction");
     }
 }
 
@@ -125,7 +131,8 @@ CASE_TEST(lifted_plies) {
     Solver solver(scene, 0.0);
     solver.equilibrate(1.0, {});
     const double scale = 70e9 * press;  // stress that holding the plies back would cause, times a ply
-    for (const double t : solver.field("traction")) cases::expect_near(t, 0.0, 1e-10, scale / ply, where + ": traction");
+    for (const double t : solver.field("traction"))
+        cases::expect_near(t, 0.0, 1e-10, scale / ply, where + ": traction");
     for (const double j : solver.field("jump")) cases::expect(std::isfinite(j), where + ": jump");
     cases::expect_near(solver.value("reaction:push"), 0.0, 1e-10, scale, where + ": reaction");
     const auto jump = solver.field("jump");
@@ -152,8 +159,10 @@ void lift_by_force(Scene& scene, double force) {
     const auto load = scene.pattern("lift", {0.0, 1.0}, {0.0, 1.0});
     const auto top = scene.find(2, {0.0, 3 * ply}, {length, 3 * ply});
     std::vector<double> forces;
-    for (std::size_t i = 0; i < top.size(); ++i) forces.insert(forces.end(), {0.0, force / static_cast<double>(top.size())});
-    scene.require(delam_problem_add_forces(scene.problem(), load, static_cast<std::int64_t>(top.size()), top.data(), forces.data(), 0),
+    for (std::size_t i = 0; i < top.size(); ++i)
+        forces.insert(forces.end(), {0.0, force / static_cast<double>(top.size())});
+    scene.require(delam_problem_add_forces(scene.problem(), load, static_cast<std::int64_t>(top.size()), top.data(),
+                                           forces.data(), 0),
                   "delam_problem_add_forces");
 }
 
@@ -187,8 +196,8 @@ CASE_TEST(bent_layers) {
     const bool bonded = loop % 2 == 1;
     for (const int subdomains : {3, 8}) {
         Scene scene(d, d == 2 ? std::vector<double>{length} : std::vector<double>{length, width},
-                    d == 2 ? std::vector<std::int64_t>{20} : std::vector<std::int64_t>{8, 4}, {ply, ply, ply}, {2, 1, 2},
-                    d == 2 ? DELAM_TRI3 : DELAM_TET4);
+                    d == 2 ? std::vector<std::int64_t>{20} : std::vector<std::int64_t>{8, 4}, {ply, ply, ply},
+                    {2, 1, 2}, d == 2 ? DELAM_TRI3 : DELAM_TET4);
         scene.interface(0, 1);
         scene.interface(1, 2);
         scene.begin();
@@ -214,10 +223,12 @@ CASE_TEST(bent_layers) {
         scene.number("subdomains", subdomains);
         Solver solver(scene, 0.0);
         solver.equilibrate(1.0, {});
-        const std::string where = std::to_string(d) + "D, " + std::to_string(subdomains) + " subdomains" + (bonded ? ", bonded" : "");
+        const std::string where =
+            std::to_string(d) + "D, " + std::to_string(subdomains) + " subdomains" + (bonded ? ", bonded" : "");
         expect_accepted(solver, where);
         DirectReference direct(scene);
-        const auto c = reference::compare(solver, direct.solve(1.0, solver.field("adhesion")), direct.exported(), 1e-10);
+        const auto c =
+            reference::compare(solver, direct.solve(1.0, solver.field("adhesion")), direct.exported(), 1e-10);
         cases::expect_below(c.worst(), 1e-8, where + ": " + c.text());
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FETI against the direct reference on all 40 states of the ductile ENF march: 2, 8 and 32 subdomains, every preconditioner, both gluings.
+// FETI against the direct reference on all 40 states of the ductile ENF march: 2, 8 and 32 subdomains, every
+// preconditioner, both gluings.
 #include "feti_direct.hpp"
 #include "support.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Patch tests of two blocks: a linear displacement on the boundary of perfectly bonded blocks is reproduced with its constant stress; a
-// compliant interface under uniform tension opens by t/k exactly. Both for any number of subdomains.
+// Patch tests of two blocks: a linear displacement on the boundary of perfectly bonded blocks is reproduced with its
+// constant stress; a compliant interface under uniform tension opens by t/k exactly. Both for any number of subdomains.
 #include <algorithm>
 
 #include "acceptance.hpp"
@@ -25,7 +25,8 @@ constexpr double poisson = 0.3;
 Scene blocks(const Shape& shape) {
     const bool plane = shape.dimension == 2;
     return Scene(shape.dimension, plane ? std::vector<double>{0.3} : std::vector<double>{0.3, 0.2},
-                 plane ? std::vector<std::int64_t>{4} : std::vector<std::int64_t>{3, 2}, {0.1, 0.15}, {2, 2}, shape.cell);
+                 plane ? std::vector<std::int64_t>{4} : std::vector<std::int64_t>{3, 2}, {0.1, 0.15}, {2, 2},
+                 shape.cell);
 }
 
 std::vector<double> upper_corner(const Shape& shape) {
@@ -49,7 +50,8 @@ std::vector<std::int64_t> surface(const Scene& scene, const Shape& shape, bool b
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     if (!both_of_a_pair) {
         const auto paired = scene.pairs(0).node_b;
-        std::erase_if(nodes, [&](std::int64_t n) { return std::find(paired.begin(), paired.end(), n) != paired.end(); });
+        std::erase_if(nodes,
+                      [&](std::int64_t n) { return std::find(paired.begin(), paired.end(), n) != paired.end(); });
     }
     return nodes;
 }
@@ -108,7 +110,8 @@ void linear_field(const Shape& shape, int subdomains, bool both_of_a_pair) {
     for (const double s : expected) stress_size = std::max(stress_size, std::abs(s));
     const auto stress = solver.field("stress");
     for (std::size_t i = 0; i < stress.size(); ++i) {
-        cases::expect_near(stress[i], expected[i % expected.size()], 1e-10, stress_size, where + ": stress " + std::to_string(i));
+        cases::expect_near(stress[i], expected[i % expected.size()], 1e-10, stress_size,
+                           where + ": stress " + std::to_string(i));
     }
     for (const double j : solver.field("jump")) cases::expect_near(j, 0.0, 1e-10, size, where + ": jump");
 }
@@ -169,7 +172,8 @@ CASE_TEST(compliant_interface_in_series) {
         }
         const double area = d == 2 ? corner[0] : corner[0] * corner[1];
         cases::expect_near(solver.value("reaction:pull"), t * area, 1e-10, t * area, where + ": reaction");
-        cases::expect_near(solver.value("stored_interface"), 0.5 * t * t / k * area, 1e-10, t * t / k * area, where + ": energy");
+        cases::expect_near(solver.value("stored_interface"), 0.5 * t * t / k * area, 1e-10, t * t / k * area,
+                           where + ": energy");
         const auto accepted = reference::accept(solver, reference::Exported(scene));
         cases::expect_below(accepted.worst(), 1e-10, where + ": " + accepted.text());
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two rigidly moved blocks impose a uniform jump: the interface alone answers, and follows the bilinear law in mode I and mode II
-// through loading, unloading and reloading, with the energies of its ledger.
+// Two rigidly moved blocks impose a uniform jump: the interface alone answers, and follows the bilinear law in mode I
+// and mode II through loading, unloading and reloading, with the energies of its ledger.
 #include <algorithm>
 
 #include "api.hpp"
@@ -42,7 +42,8 @@ double slides_stored(const Mode& m, double zeta) {
     return -m.toughness * d * zeta * (1.0 - zeta) / (m.onset + d * zeta);
 }
 
-// All nodes prescribed; the interface is 1 m long, so forces are tractions. The path goes through `turns`, fractions of the final jump.
+// All nodes prescribed; the interface is 1 m long, so forces are tractions. The path goes through `turns`, fractions of
+// the final jump.
 Scene imposed(const Mode& m, const std::vector<double>& turns) {
     Scene scene(2, {1.0}, {1}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
     scene.interface(0, 1);
@@ -106,23 +107,26 @@ CASE_TEST(bilinear_law) {
         cases::expect_near(solver.value("reaction:open"), t, 1e-12, peak, where + "reaction");
         cases::expect_near(solver.value("stored_interface"), 0.5 * t * w, 1e-12, m.toughness, where + "stored");
         cases::expect_near(solver.value("dissipated"), dissipated(m, zeta), 1e-12, m.toughness, where + "dissipated");
-        cases::expect_near(solver.value("stored_interface_slides"), 0.5 * t * w + slides_stored(m, zeta), 1e-12, m.toughness,
-                           where + "stored, slides' split");
-        cases::expect_near(solver.value("dissipated_slides"), slides, 1e-12, m.toughness, where + "dissipated, slides' split");
+        cases::expect_near(solver.value("stored_interface_slides"), 0.5 * t * w + slides_stored(m, zeta), 1e-12,
+                           m.toughness, where + "stored, slides' split");
+        cases::expect_near(solver.value("dissipated_slides"), slides, 1e-12, m.toughness,
+                           where + "dissipated, slides' split");
         cases::expect_near(solver.value("stored_bulk"), 0.0, 1e-12, m.toughness, where + "rigid blocks");
     }
     cases::expect_near(solver.value("dissipated"), m.toughness, 1e-12, m.toughness, "all of the toughness is spent");
 }
 
-// Work is (lower + upper)/2 per step, an O(tau) estimate inside a step. With an imposed jump that differs from the trapezoid of the
-// reactions by k dw^2 |d zeta| / 4 at most, so the defect of the ledger shrinks with the square of the step.
+// Work is (lower + upper)/2 per step, an O(tau) estimate inside a step. With an imposed jump that differs from the
+// trapezoid of the reactions by k dw^2 |d zeta| / 4 at most, so the defect of the ledger shrinks with the square of the
+// step.
 double ledger_defect(const Mode& m, int steps, double& bound) {
     const Scene scene = imposed(m, {0.0, 1.2});
     Solver solver(scene, 0.0);
     for (int k = 1; k <= steps; ++k) {
         solver.step(static_cast<double>(k) / steps);
         solver.commit();
-        const double balance = solver.value("stored_bulk") + solver.value("stored_interface") + solver.value("dissipated");
+        const double balance =
+            solver.value("stored_bulk") + solver.value("stored_interface") + solver.value("dissipated");
         if (k == steps) {
             const double dw = 1.2 * final_jump(m) / steps;
             bound = 1.0 * m.stiffness * dw * dw;

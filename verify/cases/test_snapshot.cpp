@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Save, load, go on: the same bits as without the interruption. Bytes that are damaged, cut or of another scene are refused and leave
-// the solver as it was. A step that is rolled back never was.
+// Save, load, go on: the same bits as without the interruption. Bytes that are damaged, cut or of another scene are
+// refused and leave the solver as it was. A step that is rolled back never was.
 #include "small_march.hpp"
 
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An elastic block in series with the interface under uniform tension: the closed forms of a spring K and a bilinear law. Stiff springs
-// (K above the softening slope) follow one continuous solution; soft ones jump at the local load and not before.
+// An elastic block in series with the interface under uniform tension: the closed forms of a spring K and a bilinear
+// law. Stiff springs (K above the softening slope) follow one continuous solution; soft ones jump at the local load and
+// not before.
 #include "api.hpp"
 #include "support.hpp"
 
@@ -17,7 +18,8 @@ const double d0 = std::sqrt(2.0 * onset / k);
 const double dc = d0 * toughness / onset;
 const double slope = peak * peak / (2.0 * (toughness - onset));
 
-// Spring constant K per unit area, shared equally by both blocks; a slim bar without lateral contraction, so that all pairs open alike.
+// Spring constant K per unit area, shared equally by both blocks; a slim bar without lateral contraction, so that all
+// pairs open alike.
 Scene bar(double spring, const std::vector<double>& times, const std::vector<double>& ends, int dimension) {
     const double height = 1.0;
     const double width = 0.05;
@@ -108,7 +110,8 @@ CASE_TEST(stiff_spring_in_one_step) {
     Solver solver(scene, 0.0);
     solver.step(1.0);
     const auto jump = solver.field("jump");
-    for (std::size_t p = 0; p < jump.size(); p += 2) cases::expect_near(jump[p], closed_form(spring, w).jump, 1e-6, dc, "jump");
+    for (std::size_t p = 0; p < jump.size(); p += 2)
+        cases::expect_near(jump[p], closed_form(spring, w).jump, 1e-6, dc, "jump");
 }
 
 }  // namespace

@@ -65,8 +65,10 @@ CASE_TEST(left_and_right) {
             cases::expect_near(adhesion[i], adhesion[m], symmetric_to, 1.0, where + "adhesion");
             cases::expect_near(jump[2 * i], jump[2 * m], symmetric_to, largest(jump), where + "opening");
             cases::expect_near(jump[2 * i + 1], -jump[2 * m + 1], symmetric_to, largest(jump), where + "slip");
-            cases::expect_near(traction[2 * i], traction[2 * m], symmetric_to, largest(traction), where + "normal traction");
-            cases::expect_near(traction[2 * i + 1], -traction[2 * m + 1], symmetric_to, largest(traction), where + "shear");
+            cases::expect_near(traction[2 * i], traction[2 * m], symmetric_to, largest(traction),
+                               where + "normal traction");
+            cases::expect_near(traction[2 * i + 1], -traction[2 * m + 1], symmetric_to, largest(traction),
+                               where + "shear");
         }
     }
     cases::expect(solver.value("dissipated") > 0.0, "the crack grows, or nothing was tested");
@@ -88,7 +90,8 @@ CASE_TEST(upper_and_lower) {
         solver.commit();
         const std::string where = "step " + std::to_string(k) + ": ";
         const auto jump = solver.field("jump");
-        for (std::size_t i = 1; i < jump.size(); i += 2) cases::expect_near(jump[i], 0.0, symmetric_to, largest(jump), where + "slip");
+        for (std::size_t i = 1; i < jump.size(); i += 2)
+            cases::expect_near(jump[i], 0.0, symmetric_to, largest(jump), where + "slip");
         const auto u = solver.field("displacement");
         for (int i = 0; i <= columns; ++i) {
             const double x = length * i / columns;
@@ -131,24 +134,31 @@ Record bending(double a, double b) {
         solver.step(k / 4.0);
         solver.commit();
     }
-    return {solver.field("jump"), solver.field("traction"), solver.field("adhesion"), solver.field("displacement"),
-            solver.value("stored_bulk") + solver.value("stored_interface"), solver.value("dissipated"), solver.value("work"),
+    return {solver.field("jump"),
+            solver.field("traction"),
+            solver.field("adhesion"),
+            solver.field("displacement"),
+            solver.value("stored_bulk") + solver.value("stored_interface"),
+            solver.value("dissipated"),
+            solver.value("work"),
             solver.value("reaction:lift")};
 }
 
 void expect_scaled(const std::vector<double>& values, const std::vector<double>& base, double factor, double tolerance,
                    const std::string& what) {
     const double size = largest(base) * factor;
-    for (std::size_t i = 0; i < base.size(); ++i) cases::expect_near(values[i], base[i] * factor, tolerance, size, what);
+    for (std::size_t i = 0; i < base.size(); ++i)
+        cases::expect_near(values[i], base[i] * factor, tolerance, size, what);
 }
 
 struct Units {
     double length, force, tolerance;
     const char* name;
 };
-constexpr Units systems[] = {{1024.0, 1.0, 1e-12, "length 2^10"},  {1.0, 1.0 / 4096.0, 1e-12, "force 2^-12"},
-                             {0.125, 64.0, 1e-12, "2^-3 and 2^6"}, {1e3, 1.0, 1e-9, "mm, N"},
-                             {1e6, 1e6, 1e-9, "um, uN"},           {1.0 / 0.0254, 1.0 / 4.4482216152605, 1e-9, "inch, pound"}};
+constexpr Units systems[] = {
+    {1024.0, 1.0, 1e-12, "length 2^10"},  {1.0, 1.0 / 4096.0, 1e-12, "force 2^-12"},
+    {0.125, 64.0, 1e-12, "2^-3 and 2^6"}, {1e3, 1.0, 1e-9, "mm, N"},
+    {1e6, 1e6, 1e-9, "um, uN"},           {1.0 / 0.0254, 1.0 / 4.4482216152605, 1e-9, "inch, pound"}};
 
 CASE_TEST(change_of_units) {
     const Units& s = systems[loop];
@@ -163,12 +173,15 @@ CASE_TEST(change_of_units) {
     expect_scaled(other.displacement, base.displacement, s.length, s.tolerance, where + "displacement");
     expect_scaled(other.traction, base.traction, s.force / (s.length * s.length), s.tolerance, where + "traction");
     const double per_thickness = 1.0 / s.length;
-    cases::expect_near(other.stored, base.stored * energy * per_thickness, s.tolerance, base.work * energy * per_thickness, where + "stored");
-    cases::expect_near(other.dissipated, base.dissipated * energy * per_thickness, s.tolerance, base.work * energy * per_thickness,
-                       where + "dissipated");
-    cases::expect_near(other.work, base.work * energy * per_thickness, s.tolerance, base.work * energy * per_thickness, where + "work");
+    cases::expect_near(other.stored, base.stored * energy * per_thickness, s.tolerance,
+                       base.work * energy * per_thickness, where + "stored");
+    cases::expect_near(other.dissipated, base.dissipated * energy * per_thickness, s.tolerance,
+                       base.work * energy * per_thickness, where + "dissipated");
+    cases::expect_near(other.work, base.work * energy * per_thickness, s.tolerance, base.work * energy * per_thickness,
+                       where + "work");
     const double force = s.force * per_thickness;
-    cases::expect_near(other.reaction, base.reaction * force, s.tolerance, std::abs(base.reaction) * force, where + "reaction");
+    cases::expect_near(other.reaction, base.reaction * force, s.tolerance, std::abs(base.reaction) * force,
+                       where + "reaction");
 }
 
 }  // namespace

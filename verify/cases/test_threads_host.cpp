@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A guest in the host's process: independent contexts in threads, cancel from anywhere, no output, no signal handlers, no rand().
+// A guest in the host's process: independent contexts in threads, cancel from anywhere, no output, no signal handlers,
+// no rand().
 #include <unistd.h>
 
 #include <atomic>
@@ -59,7 +60,8 @@ std::int32_t watch(const char* stage, std::int64_t, std::int64_t, void* user) {
     return w.stop_at >= 0 && w.calls >= w.stop_at ? 1 : 0;
 }
 
-// Cancelled at the first, second, ... call of the progress callback, the solver goes on as if the step had never been asked for.
+// Cancelled at the first, second, ... call of the progress callback, the solver goes on as if the step had never been
+// asked for.
 CASE_TEST(cancel_through_progress) {
     const Scene scene = cases::small_enf();
     Solver solver(scene, 0.0);
@@ -80,7 +82,8 @@ CASE_TEST(cancel_through_progress) {
         w.calls = 0;
         w.stop_at = stop;
         const std::int32_t status = solver.advance(cases::small_time(few + 1));
-        cases::expect(status == DELAM_CANCELLED, "stopped at " + std::to_string(stop) + ": " + delam_status_name(status));
+        cases::expect(status == DELAM_CANCELLED,
+                      "stopped at " + std::to_string(stop) + ": " + delam_status_name(status));
         cases::expect_same(solver, cases::read_bits(solver), committed, "after cancelling");
     }
     w.stop_at = -1;

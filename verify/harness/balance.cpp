@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Energy balance of the ductile ENF against the number of steps: both the defect and the summed band must shrink with the step.
+// Energy balance of the ductile ENF against the number of steps: both the defect and the summed band must shrink with
+// the step.
 #include <algorithm>
 #include <cmath>
 
@@ -11,10 +12,12 @@ namespace harness {
 Table balance(const Options& options) {
     Table table;
     table.name = "balance";
-    table.note = "Ductile ENF per metre of width: largest |stored + dissipated - work| over the final work, summed upper - lower (J/m), and "
-                 "violated bounds (beyond 1e-9 of the energy). slides: the same defect in the slides' ledger.";
-    table.columns = {"h_mm",          "steps",         "max_defect",    "max_defect_slides", "band_J_per_m", "final_work",
-                     "lower_violated", "upper_violated", "am_iterations", "not_converged"};
+    table.note =
+        "Ductile ENF per metre of width: largest |stored + dissipated - work| over the final work, summed upper - "
+        "lower (J/m), and "
+        "violated bounds (beyond 1e-9 of the energy). slides: the same defect in the slides' ledger.";
+    table.columns = {"h_mm",       "steps",          "max_defect",     "max_defect_slides", "band_J_per_m",
+                     "final_work", "lower_violated", "upper_violated", "am_iterations",     "not_converged"};
     for (const double h : {1e-3, 0.5e-3}) {
         for (const int steps : {20, 40, 80, 160}) {
             if (options.quick && (h < 1e-3 || steps > 80)) continue;
@@ -38,7 +41,8 @@ Table balance(const Options& options) {
                 const double bulk = solver.value("stored_bulk");
                 const double work = solver.value("work");
                 const double stored = bulk + solver.value("stored_interface");
-                const double slides = bulk + solver.value("stored_interface_slides") + solver.value("dissipated_slides");
+                const double slides =
+                    bulk + solver.value("stored_interface_slides") + solver.value("dissipated_slides");
                 defect = std::max(defect, std::abs(stored + solver.value("dissipated") - work));
                 defect_slides = std::max(defect_slides, std::abs(slides - work));
                 band += solver.value("upper") - solver.value("lower");
@@ -48,7 +52,8 @@ Table balance(const Options& options) {
                 if (!(solver.value("increment") <= solver.value("upper") + slack)) ++high;
             }
             const double work = solver.value("work");
-            table.rows.push_back({h * 1e3, steps, defect / work, defect_slides / work, band, work, low, high, am, refused});
+            table.rows.push_back(
+                {h * 1e3, steps, defect / work, defect_slides / work, band, work, low, high, am, refused});
         }
     }
     return table;

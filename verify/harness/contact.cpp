@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Active-set steps per displacement solve along the ductile march, beside the "usually 3-4" of the slides. Cold: the very first solve under
-// load, made by a solver without history. Warm: the solves of a step start from the contact set of the one before.
+// Active-set steps per displacement solve along the ductile march, beside the "usually 3-4" of the slides. Cold: the
+// very first solve under load, made by a solver without history. Warm: the solves of a step start from the contact set
+// of the one before.
 #include <algorithm>
 
 #include "enf.hpp"
@@ -12,11 +13,14 @@ Table contact(const Options& options) {
     constexpr int steps = 40;
     Table table;
     table.name = "contact";
-    table.note = "Active-set steps per displacement solve, ductile ENF, h = 0.5 mm, 40 steps. cold: equilibrium at the state of a step by a "
-                 "fresh solver, worst of the steps looked at; the other columns: the march itself.";
-    table.columns = {"subdomains", "cold",       "cold_worst",      "first_step_first", "max",
-                     "max_first",  "mean",       "solves",          "not_converged",    "pairs_in_contact_end"};
-    const std::vector<std::int64_t> counts = options.quick ? std::vector<std::int64_t>{2, 8} : std::vector<std::int64_t>{2, 8, 32};
+    table.note =
+        "Active-set steps per displacement solve, ductile ENF, h = 0.5 mm, 40 steps. cold: equilibrium at the state of "
+        "a step by a "
+        "fresh solver, worst of the steps looked at; the other columns: the march itself.";
+    table.columns = {"subdomains", "cold", "cold_worst", "first_step_first", "max",
+                     "max_first",  "mean", "solves",     "not_converged",    "pairs_in_contact_end"};
+    const std::vector<std::int64_t> counts =
+        options.quick ? std::vector<std::int64_t>{2, 8} : std::vector<std::int64_t>{2, 8, 32};
     for (const std::int64_t subdomains : counts) {
         progress("contact: " + std::to_string(subdomains) + " subdomains");
         cases::Enf e;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Worst relative differences of one FETI displacement step per load step to the direct reference, over the ductile march.
+// Worst relative differences of one FETI displacement step per load step to the direct reference, over the ductile
+// march.
 #include <algorithm>
 
 #include "../cases/feti_direct.hpp"
@@ -12,9 +13,12 @@ Table feti_direct(const Options& options) {
     Table table;
     table.name = "feti-direct";
     table.note = "Ductile ENF, h = 0.5 mm: worst relative differences over " + std::to_string(40 / stride) +
-                 " states of the march (max norm over the interface), contacts that differ, Krylov iterations in all, states whose linear solves stalled above the tolerance.";
-    table.columns = {"subdomains",  "preconditioner", "gluing",           "jump",     "traction",          "displacement",
-                     "reaction",    "stored_bulk",    "stored_interface", "contacts", "linear_iterations", "stalled", "outcome"};
+                 " states of the march (max norm over the interface), contacts that differ, Krylov iterations in all, "
+                 "states whose linear solves stalled above the tolerance.";
+    table.columns = {
+        "subdomains", "preconditioner", "gluing",           "jump",     "traction",          "displacement",
+        "reaction",   "stored_bulk",    "stored_interface", "contacts", "linear_iterations", "stalled",
+        "outcome"};
     progress("feti-direct: the march and the direct solutions");
     const cases::DirectStates states(stride);
     for (const std::int64_t subdomains : {2, 8, 32}) {
@@ -28,23 +32,25 @@ Table feti_direct(const Options& options) {
                 long stalled = 0;
                 std::string outcome = "ok";
                 try {
-                    cases::solve_all(states, choice, [&](std::size_t, const reference::Comparison& c, std::int32_t status, double linear) {
-                        worst.jump = std::max(worst.jump, c.jump);
-                        worst.traction = std::max(worst.traction, c.traction);
-                        worst.displacement = std::max(worst.displacement, c.displacement);
-                        worst.reaction = std::max(worst.reaction, c.reaction);
-                        worst.stored_bulk = std::max(worst.stored_bulk, c.stored_bulk);
-                        worst.stored_interface = std::max(worst.stored_interface, c.stored_interface);
-                        worst.contacts += c.contacts;
-                        iterations += linear;
-                        if (status != DELAM_OK) ++stalled;
-                    });
+                    cases::solve_all(
+                        states, choice,
+                        [&](std::size_t, const reference::Comparison& c, std::int32_t status, double linear) {
+                            worst.jump = std::max(worst.jump, c.jump);
+                            worst.traction = std::max(worst.traction, c.traction);
+                            worst.displacement = std::max(worst.displacement, c.displacement);
+                            worst.reaction = std::max(worst.reaction, c.reaction);
+                            worst.stored_bulk = std::max(worst.stored_bulk, c.stored_bulk);
+                            worst.stored_interface = std::max(worst.stored_interface, c.stored_interface);
+                            worst.contacts += c.contacts;
+                            iterations += linear;
+                            if (status != DELAM_OK) ++stalled;
+                        });
                 } catch (const reference::Failure& failure) {
                     outcome = delam_status_name(failure.status());
                 }
                 table.rows.push_back({static_cast<long>(subdomains), preconditioner, gluing, worst.jump, worst.traction,
-                                      worst.displacement, worst.reaction, worst.stored_bulk, worst.stored_interface, worst.contacts,
-                                      iterations, stalled, outcome});
+                                      worst.displacement, worst.reaction, worst.stored_bulk, worst.stored_interface,
+                                      worst.contacts, iterations, stalled, outcome});
             }
         }
     }

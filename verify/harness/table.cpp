@@ -34,10 +34,12 @@ void Table::print_text() const {
     for (const auto& row : rows) {
         for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].text.size());
     }
-    for (std::size_t i = 0; i < columns.size(); ++i) std::printf("%-*s  ", static_cast<int>(width[i]), columns[i].c_str());
+    for (std::size_t i = 0; i < columns.size(); ++i)
+        std::printf("%-*s  ", static_cast<int>(width[i]), columns[i].c_str());
     std::printf("\n");
     for (const auto& row : rows) {
-        for (std::size_t i = 0; i < row.size(); ++i) std::printf("%-*s  ", static_cast<int>(width[i]), row[i].text.c_str());
+        for (std::size_t i = 0; i < row.size(); ++i)
+            std::printf("%-*s  ", static_cast<int>(width[i]), row[i].text.c_str());
         std::printf("\n");
     }
 }

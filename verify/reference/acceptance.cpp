@@ -24,7 +24,8 @@ double relative(double violation, double scale) {
 }  // namespace
 
 double Acceptance::worst() const {
-    return std::max({gap, gap_displacement, jump_mismatch, pressure, complementarity, equilibrium, supports, law, adhesion});
+    return std::max(
+        {gap, gap_displacement, jump_mismatch, pressure, complementarity, equilibrium, supports, law, adhesion});
 }
 
 std::string Acceptance::text() const {
@@ -32,7 +33,8 @@ std::string Acceptance::text() const {
     std::snprintf(line, sizeof line,
                   "gap %.1e, gap of displacements %.1e, jump mismatch %.1e, pressure sign %.1e, complementarity %.1e, "
                   "equilibrium %.1e, supports %.1e, law %.1e, adhesion %.1e",
-                  gap, gap_displacement, jump_mismatch, pressure, complementarity, equilibrium, supports, law, adhesion);
+                  gap, gap_displacement, jump_mismatch, pressure, complementarity, equilibrium, supports, law,
+                  adhesion);
     return line;
 }
 
@@ -71,7 +73,8 @@ Acceptance accept(const Solver& solver, const Exported& exported) {
             const auto s = static_cast<std::size_t>(e);
             const auto dof = static_cast<std::size_t>(exported.constraints.column[s]);
             value += static_cast<long double>(exported.constraints.value[s]) * static_cast<long double>(u[dof]);
-            unbalance[dof] -= static_cast<long double>(exported.constraints.value[s]) * static_cast<long double>(reaction[c]);
+            unbalance[dof] -=
+                static_cast<long double>(exported.constraints.value[s]) * static_cast<long double>(reaction[c]);
         }
         const double miss = std::abs(static_cast<double>(value - static_cast<long double>(prescribed[c])));
         result.supports = std::max(result.supports, relative(miss, u_size));
@@ -90,7 +93,8 @@ Acceptance accept(const Solver& solver, const Exported& exported) {
                 const double* axis = pairs.frame.data() + (k * d + c) * d;
                 const std::size_t at = pair * d + c;
                 long double from_displacement = 0.0L;
-                const long double nodal = static_cast<long double>(pairs.weight[k]) * static_cast<long double>(traction[at]);
+                const long double nodal =
+                    static_cast<long double>(pairs.weight[k]) * static_cast<long double>(traction[at]);
                 largest_force = std::max(largest_force, std::abs(static_cast<double>(nodal)));
                 for (std::size_t x = 0; x < d; ++x) {
                     const auto a = static_cast<std::size_t>(pairs.node_a[k]) * d + x;
@@ -105,7 +109,8 @@ Acceptance accept(const Solver& solver, const Exported& exported) {
                 result.jump_mismatch = std::max(result.jump_mismatch, relative(mismatch, jump_size));
                 if (!stiffness.bonded && c == 0) {
                     result.gap = std::max(result.gap, relative(-jump[at], jump_size));
-                    result.gap_displacement = std::max(result.gap_displacement, relative(-opening - rounding, jump_size));
+                    result.gap_displacement =
+                        std::max(result.gap_displacement, relative(-opening - rounding, jump_size));
                 }
                 if (stiffness.bonded || (closed && c == 0)) continue;
                 const double spring = zeta * (c == 0 ? stiffness.normal : stiffness.tangential);

@@ -17,7 +17,8 @@ std::int64_t length(const std::vector<std::int64_t>& values) { return static_cas
 }  // namespace
 
 Scene::Scene(int dimension, const std::vector<double>& lengths, const std::vector<std::int64_t>& divisions,
-             const std::vector<double>& thickness, const std::vector<std::int64_t>& layer_divisions, std::int32_t cell_type)
+             const std::vector<double>& thickness, const std::vector<std::int64_t>& layer_divisions,
+             std::int32_t cell_type)
     : dimension_(dimension), context_(make_context()) {
     delam_mesh* raw = nullptr;
     require(delam_mesh_create_layers(context(), dimension, lengths.data(), divisions.data(), length(thickness),
@@ -27,13 +28,15 @@ Scene::Scene(int dimension, const std::vector<double>& lengths, const std::vecto
     adopt_mesh();
 }
 
-Scene::Scene(int dimension, const std::vector<double>& nodes, std::int32_t cell_type, const std::vector<std::int64_t>& cells,
-             const std::vector<std::int32_t>& bodies)
+Scene::Scene(int dimension, const std::vector<double>& nodes, std::int32_t cell_type,
+             const std::vector<std::int64_t>& cells, const std::vector<std::int32_t>& bodies)
     : dimension_(dimension), context_(make_context()) {
     delam_mesh* raw = nullptr;
-    require(delam_mesh_create(context(), dimension, length(nodes) / dimension, nodes.data(), &raw), "delam_mesh_create");
+    require(delam_mesh_create(context(), dimension, length(nodes) / dimension, nodes.data(), &raw),
+            "delam_mesh_create");
     mesh_.reset(raw);
-    require(delam_mesh_add_cells(mesh(), cell_type, static_cast<std::int64_t>(bodies.size()), cells.data(), bodies.data(), 0),
+    require(delam_mesh_add_cells(mesh(), cell_type, static_cast<std::int64_t>(bodies.size()), cells.data(),
+                                 bodies.data(), 0),
             "delam_mesh_add_cells");
     adopt_mesh();
 }
@@ -47,7 +50,8 @@ void Scene::adopt_mesh() {
 
 void Scene::require(std::int32_t status, const char* call) const {
     if (status == DELAM_OK) return;
-    throw Failure(status, std::string(call) + ": " + delam_status_name(status) + ": " + delam_context_message(context()));
+    throw Failure(status,
+                  std::string(call) + ": " + delam_status_name(status) + ": " + delam_context_message(context()));
 }
 
 std::int64_t Scene::interface(std::int32_t body_a, std::int32_t body_b) {
@@ -93,7 +97,8 @@ void Scene::bonded(std::int64_t interface_index) {
     stiffness_[static_cast<std::size_t>(interface_index)] = {0.0, 0.0, true};
 }
 
-void Scene::adhesion(std::int64_t interface_index, const std::vector<std::int64_t>& pairs, const std::vector<double>& values) {
+void Scene::adhesion(std::int64_t interface_index, const std::vector<std::int64_t>& pairs,
+                     const std::vector<double>& values) {
     require(delam_problem_set_adhesion(problem(), interface_index, length(pairs), pairs.data(), values.data(), 0),
             "delam_problem_set_adhesion");
 }
@@ -106,8 +111,9 @@ std::int64_t Scene::pattern(const char* name, const std::vector<double>& times, 
 }
 
 void Scene::hold(const std::vector<std::int64_t>& nodes, const std::vector<double>& direction) {
-    require(delam_problem_prescribe_nodes(problem(), length(nodes), nodes.data(), direction.data(), 0, nullptr, nullptr, 0),
-            "delam_problem_prescribe_nodes");
+    require(
+        delam_problem_prescribe_nodes(problem(), length(nodes), nodes.data(), direction.data(), 0, nullptr, nullptr, 0),
+        "delam_problem_prescribe_nodes");
 }
 
 void Scene::drive(const std::vector<std::int64_t>& nodes, const std::vector<double>& direction, std::int64_t pattern,
@@ -137,7 +143,8 @@ Pairs Scene::pairs(std::int64_t interface_index) const {
             "delam_mesh_interface_size");
     const auto n = static_cast<std::size_t>(count);
     const auto d = static_cast<std::size_t>(dimension_);
-    Pairs p{std::vector<std::int64_t>(n), std::vector<std::int64_t>(n), std::vector<double>(n), std::vector<double>(n * d * d)};
+    Pairs p{std::vector<std::int64_t>(n), std::vector<std::int64_t>(n), std::vector<double>(n),
+            std::vector<double>(n * d * d)};
     require(delam_mesh_interface_pairs(mesh(), interface_index, p.node_a.data(), p.node_b.data(), p.weight.data(),
                                        p.frame.data()),
             "delam_mesh_interface_pairs");

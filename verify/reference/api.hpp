@@ -62,9 +62,10 @@ struct Pairs {
 class Scene {
 public:
     Scene(int dimension, const std::vector<double>& lengths, const std::vector<std::int64_t>& divisions,
-          const std::vector<double>& thickness, const std::vector<std::int64_t>& layer_divisions, std::int32_t cell_type);
-    Scene(int dimension, const std::vector<double>& nodes, std::int32_t cell_type, const std::vector<std::int64_t>& cells,
-          const std::vector<std::int32_t>& bodies);
+          const std::vector<double>& thickness, const std::vector<std::int64_t>& layer_divisions,
+          std::int32_t cell_type);
+    Scene(int dimension, const std::vector<double>& nodes, std::int32_t cell_type,
+          const std::vector<std::int64_t>& cells, const std::vector<std::int32_t>& bodies);
 
     std::int64_t interface(std::int32_t body_a, std::int32_t body_b);
     void begin();
@@ -72,7 +73,8 @@ public:
     void elastic(std::int32_t body, double young, double poisson);
     void law(std::int64_t interface_index, const LawData& data);
     void bonded(std::int64_t interface_index);
-    void adhesion(std::int64_t interface_index, const std::vector<std::int64_t>& pairs, const std::vector<double>& values);
+    void adhesion(std::int64_t interface_index, const std::vector<std::int64_t>& pairs,
+                  const std::vector<double>& values);
     std::int64_t pattern(const char* name, const std::vector<double>& times, const std::vector<double>& values);
     // Held at zero.
     void hold(const std::vector<std::int64_t>& nodes, const std::vector<double>& direction);
@@ -86,9 +88,12 @@ public:
     int dimension() const { return dimension_; }
     const std::vector<double>& nodes() const { return nodes_; }
     std::size_t node_count() const { return nodes_.size() / static_cast<std::size_t>(dimension_); }
-    double coordinate(std::int64_t node, int axis) const { return nodes_[static_cast<std::size_t>(node * dimension_ + axis)]; }
+    double coordinate(std::int64_t node, int axis) const {
+        return nodes_[static_cast<std::size_t>(node * dimension_ + axis)];
+    }
     // Nodes of a body (-1: all) in a box.
-    std::vector<std::int64_t> find(std::int32_t body, const std::vector<double>& lower, const std::vector<double>& upper) const;
+    std::vector<std::int64_t> find(std::int32_t body, const std::vector<double>& lower,
+                                   const std::vector<double>& upper) const;
     Pairs pairs(std::int64_t interface_index) const;
     std::size_t pair_count() const;
 

@@ -34,10 +34,11 @@ double Comparison::worst() const {
 
 std::string Comparison::text() const {
     char line[300];
-    std::snprintf(line, sizeof line,
-                  "jump %.1e, traction %.1e, displacement %.1e, reaction %.1e, stored bulk %.1e, stored interface %.1e, "
-                  "contacts that differ %d",
-                  jump, traction, displacement, reaction, stored_bulk, stored_interface, contacts);
+    std::snprintf(
+        line, sizeof line,
+        "jump %.1e, traction %.1e, displacement %.1e, reaction %.1e, stored bulk %.1e, stored interface %.1e, "
+        "contacts that differ %d",
+        jump, traction, displacement, reaction, stored_bulk, stored_interface, contacts);
     return line;
 }
 

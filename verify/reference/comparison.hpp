@@ -15,7 +15,7 @@ struct Comparison {
     double reaction = 0.0;          // of the patterns, over the largest
     double stored_bulk = 0.0;       // over the reference's own
     double stored_interface = 0.0;  // over the reference's own
-    int contacts = 0;               // pairs with another contact flag whose gap or pressure is above `contact_tolerance`
+    int contacts = 0;  // pairs with another contact flag whose gap or pressure is above `contact_tolerance`
 
     double worst() const;
     std::string text() const;

@@ -84,8 +84,9 @@ Affine DirectReference::combination(const std::vector<std::pair<std::int64_t, do
     return row;
 }
 
-// Nodes that pairs tie together form a graph. Its spanning trees give the unknowns: the displacement of the root, and the local jump of
-// each tree pair. Pairs that close a cycle (blocks that meet at a cross point) have a jump that follows from the others.
+// Nodes that pairs tie together form a graph. Its spanning trees give the unknowns: the displacement of the root, and
+// the local jump of each tree pair. Pairs that close a cycle (blocks that meet at a cross point) have a jump that
+// follows from the others.
 void DirectReference::choose_unknowns() {
     const int d = exported_.dimension;
     const std::size_t n = exported_.dofs;
@@ -104,7 +105,8 @@ void DirectReference::choose_unknowns() {
         if (reached[root]) continue;
         reached[root] = true;
         for (int k = 0; k < d; ++k) {
-            displacement_[dof(static_cast<std::int64_t>(root), k)].terms = {{static_cast<std::int64_t>(is_jump_.size()), 1.0}};
+            displacement_[dof(static_cast<std::int64_t>(root), k)].terms = {
+                {static_cast<std::int64_t>(is_jump_.size()), 1.0}};
             is_jump_.push_back(false);
         }
         std::vector<std::int64_t> front{static_cast<std::int64_t>(root)};
@@ -152,7 +154,8 @@ State DirectReference::solve_linear(const std::vector<double>& values, const std
     const auto width = static_cast<std::size_t>(d);
     System system;
     Elimination elimination(is_jump_);
-    const auto keep = [&](std::vector<std::pair<std::int64_t, double>> row, std::int64_t constraint, std::int64_t component) {
+    const auto keep = [&](std::vector<std::pair<std::int64_t, double>> row, std::int64_t constraint,
+                          std::int64_t component) {
         system.rows.push_back(std::move(row));
         system.constraint.push_back(constraint);
         system.component.push_back(component);
@@ -203,7 +206,8 @@ State DirectReference::solve_linear(const std::vector<double>& values, const std
     for (std::size_t i = 0; i < exported_.dofs; ++i) {
         for (auto e = exported_.stiffness.start[i]; e < exported_.stiffness.start[i + 1]; ++e) {
             const auto s = static_cast<std::size_t>(e);
-            couple(u_of[i], u_of[static_cast<std::size_t>(exported_.stiffness.column[s])], exported_.stiffness.value[s]);
+            couple(u_of[i], u_of[static_cast<std::size_t>(exported_.stiffness.column[s])],
+                   exported_.stiffness.value[s]);
         }
     }
     for (std::size_t i = 0; i < j_of.size(); ++i) {
@@ -221,7 +225,8 @@ State DirectReference::solve_linear(const std::vector<double>& values, const std
         const auto ku = multiply(exported_.stiffness, displacements(at));
         for (std::size_t i = 0; i < u_of.size(); ++i) scatter(u_of[i], static_cast<long double>(force[i]) - ku[i], r);
         for (std::size_t i = 0; i < j_of.size(); ++i) {
-            if (stiffness[i] > 0.0) scatter(j_of[i], -static_cast<long double>(stiffness[i]) * value_of(j_of[i], at), r);
+            if (stiffness[i] > 0.0)
+                scatter(j_of[i], -static_cast<long double>(stiffness[i]) * value_of(j_of[i], at), r);
         }
         return r;
     });
@@ -246,7 +251,8 @@ State DirectReference::solve_linear(const std::vector<double>& values, const std
             interface_energy += 0.5L * pull * jump;
             state.jump[at] = static_cast<double>(jump);
             state.traction[at] = static_cast<double>(pull / static_cast<long double>(pairs_[p].weight));
-            for (const auto& [dof, f] : jump_dofs(p, c)) unbalance[static_cast<std::size_t>(dof)] += pull * static_cast<long double>(f);
+            for (const auto& [dof, f] : jump_dofs(p, c))
+                unbalance[static_cast<std::size_t>(dof)] += pull * static_cast<long double>(f);
         }
     }
     state.stored_bulk = static_cast<double>(bulk);
@@ -255,9 +261,11 @@ State DirectReference::solve_linear(const std::vector<double>& values, const std
     return state;
 }
 
-// What bodies, springs and loads leave unbalanced is carried by supports and closed pairs: M^T y = unbalance, solved as least squares
-// (it has an exact solution). A contact's or bond's multiplier y pushes the faces apart, so the pull per area is -y / weight.
-void DirectReference::recover_multipliers(const System& system, const std::vector<long double>& unbalance, State& state) const {
+// What bodies, springs and loads leave unbalanced is carried by supports and closed pairs: M^T y = unbalance, solved as
+// least squares (it has an exact solution). A contact's or bond's multiplier y pushes the faces apart, so the pull per
+// area is -y / weight.
+void DirectReference::recover_multipliers(const System& system, const std::vector<long double>& unbalance,
+                                          State& state) const {
     std::vector<std::vector<std::pair<std::size_t, double>>> columns(exported_.dofs);
     for (std::size_t r = 0; r < system.rows.size(); ++r) {
         for (const auto& [dof, value] : system.rows[r]) columns[static_cast<std::size_t>(dof)].emplace_back(r, value);
@@ -265,7 +273,8 @@ void DirectReference::recover_multipliers(const System& system, const std::vecto
     Triplets lower;
     for (const auto& column : columns) {
         for (const auto& [i, a] : column) {
-            for (const auto& [j, b] : column) lower.add(static_cast<std::int64_t>(i), static_cast<std::int64_t>(j), a * b);
+            for (const auto& [j, b] : column)
+                lower.add(static_cast<std::int64_t>(i), static_cast<std::int64_t>(j), a * b);
         }
     }
     const Factor factor(system.rows.size(), lower);
@@ -287,7 +296,8 @@ void DirectReference::recover_multipliers(const System& system, const std::vecto
     const auto width = static_cast<std::size_t>(exported_.dimension);
     state.reaction.assign(exported_.constraints.rows(), 0.0);
     for (std::size_t r = 0; r < y.size(); ++r) {
-        if (system.constraint[r] >= 0) state.reaction[static_cast<std::size_t>(system.constraint[r])] = static_cast<double>(y[r]);
+        if (system.constraint[r] >= 0)
+            state.reaction[static_cast<std::size_t>(system.constraint[r])] = static_cast<double>(y[r]);
         if (system.component[r] >= 0) {
             const auto at = static_cast<std::size_t>(system.component[r]);
             state.traction[at] = static_cast<double>(-y[r] / static_cast<long double>(pairs_[at / width].weight));
@@ -317,8 +327,8 @@ bool DirectReference::update_contact(const State& state, const std::vector<doubl
         if (scene_->stiffness()[pairs_[p].interface_index].bonded) continue;
         const double gap = state.jump[p * width];
         const double pull = state.traction[p * width];
-        const bool penetrates = gap < -contact_tolerance * jump_size ||
-                                spring(p, 0, adhesion) * gap < -contact_tolerance * traction_size;
+        const bool penetrates =
+            gap < -contact_tolerance * jump_size || spring(p, 0, adhesion) * gap < -contact_tolerance * traction_size;
         const bool exchange = closed_[p] ? pull > contact_tolerance * traction_size : penetrates;
         if (!exchange) continue;
         closed_[p] = !closed_[p];
@@ -349,7 +359,8 @@ State DirectReference::solve(double time, const std::vector<double>& adhesion) {
             for (std::size_t p = 0; p < pairs_.size(); ++p) {
                 if (!closed_[p]) continue;
                 const double gap = state.jump[p * width];
-                if (gap < -contact_tolerance * jump_size) throw Failure(0, "direct reference: supports press faces together");
+                if (gap < -contact_tolerance * jump_size)
+                    throw Failure(0, "direct reference: supports press faces together");
                 if (gap > contact_tolerance * jump_size) state.contact[p] = false;
             }
             state.contact_iterations = iteration;

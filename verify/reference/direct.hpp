@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One displacement step solved at once: all bodies, springs, supports and contacts in a single symmetric system.
 //
-// The unknowns of a node pair are the displacement of one node and the jump in the local frame, so a stiff spring sits on the diagonal
-// and a closed contact drops its unknown. Supports are eliminated (elimination.hpp). Contact is found by an active set of its own.
-// Every body must be held by supports, springs or closed contacts: a free one is refused (Failure). Where supports and bonds
-// are redundant, the tractions and reactions among them are not unique and those of the redundant rows are given as zero.
+// The unknowns of a node pair are the displacement of one node and the jump in the local frame, so a stiff spring sits
+// on the diagonal and a closed contact drops its unknown. Supports are eliminated (elimination.hpp). Contact is found
+// by an active set of its own. Every body must be held by supports, springs or closed contacts: a free one is refused
+// (Failure). Where supports and bonds are redundant, the tractions and reactions among them are not unique and those of
+// the redundant rows are given as zero.
 #pragma once
 
 #include <vector>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Linear constraints by substitution: every variable becomes an affine function of the free ones.
 //
-// A mean over several nodes makes one of them the master; a row that follows from earlier ones is recognised and left out, so
-// supports may overlap. Variables marked as jumps are kept free where there is a choice: expressed through others they would be small
-// differences of large numbers.
+// A mean over several nodes makes one of them the master; a row that follows from earlier ones is recognised and left
+// out, so supports may overlap. Variables marked as jumps are kept free where there is a choice: expressed through
+// others they would be small differences of large numbers.
 #pragma once
 
 #include <cstddef>

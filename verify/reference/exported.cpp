@@ -24,7 +24,8 @@ Csr global_stiffness(const Scene& scene) {
         std::int64_t entries = 0;
         scene.require(delam_problem_body_matrix(scene.problem(), body, &row_count, &entries, nullptr, nullptr, nullptr),
                       "delam_problem_body_matrix");
-        if (static_cast<std::size_t>(row_count) != list.size() * d) throw Failure(0, "body matrix: rows do not match the body");
+        if (static_cast<std::size_t>(row_count) != list.size() * d)
+            throw Failure(0, "body matrix: rows do not match the body");
         Csr local;
         local.start.resize(static_cast<std::size_t>(row_count) + 1);
         local.column.resize(static_cast<std::size_t>(entries));
@@ -32,7 +33,9 @@ Csr global_stiffness(const Scene& scene) {
         scene.require(delam_problem_body_matrix(scene.problem(), body, &row_count, &entries, local.start.data(),
                                                 local.column.data(), local.value.data()),
                       "delam_problem_body_matrix");
-        const auto global = [&](std::size_t i) { return list[i / d] * static_cast<std::int64_t>(d) + static_cast<std::int64_t>(i % d); };
+        const auto global = [d, &nodes_of = list](std::size_t i) {
+            return nodes_of[i / d] * static_cast<std::int64_t>(d) + static_cast<std::int64_t>(i % d);
+        };
         for (std::size_t i = 0; i < local.rows(); ++i) {
             auto& row = rows[static_cast<std::size_t>(global(i))];
             for (auto e = local.start[i]; e < local.start[i + 1]; ++e) {
@@ -59,13 +62,15 @@ Exported::Exported(const Scene& scene) : dimension(scene.dimension()), dofs(scen
     alive.resize(dofs);
     for (std::size_t i = 0; i < dofs; ++i) alive[i] = stiffness.start[i + 1] > stiffness.start[i];
 
-    for (std::size_t i = 0; i < scene.stiffness().size(); ++i) interfaces.push_back(scene.pairs(static_cast<std::int64_t>(i)));
+    for (std::size_t i = 0; i < scene.stiffness().size(); ++i)
+        interfaces.push_back(scene.pairs(static_cast<std::int64_t>(i)));
 
     std::int64_t rows = 0;
     std::int64_t entries = 0;
     std::int64_t pattern_count = 0;
-    scene.require(delam_problem_constraints(scene.problem(), &rows, &entries, &pattern_count, nullptr, nullptr, nullptr, nullptr),
-                  "delam_problem_constraints");
+    scene.require(
+        delam_problem_constraints(scene.problem(), &rows, &entries, &pattern_count, nullptr, nullptr, nullptr, nullptr),
+        "delam_problem_constraints");
     constraints.start.resize(static_cast<std::size_t>(rows) + 1);
     constraints.column.resize(static_cast<std::size_t>(entries));
     constraints.value.resize(static_cast<std::size_t>(entries));
@@ -77,8 +82,8 @@ Exported::Exported(const Scene& scene) : dimension(scene.dimension()), dofs(scen
 
     for (std::size_t p = 0; p < patterns; ++p) {
         forces.emplace_back(dofs);
-        scene.require(delam_problem_forces(scene.problem(), static_cast<std::int64_t>(p), static_cast<std::int64_t>(dofs),
-                                           forces.back().data()),
+        scene.require(delam_problem_forces(scene.problem(), static_cast<std::int64_t>(p),
+                                           static_cast<std::int64_t>(dofs), forces.back().data()),
                       "delam_problem_forces");
     }
 }

@@ -99,7 +99,8 @@ std::vector<long double> Factor::refine(const Residual& residual) const {
     long double before = 0.0L;
     for (int iteration = 0; iteration < refinement_limit; ++iteration) {
         const auto extended = residual(x);
-        std::transform(extended.begin(), extended.end(), r.begin(), [](long double v) { return static_cast<double>(v); });
+        std::transform(extended.begin(), extended.end(), r.begin(),
+                       [](long double v) { return static_cast<double>(v); });
         const auto correction = solve(r);
         long double size = 0.0L;
         for (std::size_t i = 0; i < p.n; ++i) {

@@ -32,8 +32,8 @@ public:
 
     std::vector<double> solve(const std::vector<double>& right) const;
 
-    // Solves residual(x) = 0 for an affine residual whose negative derivative is the matrix: x is refined in extended precision
-    // until the corrections stop shrinking.
+    // Solves residual(x) = 0 for an affine residual whose negative derivative is the matrix: x is refined in extended
+    // precision until the corrections stop shrinking.
     using Residual = std::function<std::vector<long double>(const std::vector<long double>&)>;
     std::vector<long double> refine(const Residual& residual) const;
 

@@ -30,21 +30,33 @@ CoarseProblem::CoarseProblem(const DualRows& rows, std::span<const Subdomain> su
     gt_ = from_triplets(rows.count(), size, std::move(backward));
 }
 
-void CoarseProblem::set_weights(std::span<const double> weight) {
-    if (std::equal(weight.begin(), weight.end(), weight_.begin(), weight_.end())) return;
-    weight_.assign(weight.begin(), weight.end());
-    DenseMatrix gqg(g_.rows, g_.rows);
+DenseMatrix CoarseProblem::weighted_product(std::span<const double> weight) const {
+    DenseMatrix product(g_.rows, g_.rows);
     for (std::int64_t r = 0; r < gt_.rows; ++r) {
-        const double w = weight_[static_cast<std::size_t>(r)];
+        const double w = weight[static_cast<std::size_t>(r)];
         if (w == 0.0) continue;
         const std::int64_t begin = gt_.start[static_cast<std::size_t>(r)], end = gt_.start[static_cast<std::size_t>(r) + 1];
         for (std::int64_t i = begin; i < end; ++i)
             for (std::int64_t j = begin; j < end; ++j)
-                gqg(gt_.column[static_cast<std::size_t>(i)], gt_.column[static_cast<std::size_t>(j)]) +=
+                product(gt_.column[static_cast<std::size_t>(i)], gt_.column[static_cast<std::size_t>(j)]) +=
                     w * gt_.value[static_cast<std::size_t>(i)] * gt_.value[static_cast<std::size_t>(j)];
     }
-    // The pivots fall over as many decades as the springs differ; only rounding counts as a free motion.
-    factor_ = SemidefiniteFactor(std::move(gqg), 1e-14 * static_cast<double>(std::max<std::int64_t>(1, g_.rows)));
+    return product;
+}
+
+// With springs of every stiffness the pivots of G Q G^T fall over many decades, and a soft hold cannot be told from none by their
+// size. Which motions are held at all is decided by G over the rows that carry force, whatever their stiffness.
+void CoarseProblem::set_weights(std::span<const double> weight) {
+    if (std::equal(weight.begin(), weight.end(), weight_.begin(), weight_.end())) return;
+    std::vector<double> carries(weight.size());
+    bool same = weight_.size() == weight.size();
+    for (std::size_t i = 0; i < weight.size(); ++i) {
+        carries[i] = weight[i] > 0.0 ? 1.0 : 0.0;
+        same = same && (weight[i] > 0.0) == (weight_[i] > 0.0);
+    }
+    if (!same) independent_ = independent_rows(weighted_product(carries), 1e-11);
+    weight_.assign(weight.begin(), weight.end());
+    factor_ = SemidefiniteFactor(weighted_product(weight_), independent_);
 }
 
 std::vector<double> CoarseProblem::apply(std::span<const double> lambda) const {

@@ -21,7 +21,6 @@ public:
     void set_weights(std::span<const double> weight);
 
     std::int64_t size() const { return g_.rows; }
-    std::int64_t rank() const { return factor_.rank(); }
     // lambda <- P lambda (forces) and r <- P^T r (jumps).
     void project(std::span<double> lambda) const;
     void project_transposed(std::span<double> r) const;
@@ -36,7 +35,11 @@ public:
 private:
     SparseMatrix g_;   // [coarse][rows]
     SparseMatrix gt_;  // [rows][coarse]
+    // G diag(weight) G^T
+    DenseMatrix weighted_product(std::span<const double> weight) const;
+
     std::vector<double> weight_;
+    std::vector<std::int64_t> independent_;  // rows of G that are independent over the multipliers that carry force
     SemidefiniteFactor factor_;
 };
 

@@ -219,7 +219,8 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     response.force.assign(lambda.begin(), lambda.begin() + rows_.jump_count);
     double work_of_multipliers = 0.0;
     for (std::size_t i = 0; i < jumps; ++i) {
-        if (active[i] == 0)
+        // A stiff spring knows its jump best from its force, a soft one (or none) from the bodies.
+        if (active[i] == 0 || compliance[i] > flexibility_diagonal_[i])
             response.jump[i] = b[i] - f_lambda[i] + rigid_jump[i];
         else
             response.jump[i] = compliance[i] * lambda[i];
