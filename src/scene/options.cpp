@@ -62,7 +62,7 @@ const std::array<Row, 10>& rows() {
         {{"scaling", "text", "-", "stiffness", "stiffness | multiplicity",
           "how the preconditioner shares a node out among its subdomains"},
          &Options::scaling},
-        {{"linear_tolerance", "real", "-", "1e-12", "0 < value < 1",
+        {{"linear_tolerance", "real", "-", "1e-13", "0 < value < 1",
           "relative residual at which the projected conjugate gradients stop"},
          &Options::linear_tolerance,
          0.0,

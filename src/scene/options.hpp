@@ -20,7 +20,7 @@ struct Options {
     std::string gluing = "orthonormal";         // orthonormal | redundant
     std::string preconditioner = "series";      // none | lumped | dirichlet | series
     std::string scaling = "stiffness";          // stiffness | multiplicity
-    double linear_tolerance = 1e-12;
+    double linear_tolerance = 1e-13;
     std::int64_t linear_limit = 2000;
 
     void set_number(const std::string& key, double value);
