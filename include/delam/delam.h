@@ -14,7 +14,7 @@
  *   arrays     contiguous; `[n][d]` is row-major C, `(d,n)` in Fortran. Inputs are copied before the call returns,
  *              outputs are written into the caller's buffer. Pointers must not be NULL unless said so; an array may
  *              be NULL when its count is 0.
- *   indices    int64_t; inputs take `index_base` (0 or 1); outputs are 0-based.
+ *   indices    int64_t; index arrays on input take `index_base` (0 or 1); single indices and outputs are 0-based.
  *   handles    opaque; create writes *out (NULL on error), destroy takes the address, sets it to NULL and accepts
  *              NULL. Objects may be destroyed in any order. Foreign or destroyed handles give DELAM_ERROR_HANDLE
  *              as far as that can be seen.
@@ -278,8 +278,12 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   am_iterations, displacement_solves, contact_iterations, linear_iterations   of the step; contact_iterations sums the
  *   active-set steps over the displacement solves, linear_iterations the Krylov ones
  *   contact_iterations_first, contact_iterations_max   active-set steps of the first displacement solve and of the worst
- *   contact_pairs, debonded_length, front, process_zone   pairs in contact; L (2D) or L2 (3D)
- *   backtracks
+ *   contact_fallbacks      displacement solves that had to exchange one pair at a time because active sets came back
+ *   contact_pairs          pairs in contact
+ *   debonded_length        L (2D) or L2 (3D): weight of the pairs that adhered at first and now have zeta <= 1e-3
+ *   front                  L or L2: advance of the front, sum of weight (1 - zeta) over the pairs that adhered at first
+ *   process_zone           L or L2: weight of the pairs with 1e-3 < zeta < 1 - 1e-3
+ *   backtracks             returns to an earlier step (none yet: the two-sided estimate is reported, not acted on)
  *   damage_change          last change of adhesion, max norm
  *   linear_residual        worst relative residual of the linear solves of the step
  *   kkt_gap                deepest penetration, over the largest jump (0 = none)
