@@ -70,9 +70,10 @@ CASE_TEST(tension_at_any_stiffness) {
             }
             const double force = t * area(cells[loop]);
             cases::expect_near(state.pattern[0], force, 1e-12, force, where + "reaction");
-            const double bulk = 0.5 * t * force * height / young;
-            cases::expect_near(state.stored_bulk, bulk, 1e-12, bulk, where + "stored in the bulk");
-            const double spring = 0.5 * t * force / k;
+            const double work = 0.5 * force * w;
+            const double bulk = work * (t / w) * height / young;
+            cases::expect_near(state.stored_bulk, bulk, 1e-12, work, where + "stored in the bulk");
+            const double spring = work * (t / w) / k;
             cases::expect_near(state.stored_interface, spring, 1e-12, spring, where + "stored in the interface");
         }
     }
