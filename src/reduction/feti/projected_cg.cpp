@@ -17,7 +17,10 @@ struct Direction {
 };
 
 constexpr std::size_t kept_directions = 400;  // beyond that the memory is better used elsewhere
-constexpr int restarts = 4;
+constexpr int rounds = 6;
+// Close to rounding the kept directions lose their conjugacy: the residual stops, then grows. A fresh start from there converges again.
+constexpr int idle_limit = 3;
+constexpr double noise_zone = 1e3;
 constexpr double rounding = 1e-14;  // of the energy norm of the start
 constexpr double stagnation_slack = 100.0;  // times the tolerance or the floor
 
@@ -27,29 +30,39 @@ CgResult projected_cg(const ProjectedSystem& system, std::span<const double> b, 
                       double floor, std::int64_t limit, const std::function<void(std::int64_t)>& each_iteration) {
     const std::size_t n = b.size();
     CgResult result;
-    std::vector<double> a_lambda(n), r(n), z(n), ap(n);
-    double previous = INFINITY;
-    for (int round = 0; round < restarts; ++round) {
+    std::vector<double> a_lambda(n), r(n), z(n), ap(n), best;
+    double best_norm = INFINITY;  // sqrt |r^T z| of the best start of a round, a true residual
+    for (int round = 0;; ++round) {
         system.apply(lambda, a_lambda);
         for (std::size_t i = 0; i < n; ++i) r[i] = b[i] - a_lambda[i];
         system.project_transposed(r);
         if (round == 0) floor = std::max(floor, rounding * std::sqrt(std::max(0.0, dot(lambda, a_lambda))));
         std::vector<Direction> directions;
+        double lowest = INFINITY;  // of this round's recursion, and how long it has not moved
+        int idle = 0;
         while (true) {
             system.precondition(r, z);
             system.project(z);
-            const double rz = std::max(0.0, dot(r, z));
-            const double energy = std::max(dot(lambda, a_lambda), rz);
-            result.residual = energy > 0.0 ? std::sqrt(rz / energy) : 0.0;
-            const bool reached = result.residual <= tolerance || std::sqrt(rz) <= floor;
-            if (directions.empty()) {  // the residual is a true one here
-                // Rounding bounds what can be reached: a restart that gains nothing has met that bound.
-                const bool stagnated = result.residual > 0.5 * previous;
-                result.converged = reached || (stagnated && (result.residual <= stagnation_slack * tolerance ||
-                                                             std::sqrt(rz) <= stagnation_slack * floor));
-                if (reached || stagnated || result.iterations >= limit) return result;
-                previous = result.residual;
-            } else if (reached || result.iterations >= limit) {
+            // Negative values of r^T z are rounding; their size says how much of it there is.
+            const double norm = std::sqrt(std::abs(dot(r, z)));
+            const double energy = std::sqrt(std::max(dot(lambda, a_lambda), norm * norm));
+            const double target = std::max(tolerance * energy, floor);
+            const bool reached = norm <= target;
+            idle = norm < 0.99 * lowest ? 0 : idle + 1;
+            lowest = std::min(lowest, norm);
+            if (directions.empty()) {
+                const bool stagnated = norm > 0.5 * best_norm;  // a restart that gains nothing has met rounding
+                if (norm < best_norm) {
+                    best_norm = norm;
+                    best.assign(lambda.begin(), lambda.end());
+                    result.residual = energy > 0.0 ? norm / energy : 0.0;
+                    result.converged = reached || norm <= stagnation_slack * floor || result.residual <= stagnation_slack * tolerance;
+                }
+                if (reached || stagnated || result.iterations >= limit || round == rounds) {
+                    std::copy(best.begin(), best.end(), lambda.begin());
+                    return result;
+                }
+            } else if (reached || result.iterations >= limit || (idle >= idle_limit && lowest <= noise_zone * target)) {
                 break;
             }
             for (int pass = 0; pass < 2; ++pass)
@@ -67,9 +80,6 @@ CgResult projected_cg(const ProjectedSystem& system, std::span<const double> b, 
             each_iteration(++result.iterations);
         }
     }
-    // The last round ended by its recursion; its true residual has not been measured again.
-    result.converged = result.residual <= stagnation_slack * tolerance;
-    return result;
 }
 
 }  // namespace delam
