@@ -45,7 +45,9 @@ int32_t delam_solver_create(const delam_problem* problem, double time, delam_sol
         handle->context = problem->context;
         handle->core = std::make_shared<Solver>(*problem->core, problem->context->monitor, time);
         handle->value_names = value_names(handle->core->problem());
+        const Outcome& outcome = handle->core->initial_outcome();
         *out = handle.release();
+        return report(*problem->context, outcome);
     });
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evolution/bounds.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/error.hpp"
 #include "delam/delam.h"
 
@@ -27,6 +30,14 @@ Lift::Lift(JumpOperator& op, std::size_t rows, std::size_t patterns)
             a_(static_cast<std::int64_t>(q), static_cast<std::int64_t>(p)) = response.conjugate[q];
         for (std::size_t i = 0; i < prescribed_.size(); ++i) jump_[i][p] = response.jump[prescribed_[i]];
     }
+}
+
+std::vector<std::size_t> Lift::driven_rows(double rounding) const {
+    std::vector<std::size_t> rows;
+    for (std::size_t i = 0; i < prescribed_.size(); ++i)
+        if (std::any_of(jump_[i].begin(), jump_[i].end(), [&](double v) { return std::abs(v) > rounding; }))
+            rows.push_back(prescribed_[i]);
+    return rows;
 }
 
 double Lift::half_quadratic(std::span<const double> d, std::span<const double> stiffness) const {

@@ -24,6 +24,8 @@ public:
     Lift(JumpOperator& op, std::size_t rows, std::size_t patterns);
     // 1/2 d^T A d with the springs of `stiffness` [rows] on prescribed jumps.
     double half_quadratic(std::span<const double> d, std::span<const double> stiffness) const;
+    // Rows whose jump a load pattern drives by more than `rounding` per unit factor.
+    std::vector<std::size_t> driven_rows(double rounding) const;
 
 private:
     DenseMatrix a_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evolution/snapshot.hpp"
 
+#include <cmath>
 #include <cstring>
 #include <type_traits>
 
@@ -78,6 +79,7 @@ void walk(Walker& w, S& state) {
     w.item(state.mixity);
     w.item(state.mixity_before);
     w.item(state.closed);
+    w.item(state.loaded);
     w.item(state.response.jump);
     w.item(state.response.force);
     w.item(state.response.reaction);
@@ -88,10 +90,26 @@ void walk(Walker& w, S& state) {
     w.item(state.response.load_potential);
     w.item(state.response.residual);
     w.item(state.response.iterations);
-    w.item(state.response.balanced);
-    w.item(state.response.converged);
     w.item(state.ledger);
     w.item(state.counts);
+}
+
+// Every array as long as this solver's own, every number one that a march can produce.
+void check(const State& state, const State& mine) {
+    const Response &a = state.response, &b = mine.response;
+    const bool sizes = state.theta.size() == mine.theta.size() && state.adhesion.size() == mine.adhesion.size() &&
+                       state.mixity.size() == mine.mixity.size() && state.mixity_before.size() == mine.mixity_before.size() &&
+                       state.closed.size() == mine.closed.size() && a.jump.size() == b.jump.size() &&
+                       a.force.size() == b.force.size() && a.reaction.size() == b.reaction.size() &&
+                       a.conjugate.size() == b.conjugate.size() && a.multipliers.size() == b.multipliers.size() &&
+                       a.rigid.size() == b.rigid.size();
+    if (!sizes) fail(DELAM_ERROR_SNAPSHOT, "snapshot has other sizes than this solver");
+    for (const auto* fractions : {&state.adhesion, &state.mixity, &state.mixity_before})
+        for (const double v : *fractions)
+            if (!(v >= 0.0 && v <= 1.0)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds an adhesion or mixity of ", v, ", allowed: 0 to 1");
+    for (const auto* values : {&state.theta, &a.jump, &a.force, &a.reaction, &a.conjugate, &a.multipliers, &a.rigid})
+        for (const double v : *values)
+            if (!std::isfinite(v)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a number that is not finite");
 }
 
 }  // namespace
@@ -124,10 +142,7 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
     State state;
     walk(r, state);
     if (r.left() != sizeof(found_sum)) fail(DELAM_ERROR_SNAPSHOT, "snapshot has ", r.left(), " bytes too many");
-    const State& mine = solver.committed();
-    if (state.adhesion.size() != mine.adhesion.size() || state.theta.size() != mine.theta.size() ||
-        state.response.multipliers.size() != mine.response.multipliers.size())
-        fail(DELAM_ERROR_SNAPSHOT, "snapshot has other sizes than this solver");
+    check(state, solver.committed());
     solver.restore(std::move(state));
 }
 

@@ -9,14 +9,6 @@
 
 namespace delam {
 
-namespace {
-
-bool all_zero(std::span<const double> values) {
-    return std::all_of(values.begin(), values.end(), [](double v) { return v == 0.0; });
-}
-
-}  // namespace
-
 Solver::Solver(const Problem& problem, Monitor& monitor, double time) : problem_(problem), monitor_(monitor) {
     validate(problem_);
     const Mesh& mesh = *problem_.mesh;
@@ -33,6 +25,13 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time) : problem_
     }
     operator_ = std::make_unique<Feti>(problem_, monitor_);
     lift_ = Lift(*operator_, static_cast<std::size_t>(problem_.jump_count()), problem_.patterns.size());
+    double largest = 0.0;
+    for (const double c : problem_.prescribed_matrix()) largest = std::max(largest, std::abs(c));
+    for (const std::size_t row : lift_.driven_rows(1e-9 * largest)) {
+        const std::size_t pair = row / static_cast<std::size_t>(mesh.dimension());
+        if (contact_.bonded[pair] != 0)
+            fail(DELAM_ERROR_PROBLEM, "prescribed displacements tear pair ", pair, " apart, whose interface is bonded for ever");
+    }
 
     State& state = committed_;
     state.time = time;
@@ -41,10 +40,17 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time) : problem_
     // A notch starts closed: that is where it stays unless something opens it.
     for (std::size_t p = 0; p < state.adhesion.size(); ++p)
         state.closed.push_back(contact_.bonded[p] == 0 && state.adhesion[p] == 0.0 && operator_->prescribed_rows()[p * static_cast<std::size_t>(mesh.dimension())] == 0 ? 1 : 0);
-    if (!minimiser().displace(state)) monitor_.log(1, "the initial displacement did not reach its tolerance");
-    state.mixity = mixities(pairs_, state.response.jump);
+    if (!minimiser().displace(state)) initial_outcome_ = unconverged_displacement(state);
+    state.mixity = mixities(pairs_, state.response.jump, std::vector<double>(state.adhesion.size(), 0.0));
     state.mixity_before = state.mixity;
+    state.loaded = any_jump(pairs_, state.response.jump) ? 1 : 0;
     book_energies(state);
+}
+
+Outcome Solver::unconverged_displacement(const State& state) const {
+    return {DELAM_NOT_CONVERGED,
+            text("displacement step at time ", state.time, ": worst linear residual ", state.counts.linear_residual, ", tolerance ",
+                 problem_.options.linear_tolerance, "; ", state.counts.contact_iterations, " active-set steps")};
 }
 
 Minimiser Solver::minimiser() const {
@@ -94,20 +100,21 @@ Outcome Solver::advance(double time) {
         fail(DELAM_ERROR_ARGUMENT, "time ", time, " is not after the committed time ", committed_.time);
     ++next.step;
     bool converged = true;
-    if (all_zero(committed_.response.jump)) {
+    if (committed_.loaded == 0) {
         // Before the first load there is no jump to take the mixity from: the elastic solution of this step gives it.
         State elastic = next;
         converged = minimiser().displace(elastic);
         next.counts = elastic.counts;
-        next.mixity = mixities(pairs_, elastic.response.jump);
+        next.mixity = mixities(pairs_, elastic.response.jump, committed_.mixity);
         next.mixity_before = next.mixity;
         next.response = std::move(elastic.response);
         next.closed = std::move(elastic.closed);
     } else {
         next.mixity_before = committed_.mixity;
-        next.mixity = mixities(pairs_, committed_.response.jump);
+        next.mixity = mixities(pairs_, committed_.response.jump, committed_.mixity);
     }
     converged = minimiser().alternate(next, committed_.adhesion) && converged;
+    next.loaded = committed_.loaded != 0 || any_jump(pairs_, next.response.jump) ? 1 : 0;
     book_step(next);
     Outcome outcome;
     if (!converged) {
@@ -129,12 +136,7 @@ Outcome Solver::equilibrate(double time, std::span<const double> adhesion) {
         if (!(next.adhesion[p] >= 0.0 && next.adhesion[p] <= 1.0))
             fail(DELAM_ERROR_ARGUMENT, "adhesion of pair ", p, " is ", next.adhesion[p], ", allowed: 0 to 1");
     Outcome outcome;
-    if (!minimiser().displace(next)) {
-        outcome.status = DELAM_NOT_CONVERGED;
-        outcome.text = text("displacement step at time ", time, ": worst linear residual ", next.counts.linear_residual,
-                            ", tolerance ", problem_.options.linear_tolerance, "; ", next.counts.contact_iterations,
-                            " active-set steps");
-    }
+    if (!minimiser().displace(next)) outcome = unconverged_displacement(next);
     book_energies(next);
     pending_ = std::move(next);
     return outcome;

@@ -34,6 +34,8 @@ public:
     bool pending() const { return pending_.has_value(); }
 
     const Problem& problem() const { return problem_; }
+    // How the displacements of the initial state ended.
+    const Outcome& initial_outcome() const { return initial_outcome_; }
     // Pending state, else the committed one.
     const State& state() const { return pending_ ? *pending_ : committed_; }
     const State& committed() const { return committed_; }
@@ -50,6 +52,7 @@ public:
 
 private:
     Minimiser minimiser() const;
+    Outcome unconverged_displacement(const State& state) const;
     void begin(State& next, double time) const;
     void book_energies(State& state) const;
     void book_step(State& next) const;
@@ -61,6 +64,7 @@ private:
     std::vector<double> initial_adhesion_;
     std::unique_ptr<JumpOperator> operator_;
     Lift lift_;
+    Outcome initial_outcome_;
     State committed_;
     std::optional<State> pending_;
 };

@@ -49,6 +49,7 @@ struct State {
     std::vector<double> mixity;               // [pairs] B that this step's damage was computed with
     std::vector<double> mixity_before;        // [pairs] B of the step before
     std::vector<std::uint8_t> closed;         // [pairs]
+    std::uint8_t loaded = 0;                  // 1 once any pair has had a jump: the mixities mean something
     Response response;
     Ledger ledger;
     Counts counts;

@@ -39,33 +39,49 @@ double contact_pairs(const Solver& solver) {
     return count(std::count(closed.begin(), closed.end(), std::uint8_t{1}));
 }
 
-// f(normal jump, normal force, closed) at its largest over the pairs that can open, 0 at least.
-template <class F>
-double worst_contact(const Solver& solver, F f) {
-    const State& state = solver.state();
-    const auto dim = static_cast<std::size_t>(solver.pairs().dimension);
-    double worst = 0.0;
-    for (std::size_t p = 0; p < state.closed.size(); ++p)
-        if (solver.contact().bonded[p] == 0)
-            worst = std::max(worst, f(state.response.jump[p * dim], state.response.force[p * dim], state.closed[p] != 0));
-    return worst;
+// Normal jumps of all pairs from the displacements at their nodes: what a host would measure.
+std::vector<double> gaps(const Solver& solver) {
+    const std::vector<double> u = solver.displacement();
+    const Mesh& mesh = *solver.problem().mesh;
+    const auto dim = static_cast<std::size_t>(mesh.dimension());
+    std::vector<double> found;
+    for (const InterfaceGeometry& interface : mesh.interfaces())
+        for (std::size_t p = 0; p < interface.weight.size(); ++p) {
+            double gap = 0.0;
+            for (std::size_t c = 0; c < dim; ++c)
+                gap += interface.frame[p * dim * dim + c] * (u[static_cast<std::size_t>(interface.node_b[p]) * dim + c] -
+                                                             u[static_cast<std::size_t>(interface.node_a[p]) * dim + c]);
+            found.push_back(gap);
+        }
+    return found;
 }
 
 double ratio(double a, double b) { return b > 0.0 ? a / b : a; }
 
 double kkt_gap(const Solver& s) {
-    return ratio(worst_contact(s, [](double jump, double, bool) { return -jump; }), largest(s.state().response.jump));
+    double deepest = 0.0;
+    for (const double gap : gaps(s)) deepest = std::max(deepest, -gap);
+    return ratio(deepest, largest(s.state().response.jump));
 }
 
 double kkt_pressure(const Solver& s) {
-    return ratio(worst_contact(s, [](double, double force, bool closed) { return closed ? force : 0.0; }),
-                 largest(s.state().response.force));
+    const State& state = s.state();
+    const auto dim = static_cast<std::size_t>(s.pairs().dimension);
+    double pull = 0.0;
+    for (std::size_t p = 0; p < state.closed.size(); ++p)
+        if (s.contact().bonded[p] == 0 && state.closed[p] != 0) pull = std::max(pull, state.response.force[p * dim]);
+    return ratio(pull, largest(state.response.force));
 }
 
 double kkt_complementarity(const Solver& s) {
-    const double scale = largest(s.state().response.jump) * largest(s.state().response.force);
-    return ratio(worst_contact(s, [](double jump, double force, bool closed) { return closed ? std::abs(jump * force) : 0.0; }),
-                 scale);
+    const State& state = s.state();
+    const auto dim = static_cast<std::size_t>(s.pairs().dimension);
+    const std::vector<double> gap = gaps(s);
+    double product = 0.0;
+    for (std::size_t p = 0; p < state.closed.size(); ++p)
+        if (s.contact().bonded[p] == 0 && state.closed[p] != 0)
+            product = std::max(product, std::abs(gap[p] * state.response.force[p * dim]));
+    return ratio(product, largest(state.response.jump) * largest(state.response.force));
 }
 
 struct Entry {

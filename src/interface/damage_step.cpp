@@ -16,14 +16,31 @@ Driving driving_energy(const PairLaws& pairs, std::size_t pair, std::span<const 
     return {0.5 * law.normal_stiffness * opening * opening, 0.5 * law.tangential_stiffness * slip};
 }
 
-std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump) {
-    std::vector<double> b(pairs.law.size(), 0.0);
+namespace {
+
+constexpr double rounding = 1e-20;  // of an energy: the square of 1e-10 of a jump
+
+double onset_energy(const Law& law) { return std::min(law.normal_onset, law.tangential_onset); }
+
+}  // namespace
+
+std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump, std::span<const double> known) {
+    std::vector<double> b(known.begin(), known.end());
+    double largest = 0.0;
+    for (std::size_t p = 0; p < b.size(); ++p)
+        if (pairs.law[p] != nullptr) largest = std::max(largest, driving_energy(pairs, p, jump).total());
     for (std::size_t p = 0; p < b.size(); ++p) {
         if (pairs.law[p] == nullptr) continue;
         const Driving y = driving_energy(pairs, p, jump);
-        b[p] = mode_mixity(y.normal, y.tangential);
+        if (y.total() > rounding * std::max(largest, onset_energy(*pairs.law[p]))) b[p] = mode_mixity(y.normal, y.tangential);
     }
     return b;
+}
+
+bool any_jump(const PairLaws& pairs, std::span<const double> jump) {
+    for (std::size_t p = 0; p < pairs.law.size(); ++p)
+        if (pairs.law[p] != nullptr && driving_energy(pairs, p, jump).total() > rounding * onset_energy(*pairs.law[p])) return true;
+    return false;
 }
 
 std::vector<double> spring_stiffness(const PairLaws& pairs, std::span<const double> adhesion) {

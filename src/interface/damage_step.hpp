@@ -24,8 +24,10 @@ struct Driving {
 };
 Driving driving_energy(const PairLaws& pairs, std::size_t pair, std::span<const double> jump);
 
-// B of every pair, [pairs]; a pair without a jump keeps mode I.
-std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump);
+// B of every pair, [pairs]. A pair whose jump is rounding (below 1e-10 of the onset's or of the largest one) keeps its `known` B.
+std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump, std::span<const double> known);
+// Does any pair have a jump that is more than rounding of its onset?
+bool any_jump(const PairLaws& pairs, std::span<const double> jump);
 // s = weight k zeta of every row, [rows].
 std::vector<double> spring_stiffness(const PairLaws& pairs, std::span<const double> adhesion);
 // zeta = argmin over 0 <= zeta <= adhesion_old at the frozen mixity; returns [pairs].

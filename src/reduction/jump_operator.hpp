@@ -41,7 +41,7 @@ public:
     virtual void solve(const Springs& springs, std::span<const double> theta, Response& response) = 0;
     // Displacements [mesh DOFs] of a response of this operator.
     virtual std::vector<double> displacement(std::span<const double> theta, const Response& response) const = 0;
-    // Largest out-of-balance force of the recovered displacements, body by body, F.
+    // Largest out-of-balance force at a node of the displacements above, with the response's interface forces and reactions, F.
     virtual double equilibrium_defect(std::span<const double> theta, const Response& response) const = 0;
     // Rows whose jump the prescribed displacements alone determine, [rows].
     virtual std::span<const std::uint8_t> prescribed_rows() const = 0;

@@ -169,11 +169,13 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     std::vector<double> rhs = b;
     mask(rhs);
 
-    std::vector<double> lambda = response.multipliers;
-    lambda.resize(rows, 0.0);
-    mask(lambda);
     double resultant = 0.0;
     for (const double v : e) resultant = std::max(resultant, std::abs(v));
+    // Without a load nothing moves, exactly; a warm start would leave its rounding behind.
+    const bool loaded = resultant > 0.0 || std::any_of(b.begin(), b.end(), [](double v) { return v != 0.0; });
+    std::vector<double> lambda = loaded ? response.multipliers : std::vector<double>();
+    lambda.resize(rows, 0.0);
+    mask(lambda);
     const double left = coarse_->balance(e, lambda, resultant);
     response.balanced = resultant == 0.0 || left <= unbalanced;
     if (!response.balanced) return;
@@ -207,6 +209,20 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     response.converged = cg.converged;
     coarse_->balance(e, lambda, resultant);
 
+    // Where the device prescribes a jump, its spring's force is known, and lambda may have drifted along B^T z = 0: shift it between
+    // the spring and the device, which leaves the bodies' forces as they are.
+    std::vector<double> known_jump(scaling_.prescribed_jumps.size(), 0.0);
+    for (std::size_t k = 0; k < known_jump.size(); ++k) {
+        const Scaling::Prescribed& p = scaling_.prescribed_jumps[k];
+        for (std::size_t i = 0; i < p.row.size(); ++i)
+            if (index(p.row[i]) >= first_constraint) known_jump[k] += p.y[i] * prescribed[index(p.row[i]) - first_constraint];
+        const auto row = index(p.jump_row);
+        if (springs.held[row] != 0) continue;
+        const double shift = springs.stiffness[row] * known_jump[k] - lambda[row];
+        lambda[row] += shift;
+        for (std::size_t i = 0; i < p.row.size(); ++i) lambda[index(p.row[i])] -= shift * p.y[i];
+    }
+
     // A lambda - b = G^T alpha, and B u = B K^+ f - F lambda + G^T alpha.
     std::vector<double> f_lambda(rows), residual(rows);
     apply_flexibility(lambda, f_lambda);
@@ -224,8 +240,11 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
             response.jump[i] = b[i] - f_lambda[i] + rigid_jump[i];
         else
             response.jump[i] = compliance[i] * lambda[i];
-        work_of_multipliers += lambda[i] * response.jump[i];
     }
+    for (std::size_t k = 0; k < known_jump.size(); ++k)
+        if (springs.held[index(scaling_.prescribed_jumps[k].jump_row)] == 0)
+            response.jump[index(scaling_.prescribed_jumps[k].jump_row)] = known_jump[k];
+    work_of_multipliers += dot(response.force, response.jump);
     response.reaction.assign(prescribed.size(), 0.0);
     for (std::size_t d = 0; d < prescribed.size(); ++d) {
         response.reaction[d] = -lambda[first_constraint + d];
@@ -249,8 +268,7 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     response.multipliers = std::move(lambda);
 }
 
-std::vector<double> Feti::local_displacement(std::size_t subdomain, std::span<const double> theta, const Response& response,
-                                             std::vector<double>* load) const {
+std::vector<double> Feti::local_displacement(std::size_t subdomain, std::span<const double> theta, const Response& response) const {
     const Subdomain& sub = subdomains_[subdomain];
     std::vector<double> f(index(sub.dofs()), 0.0);
     for (std::size_t p = 0; p < theta.size(); ++p)
@@ -272,16 +290,14 @@ std::vector<double> Feti::local_displacement(std::size_t subdomain, std::span<co
     for (std::int64_t k = 0; k < sub.rigid_count; ++k)
         for (std::size_t i = 0; i < u_boundary.size(); ++i)
             u_boundary[i] += sub.rigid_boundary(static_cast<std::int64_t>(i), k) * response.rigid[first + index(k)];
-    std::vector<double> u = sub.extend(u_boundary, f);
-    if (load != nullptr) *load = std::move(f);
-    return u;
+    return sub.extend(u_boundary, f);
 }
 
 std::vector<double> Feti::displacement(std::span<const double> theta, const Response& response) const {
     const int dim = problem_.mesh->dimension();
     std::vector<double> u(index(problem_.mesh->node_count() * dim), 0.0);
     for (std::size_t s = 0; s < subdomains_.size(); ++s) {
-        const std::vector<double> local = local_displacement(s, theta, response, nullptr);
+        const std::vector<double> local = local_displacement(s, theta, response);
         for (std::size_t i = 0; i < subdomains_[s].nodes.size(); ++i) {
             const std::size_t node = index(subdomains_[s].nodes[i]);
             for (int k = 0; k < dim; ++k)  // copies agree up to the tolerance of the solve: their mean
@@ -292,14 +308,31 @@ std::vector<double> Feti::displacement(std::span<const double> theta, const Resp
 }
 
 double Feti::equilibrium_defect(std::span<const double> theta, const Response& response) const {
-    double worst = 0.0;
+    const int dim = problem_.mesh->dimension();
+    const std::vector<double> u = displacement(theta, response);
+    std::vector<double> defect(u.size(), 0.0);
     for (std::size_t s = 0; s < subdomains_.size(); ++s) {
-        std::vector<double> load;
-        const std::vector<double> u = local_displacement(s, theta, response, &load);
-        std::vector<double> force(u.size());
-        multiply(subdomains_[s].stiffness, u, force);
-        for (std::size_t i = 0; i < u.size(); ++i) worst = std::max(worst, std::abs(force[i] - load[i]));
+        const Subdomain& sub = subdomains_[s];
+        const auto global = [&](std::int64_t local) {
+            return index(sub.nodes[index(local / dim)] * dim + local % dim);
+        };
+        std::vector<double> mine(index(sub.dofs())), force(mine.size());
+        for (std::size_t i = 0; i < mine.size(); ++i) mine[i] = u[global(static_cast<std::int64_t>(i))];
+        multiply(sub.stiffness, mine, force);
+        for (std::size_t p = 0; p < theta.size(); ++p)
+            if (!force_[p][s].empty()) add_scaled(-theta[p], force_[p][s], force);
+        for (std::size_t i = 0; i < force.size(); ++i) defect[global(static_cast<std::int64_t>(i))] += force[i];
+        for (std::size_t i = 0; i < sub.boundary.size(); ++i) {
+            const std::size_t d = index(rows_.offset[s]) + i;
+            for (std::int64_t e = b_transposed_.start[d]; e < b_transposed_.start[d + 1]; ++e) {
+                const std::int64_t row = b_transposed_.column[index(e)];
+                if (row >= rows_.jump_count && row < rows_.jump_count + rows_.glue_count) continue;  // inner forces
+                defect[global(sub.boundary[i])] += b_transposed_.value[index(e)] * response.multipliers[index(row)];
+            }
+        }
     }
+    double worst = 0.0;
+    for (const double v : defect) worst = std::max(worst, std::abs(v));
     return worst;
 }
 

@@ -31,8 +31,7 @@ private:
     std::vector<std::vector<std::int64_t>> cut();
     void precompute_forces();
     void apply_flexibility(std::span<const double> lambda, std::span<double> jumps) const;
-    std::vector<double> local_displacement(std::size_t subdomain, std::span<const double> theta, const Response& response,
-                                           std::vector<double>* load) const;
+    std::vector<double> local_displacement(std::size_t subdomain, std::span<const double> theta, const Response& response) const;
 
     const Problem problem_;
     Monitor& monitor_;

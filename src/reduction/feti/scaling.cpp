@@ -80,7 +80,7 @@ DenseMatrix pseudo_inverse(const Eigen& eigen) {
 
 // Which of the jump rows (they come first in a cluster) lie in the span of the other kinds of rows?
 void find_prescribed(const std::vector<std::int64_t>& rows, std::int64_t jump_count, const ClusterBlock& block,
-                     std::vector<std::uint8_t>& prescribed) {
+                     Scaling& scaling) {
     const auto jumps = std::count_if(rows.begin(), rows.end(), [&](std::int64_t r) { return r < jump_count; });
     const std::int64_t others = static_cast<std::int64_t>(rows.size()) - jumps;
     if (jumps == 0 || others == 0) return;
@@ -97,13 +97,19 @@ void find_prescribed(const std::vector<std::int64_t>& rows, std::int64_t jump_co
         for (std::int64_t i = 0; i < others; ++i)
             for (std::int64_t d = 0; d < block.b.columns; ++d)
                 along[static_cast<std::size_t>(i)] += block.b(jumps + i, d) * block.b(r, d);
+        Scaling::Prescribed found{rows[static_cast<std::size_t>(r)], {}, {}};
         for (std::int64_t i = 0; i < others; ++i) {
             double y = 0.0;
             for (std::int64_t j = 0; j < others; ++j) y += inverse(i, j) * along[static_cast<std::size_t>(j)];
             for (std::int64_t d = 0; d < block.b.columns; ++d) rest[static_cast<std::size_t>(d)] -= y * block.b(jumps + i, d);
+            if (std::abs(y) <= dependence) continue;
+            found.row.push_back(rows[static_cast<std::size_t>(jumps + i)]);
+            found.y.push_back(y);
         }
         for (const double v : rest) left += v * v;
-        if (left <= dependence * dependence * size) prescribed[static_cast<std::size_t>(rows[static_cast<std::size_t>(r)])] = 1;
+        if (left > dependence * dependence * size) continue;
+        scaling.prescribed[static_cast<std::size_t>(found.jump_row)] = 1;
+        scaling.prescribed_jumps.push_back(std::move(found));
     }
 }
 
@@ -149,7 +155,7 @@ Scaling make_scaling(const DualRows& rows, const std::vector<Subdomain>& subdoma
             }
             if (of_jumps) scaling.dependencies.push_back(std::move(dependency));
         }
-        find_prescribed(cluster, rows.jump_count, block, scaling.prescribed);
+        find_prescribed(cluster, rows.jump_count, block, scaling);
     }
     scaling.b_d = from_triplets(rows.count(), rows.boundary_count(), std::move(triplets));
     return scaling;

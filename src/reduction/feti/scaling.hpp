@@ -24,8 +24,14 @@ struct Scaling {
         double stiffness;  // scale of the bodies' stiffness there
     };
     std::vector<Dependency> dependencies;
-    // Jump rows that are combinations of gluing and constraint rows alone: the device prescribes their jump. [jump rows]
-    std::vector<std::uint8_t> prescribed;
+    // Jump rows that are combinations of gluing and constraint rows alone, B_i = sum_k y_k B_k: the device prescribes their jump.
+    struct Prescribed {
+        std::int64_t jump_row;
+        std::vector<std::int64_t> row;
+        std::vector<double> y;
+    };
+    std::vector<Prescribed> prescribed_jumps;
+    std::vector<std::uint8_t> prescribed;  // [jump rows] 1 for those
 };
 
 Scaling make_scaling(const DualRows& rows, const std::vector<Subdomain>& subdomains, const std::string& kind);

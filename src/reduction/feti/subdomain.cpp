@@ -100,8 +100,7 @@ void Subdomain::condense(const Mesh& mesh, std::span<const std::int64_t> cells, 
     for (std::int64_t i = 0; i < nb; ++i) schur(i, i) -= tau;
 
     const DenseMatrix q = orthonormalised(rigid_boundary);
-    double rho = 0.0;
-    for (std::int64_t i = 0; i < nb; ++i) rho = std::max(rho, schur(i, i));
+    const double rho = tau;  // S itself may vanish: as many boundary DOFs as rigid motions
     flexibility = schur;
     for (std::int64_t r = 0; r < rigid_count; ++r)
         for (std::int64_t j = 0; j < nb; ++j)
