@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# bash verify/run.sh [--all]: installs, builds, runs the quick tier of the tests and the unit tests under AddressSanitizer and UBSan.
-#   --all   also the long tier, clang 14 without warnings, valgrind on the unit tests, the header in C99, C11 and C++17
+# bash verify/run.sh [--all]: installs, builds, runs the quick tier of the tests, and the unit tests and the light cases under
+# AddressSanitizer and UBSan.
+#   --all   also the long tier, clang 14 without warnings, valgrind on the unit tests and two cases, the header in C99, C11, C++17
 # Ends with the line "N passed, N failed"; exit code 0 only without failures.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -73,6 +74,9 @@ header() {
     g++ -x c++ -std=c++17 -Wall -Wextra -Wpedantic -Werror -fsyntax-only include/delam/delam.h
 }
 
+# Cases that stay quick without optimisation and with every access checked; the long marches are not among them.
+light_cases='capi|snapshot|single_pair|spring|floating|patch|dofs|reference|symmetry_units'
+
 # valgrind does not know AVX-512.
 memory_checked() {
     OPENBLAS_CORETYPE=Haswell CK_FORK=no CK_DEFAULT_TIMEOUT=0 valgrind --quiet --error-exitcode=9 --leak-check=full \
@@ -96,12 +100,12 @@ if ((failed == 0)); then
 fi
 check "build with sanitizers" build asan -DDELAM_BUILD_CLI=OFF -DDELAM_BUILD_EXAMPLES=OFF
 if [[ -f build/asan/verify/CTestTestfile.cmake ]]; then
-    CK_FORK=no tests asan -j2 --label-regex unit --label-exclude long
+    CK_FORK=no tests asan -j2 --label-exclude long --tests-regex "^(unit/.*|case/test_($light_cases))\$"
 fi
 if [[ $all == yes ]]; then
     check "header in C99, C11, C++17" header
     check "clang without warnings" build clang
-    for program in build/release/verify/unit_test_*; do
+    for program in build/release/verify/unit_test_* build/release/verify/case_test_{capi,single_pair}; do
         if [[ -x $program && -f $program && $program != *test_long_* ]]; then
             check "valgrind $(basename "$program")" memory_checked "$program"
         fi

@@ -258,12 +258,15 @@ DELAM_API const char *delam_problem_pattern_name(const delam_problem *problem, i
 /* ---- solver: operator, state, history ------------------------------------------------------------------------------- */
 
 /* Checks the problem, cuts and factors the bodies. The problem is taken as it is now. The state is the initial one at time
- * `time` (step 0): unloaded histories are expected there; the displacement at that time's loads is solved for at the initial adhesion. */
+ * `time` (step 0): unloaded histories are expected there; the displacement at that time's loads is solved for at the initial adhesion.
+ * DELAM_NOT_CONVERGED: that displacement step met a limit; *out is valid all the same. */
 DELAM_API int32_t delam_solver_create(const delam_problem *problem, double time, delam_solver **out);
 DELAM_API void delam_solver_destroy(delam_solver **solver);
 
 /* One load step to `time` (> the committed time): alternate minimisation from the committed state. The result is pending:
- * it can be read, then committed or rolled back (bit for bit the state before). DELAM_NOT_CONVERGED leaves a pending step too. */
+ * it can be read, then committed or rolled back (bit for bit the state before). DELAM_NOT_CONVERGED leaves a pending step too;
+ * DELAM_LIMIT, DELAM_CANCELLED and errors leave none.
+ * A process that has used the library and then forks should use it in one of the two only (threads of the linear algebra). */
 DELAM_API int32_t delam_solver_advance(delam_solver *solver, double time);
 DELAM_API int32_t delam_solver_commit(delam_solver *solver);
 DELAM_API int32_t delam_solver_rollback(delam_solver *solver);
@@ -272,7 +275,7 @@ DELAM_API int32_t delam_solver_rollback(delam_solver *solver);
  * (energies stored are those of the new state; dissipated, work and bounds stay). */
 DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, const double *adhesion);
 
-/* A scalar of the pending state, else of the committed one. Keys, in order of delam_solver_value_name (static text):
+/* A scalar of the pending state, else of the committed one. Keys (delam_solver_value_name lists them):
  *   step, time, stored_bulk, stored_interface, dissipated, stored_interface_slides, dissipated_slides, load_potential, work,
  *   lower, increment, upper, increment_lower   energies, F L (2D: F): cumulative but for the last four, which are of the step
  *   am_iterations, displacement_solves, contact_iterations, linear_iterations   of the step; contact_iterations sums the
@@ -286,10 +289,11 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   backtracks             returns to an earlier step (none yet: the two-sided estimate is reported, not acted on)
  *   damage_change          last change of adhesion, max norm
  *   linear_residual        worst relative residual of the linear solves of the step
- *   kkt_gap                deepest penetration, over the largest jump (0 = none)
- *   kkt_pressure           largest adhesive pull of a closed contact, over the largest traction (0 = none)
- *   kkt_complementarity    largest |gap * contact force| over (largest jump * largest force)
- *   kkt_equilibrium        out-of-balance force, over the largest reaction
+ *   kkt_gap                deepest penetration of the recovered displacements, over the largest jump (0 = none)
+ *   kkt_pressure           largest pull of a closed contact, over the largest force of a pair (0 = none)
+ *   kkt_complementarity    largest |gap * force| of a closed contact, over (largest jump * largest force)
+ *   kkt_equilibrium        largest out-of-balance nodal force of the recovered displacements, over the largest reaction
+ *                          (the kkt_ values recover the displacements: a sparse solve each)
  * and per pattern load:NAME (its factor) and reaction:NAME (its conjugate: positive when the device does work; of a force
  * pattern, minus the conjugate displacement).
  * delam_solver_value_count counts all of them. */

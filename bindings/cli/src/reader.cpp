@@ -29,6 +29,10 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }
 
 std::string shown(const toml::node& node) {
+    // 6.0 must not be shown as 6 where a whole number is asked for.
+    if (const auto value = node.value<double>();
+        value && node.is_floating_point() && *value == std::floor(*value) && std::abs(*value) < 1e15)
+        return fmt::format("{:.1f}", *value);
     if (const auto value = node.value<double>(); value && node.is_number()) return fmt::format("{}", *value);
     if (const auto value = node.value<std::string>(); value && node.is_string()) return fmt::format("\"{}\"", *value);
     if (const auto value = node.value<bool>(); value && node.is_boolean()) return *value ? "true" : "false";
@@ -51,9 +55,17 @@ double checked_number(const toml::node& node, const Place& where, const Range& r
     return value;
 }
 
-std::int64_t checked_whole(const toml::node& node, const Place& where, std::int64_t least) {
+// range: words for people.
+std::int64_t checked_whole(const toml::node& node, const Place& where, const std::string& range) {
     if (!node.is_integer())
-        throw SceneFailure(where, fmt::format("{}: a whole number >= {} is expected", shown(node), least));
+        throw SceneFailure(where, fmt::format("{}{}: a whole number{} is expected: {}", shown(node),
+                                              node.is_floating_point() ? " has a decimal point" : "",
+                                              node.is_floating_point() ? " without one" : "", range));
+    return *node.value<std::int64_t>();
+}
+
+std::int64_t checked_whole(const toml::node& node, const Place& where, std::int64_t least) {
+    checked_whole(node, where, fmt::format(">= {}", least));
     const std::int64_t value = *node.value<std::int64_t>();
     if (value < least) throw SceneFailure(where, fmt::format("{} is not allowed: a whole number >= {}", value, least));
     return value;
@@ -148,6 +160,10 @@ std::int64_t Table::whole(std::string_view key, std::int64_t least) const {
 
 std::int64_t Table::whole(std::string_view key, std::int64_t least, std::int64_t otherwise) const {
     return has(key) ? whole(key, least) : otherwise;
+}
+
+std::int64_t Table::whole(std::string_view key, const std::string& range) const {
+    return checked_whole(need(key), place(key), range);
 }
 
 bool Table::flag(std::string_view key, bool otherwise) const {

@@ -48,6 +48,8 @@ public:
     [[nodiscard]] double number(std::string_view key, const Range& range, double otherwise) const;
     [[nodiscard]] std::int64_t whole(std::string_view key, std::int64_t least) const;
     [[nodiscard]] std::int64_t whole(std::string_view key, std::int64_t least, std::int64_t otherwise) const;
+    // Of any size; range: words for the error that it is no whole number.
+    [[nodiscard]] std::int64_t whole(std::string_view key, const std::string& range) const;
     [[nodiscard]] bool flag(std::string_view key, bool otherwise) const;
     [[nodiscard]] std::string text(std::string_view key) const;
     [[nodiscard]] std::string text(std::string_view key, const std::string& otherwise) const;

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include <fmt/format.h>
 
+#include "cell_size.hpp"
 #include "delam/delam.h"
 #include "file.hpp"
 #include "hash.hpp"
@@ -21,14 +21,23 @@ const std::vector<std::string> law_parameters{
     "normal_stiffness",     "tangential_stiffness", "normal_onset",     "tangential_onset",     "normal_toughness",
     "tangential_toughness", "onset_exponent_1",     "onset_exponent_2", "toughness_exponent_1", "toughness_exponent_2"};
 
+// What geometry.h has to divide: the lengths, and the thicknesses of layers without divisions of their own.
+std::vector<double> divided_lengths(const Table& root) {
+    const Table geometry = root.table("geometry");
+    std::vector<double> out{geometry.number("length", positive)};
+    if (geometry.has("width")) out.push_back(geometry.number("width", positive));
+    for (const Table& layer : root.tables("layers"))
+        if (!layer.has("divisions")) out.push_back(layer.number("thickness", positive));
+    return out;
+}
+
 // Number of cells of size h in a length, which must be a whole number of them.
-std::int64_t cells_of_size(const Table& table, std::string_view key, double length, double h) {
-    const double cells = length / h;
-    const double whole = std::round(cells);
-    if (whole < 1 || std::abs(cells - whole) > 1e-6 * whole)
-        table.fail(key, fmt::format("h = {} does not divide {} evenly ({} cells); {} would", h, length, cells,
-                                    length / std::max(1.0, whole)));
-    return static_cast<std::int64_t>(whole);
+std::int64_t cells_of_size(const Table& root, const Table& table, std::string_view key, double length, double h) {
+    if (divides(h, length)) return static_cast<std::int64_t>(std::round(length / h));
+    const std::string better = suggested_size(divided_lengths(root), h);
+    table.fail(key, fmt::format("h = {} does not divide {} evenly ({:.6g} cells); {}", h, length, length / h,
+                                better.empty() ? "give divisions instead"
+                                               : "h = " + better + " divides all lengths and thicknesses"));
 }
 
 void read_geometry(const Table& root, Scene& scene) {
@@ -55,7 +64,8 @@ void read_geometry(const Table& root, Scene& scene) {
         table.fail("h", "give either h (edge of a cell) or divisions (numbers of cells)");
     if (table.has("h")) {
         const double h = table.number("h", positive);
-        for (const double length : geometry.lengths) geometry.divisions.push_back(cells_of_size(table, "h", length, h));
+        for (const double length : geometry.lengths)
+            geometry.divisions.push_back(cells_of_size(root, table, "h", length, h));
     } else if (dimension == 2 && !table.is_list("divisions")) {
         geometry.divisions.push_back(table.whole("divisions", 1));
     } else {
@@ -89,7 +99,7 @@ void read_layers(const Table& root, Scene& scene) {
         if (table.has("divisions")) {
             layer.divisions = table.whole("divisions", 1);
         } else if (geometry.has("h")) {
-            layer.divisions = cells_of_size(table, "thickness", layer.thickness, geometry.number("h", positive));
+            layer.divisions = cells_of_size(root, table, "thickness", layer.thickness, geometry.number("h", positive));
         } else {
             table.fail("divisions", "is missing: a whole number >= 1 is expected (or give geometry.h)");
         }
@@ -203,11 +213,14 @@ void read_options(const Table& root, Scene& scene) {
     const Table table = root.table("solver");
     std::vector<std::string> known;
     std::vector<std::string> types;
+    std::vector<std::string> ranges;
     for (std::int64_t i = 0; i < delam_option_count(); ++i) {
         const char* key = nullptr;
         const char* type = nullptr;
-        delam_option_info(i, &key, &type, nullptr, nullptr, nullptr, nullptr);
+        const char* range = nullptr;
+        delam_option_info(i, &key, &type, nullptr, nullptr, &range, nullptr);
         known.emplace_back(key);
+        ranges.emplace_back(range);
         types.emplace_back(type);
     }
     table.only(known);
@@ -217,7 +230,7 @@ void read_options(const Table& root, Scene& scene) {
         if (types[i] == "text") {
             option.value = table.text(known[i]);
         } else if (types[i] == "integer") {
-            option.value = static_cast<double>(table.whole(known[i], std::numeric_limits<std::int64_t>::min()));
+            option.value = static_cast<double>(table.whole(known[i], ranges[i]));
         } else {
             option.value = table.number(known[i], any_number);
         }

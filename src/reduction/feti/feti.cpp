@@ -140,18 +140,25 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     const std::size_t first_constraint = rows - index(rows_.constraint_count);
     monitor_.progress("displacement", 0, 0);
 
+    // Rows whose jump the device prescribes have a known force s j: the system is solved without them, and that force is shared out
+    // between spring and device afterwards (B_i = sum_k y_k B_k).
+    Springs unknown = springs;
+    for (const Scaling::Prescribed& p : scaling_.prescribed_jumps) {
+        unknown.stiffness[index(p.jump_row)] = 0.0;
+        unknown.held[index(p.jump_row)] = 0;
+    }
     std::vector<double> compliance(rows, 0.0), weight(rows);
     std::vector<std::uint8_t> active(rows, 1);
     for (std::size_t i = 0; i < jumps; ++i) {
-        if (springs.held[i] != 0) continue;
-        if (springs.stiffness[i] > 0.0)
-            compliance[i] = 1.0 / springs.stiffness[i];
+        if (unknown.held[i] != 0) continue;
+        if (unknown.stiffness[i] > 0.0)
+            compliance[i] = 1.0 / unknown.stiffness[i];
         else
             active[i] = 0;
     }
     for (std::size_t i = 0; i < rows; ++i) weight[i] = active[i] != 0 ? 1.0 / (flexibility_diagonal_[i] + compliance[i]) : 0.0;
     coarse_->set_weights(weight);
-    preconditioner_->update(springs);
+    preconditioner_->update(unknown);
 
     std::vector<double> b(rows, 0.0), prescribed(index(rows_.constraint_count), 0.0), e(index(coarse_->size()), 0.0);
     for (std::size_t p = 0; p < patterns; ++p) {
@@ -175,6 +182,8 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     const bool loaded = resultant > 0.0 || std::any_of(b.begin(), b.end(), [](double v) { return v != 0.0; });
     std::vector<double> lambda = loaded ? response.multipliers : std::vector<double>();
     lambda.resize(rows, 0.0);
+    for (const Scaling::Prescribed& p : scaling_.prescribed_jumps)
+        for (std::size_t i = 0; i < p.row.size(); ++i) lambda[index(p.row[i])] += p.y[i] * lambda[index(p.jump_row)];
     mask(lambda);
     const double left = coarse_->balance(e, lambda, resultant);
     response.balanced = resultant == 0.0 || left <= unbalanced;
@@ -209,20 +218,6 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     response.converged = cg.converged;
     coarse_->balance(e, lambda, resultant);
 
-    // Where the device prescribes a jump, its spring's force is known, and lambda may have drifted along B^T z = 0: shift it between
-    // the spring and the device, which leaves the bodies' forces as they are.
-    std::vector<double> known_jump(scaling_.prescribed_jumps.size(), 0.0);
-    for (std::size_t k = 0; k < known_jump.size(); ++k) {
-        const Scaling::Prescribed& p = scaling_.prescribed_jumps[k];
-        for (std::size_t i = 0; i < p.row.size(); ++i)
-            if (index(p.row[i]) >= first_constraint) known_jump[k] += p.y[i] * prescribed[index(p.row[i]) - first_constraint];
-        const auto row = index(p.jump_row);
-        if (springs.held[row] != 0) continue;
-        const double shift = springs.stiffness[row] * known_jump[k] - lambda[row];
-        lambda[row] += shift;
-        for (std::size_t i = 0; i < p.row.size(); ++i) lambda[index(p.row[i])] -= shift * p.y[i];
-    }
-
     // A lambda - b = G^T alpha, and B u = B K^+ f - F lambda + G^T alpha.
     std::vector<double> f_lambda(rows), residual(rows);
     apply_flexibility(lambda, f_lambda);
@@ -232,8 +227,6 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     const std::vector<double> rigid_jump = coarse_->apply_transposed(response.rigid);
 
     response.jump.assign(jumps, 0.0);
-    response.force.assign(lambda.begin(), lambda.begin() + rows_.jump_count);
-    double work_of_multipliers = 0.0;
     for (std::size_t i = 0; i < jumps; ++i) {
         // A stiff spring knows its jump best from its force, a soft one (or none) from the bodies.
         if (active[i] == 0 || compliance[i] > flexibility_diagonal_[i])
@@ -241,10 +234,17 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
         else
             response.jump[i] = compliance[i] * lambda[i];
     }
-    for (std::size_t k = 0; k < known_jump.size(); ++k)
-        if (springs.held[index(scaling_.prescribed_jumps[k].jump_row)] == 0)
-            response.jump[index(scaling_.prescribed_jumps[k].jump_row)] = known_jump[k];
-    work_of_multipliers += dot(response.force, response.jump);
+    for (const Scaling::Prescribed& p : scaling_.prescribed_jumps) {
+        const auto row = index(p.jump_row);
+        double jump = 0.0;
+        for (std::size_t i = 0; i < p.row.size(); ++i)
+            if (index(p.row[i]) >= first_constraint) jump += p.y[i] * prescribed[index(p.row[i]) - first_constraint];
+        if (springs.held[row] == 0) lambda[row] = springs.stiffness[row] * jump;
+        for (std::size_t i = 0; i < p.row.size(); ++i) lambda[index(p.row[i])] -= p.y[i] * lambda[row];
+        response.jump[row] = springs.held[row] == 0 ? jump : 0.0;
+    }
+    response.force.assign(lambda.begin(), lambda.begin() + rows_.jump_count);
+    double work_of_multipliers = dot(response.force, response.jump);
     response.reaction.assign(prescribed.size(), 0.0);
     for (std::size_t d = 0; d < prescribed.size(); ++d) {
         response.reaction[d] = -lambda[first_constraint + d];

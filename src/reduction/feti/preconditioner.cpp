@@ -73,20 +73,27 @@ void FetiPreconditioner::build_pattern() {
 }
 
 void FetiPreconditioner::update(const Springs& springs) {
-    if (kind_ != Kind::series) return;
+    if (kind_ == Kind::none) return;
     if (springs.stiffness == current_.stiffness && springs.held == current_.held) return;
     in_e_.assign(index(rows_.jump_count), 0);
     for (std::int64_t r = 0; r < rows_.jump_count; ++r) in_e_[index(r)] = springs.held[index(r)] == 0 ? 1 : 0;
 
-    // On a dependent direction z (B^T z = 0) the bodies are rigid, S~^-1 -> 0 there: S~ gets z z^T / delta with a delta well below the
-    // compliance of the springs that decide about z.
+    // On a dependent direction z (B^T z = 0) the bodies are rigid, and springs alone decide: z^T C z. In the series form S~^-1 -> 0
+    // there: S~ gets z z^T / delta with a delta well below the compliance of springs and bodies. The others get z z^T / (z^T C z) itself.
     dependency_weight_.assign(scaling_.dependencies.size(), 0.0);
     for (std::size_t k = 0; k < scaling_.dependencies.size(); ++k) {
-        double stiffest = 0.0;
-        for (const std::int64_t r : scaling_.dependencies[k].row)
-            if (r < rows_.jump_count && in_e_[index(r)] != 0) stiffest = std::max(stiffest, springs.stiffness[index(r)]);
-        dependency_weight_[k] = 1e3 * stiffest;
+        const auto& dependency = scaling_.dependencies[k];
+        double stiffest = dependency.stiffness, compliance = 0.0;
+        for (std::size_t i = 0; i < dependency.row.size(); ++i) {
+            const std::int64_t r = dependency.row[i];
+            if (r >= rows_.jump_count || in_e_[index(r)] == 0) continue;
+            stiffest = std::max(stiffest, springs.stiffness[index(r)]);
+            compliance += dependency.z[i] * dependency.z[i] / springs.stiffness[index(r)];  // infinite: z carries no force
+        }
+        dependency_weight_[k] = kind_ == Kind::series ? 1e3 * stiffest : compliance > 0.0 ? 1.0 / compliance : 0.0;
     }
+    current_ = springs;
+    if (kind_ != Kind::series) return;
 
     t_.value = base_.value;
     const auto entry = [this](std::int64_t i, std::int64_t j) -> double& {
@@ -116,7 +123,6 @@ void FetiPreconditioner::update(const Springs& springs) {
         shift *= 100.0;
         if (shift > 1e-2) fail(DELAM_ERROR_NUMERICAL, "the series preconditioner is not positive definite");
     }
-    current_ = springs;
 }
 
 // z = S~ r (or its lumped form), dependent directions included.

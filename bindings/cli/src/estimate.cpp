@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "delam/delam.h"
+
+namespace cli {
+
+namespace {
+
+constexpr std::string_view option_key = "backtracking_tolerance";
+
+std::vector<std::string> parts(std::string_view text, char separator) {
+    std::vector<std::string> out;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find(separator), text.size());
+        out.emplace_back(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return out;
+}
+
+}  // namespace
+
+double estimate_tolerance(const Scene& scene) {
+    for (const SolverOption& option : scene.options)
+        if (option.key == option_key)
+            if (const auto* number = std::get_if<double>(&option.value)) return *number;
+    for (std::int64_t i = 0; i < delam_option_count(); ++i) {
+        const char* key = "";
+        const char* initial = "";
+        delam_option_info(i, &key, nullptr, nullptr, &initial, nullptr, nullptr);
+        if (key == option_key) return std::strtod(initial, nullptr);
+    }
+    return 0.0;
+}
+
+std::vector<std::int64_t> violated_steps(std::string_view history, double eta) {
+    std::vector<std::int64_t> out;
+    const std::vector<std::string> rows = parts(history, '\n');
+    if (rows.empty()) return out;
+    const std::vector<std::string> titles = parts(rows.front(), ',');
+    // Row 0 is the initial state: no step led there.
+    for (std::size_t i = 2; i < rows.size(); ++i) {
+        const std::vector<std::string> cells = parts(rows[i], ',');
+        std::map<std::string, double> of;
+        for (std::size_t k = 0; k < std::min(titles.size(), cells.size()); ++k)
+            of.emplace(titles[k], std::strtod(cells[k].c_str(), nullptr));
+        // The potential of dead loads is part of the stored energy; without them there is no such column, and it is 0.
+        const double stored = of["stored_bulk"] + of["stored_interface"] + of["load_potential"];
+        const double slack = eta * std::max(std::abs(stored), std::abs(of["work"]));
+        // Negated, so that a value that is no number counts as violated.
+        if (!(of["lower"] - of["increment_lower"] <= slack && of["increment"] - of["upper"] <= slack))
+            out.push_back(static_cast<std::int64_t>(of["step"]));
+    }
+    return out;
+}
+
+std::string estimate_line(const std::vector<std::int64_t>& steps, double eta) {
+    if (steps.empty()) return "";
+    return fmt::format("two-sided estimate violated in steps: {} (tolerance eta = {:g})\n", fmt::join(steps, ", "),
+                       eta);
+}
+
+}  // namespace cli

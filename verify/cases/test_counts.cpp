@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the method promises in numbers that do not depend on the machine: Krylov iterations against the stiffness of the
+// interface and at constant H/h, the energy balance against the number of steps, active-set steps along the march.
+// The bounds stand a little above what was measured; the measured numbers go to standard output.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "enf.hpp"
+#include "support.hpp"
+
+namespace {
+
+// ---- Krylov iterations of one displacement step ----------------------------------------------------------------
+
+// Adhesion over the interface, s from 0 at the left end to 1 at the right end; 0 within the notch where there is one.
+struct Damage {
+    const char* name;
+    double (*zeta)(double s);
+    bool notch;
+};
+constexpr Damage damages[] = {{"intact", [](double) { return 1.0; }, false},
+                              {"notched", [](double) { return 1.0; }, true},
+                              {"linear", [](double s) { return s; }, false},
+                              {"power 4", [](double s) { return s * s * s * s; }, false}};
+constexpr int damage_count = static_cast<int>(std::size(damages));
+
+// Iterations of one linear solve: the contact search repeats the solve, so the sum is divided by the active-set steps.
+double iterations(double h, std::int64_t subdomains, const Damage& damage, double k) {
+    cases::Enf e;
+    e.h = h;
+    e.subdomains = subdomains;
+    e.law.normal_stiffness = e.law.tangential_stiffness = k;
+    auto scene = cases::make_enf(e);
+    scene.number("linear_tolerance", 1e-10);  // looser than the default: rounding must not take part in the count
+    std::vector<double> adhesion;
+    for (const double x : cases::enf_positions(scene)) {
+        const bool notched = damage.notch && x < cases::enf_notch - 0.25 * h;
+        adhesion.push_back(notched ? 0.0 : damage.zeta(x / cases::enf_length));
+    }
+    reference::Solver solver(scene, 0.0);
+    solver.equilibrate(1.0, adhesion);  // throws unless it converges
+    return solver.value("linear_iterations") / std::max(1.0, solver.value("contact_iterations"));
+}
+
+std::string place(const Damage& damage, std::int64_t subdomains, double k) {
+    char text[100];
+    std::snprintf(text, sizeof text, "%s, %d subdomains, k = %.3g: ", damage.name, static_cast<int>(subdomains), k);
+    return text;
+}
+
+// loop: damage and number of subdomains.
+CASE_TEST(iterations_do_not_see_the_stiffness) {
+    const Damage& damage = damages[loop % damage_count];
+    const std::int64_t subdomains = loop < damage_count ? 2 : 8;
+    double least = std::numeric_limits<double>::infinity();
+    double most = 0.0;
+    for (const double k : {1e9, 1.25e11, 1e13, 1e15, 1e20}) {
+        const double count = iterations(1e-3, subdomains, damage, k);
+        std::printf("krylov: %s%.1f\n", place(damage, subdomains, k).c_str(), count);
+        cases::expect(count > 0.0, place(damage, subdomains, k) + "nothing was counted");
+        cases::expect_below(count, 35.0, place(damage, subdomains, k) + "Krylov iterations");
+        least = std::min(least, count);
+        most = std::max(most, count);
+    }
+    cases::expect_below(most / least, 2.25, std::string(damage.name) + ", most / least over all k");
+}
+
+CASE_TEST(iterations_at_constant_ratio) {
+    const Damage& damage = damages[loop];
+    for (const double k : {1.25e11, 1e15, 1e20}) {
+        const double coarse = iterations(1e-3, 8, damage, k);
+        const double fine = iterations(0.5e-3, 32, damage, k);
+        std::printf("ratio: %s%.1f to %.1f\n", place(damage, 32, k).c_str(), coarse, fine);
+        cases::expect_below(fine / coarse, 1.6, place(damage, 32, k) + "growth of the Krylov iterations");
+    }
+}
+
+// ---- the ductile march, h = 1 mm -------------------------------------------------------------------------------
+
+struct March {
+    int steps = 0;
+    int not_converged = 0;
+    double work = 0.0;
+    double defect = 0.0;  // largest |stored + dissipated - work|
+    double band = 0.0;    // upper - lower, summed
+    double solves = 0.0;
+    double contact = 0.0;  // active-set steps, summed
+    double contact_worst = 0.0;
+    double fallbacks = 0.0;
+};
+
+March march(int steps, std::int64_t subdomains) {
+    cases::Enf e;
+    e.h = 1e-3;
+    e.subdomains = subdomains;
+    const auto scene = cases::make_enf(e);
+    reference::Solver solver(scene, 0.0);
+    March m;
+    m.steps = steps;
+    for (int k = 1; k <= steps; ++k) {
+        const std::int32_t status = solver.advance(cases::enf_time(k, steps));
+        if (status < 0) scene.require(status, "delam_solver_advance");
+        if (status != DELAM_OK) ++m.not_converged;
+        solver.commit();
+        m.work = solver.value("work");
+        const double stored = solver.value("stored_bulk") + solver.value("stored_interface");
+        m.defect = std::max(m.defect, std::abs(stored + solver.value("dissipated") - m.work));
+        m.band += solver.value("upper") - solver.value("lower");
+        m.solves += solver.value("displacement_solves");
+        m.contact += solver.value("contact_iterations");
+        m.contact_worst = std::max(m.contact_worst, solver.value("contact_iterations_max"));
+        m.fallbacks += solver.value("contact_fallbacks");
+    }
+    std::printf(
+        "march: %d steps, %d subdomains: defect / work %.3e, band %.6g J/m, %.0f solves, active-set steps mean %.3f, "
+        "max %.0f, %.0f fallbacks, %d not converged\n",
+        steps, static_cast<int>(subdomains), m.defect / m.work, m.band, m.solves, m.contact / m.solves,
+        m.contact_worst, m.fallbacks, m.not_converged);
+    return m;
+}
+
+// Made once before Check forks; the tests only look at the numbers.
+std::vector<March> marches;
+March cut_march;  // 40 steps with 8 subdomains
+std::string march_failure;
+
+void make_marches() {
+    if (!marches.empty()) return;
+    try {
+        for (const int steps : {20, 40, 80}) marches.push_back(march(steps, 2));
+        cut_march = march(40, 8);
+    } catch (const std::exception& e) {
+        march_failure = e.what();
+    }
+}
+
+CASE_TEST(balance_closes_with_the_step) {
+    cases::expect(march_failure.empty(), march_failure);
+    for (std::size_t i = 1; i < marches.size(); ++i) {
+        const March& coarse = marches[i - 1];
+        const March& fine = marches[i];
+        const std::string at = std::to_string(fine.steps) + " steps: ";
+        cases::expect(fine.work > 0.0, at + "the device does work");
+        cases::expect_below(fine.defect / fine.work, 0.5 * coarse.defect / coarse.work, at + "defect of the balance");
+        cases::expect_near(fine.band, 0.5 * coarse.band, 0.1, 0.5 * coarse.band, at + "summed upper - lower");
+    }
+}
+
+CASE_TEST(contact_is_found_quickly) {
+    cases::expect(march_failure.empty(), march_failure);
+    for (const March& m : {marches.at(1), cut_march}) {
+        cases::expect(m.not_converged == 0, std::to_string(m.not_converged) + " steps did not converge");
+        cases::expect(m.solves > 0.0, "nothing was solved");
+        cases::expect_below(m.contact / m.solves, 2.0, "mean active-set steps per displacement solve");
+        cases::expect_below(m.contact_worst, 60.0, "active-set steps of the worst displacement solve");
+        cases::expect(m.fallbacks == 0.0, "contact_fallbacks " + std::to_string(m.fallbacks));
+    }
+}
+
+}  // namespace
+
+int main() {
+    Suite* suite = suite_create("counts");
+    TCase* krylov = tcase_create("krylov");
+    tcase_add_loop_test(krylov, iterations_do_not_see_the_stiffness, 0, 2 * damage_count);
+    tcase_add_loop_test(krylov, iterations_at_constant_ratio, 0, damage_count);
+    suite_add_tcase(suite, krylov);
+    TCase* ductile = tcase_create("ductile");
+    tcase_add_unchecked_fixture(ductile, make_marches, nullptr);
+    tcase_add_test(ductile, balance_closes_with_the_step);
+    tcase_add_test(ductile, contact_is_found_quickly);
+    suite_add_tcase(suite, ductile);
+    return cases::run_suite(suite);
+}
