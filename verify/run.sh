@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# bash verify/run.sh [--all]: installs, builds, runs the quick tier of the tests, and the unit tests and the light cases under
-# AddressSanitizer and UBSan.
-#   --all   also the long tier, clang 14 without warnings, valgrind on the unit tests and two cases, the header in C99, C11, C++17
+# bash verify/run.sh [--all]: installs, builds, runs the quick tier of the tests, then the unit tests and the light
+# cases under AddressSanitizer and UBSan.
+#   --all   also the long tier, clang 14 without warnings, valgrind on the unit tests and two cases, the header in C99,
+#           C11 and C++17
 # Ends with the line "N passed, N failed"; exit code 0 only without failures.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# bash enf_host.sh ENF DELAM SCENE: the C host and the command line write the same history of the scene enf, byte for byte.
+# bash enf_host.sh ENF DELAM SCENE: the C host and the command line write the same history of the scene enf, byte for
+# byte.
 set -euo pipefail
 enf=$1
 delam=$2

@@ -20,7 +20,7 @@ constexpr std::size_t kept_directions = 400;  // beyond that the memory is bette
 constexpr int rounds = 6;
 // Close to rounding the kept directions lose their conjugacy: the residual stops, then grows. A fresh start from there converges again.
 constexpr int idle_limit = 3;
-constexpr double noise_zone = 1e3;
+constexpr double noise_zone = 1e3;  // times the floor of rounding
 constexpr double rounding = 1e-14;  // of the energy norm of the start
 constexpr double stagnation_slack = 100.0;  // times the tolerance or the floor
 
@@ -62,7 +62,7 @@ CgResult projected_cg(const ProjectedSystem& system, std::span<const double> b, 
                     std::copy(best.begin(), best.end(), lambda.begin());
                     return result;
                 }
-            } else if (reached || result.iterations >= limit || (idle >= idle_limit && lowest <= noise_zone * target)) {
+            } else if (reached || result.iterations >= limit || (idle >= idle_limit && lowest <= noise_zone * floor)) {
                 break;
             }
             for (int pass = 0; pass < 2; ++pass)
