@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The interface law against closed forms of the bilinear traction-separation law, brute force over the energy, and
 // changes of units.
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_integration.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -325,7 +328,36 @@ START_TEST(toughness_below_onset_between_the_modes) {
 }
 END_TEST
 
+// The area under the traction-jump curve is the total toughness, at any fixed mixity, by GSL's adaptive quadrature.
+START_TEST(area_is_the_toughness) {
+    struct Path {
+        Toughness t;
+        double stiffness;
+    };
+    const auto traction = [](double jump, void* data) {
+        const Path& path = *static_cast<const Path*>(data);
+        const double driving = 0.5 * path.stiffness * jump * jump;
+        return delam::damage_minimiser(path.t, driving, 1.0) * path.stiffness * jump;
+    };
+    gsl_integration_workspace* work = gsl_integration_workspace_alloc(1000);
+    for (const Law& law : {ductile, brittle}) {
+        for (const double b : {0.0, 0.25, 0.5, 1.0}) {
+            Path path{law.toughness(b), law.normal_stiffness};
+            const double first = std::sqrt(2.0 * path.t.onset / path.stiffness);
+            double corners[] = {0.0, first, first * path.t.total / path.t.onset};
+            gsl_function curve{traction, &path};
+            double area = 0.0, error = 0.0;
+            const int status = gsl_integration_qagp(&curve, corners, 3, 0.0, 1e-10, 1000, work, &area, &error);
+            ck_assert_int_eq(status, GSL_SUCCESS);
+            ck_assert(close(area, path.t.total, 1e-10));
+        }
+    }
+    gsl_integration_workspace_free(work);
+}
+END_TEST
+
 int main() {
+    gsl_set_error_handler_off();
     Suite* suite = suite_create("law");
     TCase* cases = tcase_create("law");
     tcase_set_timeout(cases, 120);
@@ -339,6 +371,7 @@ int main() {
     tcase_add_test(cases, units);
     tcase_add_test(cases, parameters);
     tcase_add_test(cases, toughness_below_onset_between_the_modes);
+    tcase_add_test(cases, area_is_the_toughness);
     suite_add_tcase(suite, cases);
     SRunner* runner = srunner_create(suite);
     srunner_run_all(runner, CK_ENV);

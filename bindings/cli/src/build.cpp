@@ -44,7 +44,8 @@ bool inside(double x, double lower, double upper, double length, double slack) {
     return from && to;
 }
 
-void set_adhesion(const Model& model, const Scene& scene, std::int64_t index, const InterfaceData& data) {
+// Whether anything adheres.
+bool set_adhesion(const Model& model, const Scene& scene, std::int64_t index, const InterfaceData& data) {
     const delam_context* context = model.context.get();
     std::int64_t pairs = 0;
     std::int64_t nodes = 0;
@@ -58,6 +59,7 @@ void set_adhesion(const Model& model, const Scene& scene, std::int64_t index, co
          data.place);
     call(context, delam_mesh_nodes(model.mesh.get(), nodes * scene.geometry.dimension, coordinates.data()), data.place);
     const double slack = 1e-6 * scene.geometry.smallest_edge;
+    std::vector<double> initial(face_a.size(), 1.0);
     for (const Region& region : data.regions) {
         std::vector<std::int64_t> chosen;
         for (std::size_t i = 0; i < face_a.size(); ++i) {
@@ -74,16 +76,19 @@ void set_adhesion(const Model& model, const Scene& scene, std::int64_t index, co
              delam_problem_set_adhesion(model.problem.get(), index, static_cast<std::int64_t>(chosen.size()),
                                         chosen.data(), adhesion.data(), 0),
              region.place);
+        for (const std::int64_t pair : chosen) initial[static_cast<std::size_t>(pair)] = region.adhesion;
     }
+    return std::any_of(initial.begin(), initial.end(), [](double zeta) { return zeta > 0; });
 }
 
-void set_interfaces(const Model& model, const Scene& scene) {
+void set_interfaces(Model& model, const Scene& scene) {
     for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
         const InterfaceData& data = scene.interfaces[i];
         const auto index = static_cast<std::int64_t>(i);
         const delam_context* context = model.context.get();
         if (data.bonded) {
             call(context, delam_problem_set_bonded(model.problem.get(), index), data.place);
+            model.adheres.push_back(true);
             continue;
         }
         const LawData& from = scene.laws[data.law];
@@ -96,7 +101,7 @@ void set_interfaces(const Model& model, const Scene& scene) {
                  {from.place.file, from.place.path + "." + key, from.place.line});
         call(context, delam_law_check(law.get()), from.place);
         call(context, delam_problem_set_law(model.problem.get(), index, law.get()), data.place);
-        set_adhesion(model, scene, index, data);
+        model.adheres.push_back(set_adhesion(model, scene, index, data));
     }
 }
 
@@ -184,11 +189,12 @@ Model build(Context context, const Scene& scene) {
     return model;
 }
 
-Solver new_solver(const Model& model, const Scene& scene) {
+Solver new_solver(const Model& model, const Scene& scene, bool& converged) {
     delam_solver* handle = nullptr;
     const std::int32_t status = delam_solver_create(model.problem.get(), scene.times.front(), &handle);
     Solver solver(handle);
-    if (status == DELAM_NOT_CONVERGED && solver != nullptr) return solver;
+    converged = status != DELAM_NOT_CONVERGED;
+    if (!converged && solver != nullptr) return solver;
     call(model.context.get(), status, {scene.file, "", 0});
     return solver;
 }

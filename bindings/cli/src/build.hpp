@@ -2,6 +2,8 @@
 // From a scene to the library's objects.
 #pragma once
 
+#include <vector>
+
 #include "handles.hpp"
 #include "scene.hpp"
 
@@ -12,12 +14,13 @@ struct Model {
     Context context;
     Mesh mesh;
     Problem problem;
+    std::vector<bool> adheres;  // per interface: some pair does at the start
 };
 
 Context new_context();
 // The problem is complete and checked. Errors name the place in the scene.
 Model build(Context context, const Scene& scene);
-// Factors; the state is the initial one.
-Solver new_solver(const Model& model, const Scene& scene);
+// Factors; the state is the initial one. converged: whether its displacement did not meet a limit.
+Solver new_solver(const Model& model, const Scene& scene, bool& converged);
 
 }  // namespace cli

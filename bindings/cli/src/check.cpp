@@ -5,7 +5,9 @@
 #include "commands.hpp"
 #include "history.hpp"
 #include "interrupt.hpp"
+#include "notes.hpp"
 #include "result.hpp"
+#include "say.hpp"
 
 namespace cli {
 
@@ -14,19 +16,20 @@ int check(const std::string& scene_file) {
     Context context = new_context();
     const Interrupt interrupt(context.get());
     const Model model = build(std::move(context), scene);
-    const Solver solver = new_solver(model, scene);
+    bool converged = true;
+    const Solver solver = new_solver(model, scene, converged);
     const History history(model, solver.get(), scene);
 
     std::int64_t primal = 0;
     std::int64_t dual = 0;
     call(model.context.get(), delam_problem_dofs(model.problem.get(), &primal, &dual),
          std::string("numbers of unknowns"));
-    fmt::print("{}: correct\n", scene_file);
-    if (!scene.title.empty()) fmt::print("title       {}\n", scene.title);
-    fmt::print("scene hash  {}\n", hash_of(model));
-    fmt::print("unknowns    {} primal, {} dual\n", primal, dual);
+    say("{}: correct\n", scene_file);
+    if (!scene.title.empty()) say("title       {}\n", scene.title);
+    say("scene hash  {}\n", hash_of(model));
+    say("unknowns    {} primal, {} dual\n", primal, dual);
     for (const Layer& layer : scene.layers)
-        fmt::print("layer       \"{}\", thickness {}, material \"{}\"\n", layer.name, layer.thickness,
+        say("layer       \"{}\", thickness {}, material \"{}\"\n", layer.name, layer.thickness,
                    scene.materials[layer.material].name);
     for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
         const InterfaceData& data = scene.interfaces[i];
@@ -35,8 +38,9 @@ int check(const std::string& scene_file) {
              delam_mesh_interface_size(model.mesh.get(), static_cast<std::int64_t>(i), nullptr, nullptr, &pairs,
                                        nullptr, nullptr),
              data.place);
-        fmt::print("interface   \"{}\", {} pairs, {}, {} regions with adhesion of their own\n", data.name, pairs,
-                   data.bonded ? "bonded for ever" : "law \"" + scene.laws[data.law].name + "\"", data.regions.size());
+        say("interface   \"{}\", {}, {}, {} with adhesion of their own\n", data.name, counted(pairs, "pair"),
+            data.bonded ? "bonded for ever" : "law \"" + scene.laws[data.law].name + "\"",
+            counted(static_cast<std::int64_t>(data.regions.size()), "region"));
     }
     std::int64_t constraints = 0;
     std::int64_t entries = 0;
@@ -45,12 +49,18 @@ int check(const std::string& scene_file) {
          delam_problem_constraints(model.problem.get(), &constraints, &entries, &patterns, nullptr, nullptr, nullptr,
                                    nullptr),
          std::string("constraints"));
-    fmt::print("supports    {} prescribed displacements (supports and loads)\n", constraints);
+    say("supports    {} (supports and loads)\n", counted(constraints, "prescribed displacement"));
     for (const PatternData& pattern : scene.patterns)
-        fmt::print("pattern     \"{}\", {} instants from {} to {}\n", pattern.name, pattern.times.size(),
+        say("pattern     \"{}\", {} from {} to {}\n", pattern.name,
+            counted(static_cast<std::int64_t>(pattern.times.size()), "instant"),
                    pattern.times.front(), pattern.times.back());
-    fmt::print("time        {} to {} in {} steps\n", scene.times.front(), scene.times.back(), scene.step_count());
-    fmt::print("\n{}", delam_solver_plan(solver.get()));
+    say("time        {} to {} in {}\n", scene.times.front(), scene.times.back(),
+        counted(static_cast<std::int64_t>(scene.step_count()), "step"));
+    say("\n{}", delam_solver_plan(solver.get()));
+    for (const std::string& text : notes_of(scene)) say("note: {}\n", text);
+    // Not beside the output, where it is lost when that goes to a file.
+    for (const std::string& text : warnings_of(model, scene)) complain("warning: {}\n", text);
+    if (!converged) complain("warning: the displacement of the initial state did not converge\n");
     return exit_done;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <string>
@@ -12,6 +14,7 @@
 #include "commands.hpp"
 #include "delam/delam.h"
 #include "error.hpp"
+#include "say.hpp"
 
 namespace {
 
@@ -21,7 +24,7 @@ constexpr const char* footer =
     "  1    finished, but at least one step did not converge\n"
     "  2    wrong usage or an error in the scene\n"
     "  3    output cannot be written (full disk, folder not writable)\n"
-    "  4    numerical failure or limit load; finished steps are kept\n"
+    "  4    numerical failure, out of memory or limit load; finished steps are kept\n"
     "  130  interrupted (Ctrl-C, SIGTERM); finished steps are kept, go on with --resume\n";
 
 std::string joined(int count, char** words) {
@@ -60,13 +63,13 @@ int reported(int argc, char** argv) {
     try {
         return guarded(argc, argv);
     } catch (const cli::Failure& failure) {
-        fmt::print(stderr, "delam: {}\n", failure.what());
+        cli::complain("delam: {}\n", failure.what());
         return failure.code();
     } catch (const std::bad_alloc&) {
-        fmt::print(stderr, "delam: out of memory\n");
+        cli::complain("delam: out of memory\n");
         return cli::exit_numerical;
     } catch (const std::exception& e) {
-        fmt::print(stderr, "delam: {}\n", e.what());
+        cli::complain("delam: {}\n", e.what());
         return cli::exit_numerical;
     }
 }
@@ -77,7 +80,15 @@ int main(int argc, char** argv) {
     // HDF5 would print its own stack, and after a full disk try to write once more at exit; both are ours to handle.
     H5dont_atexit();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-    const int code = reported(argc, argv);
-    std::fflush(stdout);
+    int code = reported(argc, argv);
+    // A full disk behind the standard output shows here at the latest; a worse code stands.
+    errno = 0;
+    const bool flushed = std::fflush(stdout) == 0;
+    const int reason = errno;
+    if (!flushed || std::ferror(stdout) != 0) {
+        cli::complain("delam: cannot write the standard output{}\n",
+                      reason != 0 ? std::string(": ") + std::strerror(reason) : "");
+        if (code == cli::exit_done || code == cli::exit_not_converged) code = cli::exit_output;
+    }
     return code;
 }

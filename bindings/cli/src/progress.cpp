@@ -8,6 +8,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "say.hpp"
+
 namespace cli {
 
 namespace {
@@ -49,7 +51,7 @@ void Progress::step(std::int64_t step, double time, double load, std::int64_t it
         draw("");
         return;
     }
-    fmt::print("step {}/{}  {}  left {}\n", step, total_, last_, left());
+    say("step {}/{}  {}  left {}\n", step, total_, last_, left());
     std::fflush(stdout);
 }
 
@@ -66,20 +68,20 @@ void Progress::draw(const std::string& stage) {
         fmt::format("[{}{}] {}/{}  {}  left {}  {}", std::string(full, '#'),
                     std::string(static_cast<std::size_t>(width) - full, '.'), step_, total_, last_, left(), stage);
     line.resize(std::min(line.size(), terminal_width() - 1));
-    fmt::print("\r\033[K{}", line);
+    say("\r\033[K{}", line);
     std::fflush(stdout);
     drawn_ = true;
 }
 
 void Progress::note(const std::string& text) {
-    if (terminal_ && drawn_) fmt::print("\r\033[K");
-    fmt::print("{}\n", text);
+    if (terminal_ && drawn_) say("\r\033[K");
+    say("{}\n", text);
     std::fflush(stdout);
     if (terminal_ && drawn_) draw("");
 }
 
 void Progress::finish() {
-    if (terminal_ && drawn_) fmt::print("\n");
+    if (terminal_ && drawn_) say("\n");
     std::fflush(stdout);
     drawn_ = false;
 }

@@ -74,6 +74,7 @@ std::string result_text(const Model& model, const Scene& scene, const Outcome& o
         {"steps_done", outcome.steps_done},
         {"steps", scene.step_count()},
         {"not_converged", outcome.not_converged},
+        {"estimate_violated", outcome.estimate_violated},
         {"scene",
          {{"file", scene.file}, {"title", scene.title}, {"schema", 1}, {"dimension", scene.geometry.dimension}}},
         {"scene_hash", outcome.problem_hash},

@@ -15,6 +15,7 @@ struct Outcome {
     std::string reason;  // why it is incomplete
     std::int64_t steps_done = 0;
     std::vector<std::int64_t> not_converged;
+    std::vector<std::int64_t> estimate_violated;
     std::int64_t resumed = 0;
     std::string started;
     std::string command;

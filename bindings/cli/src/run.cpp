@@ -8,13 +8,16 @@
 
 #include "call.hpp"
 #include "commands.hpp"
+#include "estimate.hpp"
 #include "fields.hpp"
 #include "file.hpp"
 #include "history.hpp"
 #include "interrupt.hpp"
+#include "notes.hpp"
 #include "output_folder.hpp"
 #include "progress.hpp"
 #include "result.hpp"
+#include "say.hpp"
 #include "state.hpp"
 
 namespace cli {
@@ -33,7 +36,7 @@ extern "C" void on_log(std::int32_t level, const char* text, void* user) {
 // One run: the march and the files that follow it.
 class Run {
 public:
-    Run(const Scene& scene, const Model& model, Solver solver, OutputFolder& folder)
+    Run(const Scene& scene, const Model& model, Solver solver, bool converged, OutputFolder& folder)
         : scene_(scene),
           model_(model),
           solver_(std::move(solver)),
@@ -45,6 +48,7 @@ public:
         state_.content_hash = scene.content_hash;
         state_.problem_hash = hash_of(model);
         state_.started = now_text();
+        if (!converged) state_.not_converged.push_back(0);
     }
 
     void begin() {
@@ -57,6 +61,7 @@ public:
 
     void resume(const State& state) {
         state_ = state;
+        saved_step_ = state.step;
         state_.resumed += 1;
         call(model_.context.get(),
              delam_solver_load(solver_.get(), static_cast<std::int64_t>(state.bytes.size()),
@@ -100,6 +105,9 @@ public:
         outcome.complete = state_.step == static_cast<std::int64_t>(scene_.step_count());
         outcome.steps_done = state_.step;
         outcome.not_converged = state_.not_converged;
+        outcome.estimate_violated = violated_steps(
+            read_bytes(running_history_).substr(0, static_cast<std::size_t>(state_.history_length)),
+            estimate_tolerance(scene_));
         outcome.resumed = state_.resumed;
         outcome.started = state_.started;
         outcome.problem_hash = state_.problem_hash;
@@ -111,6 +119,8 @@ public:
     }
 
     [[nodiscard]] const State& state() const { return state_; }
+    // What a later --resume starts from.
+    [[nodiscard]] std::int64_t saved_step() const { return saved_step_; }
 
 private:
     static Exit stopped(Outcome& outcome) {
@@ -136,6 +146,7 @@ private:
         fields_.synchronise_steps();
         synchronise(running_history_);
         write_atomic(running_state_, pack(state_));
+        saved_step_ = state_.step;
         saved_ = std::chrono::steady_clock::now();
     }
 
@@ -149,6 +160,7 @@ private:
     std::string running_state_;
     std::optional<Appender> file_;
     State state_;
+    std::int64_t saved_step_ = 0;
     std::chrono::steady_clock::time_point saved_;
 };
 
@@ -173,13 +185,16 @@ int already_complete(const OutputFolder& folder, const Scene& scene) {
         throw Failure(exit_scene,
                       fmt::format("{}: the scene is not the one of the result in {}; run again without --resume",
                                   scene.file, folder.path()));
-    fmt::print("{}: complete already\n", folder.path());
+    say("{}: complete already\n", folder.path());
+    const double eta = estimate_tolerance(scene);
+    say("{}", estimate_line(violated_steps(read_bytes(folder.path() + "/history.csv"), eta), eta));
     return converged ? exit_done : exit_not_converged;
 }
 
 }  // namespace
 
 int run(const std::string& scene_file, const std::string& folder_path, bool resume, const std::string& command) {
+    if (folder_path.empty()) throw Failure(exit_scene, "--out: the name of the folder is empty");
     const Scene scene = read_scene(scene_file);
     Context context = new_context();
     const Interrupt interrupt(context.get());
@@ -192,15 +207,19 @@ int run(const std::string& scene_file, const std::string& folder_path, bool resu
     Progress progress(static_cast<std::int64_t>(scene.step_count()), first);
     delam_context_set_log(model.context.get(), on_log, &progress);
     delam_context_set_progress(model.context.get(), on_progress, &progress);
-    fmt::print("delam {} ({}): {}{}\n", delam_version(), delam_commit(), scene_file,
+    say("delam {} ({}): {}{}\n", delam_version(), delam_commit(), scene_file,
                scene.title.empty() ? "" : ", " + scene.title);
     if (resume)
-        fmt::print("{}\n", state ? fmt::format("resumed after step {}", first) : "nothing to resume: started anew");
+        say("{}\n", state ? fmt::format("resumed after step {}", first) : "nothing to resume: started anew");
+    for (const std::string& text : warnings_of(model, scene)) say("warning: {}\n", text);
     std::fflush(stdout);
 
+    bool converged = true;
+    Solver solver = new_solver(model, scene, converged);
+    if (!converged) say("warning: the displacement of the initial state did not converge\n");
     Outcome outcome;
     outcome.command = command;
-    Run work(scene, model, new_solver(model, scene), folder);
+    Run work(scene, model, std::move(solver), converged, folder);
     Exit code = exit_done;
     try {
         if (state)
@@ -212,24 +231,37 @@ int run(const std::string& scene_file, const std::string& folder_path, bool resu
         work.publish(outcome);
     } catch (const OutputFailure& failure) {
         progress.finish();
-        throw Failure(exit_output,
-                      fmt::format("{}\nfinished steps are kept in {}; go on with: delam run {} --out {} --resume",
-                                  failure.what(), folder.running(), scene_file, folder_path));
+        const std::string again = fmt::format("delam run {} --out {}", scene_file, folder_path);
+        const std::string hint =
+            work.saved_step() > 0
+                ? fmt::format("finished steps are kept in {}; go on with: {} --resume", folder.running(), again)
+                : "no step is kept; once there is room, start again with: " + again;
+        throw Failure(exit_output, std::string(failure.what()) + "\n" + hint);
     }
-    const auto total = scene.step_count();
+    const auto total = static_cast<std::int64_t>(scene.step_count());
+    const double eta = estimate_tolerance(scene);
+    say("{}", estimate_line(outcome.estimate_violated, eta));
     if (code == exit_interrupted || code == exit_numerical) {
-        fmt::print(stderr, "delam: {} after step {} of {}; the finished steps are in {}, marked incomplete\n",
-                   code == exit_interrupted ? "interrupted" : "stopped", work.state().step, total, folder_path);
-        if (code == exit_interrupted)
-            fmt::print(stderr, "delam: go on with: delam run {} --out {} --resume\n", scene_file, folder_path);
+        const std::int64_t done = work.state().step;
+        const char* how = code == exit_interrupted ? "interrupted" : "stopped";
+        if (done > 0)
+            complain("delam: {} after step {} of {}; the finished steps are in {}, marked incomplete\n", how, done,
+                     total, folder_path);
         else
-            fmt::print(stderr, "delam: {}\n", outcome.reason);
+            complain("delam: {} before any of {} was finished; {} holds the initial state, marked incomplete\n", how,
+                     counted(total, "step"), folder_path);
+        if (code == exit_interrupted)
+            complain("delam: {} with: delam run {} --out {}{}\n", done > 0 ? "go on" : "start again", scene_file,
+                     folder_path, done > 0 ? " --resume" : "");
+        else
+            complain("delam: {}\n", outcome.reason);
         return code;
     }
     if (code == exit_not_converged)
-        fmt::print(stderr, "delam: {} of {} steps did not converge, the first is step {}\n",
-                   outcome.not_converged.size(), total, outcome.not_converged.front());
-    fmt::print("wrote {}: history.csv, fields.h5, fields.xdmf, result.json, state.bin\n", folder_path);
+        complain("delam: {} did not converge (of {}), the first is step {}\n",
+                 counted(static_cast<std::int64_t>(outcome.not_converged.size()), "step"), total,
+                 outcome.not_converged.front());
+    say("wrote {}: history.csv, fields.h5, fields.xdmf, result.json, state.bin\n", folder_path);
     return code;
 }
 

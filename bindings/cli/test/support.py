@@ -66,6 +66,14 @@ def changed(old, new, scene=SCENE):
     return scene.replace(old, new, 1)
 
 
+def brittle():
+    """A short notch under a brittle interface: the crack jumps, and that step violates the two-sided estimate."""
+    scene = changed("to = 0.030", "to = 0.0045")
+    for mode in ("normal", "tangential"):
+        scene = changed(mode + "_onset = 100.0", mode + "_onset = 250.0", scene)
+    return scene
+
+
 def folder():
     return tempfile.mkdtemp(prefix="delam_cli_")
 

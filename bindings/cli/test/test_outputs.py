@@ -3,9 +3,10 @@
 import json
 import os
 import resource
+import subprocess
 
 import h5py
-from support import SCENE, changed, delam, expect, expect_error, finish, folder, read, write
+from support import DELAM, SCENE, brittle, changed, delam, expect, expect_error, finish, folder, read, write
 
 HEADER = ("step,time,load,reaction,stored_bulk,stored_interface,dissipated,stored_interface_slides,dissipated_slides,"
           "work,lower,increment,upper,increment_lower,am_iterations,linear_iterations,"
@@ -54,6 +55,37 @@ with h5py.File(os.path.join(other, "fields.h5")) as file:
     expect(sorted(file["steps"]) == ["00000000", "00000002", "00000003", "00000004"],
            "every third step, snapshot and last")
 
+
+
+def violated(out_folder, eta):
+    """The rule, from the rows."""
+    lines = read(os.path.join(out_folder, "history.csv")).decode().splitlines()
+    table = [dict(zip(lines[0].split(","), map(float, line.split(",")))) for line in lines[2:]]
+    return [int(r["step"]) for r in table
+            if max(r["lower"] - r["increment_lower"], r["increment"] - r["upper"]) >
+            eta * max(abs(r["stored_bulk"] + r["stored_interface"]), abs(r["work"]))]
+
+
+def line_of(steps):
+    return "two-sided estimate violated in steps: " + ", ".join(map(str, steps)) + " (tolerance eta ="
+
+
+expect(about["estimate_violated"] == violated(out, 1e-3), "the two-sided estimate at the default tolerance")
+expect(("two-sided" in text) == bool(violated(out, 1e-3)), "a closing line only where it is violated")
+strict = write(changed("steps = 20", "steps = 20\n[solver]\nbacktracking_tolerance = 1e-9", brittle()))
+close = folder()
+code, text, _ = delam("run", strict, "--out", close)
+steps = violated(close, 1e-9)
+expect(code == 0 and steps and line_of(steps) in text, f"violated in {steps}: the closing line names them")
+expect(json.loads(read(os.path.join(close, "result.json")))["estimate_violated"] == steps, "so does result.json")
+expect(line_of(steps) in delam("run", strict, "--out", close, "--resume")[1], "and a resumed run")
+with open("/dev/full", "w", encoding="utf-8") as full:
+    blind = folder()
+    done = subprocess.run([DELAM, "run", strict, "--out", blind], stdout=full, stderr=subprocess.PIPE, text=True,
+                          check=False)
+    expect(done.returncode == 3 and "standard output" in done.stderr, f"run > /dev/full: exit {done.returncode}")
+    expect(read(os.path.join(blind, "history.csv")) == read(os.path.join(close, "history.csv")), "the result is whole")
+
 limited = changed("steps = 20", "steps = 8\n[solver]\nminimisation_limit = 1")
 stiff = folder()
 expect_error(delam("run", write(limited), "--out", stiff), 1, "did not converge")
@@ -68,7 +100,9 @@ largest = max(len(b) for b in before.values())
 for limit in (1000, 20000, largest - 1000):
     answer = delam("run", scene, "--out", out,
                    preexec_fn=lambda n=limit: resource.setrlimit(resource.RLIMIT_FSIZE, (n, n)))
-    expect_error(answer, 3, "cannot write .*running/", "File too large", "--resume")
+    # Before the first state is saved there is nothing to promise.
+    expect_error(answer, 3, "cannot write .*running/", "File too large",
+                 "--resume" if limit > 20000 else "no step is kept")
     after = {name: read(os.path.join(out, name)) for name in os.listdir(out) if name != "running"}
     expect(after == before, f"files of at most {limit} bytes: the earlier result stays")
 code, text, _ = delam("run", scene, "--out", out, "--resume")

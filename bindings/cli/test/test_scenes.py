@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bad scenes: every message names the place, the value and what is allowed; good ones pass `check`."""
-from support import SCENE, changed, delam, expect, expect_error, finish, write
+import re
+import subprocess
+
+from support import DELAM, SCENE, changed, delam, expect, expect_error, finish, write
 
 
 def refuse(text, *patterns, code=2):
@@ -30,12 +33,21 @@ refuse(changed("normal_toughness = 250.0", "normal_toughness = 50.0"), r"laws\[0
 refuse(changed("normal_onset = 100.0\n", ""), r"laws\[0\]", "normal_onset")
 refuse(changed("tangential_toughness = 250.0", "tangential_toughness = 250.0\ntoughness_exponent_1 = 0.3\n"
                "toughness_exponent_2 = 0.3"), r"laws\[0\]")
-refuse(changed("h = 0.0015", "h = 0.0007"), r"geometry\.h", "evenly")
+refuse(changed("h = 0.0015", "h = 0.0007"), r"geometry\.h", "evenly", "h = 0.00075 divides all")
+# 0.0024 divides the length, not the thicknesses; what is suggested has to divide both.
+odd = changed("h = 0.0015", "h = 0.0024")
+answer = delam("check", write(odd))
+expect_error(answer, 2, r"layers\[0\]\.thickness", "h = [0-9.e-]+ divides all lengths and thicknesses")
+better = re.search(r"h = ([0-9.e-]+) divides all", answer[2])
+expect(better and delam("check", write(changed("h = 0.0024", "h = " + better.group(1), odd)))[0] == 0,
+       "the suggested h is accepted")
 refuse(changed("point = [0.060, 0.006]", "point = [0.0604, 0.006]"), r"loads\[0\]\.point", "nearest", "upper")
 refuse(changed("point = [0.060, 0.006]", "point = [0.060, 0.003]"), r"loads\[0\]\.point", "lower, upper", "layer")
 refuse(changed("schema = 1", "schema = 2"), "schema", "2")
 refuse(changed("schema = 1\n", ""), "schema", "missing")
 refuse(changed("steps = 20", "steps = 0"), r"time\.steps", ">= 1")
+refuse(changed("steps = 20", "steps = 6.0"), r"time\.steps", "6.0 has a decimal point")
+refuse(SCENE + "[solver]\nsubdomains = 2.5\n", r"solver\.subdomains", "2.5", "0 <= value <= 1000000")
 refuse(changed("end = 2.0\nsteps = 20", "instants = [0, 1, 1]"), r"time\.instants", "strictly increasing")
 refuse(SCENE + "[solver]\ndamage_tolerence = 1e-5\n", r"solver\.damage_tolerence", "did you mean 'damage_tolerance'")
 refuse(SCENE + "[solver]\ndamage_tolerance = -1.0\n", r"solver\.damage_tolerance")
@@ -51,4 +63,31 @@ refuse(changed('face = "+y"', 'face = "-y"', patch), r"loads\[0\]\.patch", "boun
 force = changed("[time]", '[[patterns]]\nname = "gravity"\ntimes = [0, 2]\nvalues = [0, 1]\n[[forces]]\n'
                 'point = [0.06, 0.006]\nforce = [0.0, -10.0]\npattern = "gravity"\n[time]')
 expect(delam("check", write(force))[0] == 0, "dead forces")
+
+
+def warned(text, *parts):
+    code, _, error = delam("check", write(text))
+    expect(code == 0 and all(p in error for p in parts), f"a warning with {parts}: {error.strip()}")
+
+
+expect(delam("check", write(SCENE))[2] == "", "no warning where nothing is odd")
+warned(changed("to = 0.030", "to = 30"),
+       "warning: interfaces[0].notch[0] ends at 30, the interface at 0.12: nothing adheres")
+warned(changed("from = 0.0, to", "from = -1, to"),
+       "warning: interfaces[0].notch[0] begins at -1, the interface at 0\n")
+warned(changed("to = 0.030", "to = 0.12"), "warning: interfaces[0]: nothing adheres")
+warned(changed("length = 0.002", "length = 0.2", patch), "warning: loads[0].patch reaches from x = -0.04 to 0.16")
+warned(changed("values = [0.0, 0.006]", "values = [0.001, 0.006]"), 'patterns[0] "press" is 0.001 at the start',
+       "its stored energy is not in `work`")
+_, out, _ = delam("check", write(changed("poisson = 0.3", "poisson = 0.495")))
+expect("note: " in out and "locks" in out, "a note where cells lock")
+_, out, _ = delam("check", write(changed("dimension = 2", 'dimension = 2\ncell = "tri3"')))
+expect("note: " in out and "bending" in out, "a note where triangles are too stiff")
+
+with open("/dev/full", "w", encoding="utf-8") as full:
+    for words in (("check", write(SCENE)), ("--help",)):
+        done = subprocess.run([DELAM, *words], stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+        expect(done.returncode == 3 and "standard output" in done.stderr,
+               f"{words[0]} > /dev/full: exit {done.returncode}")
+expect_error(delam("run", write(SCENE), "--out", ""), 2, "--out", "empty")
 finish()
