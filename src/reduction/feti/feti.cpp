@@ -203,6 +203,7 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
             for (double& v : z) v *= stiffness_scale;
         mask(z);
     };
+    system.balance = [&](std::span<double> x) { coarse_->balance(e, x, resultant); };
     system.project = [&](std::span<double> x) { coarse_->project(x); };
     system.project_transposed = [&](std::span<double> x) {
         coarse_->project_transposed(x);
@@ -216,7 +217,6 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     response.iterations = cg.iterations;
     response.residual = cg.residual;
     response.converged = cg.converged;
-    coarse_->balance(e, lambda, resultant);
 
     // A lambda - b = G^T alpha, and B u = B K^+ f - F lambda + G^T alpha.
     std::vector<double> f_lambda(rows), residual(rows);

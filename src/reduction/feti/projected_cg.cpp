@@ -19,7 +19,8 @@ struct Direction {
 constexpr std::size_t kept_directions = 400;  // beyond that the memory is better used elsewhere
 constexpr int rounds = 6;
 // Close to rounding the kept directions lose their conjugacy: the residual stops, then grows. A fresh start from there converges again.
-constexpr int idle_limit = 3;
+constexpr int idle_limit = 25;
+constexpr double growth_limit = 10.0;
 constexpr double noise_zone = 1e3;  // times the floor of rounding
 constexpr double rounding = 1e-14;  // of the energy norm of the start
 constexpr double stagnation_slack = 100.0;  // times the tolerance or the floor
@@ -30,9 +31,10 @@ CgResult projected_cg(const ProjectedSystem& system, std::span<const double> b, 
                       double floor, std::int64_t limit, const std::function<void(std::int64_t)>& each_iteration) {
     const std::size_t n = b.size();
     CgResult result;
-    std::vector<double> a_lambda(n), r(n), z(n), ap(n), best;
+    std::vector<double> a_lambda(n), r(n), z(n), ap(n), best, at_lowest;
     double best_norm = INFINITY;  // sqrt |r^T z| of the best start of a round, a true residual
     for (int round = 0;; ++round) {
+        system.balance(lambda);  // long steps near rounding leave the space a little
         system.apply(lambda, a_lambda);
         for (std::size_t i = 0; i < n; ++i) r[i] = b[i] - a_lambda[i];
         system.project_transposed(r);
@@ -49,21 +51,26 @@ CgResult projected_cg(const ProjectedSystem& system, std::span<const double> b, 
             const double target = std::max(tolerance * energy, floor);
             const bool reached = norm <= target;
             idle = norm < 0.99 * lowest ? 0 : idle + 1;
-            lowest = std::min(lowest, norm);
+            if (norm < lowest) {
+                lowest = norm;
+                at_lowest.assign(lambda.begin(), lambda.end());
+            }
             if (directions.empty()) {
                 const bool stagnated = norm > 0.5 * best_norm;  // a restart that gains nothing has met rounding
                 if (norm < best_norm) {
                     best_norm = norm;
                     best.assign(lambda.begin(), lambda.end());
                     result.residual = energy > 0.0 ? norm / energy : 0.0;
-                    result.converged = reached || norm <= stagnation_slack * floor || result.residual <= stagnation_slack * tolerance;
+                    result.converged = reached || norm <= stagnation_slack * floor ||
+                                       result.residual <= stagnation_slack * tolerance;
                 }
                 if (reached || stagnated || result.iterations >= limit || round == rounds) {
                     std::copy(best.begin(), best.end(), lambda.begin());
                     return result;
                 }
-            } else if (reached || result.iterations >= limit || (idle >= idle_limit && lowest <= noise_zone * floor)) {
-                break;
+            } else if (reached || result.iterations >= limit ||
+                       (lowest <= noise_zone * floor && (idle >= idle_limit || norm > growth_limit * lowest))) {
+                break;  // and go on from the lowest point
             }
             for (int pass = 0; pass < 2; ++pass)
                 for (const Direction& d : directions) add_scaled(-dot(d.ap, z) / d.pap, d.p, z);
@@ -79,6 +86,7 @@ CgResult projected_cg(const ProjectedSystem& system, std::span<const double> b, 
             directions.push_back({z, ap, pap});
             each_iteration(++result.iterations);
         }
+        std::copy(at_lowest.begin(), at_lowest.end(), lambda.begin());
     }
 }
 
