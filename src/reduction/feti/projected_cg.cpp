@@ -19,8 +19,8 @@ struct Direction {
 constexpr std::size_t kept_directions = 400;  // beyond that the memory is better used elsewhere
 constexpr int rounds = 6;
 // Close to rounding the kept directions lose their conjugacy: the residual stops, then grows. A fresh start from there converges again.
-constexpr int idle_limit = 25;
-constexpr double growth_limit = 10.0;
+constexpr int idle_limit = 100;
+constexpr double growth_limit = 1e3;
 constexpr double noise_zone = 1e3;  // times the floor of rounding
 constexpr double rounding = 1e-14;  // of the energy norm of the start
 constexpr double stagnation_slack = 100.0;  // times the tolerance or the floor
