@@ -50,7 +50,7 @@ std::vector<double> field(const Solver& solver, const std::string& key, std::int
     const State& state = solver.state();
     const Problem& problem = solver.problem();
     if (key == "displacement") return solver.displacement();
-    if (key == "reaction") return state.response.reaction;
+    if (key == "reaction") return solver.reaction();
     if (key == "stress") {
         std::vector<Elastic> materials;
         for (const auto& m : problem.material) materials.push_back(*m);

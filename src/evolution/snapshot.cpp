@@ -13,7 +13,7 @@ namespace delam {
 namespace {
 
 constexpr std::uint64_t magic = 0x31305453'4d4c4544;  // "DELMST01" in memory on a little-endian machine
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 
 std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
     std::uint64_t h = 14695981039346656037ULL;
@@ -82,7 +82,6 @@ void walk(Walker& w, S& state) {
     w.item(state.loaded);
     w.item(state.response.jump);
     w.item(state.response.force);
-    w.item(state.response.reaction);
     w.item(state.response.conjugate);
     w.item(state.response.multipliers);
     w.item(state.response.rigid);
@@ -90,6 +89,7 @@ void walk(Walker& w, S& state) {
     w.item(state.response.load_potential);
     w.item(state.response.residual);
     w.item(state.response.iterations);
+    w.item(state.memory);
     w.item(state.ledger);
     w.item(state.counts);
 }
@@ -100,14 +100,14 @@ void check(const State& state, const State& mine) {
     const bool sizes = state.theta.size() == mine.theta.size() && state.adhesion.size() == mine.adhesion.size() &&
                        state.mixity.size() == mine.mixity.size() && state.mixity_before.size() == mine.mixity_before.size() &&
                        state.closed.size() == mine.closed.size() && a.jump.size() == b.jump.size() &&
-                       a.force.size() == b.force.size() && a.reaction.size() == b.reaction.size() &&
+                       a.force.size() == b.force.size() &&
                        a.conjugate.size() == b.conjugate.size() && a.multipliers.size() == b.multipliers.size() &&
                        a.rigid.size() == b.rigid.size();
     if (!sizes) fail(DELAM_ERROR_SNAPSHOT, "snapshot has other sizes than this solver");
     for (const auto* fractions : {&state.adhesion, &state.mixity, &state.mixity_before})
         for (const double v : *fractions)
             if (!(v >= 0.0 && v <= 1.0)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds an adhesion or mixity of ", v, ", allowed: 0 to 1");
-    for (const auto* values : {&state.theta, &a.jump, &a.force, &a.reaction, &a.conjugate, &a.multipliers, &a.rigid})
+    for (const auto* values : {&state.theta, &a.jump, &a.force, &a.conjugate, &a.multipliers, &a.rigid, &state.memory})
         for (const double v : *values)
             if (!std::isfinite(v)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a number that is not finite");
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "reduction/feti/feti.hpp"
+#include "reduction/choose.hpp"
 
 namespace delam {
 
@@ -23,7 +23,7 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time) : problem_
         }
         initial_adhesion_.insert(initial_adhesion_.end(), properties.adhesion.begin(), properties.adhesion.end());
     }
-    operator_ = std::make_unique<Feti>(problem_, monitor_);
+    operator_ = choose_operator(problem_, monitor_);
     lift_ = Lift(*operator_, static_cast<std::size_t>(problem_.jump_count()), problem_.patterns.size());
     double largest = 0.0;
     for (const double c : problem_.prescribed_matrix()) largest = std::max(largest, std::abs(c));
@@ -45,6 +45,7 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time) : problem_
     state.mixity_before = state.mixity;
     state.loaded = any_jump(pairs_, state.response.jump) ? 1 : 0;
     book_energies(state);
+    state.memory = operator_->memory();
 }
 
 Outcome Solver::unconverged_displacement(const State& state) const {
@@ -63,6 +64,7 @@ void Solver::begin(State& next, double time) const {
     next.time = time;
     next.theta = problem_.factors(time);
     next.counts = Counts{};
+    operator_->recall(committed_.memory);
 }
 
 // Energies of a state at its own mixity; cumulative columns are not touched.
@@ -116,6 +118,7 @@ Outcome Solver::advance(double time) {
     converged = minimiser().alternate(next, committed_.adhesion) && converged;
     next.loaded = committed_.loaded != 0 || any_jump(pairs_, next.response.jump) ? 1 : 0;
     book_step(next);
+    next.memory = operator_->memory();
     Outcome outcome;
     if (!converged) {
         outcome.status = DELAM_NOT_CONVERGED;
@@ -124,6 +127,7 @@ Outcome Solver::advance(double time) {
                             problem_.options.damage_tolerance, "; worst linear residual ", next.counts.linear_residual,
                             ", tolerance ", problem_.options.linear_tolerance, ")");
     }
+    displacement_.clear();
     pending_ = std::move(next);
     return outcome;
 }
@@ -138,6 +142,8 @@ Outcome Solver::equilibrate(double time, std::span<const double> adhesion) {
     Outcome outcome;
     if (!minimiser().displace(next)) outcome = unconverged_displacement(next);
     book_energies(next);
+    next.memory = operator_->memory();
+    displacement_.clear();
     pending_ = std::move(next);
     return outcome;
 }
@@ -151,16 +157,27 @@ void Solver::commit() {
 void Solver::rollback() {
     if (!pending_) fail(DELAM_ERROR_STATE, "nothing to roll back: no step is pending");
     pending_.reset();
+    displacement_.clear();
 }
 
 void Solver::restore(State restored) {
+    operator_->recall(restored.memory);
     committed_ = std::move(restored);
     pending_.reset();
+    displacement_.clear();
+}
+
+const std::vector<double>& Solver::displacement() const {
+    if (displacement_.empty()) {
+        displacement_ = operator_->displacement(state().theta, state().response);
+        ++recoveries_;
+    }
+    return displacement_;
 }
 
 double Solver::equilibrium_defect() const {
     double reaction = 0.0;
-    for (const double r : state().response.reaction) reaction = std::max(reaction, std::abs(r));
+    for (const double r : this->reaction()) reaction = std::max(reaction, std::abs(r));
     const double defect = operator_->equilibrium_defect(state().theta, state().response);
     return reaction > 0.0 ? defect / reaction : defect;
 }

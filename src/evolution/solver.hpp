@@ -43,7 +43,13 @@ public:
     void restore(State state);
     const PairLaws& pairs() const { return pairs_; }
     const ContactScene& contact() const { return contact_; }
-    std::vector<double> displacement() const { return operator_->displacement(state().theta, state().response); }
+    // Recovered on request, [mesh DOFs]; kept until the state changes.
+    const std::vector<double>& displacement() const;
+    // Forces of the device, [constraints].
+    std::vector<double> reaction() const { return operator_->reaction(state().theta, state().response); }
+    // How often displacements were recovered.
+    std::int64_t recoveries() const { return recoveries_; }
+    const JumpOperator& jump_operator() const { return *operator_; }
     // Out-of-balance force over the largest reaction.
     double equilibrium_defect() const;
     std::string plan() const;
@@ -67,6 +73,8 @@ private:
     Outcome initial_outcome_;
     State committed_;
     std::optional<State> pending_;
+    mutable std::vector<double> displacement_;  // of state(), empty: not recovered
+    mutable std::int64_t recoveries_ = 0;
 };
 
 }  // namespace delam

@@ -51,6 +51,7 @@ struct State {
     std::vector<std::uint8_t> closed;         // [pairs]
     std::uint8_t loaded = 0;                  // 1 once any pair has had a jump: the mixities mean something
     Response response;
+    std::vector<double> memory;               // of the jump operator
     Ledger ledger;
     Counts counts;
 };

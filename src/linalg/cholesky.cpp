@@ -23,6 +23,7 @@ struct SparseCholesky::Impl {
     cholmod_factor* factor = nullptr;
     std::int64_t size = 0;
     std::int64_t trailing = 0;
+    FactorSize size_of_factor;
     mutable cholmod_dense* x_buffer = nullptr;  // kept between solves
     mutable cholmod_dense* y_work = nullptr;
     mutable cholmod_dense* e_work = nullptr;
@@ -96,8 +97,8 @@ SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing
     if (matrix.rows == 0) return;
     cholmod_sparse a = view(matrix);
     std::vector<SuiteSparse_long> order(static_cast<std::size_t>(matrix.rows));
-    std::vector<SuiteSparse_long> group(static_cast<std::size_t>(matrix.rows), 0);
     const auto interior = static_cast<std::size_t>(matrix.rows - trailing);
+    std::vector<SuiteSparse_long> group(static_cast<std::size_t>(matrix.rows), 0);
     std::fill(group.begin() + static_cast<std::ptrdiff_t>(interior), group.end(), 1);
     if (cholmod_l_camd(&a, nullptr, 0, group.data(), order.data(), &impl.common) == 0) impl.check("ordering");
     std::iota(order.begin() + static_cast<std::ptrdiff_t>(interior), order.end(), static_cast<SuiteSparse_long>(interior));
@@ -106,6 +107,7 @@ SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing
     impl.common.postorder = trailing == 0 ? 1 : 0;  // a postorder may move trailing variables that are not connected
     impl.factor = cholmod_l_analyze_p(&a, order.data(), nullptr, 0, &impl.common);
     impl.check("analysis");
+    impl.size_of_factor = {impl.common.lnz, impl.common.fl};
 }
 
 SparseCholesky::~SparseCholesky() = default;
@@ -152,6 +154,8 @@ double SparseCholesky::factor_entries() const {
     const cholmod_factor* l = impl_->factor;
     return l == nullptr ? 0.0 : static_cast<double>(l->is_super != 0 ? l->xsize : l->nzmax);
 }
+
+FactorSize SparseCholesky::size() const { return impl_->size_of_factor; }
 
 DenseMatrix SparseCholesky::trailing_factor() const {
     const Impl& impl = *impl_;

@@ -12,6 +12,12 @@
 
 namespace delam {
 
+// What the symbolic analysis says of a factor.
+struct FactorSize {
+    double entries = 0.0;  // of L
+    double flops = 0.0;    // of the numeric factorisation
+};
+
 class SparseCholesky {
 public:
     // Symbolic analysis of a symmetric matrix (both triangles stored). The last `trailing` variables are eliminated last, in
@@ -29,6 +35,7 @@ public:
     // Lower factor L_tt of the trailing variables: L_tt L_tt^T is the Schur complement onto them.
     DenseMatrix trailing_factor() const;
     double factor_entries() const;
+    FactorSize size() const;
 
 private:
     struct Impl;

@@ -18,6 +18,10 @@ void dgemm_(const char*, const char*, const int*, const int*, const int*, const 
 void dsyrk_(const char*, const char*, const int*, const int*, const double*, const double*, const int*, const double*,
             double*, const int*);
 void dtrsv_(const char*, const char*, const char*, const int*, const double*, const int*, double*, const int*);
+void dtrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*, const double*,
+            const int*, double*, const int*);
+void dgemv_(const char*, const int*, const int*, const double*, const double*, const int*, const double*, const int*,
+            const double*, double*, const int*);
 void dpotrf_(const char*, const int*, double*, const int*, int*);
 void dpotri_(const char*, const int*, double*, const int*, int*);
 void dsyev_(const char*, const char*, const int*, double*, const int*, double*, double*, const int*, int*);
@@ -38,11 +42,6 @@ int narrow(std::int64_t n) {
 }
 
 int leading(std::int64_t n) { return std::max(1, narrow(n)); }
-
-void mirror_lower(DenseMatrix& a) {
-    for (std::int64_t j = 0; j < a.columns; ++j)
-        for (std::int64_t i = j + 1; i < a.rows; ++i) a(j, i) = a(i, j);
-}
 
 }  // namespace
 
@@ -72,16 +71,93 @@ DenseMatrix multiply(const DenseMatrix& a, const DenseMatrix& b) {
     return c;
 }
 
-DenseMatrix lower_times_transpose(const DenseMatrix& lower) {
-    DenseMatrix product(lower.rows, lower.rows);
-    const int n = narrow(lower.rows), lda = leading(lower.rows);
+DenseMatrix multiply_transposed(const DenseMatrix& a, const DenseMatrix& b) {
+    DenseMatrix c(a.columns, b.columns);
+    const int m = narrow(a.columns), n = narrow(b.columns), k = narrow(a.rows);
+    const int lda = leading(a.rows), ldb = leading(b.rows), ldc = leading(c.rows);
     const double alpha = 1.0, beta = 0.0;
-    DenseMatrix clean = lower;
-    for (std::int64_t j = 0; j < clean.columns; ++j)
-        for (std::int64_t i = 0; i < j; ++i) clean(i, j) = 0.0;
-    if (n > 0) dsyrk_("L", "N", &n, &n, &alpha, clean.value.data(), &lda, &beta, product.value.data(), &lda);
+    if (m > 0 && n > 0 && k > 0)
+        dgemm_("T", "N", &m, &n, &k, &alpha, a.value.data(), &lda, b.value.data(), &ldb, &beta, c.value.data(), &ldc);
+    return c;
+}
+
+// By squares that fit the cache: a plain double loop would miss it at every element of one of the two triangles.
+void mirror_lower(DenseMatrix& a) {
+    constexpr std::int64_t block = 32;
+    for (std::int64_t bj = 0; bj < a.columns; bj += block)
+        for (std::int64_t bi = bj; bi < a.rows; bi += block)
+            for (std::int64_t j = bj; j < std::min(bj + block, a.columns); ++j)
+                for (std::int64_t i = std::max(bi, j + 1); i < std::min(bi + block, a.rows); ++i) a(j, i) = a(i, j);
+}
+
+// Column panel after column panel: panel k touches only the square below and to the right of its first row.
+DenseMatrix lower_times_transpose(const DenseMatrix& lower) {
+    constexpr std::int64_t width = 128;
+    DenseMatrix product(lower.rows, lower.rows);
+    const int lda = leading(lower.rows);
+    const double unit = 1.0;
+    for (std::int64_t k = 0; k < lower.rows; k += width) {
+        const int n = narrow(lower.rows - k), panel = static_cast<int>(std::min(width, lower.rows - k));
+        dsyrk_("L", "N", &n, &panel, &unit, &lower.value[static_cast<std::size_t>(k + k * lower.rows)], &lda, &unit,
+               &product.value[static_cast<std::size_t>(k + k * lower.rows)], &lda);
+    }
     mirror_lower(product);
     return product;
+}
+
+void multiply(const DenseMatrix& a, std::span<const double> x, std::span<double> y) {
+    const int m = narrow(a.rows), n = narrow(a.columns), lda = leading(a.rows);
+    const double alpha = 1.0, beta = 0.0;
+    if (m > 0 && n > 0)
+        dgemv_("N", &m, &n, &alpha, a.value.data(), &lda, x.data(), &one, &beta, y.data(), &one);
+    else
+        std::fill(y.begin(), y.end(), 0.0);
+}
+
+void multiply_transposed(const DenseMatrix& a, std::span<const double> x, std::span<double> y) {
+    const int m = narrow(a.rows), n = narrow(a.columns), lda = leading(a.rows);
+    const double alpha = 1.0, beta = 0.0;
+    if (m > 0 && n > 0)
+        dgemv_("T", &m, &n, &alpha, a.value.data(), &lda, x.data(), &one, &beta, y.data(), &one);
+    else
+        std::fill(y.begin(), y.end(), 0.0);
+}
+
+bool factor_definite(DenseMatrix& a) {
+    const int n = narrow(a.rows), lda = leading(a.rows);
+    int info = 0;
+    if (n > 0) dpotrf_("L", &n, a.value.data(), &lda, &info);
+    return info == 0;
+}
+
+void solve_lower(const DenseMatrix& lower, DenseMatrix& b) {
+    const int m = narrow(b.rows), n = narrow(b.columns), lda = leading(lower.rows), ldb = leading(b.rows);
+    const double alpha = 1.0;
+    if (m > 0 && n > 0) dtrsm_("L", "L", "N", "N", &m, &n, &alpha, lower.value.data(), &lda, b.value.data(), &ldb);
+}
+
+void solve_lower(const DenseMatrix& lower, std::span<double> x) {
+    const int n = narrow(lower.rows), lda = leading(lower.rows);
+    if (n > 0) dtrsv_("L", "N", "N", &n, lower.value.data(), &lda, x.data(), &one);
+}
+
+void solve_lower_transposed(const DenseMatrix& lower, std::span<double> x) {
+    const int n = narrow(lower.rows), lda = leading(lower.rows);
+    if (n > 0) dtrsv_("L", "T", "N", &n, lower.value.data(), &lda, x.data(), &one);
+}
+
+void subtract_gram(DenseMatrix& c, const DenseMatrix& v) {
+    const int n = narrow(c.rows), k = narrow(v.rows), ldv = leading(v.rows), ldc = leading(c.rows);
+    const double alpha = -1.0, beta = 1.0;
+    if (n > 0 && k > 0) dsyrk_("L", "T", &n, &k, &alpha, v.value.data(), &ldv, &beta, c.value.data(), &ldc);
+}
+
+void subtract_product(DenseMatrix& c, const DenseMatrix& v, const DenseMatrix& w) {
+    const int m = narrow(c.rows), n = narrow(c.columns), k = narrow(v.rows);
+    const int ldv = leading(v.rows), ldw = leading(w.rows), ldc = leading(c.rows);
+    const double alpha = -1.0, beta = 1.0;
+    if (m > 0 && n > 0 && k > 0)
+        dgemm_("T", "N", &m, &n, &k, &alpha, v.value.data(), &ldv, w.value.data(), &ldw, &beta, c.value.data(), &ldc);
 }
 
 DenseMatrix inverse_definite(DenseMatrix a) {

@@ -26,8 +26,25 @@ void add_scaled(double a, std::span<const double> x, std::span<double> y);
 void multiply_symmetric(const DenseMatrix& s, std::span<const double> x, std::span<double> y);
 // C = A B
 DenseMatrix multiply(const DenseMatrix& a, const DenseMatrix& b);
-// L L^T, full symmetric, from a lower triangle (the upper one is taken as zero).
+// C = A^T B
+DenseMatrix multiply_transposed(const DenseMatrix& a, const DenseMatrix& b);
+// L L^T, full symmetric, from a lower triangle (the upper one must be zero): n^3/3 multiplications.
 DenseMatrix lower_times_transpose(const DenseMatrix& lower);
+// y = A x and y = A^T x (BLAS dgemv)
+void multiply(const DenseMatrix& a, std::span<const double> x, std::span<double> y);
+void multiply_transposed(const DenseMatrix& a, std::span<const double> x, std::span<double> y);
+// Copies the lower triangle to the upper one.
+void mirror_lower(DenseMatrix& a);
+// A = L L^T in its lower triangle (LAPACK dpotrf). False: not positive definite; A is then spoilt.
+bool factor_definite(DenseMatrix& a);
+// L^-1 B, L^-1 x, L^-T x in place (BLAS dtrsm, dtrsv); only the lower triangle is read.
+void solve_lower(const DenseMatrix& lower, DenseMatrix& b);
+void solve_lower(const DenseMatrix& lower, std::span<double> x);
+void solve_lower_transposed(const DenseMatrix& lower, std::span<double> x);
+// C -= V^T V in the lower triangle of C (BLAS dsyrk).
+void subtract_gram(DenseMatrix& c, const DenseMatrix& v);
+// C -= V^T W (BLAS dgemm)
+void subtract_product(DenseMatrix& c, const DenseMatrix& v, const DenseMatrix& w);
 // A^-1, full symmetric, of a positive definite A (LAPACK dpotrf, dpotri).
 DenseMatrix inverse_definite(DenseMatrix a);
 // Orthonormal basis of the columns' span (modified Gram-Schmidt, twice); they must be independent.

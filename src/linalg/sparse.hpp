@@ -28,7 +28,12 @@ SparseMatrix from_triplets(std::int64_t rows, std::int64_t columns, std::vector<
 
 // y = A x
 void multiply(const SparseMatrix& a, std::span<const double> x, std::span<double> y);
+// y = A^T x
+void multiply_transposed(const SparseMatrix& a, std::span<const double> x, std::span<double> y);
 
 SparseMatrix transpose(const SparseMatrix& a);
+
+// T^T K T of a symmetric K, both triangles.
+SparseMatrix congruence(const SparseMatrix& k, const SparseMatrix& t);
 
 }  // namespace delam

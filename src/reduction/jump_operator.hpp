@@ -22,7 +22,6 @@ struct Springs {
 struct Response {
     std::vector<double> jump;         // [rows] L
     std::vector<double> force;        // [rows] force of a pair, F, pulling positive
-    std::vector<double> reaction;     // [constraints] force of the device along the constraint, F
     std::vector<double> conjugate;    // [patterns] q = dE/dtheta
     std::vector<double> multipliers;  // the operator's own unknowns: warm start in, solution out (empty: cold)
     std::vector<double> rigid;        // the operator's rigid-body coefficients of the solution
@@ -39,12 +38,17 @@ public:
     virtual ~JumpOperator() = default;
     // theta: [patterns].
     virtual void solve(const Springs& springs, std::span<const double> theta, Response& response) = 0;
+    // Forces of the device along the constraints [constraints], F.
+    virtual std::vector<double> reaction(std::span<const double> theta, const Response& response) const = 0;
     // Displacements [mesh DOFs] of a response of this operator.
     virtual std::vector<double> displacement(std::span<const double> theta, const Response& response) const = 0;
     // Largest out-of-balance force at a node of the displacements above, with the response's interface forces and reactions, F.
     virtual double equilibrium_defect(std::span<const double> theta, const Response& response) const = 0;
     // Rows whose jump the prescribed displacements alone determine, [rows].
     virtual std::span<const std::uint8_t> prescribed_rows() const = 0;
+    // What of the past the last digits of the next solve depend on (empty: nothing); a recalled memory gives them again.
+    virtual std::vector<double> memory() const { return {}; }
+    virtual void recall(std::span<const double> /*memory*/) {}
     // For people: what was built, at what size.
     virtual std::string description() const = 0;
 };

@@ -93,6 +93,8 @@ void add_options(Fnv& fnv, const Options& options) {
     fnv.add(options.damage_tolerance);
     fnv.add(options.minimisation_limit);
     fnv.add(options.backtracking_tolerance);
+    fnv.add(options.minimisation);
+    fnv.add(options.reduction);
     fnv.add(options.contact_limit);
     fnv.add(options.subdomains);
     fnv.add(options.gluing);

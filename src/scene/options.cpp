@@ -26,8 +26,8 @@ struct Row {
 
 constexpr double most = 9007199254740992.0;  // 2^53: beyond it a double no longer holds every whole number
 
-const std::array<Row, 10>& rows() {
-    static const std::array<Row, 10> table{{
+const std::array<Row, 12>& rows() {
+    static const std::array<Row, 12> table{{
         {{"damage_tolerance", "real", "-", "1e-5", "0 < value < 1",
           "alternate minimisation stops when no adhesion changes by more (delta)"},
          &Options::damage_tolerance,
@@ -43,6 +43,14 @@ const std::array<Row, 10>& rows() {
          &Options::backtracking_tolerance,
          0.0,
          1.0},
+        {{"minimisation", "text", "-", "auto", "auto | alternate | newton",
+          "how a load step is minimised: plain alternate minimisation, or sped up by Newton steps and moves of unstable pairs to their debonded "
+          "branch, each checked by the energy, to the same stopping test; newton needs the condensed reduction; auto: newton where it can"},
+         &Options::minimisation},
+        {{"reduction", "text", "-", "auto", "auto | condensed | feti",
+          "how the bodies are reduced to their interfaces: condensed once into a dense operator, or total FETI; auto: by predicted cost and "
+          "memory, feti where subdomains are asked for"},
+         &Options::reduction},
         {{"contact_limit", "integer", "-", "200", "1 <= value <= 2^53",
           "active-set steps of a displacement solve at most, least-index exchanges included"},
          &Options::contact_limit,

@@ -13,6 +13,9 @@ struct Options {
     double damage_tolerance = 1e-5;             // delta
     std::int64_t minimisation_limit = 5000;     // alternate minimisation steps
     double backtracking_tolerance = 1e-3;       // eta: relative tolerance of the two-sided estimate that is reported
+    std::string minimisation = "auto";          // auto | alternate | newton
+    // mechanics
+    std::string reduction = "auto";             // auto | condensed | feti
     // contact
     std::int64_t contact_limit = 200;           // primal-dual active-set steps before the fallback
     // FETI

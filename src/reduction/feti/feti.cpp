@@ -245,17 +245,13 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     }
     response.force.assign(lambda.begin(), lambda.begin() + rows_.jump_count);
     double work_of_multipliers = dot(response.force, response.jump);
-    response.reaction.assign(prescribed.size(), 0.0);
-    for (std::size_t d = 0; d < prescribed.size(); ++d) {
-        response.reaction[d] = -lambda[first_constraint + d];
-        work_of_multipliers += lambda[first_constraint + d] * prescribed[d];
-    }
+    for (std::size_t d = 0; d < prescribed.size(); ++d) work_of_multipliers += lambda[first_constraint + d] * prescribed[d];
     response.conjugate.assign(patterns, 0.0);
     response.load_potential = 0.0;
     for (std::size_t p = 0; p < patterns; ++p) {
         if (force_jump_[p].empty()) {
             for (std::size_t d = 0; d < prescribed.size(); ++d)
-                response.conjugate[p] += prescribed_[d * patterns + p] * response.reaction[d];
+                response.conjugate[p] -= prescribed_[d * patterns + p] * lambda[first_constraint + d];
             continue;
         }
         double displacement = dot(force_resultant_[p], response.rigid) - dot(force_jump_[p], lambda);
@@ -266,6 +262,12 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     }
     response.stored_bulk = 0.5 * (-response.load_potential - work_of_multipliers);
     response.multipliers = std::move(lambda);
+}
+
+std::vector<double> Feti::reaction(std::span<const double>, const Response& response) const {
+    std::vector<double> force(response.multipliers.end() - rows_.constraint_count, response.multipliers.end());
+    for (double& f : force) f = -f;
+    return force;
 }
 
 std::vector<double> Feti::local_displacement(std::size_t subdomain, std::span<const double> theta, const Response& response) const {

@@ -22,6 +22,7 @@ class Feti final : public JumpOperator {
 public:
     Feti(const Problem& problem, Monitor& monitor);
     void solve(const Springs& springs, std::span<const double> theta, Response& response) override;
+    std::vector<double> reaction(std::span<const double> theta, const Response& response) const override;
     std::vector<double> displacement(std::span<const double> theta, const Response& response) const override;
     double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
     std::span<const std::uint8_t> prescribed_rows() const override { return scaling_.prescribed; }

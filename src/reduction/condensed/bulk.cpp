@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reduction/condensed/bulk.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "base/error.hpp"
+#include "body/assembly.hpp"
+#include "linalg/echelon.hpp"
+#include "reduction/condensed/rigid_jumps.hpp"
+
+namespace delam {
+
+namespace {
+
+std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+// Coefficients of dependent constraints below this are rounding.
+constexpr double dependent = 1e-10;
+
+// The stiffness of all bodies over all mesh DOFs; rows of nodes without cells are empty.
+SparseMatrix assemble(const Problem& problem) {
+    const Mesh& mesh = *problem.mesh;
+    const std::int64_t dim = mesh.dimension();
+    const std::int64_t dofs = mesh.node_count() * dim;
+    std::vector<SparseMatrix> part;
+    std::vector<std::vector<std::int64_t>> nodes;
+    for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
+        nodes.push_back(mesh.body_nodes(body));
+        part.push_back(assemble_stiffness(mesh, mesh.body_cells(body), nodes.back(), *problem.material[index(body)], problem.plane));
+    }
+    SparseMatrix k;
+    k.rows = k.columns = dofs;
+    k.start.assign(index(dofs) + 1, 0);
+    for (std::size_t b = 0; b < part.size(); ++b)
+        for (std::int64_t r = 0; r < part[b].rows; ++r)
+            k.start[index(nodes[b][index(r / dim)] * dim + r % dim) + 1] = part[b].start[index(r) + 1] - part[b].start[index(r)];
+    std::partial_sum(k.start.begin(), k.start.end(), k.start.begin());
+    k.column.resize(index(k.start.back()));
+    k.value.resize(index(k.start.back()));
+    for (std::size_t b = 0; b < part.size(); ++b) {
+        for (std::int64_t r = 0; r < part[b].rows; ++r) {
+            std::size_t at = index(k.start[index(nodes[b][index(r / dim)] * dim + r % dim)]);
+            for (std::int64_t e = part[b].start[index(r)]; e < part[b].start[index(r) + 1]; ++e, ++at) {
+                const std::int64_t c = part[b].column[index(e)];
+                k.column[at] = nodes[b][index(c / dim)] * dim + c % dim;
+                k.value[at] = part[b].value[index(e)];
+            }
+        }
+        part[b] = SparseMatrix();
+    }
+    return k;
+}
+
+SparseMatrix jump_matrix(const Problem& problem) {
+    const std::int64_t dim = problem.mesh->dimension();
+    std::vector<Triplet> triplets;
+    std::int64_t row = 0;
+    for (const InterfaceGeometry& face : problem.mesh->interfaces())
+        for (std::size_t p = 0; p < face.node_a.size(); ++p)
+            for (std::int64_t r = 0; r < dim; ++r, ++row)
+                for (std::int64_t k = 0; k < dim; ++k) {
+                    const double q = face.frame[(p * index(dim) + index(r)) * index(dim) + index(k)];
+                    if (q == 0.0) continue;
+                    triplets.push_back({row, face.node_b[p] * dim + k, q});
+                    triplets.push_back({row, face.node_a[p] * dim + k, -q});
+                }
+    return from_triplets(row, problem.mesh->node_count() * dim, std::move(triplets));
+}
+
+}  // namespace
+
+Bulk::Bulk(const Problem& problem, Monitor& monitor) : problem_(problem) {
+    monitor.progress("assemble", 0, 0);
+    stiffness_ = assemble(problem_);
+    jump_rows_ = jump_matrix(problem_);
+    variables_ = make_jump_variables(problem_);
+    transformed_ = congruence(stiffness_, variables_.transform);
+    monitor.progress("analyse", 0, 0);
+    factor_ = std::make_unique<SparseCholesky>(transformed_, variables_.trailing());
+    size_ = factor_->size();
+}
+
+void Bulk::condense(Monitor& monitor) {
+    const std::int64_t leading = variables_.leading, trailing = variables_.trailing();
+    const std::size_t patterns = problem_.patterns.size();
+    std::vector<double> shift(index(trailing), 0.0);
+    for (std::int64_t t = 0; t < trailing; ++t) {
+        const std::int64_t r = leading + t;
+        for (std::int64_t e = transformed_.start[index(r)]; e < transformed_.start[index(r) + 1]; ++e) {
+            if (transformed_.column[index(e)] != r) continue;
+            shift[index(t)] = transformed_.value[index(e)];
+            transformed_.value[index(e)] *= 2.0;
+        }
+    }
+    monitor.progress("factor", 0, 0);
+    if (!factor_->factorise(transformed_))
+        fail(DELAM_ERROR_NUMERICAL,
+             "the stiffness of the bonded structure is not positive definite: check supports, materials and the shapes of cells");
+    transformed_ = SparseMatrix();
+    monitor.progress("condense", 0, 0);
+    energy_.stiffness = lower_times_transpose(factor_->trailing_factor());
+    for (std::int64_t t = 0; t < trailing; ++t) energy_.stiffness(t, t) -= shift[index(t)];
+
+    // Loads: with t = 0 each pattern has the displacements u_p; the forces K u_p - f_p that are left act on the trailing variables.
+    force_.assign(patterns, {});
+    for (const NodalForce& f : problem_.forces) {
+        auto& force = force_[index(f.pattern)];
+        if (force.empty()) force.assign(index(dofs()), 0.0);
+        force[index(f.dof)] += f.value;
+    }
+    energy_.load = DenseMatrix(trailing, static_cast<std::int64_t>(patterns));
+    std::vector<double> nodal(index(dofs())), carried(index(variables_.count()));
+    for (std::size_t p = 0; p < patterns; ++p) {
+        std::vector<double> u = variables_.lift[p];
+        multiply(stiffness_, u, nodal);
+        for (std::size_t i = 0; i < nodal.size(); ++i) nodal[i] = (force_[p].empty() ? 0.0 : force_[p][i]) - nodal[i];
+        std::vector<double> v = leading_solve(nodal);
+        v.resize(carried.size(), 0.0);
+        add_variables(v, u);
+        multiply(stiffness_, u, nodal);
+        for (std::size_t i = 0; i < nodal.size(); ++i) nodal[i] = (force_[p].empty() ? 0.0 : force_[p][i]) - nodal[i];
+        multiply_transposed(variables_.transform, nodal, carried);
+        std::copy(carried.begin() + leading, carried.end(), energy_.load.value.begin() + static_cast<std::int64_t>(p) * trailing);
+    }
+    resolve_equations();
+
+    // A_pq = u_p^T K u_q - f_p^T u_q - f_q^T u_p: no difference of large numbers, whatever the lift was.
+    const std::vector<double> closed(index(energy().rows()), 0.0);
+    std::vector<std::vector<double>> bonded, stressed;
+    for (std::size_t p = 0; p < patterns; ++p) {
+        std::vector<double> unit(patterns, 0.0);
+        unit[p] = 1.0;
+        bonded.push_back(displacement(unit, closed));
+        multiply(stiffness_, bonded.back(), nodal);
+        stressed.push_back(nodal);
+    }
+    pattern_stiffness_ = DenseMatrix(static_cast<std::int64_t>(patterns), static_cast<std::int64_t>(patterns));
+    for (std::size_t p = 0; p < patterns; ++p)
+        for (std::size_t q = 0; q < patterns; ++q) {
+            double a = dot(bonded[p], stressed[q]);
+            if (!force_[p].empty()) a -= dot(force_[p], bonded[q]);
+            if (!force_[q].empty()) a -= dot(force_[q], bonded[p]);
+            pattern_stiffness_(static_cast<std::int64_t>(p), static_cast<std::int64_t>(q)) = a;
+        }
+
+    const DenseMatrix motions = rigid_jumps(problem_);
+    rigid_ = DenseMatrix(energy().rows(), motions.columns);
+    for (std::int64_t c = 0; c < motions.columns; ++c)
+        for (std::int64_t i = 0; i < rigid_.rows; ++i) rigid_(i, c) = motions(row_of_unknown_[index(i)], c);
+}
+
+// Equations fix some trailing variables by the rest; the displacements among the rest are minimised out.
+void Bulk::resolve_equations() {
+    const std::int64_t trailing = variables_.trailing(), kept = variables_.kept;
+    const auto patterns = static_cast<std::int64_t>(problem_.patterns.size());
+    const auto equations = static_cast<std::int64_t>(variables_.equations.size());
+    DenseMatrix q(equations, trailing), value(equations, patterns);
+    for (std::int64_t i = 0; i < equations; ++i) {
+        for (const auto& [t, c] : variables_.equations[index(i)].entries) q(i, t) += c;
+        for (std::int64_t p = 0; p < patterns; ++p) value(i, p) = variables_.equations[index(i)].prescribed[index(p)];
+    }
+    const Echelon echelon = reduced_echelon(std::move(q), kept, dependent);
+    pivot_ = echelon.pivot;
+    prescribed_ = equations > 0 ? multiply(echelon.operations, value) : DenseMatrix(0, patterns);
+    std::vector<std::int64_t> place(index(trailing), -1);  // in rest, or -2 - place in pivot
+    for (std::size_t i = 0; i < pivot_.size(); ++i) place[index(pivot_[i])] = -2 - static_cast<std::int64_t>(i);
+    for (std::int64_t t = 0; t < trailing; ++t) {
+        if (place[index(t)] < -1) continue;
+        place[index(t)] = static_cast<std::int64_t>(rest_.size());
+        rest_.push_back(t);
+        if (t < kept) ++kept_rest_;
+    }
+    const auto pivots = static_cast<std::int64_t>(pivot_.size()), rest = static_cast<std::int64_t>(rest_.size());
+    bound_ = DenseMatrix(pivots, rest);
+    for (std::int64_t j = 0; j < rest; ++j)
+        for (std::int64_t i = 0; i < pivots; ++i) bound_(i, j) = -echelon.rows(i, rest_[index(j)]);
+
+    if (pivots > 0) {
+        const auto pick = [](const DenseMatrix& a, std::span<const std::int64_t> r, std::span<const std::int64_t> c) {
+            DenseMatrix b(static_cast<std::int64_t>(r.size()), static_cast<std::int64_t>(c.size()));
+            for (std::int64_t j = 0; j < b.columns; ++j)
+                for (std::int64_t i = 0; i < b.rows; ++i) b(i, j) = a(r[index(i)], c[index(j)]);
+            return b;
+        };
+        std::vector<std::int64_t> all(index(patterns));
+        std::iota(all.begin(), all.end(), 0);
+        const DenseMatrix s_pp = pick(energy_.stiffness, pivot_, pivot_), s_pr = pick(energy_.stiffness, pivot_, rest_);
+        DenseEnergy reduced{pick(energy_.stiffness, rest_, rest_), pick(energy_.load, rest_, all)};
+        const DenseMatrix l_p = pick(energy_.load, pivot_, all);
+        // S_rr + S_rp M + M^T S_pr + M^T S_pp M  and  L_r + M^T L_p - (S_rp + M^T S_pp) d
+        DenseMatrix half = multiply(s_pp, bound_);
+        for (std::size_t i = 0; i < half.value.size(); ++i) half.value[i] = 0.5 * half.value[i] + s_pr.value[i];
+        const DenseMatrix product = multiply_transposed(bound_, half);
+        for (std::int64_t j = 0; j < rest; ++j)
+            for (std::int64_t i = 0; i < rest; ++i) reduced.stiffness(i, j) += product(i, j) + product(j, i);
+        DenseMatrix right = multiply(s_pp, prescribed_);
+        for (std::size_t i = 0; i < right.value.size(); ++i) right.value[i] = l_p.value[i] - right.value[i];
+        const DenseMatrix through = multiply_transposed(bound_, right), direct = multiply_transposed(s_pr, prescribed_);
+        for (std::size_t i = 0; i < reduced.load.value.size(); ++i) reduced.load.value[i] += through.value[i] - direct.value[i];
+        energy_ = std::move(reduced);
+    }
+    if (kept_rest_ > 0) {
+        std::vector<std::int64_t> eliminated(index(kept_rest_)), stay(index(rest - kept_rest_));
+        std::iota(eliminated.begin(), eliminated.end(), 0);
+        std::iota(stay.begin(), stay.end(), kept_rest_);
+        base_ = std::make_unique<Condensation>(energy_, std::move(stay), std::move(eliminated), std::vector<double>(index(rest), 0.0));
+        energy_ = DenseEnergy();
+    }
+
+    // Rows of the jumps in unknowns.
+    for (const SparseVector& in_jumps : variables_.row) {
+        Row row;
+        std::map<std::int64_t, double> entries;
+        for (const auto& [jump, c] : in_jumps) {
+            const std::int64_t at = place[index(kept + jump)];
+            if (at >= 0) {
+                entries[at - kept_rest_] += c;
+                continue;
+            }
+            const std::int64_t pivot = -2 - at;
+            for (std::int64_t j = kept_rest_; j < rest; ++j)
+                if (const double m = bound_(pivot, j); std::abs(m) > dependent) entries[j - kept_rest_] += c * m;
+            if (row.offset.empty()) row.offset.assign(index(patterns), 0.0);
+            for (std::int64_t p = 0; p < patterns; ++p) row.offset[index(p)] += c * prescribed_(pivot, p);
+        }
+        for (const auto& [i, c] : entries)
+            if (std::abs(c) > dependent) row.unknowns.emplace_back(i, c);
+        rows_.push_back(std::move(row));
+    }
+    row_of_unknown_.assign(index(rest - kept_rest_), -1);
+    for (std::size_t r = 0; r < rows_.size(); ++r)
+        if (variables_.row[r].size() == 1 && rows_[r].unknowns.size() == 1 && rows_[r].offset.empty())
+            row_of_unknown_[index(rows_[r].unknowns.front().first)] = static_cast<std::int64_t>(r);
+}
+
+std::vector<double> Bulk::leading_solve(std::span<const double> nodal) const {
+    std::vector<double> carried(index(variables_.count())), v(index(variables_.leading), 0.0);
+    multiply_transposed(variables_.transform, nodal, carried);
+    carried.resize(v.size());
+    if (std::any_of(carried.begin(), carried.end(), [](double x) { return x != 0.0; })) factor_->solve_leading(carried, v);
+    return v;
+}
+
+void Bulk::add_variables(std::span<const double> variables, std::span<double> displacement) const {
+    std::vector<double> moved(displacement.size());
+    multiply(variables_.transform, variables, moved);
+    for (std::size_t i = 0; i < moved.size(); ++i) displacement[i] += moved[i];
+}
+
+std::vector<double> Bulk::displacement(std::span<const double> theta, std::span<const double> unknowns) const {
+    std::vector<double> rest(rest_.size());
+    if (base_)
+        base_->recover(theta, unknowns, rest);
+    else
+        std::copy(unknowns.begin(), unknowns.end(), rest.begin());
+    std::vector<double> v(index(variables_.count()), 0.0), bound(pivot_.size()), driven(pivot_.size());
+    multiply(bound_, rest, bound);
+    multiply(prescribed_, theta, driven);
+    for (std::size_t i = 0; i < rest.size(); ++i) v[index(variables_.leading + rest_[i])] = rest[i];
+    for (std::size_t i = 0; i < pivot_.size(); ++i) v[index(variables_.leading + pivot_[i])] = bound[i] + driven[i];
+
+    std::vector<double> u(index(dofs()), 0.0), nodal(u.size());
+    for (std::size_t p = 0; p < theta.size(); ++p)
+        if (theta[p] != 0.0) add_scaled(theta[p], variables_.lift[p], u);
+    add_variables(v, u);
+    multiply(stiffness_, u, nodal);
+    for (double& f : nodal) f = -f;
+    for (std::size_t p = 0; p < theta.size(); ++p)
+        if (!force_[p].empty()) add_scaled(theta[p], force_[p], nodal);
+    std::vector<double> inside = leading_solve(nodal);
+    inside.resize(v.size(), 0.0);
+    add_variables(inside, u);
+    return u;
+}
+
+std::vector<double> Bulk::residual(std::span<const double> theta, std::span<const double> displacement,
+                                   std::span<const double> force) const {
+    std::vector<double> r(displacement.size()), pull(displacement.size());
+    multiply(stiffness_, displacement, r);
+    multiply_transposed(jump_rows_, force, pull);
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] += pull[i];
+    for (std::size_t p = 0; p < theta.size(); ++p)
+        if (!force_[p].empty()) add_scaled(-theta[p], force_[p], r);
+    return r;
+}
+
+// D^T rho = residual on the DOFs of the constraints: constraints that share DOFs are solved together, in the least-squares sense with the
+// smallest forces where they depend on each other.
+std::vector<double> Bulk::reaction(std::span<const double> theta, std::span<const double> displacement,
+                                   std::span<const double> force) const {
+    const std::vector<double> left = residual(theta, displacement, force);
+    const std::size_t count = problem_.constraints.size();
+    std::vector<std::size_t> group(count);
+    std::iota(group.begin(), group.end(), std::size_t{0});
+    const auto find = [&](std::size_t i) {
+        while (group[i] != i) i = group[i] = group[group[i]];
+        return i;
+    };
+    std::map<std::int64_t, std::size_t> user;
+    for (std::size_t c = 0; c < count; ++c)
+        for (const std::int64_t dof : problem_.constraints[c].dof)
+            if (const auto [at, fresh] = user.try_emplace(dof, c); !fresh) group[find(c)] = find(at->second);
+    std::map<std::size_t, std::vector<std::size_t>> members;
+    for (std::size_t c = 0; c < count; ++c) members[find(c)].push_back(c);
+
+    std::vector<double> rho(count, 0.0);
+    for (const auto& [root, list] : members) {
+        const auto n = static_cast<std::int64_t>(list.size());
+        std::vector<std::map<std::int64_t, double>> row(list.size());
+        DenseMatrix gram(n, n);
+        std::vector<double> right(list.size(), 0.0);
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            const Constraint& constraint = problem_.constraints[list[i]];
+            for (std::size_t k = 0; k < constraint.dof.size(); ++k) row[i][constraint.dof[k]] += constraint.coefficient[k];
+            for (const auto& [dof, c] : row[i]) right[i] += c * left[index(dof)];
+            for (std::size_t j = 0; j <= i; ++j)
+                for (const auto& [dof, c] : row[i])
+                    if (const auto other = row[j].find(dof); other != row[j].end())
+                        gram(static_cast<std::int64_t>(i), static_cast<std::int64_t>(j)) += c * other->second;
+        }
+        mirror_lower(gram);
+        const Eigen eigen = eigen_symmetric(std::move(gram));
+        for (std::int64_t e = 0; e < n; ++e) {
+            if (!(eigen.value[index(e)] > dependent * eigen.value.back())) continue;
+            double along = 0.0;
+            for (std::int64_t i = 0; i < n; ++i) along += eigen.vector(i, e) * right[index(i)];
+            for (std::int64_t i = 0; i < n; ++i) rho[list[index(i)]] += along / eigen.value[index(e)] * eigen.vector(i, e);
+        }
+    }
+    return rho;
+}
+
+double Bulk::defect(std::span<const double> theta, std::span<const double> displacement, std::span<const double> force,
+                    std::span<const double> reaction) const {
+    std::vector<double> left = residual(theta, displacement, force);
+    for (std::size_t c = 0; c < problem_.constraints.size(); ++c) {
+        const Constraint& constraint = problem_.constraints[c];
+        for (std::size_t i = 0; i < constraint.dof.size(); ++i)
+            left[index(constraint.dof[i])] -= reaction[c] * constraint.coefficient[i];
+    }
+    double worst = 0.0;
+    for (const double v : left) worst = std::max(worst, std::abs(v));
+    return worst;
+}
+
+}  // namespace delam

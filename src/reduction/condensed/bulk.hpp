@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All bodies condensed onto the jumps, once.
+//
+// In the variables of jump_variables.hpp the stiffness is T^T K T. Its factor, with the jumps eliminated last, holds the Schur complement in
+// its trailing block: S = L_tt L_tt^T - tau, where a shift tau on the trailing diagonal keeps the factor definite for bodies that float.
+// Constraints that bind several unknowns are resolved in the dense stage. What remains is an energy of the unknown jumps x,
+//
+//   E(theta, x) = 1/2 x^T S x - theta^T L^T x + 1/2 theta^T A theta,      jump rows  j = N x + O theta
+//
+// (N: the identity but for rows that close a ring of bodies or that a constraint binds; O: jumps that the device prescribes).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "linalg/cholesky.hpp"
+#include "reduction/condensed/dense_energy.hpp"
+#include "reduction/condensed/jump_variables.hpp"
+#include "scene/problem.hpp"
+
+namespace delam {
+
+class Bulk {
+public:
+    // Assembles and analyses; condense() does the numbers.
+    Bulk(const Problem& problem, Monitor& monitor);
+    void condense(Monitor& monitor);
+
+    struct Row {
+        SparseVector unknowns;
+        std::vector<double> offset;  // [patterns], empty: none
+        bool prescribed() const { return unknowns.empty(); }
+    };
+    const std::vector<Row>& rows() const { return rows_; }
+    // The jump row that is nothing but unknown i.
+    const std::vector<std::int64_t>& row_of_unknown() const { return row_of_unknown_; }
+    const DenseEnergy& energy() const { return base_ ? base_->energy() : energy_; }
+    const DenseMatrix& pattern_stiffness() const { return pattern_stiffness_; }
+    // Jumps of the rigid motions that the supports leave free, [unknowns][motions], orthonormal.
+    const DenseMatrix& rigid() const { return rigid_; }
+
+    std::vector<double> displacement(std::span<const double> theta, std::span<const double> unknowns) const;
+    // Forces of the device along the constraints from displacements and interface forces [rows].
+    std::vector<double> reaction(std::span<const double> theta, std::span<const double> displacement,
+                                 std::span<const double> force) const;
+    // Largest force that nothing balances, F.
+    double defect(std::span<const double> theta, std::span<const double> displacement, std::span<const double> force,
+                  std::span<const double> reaction) const;
+
+    std::int64_t dofs() const { return stiffness_.rows; }
+    const FactorSize& size() const { return size_; }  // of the factor with the jumps last
+
+private:
+    void resolve_equations();
+    // What no element balances: K u - f + B^T force.
+    std::vector<double> residual(std::span<const double> theta, std::span<const double> displacement,
+                                 std::span<const double> force) const;
+    std::vector<double> leading_solve(std::span<const double> nodal) const;
+    void add_variables(std::span<const double> variables, std::span<double> displacement) const;
+
+    const Problem& problem_;
+    SparseMatrix stiffness_;   // K, all mesh DOFs
+    SparseMatrix jump_rows_;   // B, [rows][mesh DOFs]
+    JumpVariables variables_;
+    SparseMatrix transformed_; // T^T K T, until it is factored
+    std::unique_ptr<SparseCholesky> factor_;
+    FactorSize size_;
+    std::vector<std::vector<double>> force_;  // [patterns][mesh DOFs], empty: none
+
+    // Trailing variables: t = M r + d theta, r = [kept ones that no equation fixes | unknown jumps].
+    std::vector<std::int64_t> rest_;    // trailing index of r
+    std::vector<std::int64_t> pivot_;   // trailing index of what equations fix
+    DenseMatrix bound_;                 // [pivots][rest]
+    DenseMatrix prescribed_;            // [pivots][patterns]
+    std::int64_t kept_rest_ = 0;        // of r, the displacements
+
+    DenseEnergy energy_;
+    std::unique_ptr<Condensation> base_;
+    std::vector<Row> rows_;
+    std::vector<std::int64_t> row_of_unknown_;
+    DenseMatrix pattern_stiffness_;
+    DenseMatrix rigid_;
+};
+
+}  // namespace delam

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The jump operator with the bodies condensed onto the jumps once, dense.
+//
+// Between two solves only the process zone and the contact set change. So most unknowns are minimised out at the springs they have
+// (dense_energy.hpp), in two nested steps: far ones rarely, near ones more often; what is left, the zone, is factored in each solve. An unknown
+// whose spring changes although it was minimised out makes the zone be chosen anew.
+#pragma once
+
+#include <memory>
+
+#include "reduction/condensed/bulk.hpp"
+#include "reduction/condensed/zone.hpp"
+#include "reduction/jump_operator.hpp"
+
+namespace delam {
+
+class Condensed final : public JumpOperator {
+public:
+    Condensed(std::unique_ptr<Bulk> bulk, const Problem& problem, Monitor& monitor);
+    void solve(const Springs& springs, std::span<const double> theta, Response& response) override;
+    std::vector<double> displacement(std::span<const double> theta, const Response& response) const override;
+    std::vector<double> reaction(std::span<const double> theta, const Response& response) const override;
+    double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
+    std::span<const std::uint8_t> prescribed_rows() const override { return prescribed_; }
+    std::string description() const override;
+    std::vector<double> memory() const override;
+    void recall(std::span<const double> memory) override;
+
+    // For minimisers that work within the zone: makes all rows in `rows` part of it, with the other unknowns at these springs.
+    Zone& zone(const Springs& springs, std::span<const std::uint8_t> wanted);
+    // Jump rows of the zone, in its order.
+    const std::vector<std::int64_t>& zone_rows() const { return zone_rows_; }
+    // All rows, forces and energies from a zone solution under these springs; none: every row is held.
+    void respond(const Springs& springs, std::span<const double> theta, const Zone::Solution* solution, Response& response) const;
+    std::int64_t condensations() const { return condensations_; }
+
+private:
+    bool covers(const Springs& springs) const;
+    void choose(const Springs& springs, std::span<const std::uint8_t> wanted);
+    void condense(std::vector<std::uint8_t> level);
+    std::vector<std::uint8_t> grown(std::vector<std::uint8_t> set, std::size_t count) const;
+    std::vector<double> unknowns_of(const Response& response) const;
+    double spring_of(const Springs& springs, std::size_t unknown) const;  // -1: held
+
+    std::unique_ptr<Bulk> bulk_;
+    Problem problem_;
+    Monitor& monitor_;
+    std::vector<std::uint8_t> prescribed_;               // [rows]
+    std::vector<std::uint8_t> always_;                   // [unknowns] stay in the zone: anchors of rigid motions, rows that share unknowns
+    std::vector<std::int64_t> neighbour_start_, neighbour_;  // of unknowns
+    std::vector<std::vector<std::int64_t>> rows_of_;     // [unknowns]
+
+    // The choice that holds, [unknowns]: 0 minimised out in the first step, 1 in the second, 2 in the zone; and the springs that they were
+    // minimised at (-1: held).
+    std::vector<std::uint8_t> level_;
+    std::vector<double> spring_;
+    std::vector<std::uint8_t> recent_;  // changed since the zone was chosen
+    std::vector<double> last_;          // springs of the solve before
+    std::unique_ptr<Condensation> outer_, inner_;
+    std::unique_ptr<Zone> zone_;
+    std::vector<std::int64_t> zone_unknowns_, zone_rows_;
+    std::int64_t condensations_ = 0;
+};
+
+}  // namespace delam

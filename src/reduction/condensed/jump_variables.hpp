@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Displacements in variables of which the jumps are a part: u = T v + U theta.
+//
+// The two nodes of a pair become one displacement and one jump, u_b = u_a + Q^T j (Q: the pair's frame). Nodes that several pairs join
+// (a triple junction) hang on one root along a spanning tree; the jump of a pair that closes a ring depends on the ring's others. A
+// constraint on a single variable removes it (U); the variables of other constraints are kept for the dense stage.
+//
+// With all jumps zero this is the structure bonded everywhere, whose stiffness is definite: so the jumps can be eliminated last.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "linalg/sparse.hpp"
+#include "scene/problem.hpp"
+
+namespace delam {
+
+using SparseVector = std::vector<std::pair<std::int64_t, double>>;
+
+struct JumpVariables {
+    // v = [leading displacements | displacements kept for the dense stage | independent jumps]
+    std::int64_t leading = 0;
+    std::int64_t kept = 0;
+    std::int64_t jumps = 0;
+    std::int64_t count() const { return leading + kept + jumps; }
+    std::int64_t trailing() const { return kept + jumps; }
+
+    SparseMatrix transform;                  // T, [mesh DOFs][count]
+    std::vector<std::vector<double>> lift;   // U, [patterns][mesh DOFs]
+    std::vector<SparseVector> row;           // [jump rows] each in independent jumps, 0-based among the jumps
+
+    // Constraints left for the dense stage: sum over trailing variables (kept first, then jumps) = sum_p prescribed[p] theta_p.
+    struct Equation {
+        SparseVector entries;
+        std::vector<double> prescribed;  // [patterns]
+    };
+    std::vector<Equation> equations;
+};
+
+JumpVariables make_jump_variables(const Problem& problem);
+
+}  // namespace delam

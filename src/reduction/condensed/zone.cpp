@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reduction/condensed/zone.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "linalg/echelon.hpp"
+
+namespace delam {
+
+namespace {
+
+std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+constexpr double dependent = 1e-10;   // coefficients of dependent rows below this are rounding
+constexpr double unbalanced = 1e-8;   // largest part of a load that may be left on a free motion
+
+}  // namespace
+
+Zone::Zone(const DenseEnergy& energy, std::vector<Bulk::Row> rows, DenseMatrix rigid)
+    : energy_(&energy), rows_(std::move(rows)), rigid_(std::move(rigid)) {
+    for (const Bulk::Row& row : rows_) {
+        const bool plain = row.offset.empty() && row.unknowns.size() == 1 && row.unknowns.front().second == 1.0;
+        plain_.push_back(plain ? row.unknowns.front().first : -1);
+        with_offsets_ = with_offsets_ || !row.offset.empty();
+    }
+    if (rigid_.columns == 0) return;
+    rigid_rows_ = DenseMatrix(static_cast<std::int64_t>(rows_.size()), rigid_.columns);
+    for (std::int64_t c = 0; c < rigid_.columns; ++c)
+        for (std::size_t r = 0; r < rows_.size(); ++r)
+            for (const auto& [i, n] : rows_[r].unknowns) rigid_rows_(static_cast<std::int64_t>(r), c) += n * rigid_(i, c);
+    shifted_ = energy.stiffness;
+    double rho = 0.0;
+    for (std::int64_t i = 0; i < shifted_.rows; ++i) rho = std::max(rho, shifted_(i, i));
+    for (std::int64_t c = 0; c < rigid_.columns; ++c)
+        for (std::int64_t j = 0; j < shifted_.rows; ++j)
+            for (std::int64_t i = 0; i < shifted_.rows; ++i) shifted_(i, j) += rho * rigid_(i, c) * rigid_(j, c);
+}
+
+// A held row that is an unknown of its own takes it out; other held rows fix one unknown each by the rest.
+void Zone::hold(std::span<const std::uint8_t> held) {
+    held_.assign(held.begin(), held.end());
+    std::vector<std::uint8_t> out(index(energy_->rows()), 0);
+    bound_rows_.clear();
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+        if (held_[r] == 0) continue;
+        if (plain_[r] >= 0)
+            out[index(plain_[r])] = 1;
+        else
+            bound_rows_.push_back(static_cast<std::int64_t>(r));
+    }
+    bound_.clear();
+    free_.clear();
+    std::vector<std::int64_t> candidates;
+    for (std::int64_t i = 0; i < energy_->rows(); ++i)
+        if (out[index(i)] == 0) candidates.push_back(i);
+    if (bound_rows_.empty()) {
+        free_ = std::move(candidates);
+        binding_ = DenseMatrix(0, static_cast<std::int64_t>(free_.size()));
+        operations_ = DenseMatrix();
+        return;
+    }
+    std::vector<std::int64_t> column(index(energy_->rows()), -1);
+    for (std::size_t j = 0; j < candidates.size(); ++j) column[index(candidates[j])] = static_cast<std::int64_t>(j);
+    DenseMatrix q(static_cast<std::int64_t>(bound_rows_.size()), static_cast<std::int64_t>(candidates.size()));
+    for (std::int64_t i = 0; i < q.rows; ++i)
+        for (const auto& [u, n] : rows_[index(bound_rows_[index(i)])].unknowns)
+            if (column[index(u)] >= 0) q(i, column[index(u)]) += n;
+    const Echelon echelon = reduced_echelon(std::move(q), 0, dependent);
+    for (const std::int64_t p : echelon.pivot) {
+        bound_.push_back(candidates[index(p)]);
+        out[index(bound_.back())] = 1;
+    }
+    std::vector<std::int64_t> rest;
+    for (std::size_t j = 0; j < candidates.size(); ++j) {
+        if (out[index(candidates[j])] != 0) continue;
+        rest.push_back(static_cast<std::int64_t>(j));
+        free_.push_back(candidates[j]);
+    }
+    binding_ = DenseMatrix(static_cast<std::int64_t>(bound_.size()), static_cast<std::int64_t>(free_.size()));
+    for (std::int64_t j = 0; j < binding_.columns; ++j)
+        for (std::int64_t i = 0; i < binding_.rows; ++i) binding_(i, j) = -echelon.rows(i, rest[index(j)]);
+    operations_ = echelon.operations;
+}
+
+std::vector<double> Zone::apply(std::span<const double> x) const {
+    std::vector<double> y(x.size());
+    multiply_symmetric(rigid_.columns > 0 ? shifted_ : energy_->stiffness, x, y);
+    for (const Triplet& s : springs_) y[index(s.row)] += s.value * x[index(s.column)];
+    return y;
+}
+
+// E y: what the free unknowns do to all.
+std::vector<double> Zone::expand(std::span<const double> reduced) const {
+    std::vector<double> x(index(energy_->rows()), 0.0), bound(bound_.size());
+    multiply(binding_, reduced, bound);
+    for (std::size_t i = 0; i < free_.size(); ++i) x[index(free_[i])] = reduced[i];
+    for (std::size_t i = 0; i < bound_.size(); ++i) x[index(bound_[i])] = bound[i];
+    return x;
+}
+
+// E^T g
+std::vector<double> Zone::reduce(std::span<const double> full) const {
+    std::vector<double> w(free_.size(), 0.0), on_bound(bound_.size());
+    for (std::size_t i = 0; i < bound_.size(); ++i) on_bound[i] = full[index(bound_[i])];
+    multiply_transposed(binding_, on_bound, w);
+    for (std::size_t i = 0; i < free_.size(); ++i) w[i] += full[index(free_[i])];
+    return w;
+}
+
+std::vector<double> Zone::offsets(std::span<const double> theta) const {
+    std::vector<double> o(rows_.size(), 0.0);
+    for (std::size_t r = 0; r < rows_.size(); ++r)
+        if (!rows_[r].offset.empty()) o[r] = dot(rows_[r].offset, theta);
+    return o;
+}
+
+bool Zone::factor(std::span<const Coupling> couplings, std::span<const std::uint8_t> held) {
+    hold(held);
+    couplings_.assign(couplings.begin(), couplings.end());
+    springs_.clear();
+    for (const Coupling& c : couplings_) {
+        if (held_[index(c.row)] != 0 || held_[index(c.column)] != 0) continue;
+        for (const auto& [i, a] : rows_[index(c.row)].unknowns)
+            for (const auto& [j, b] : rows_[index(c.column)].unknowns) springs_.push_back({i, j, a * b * c.value});
+    }
+    const DenseMatrix& s = rigid_.columns > 0 ? shifted_ : energy_->stiffness;
+    const auto n = static_cast<std::int64_t>(free_.size()), bound = static_cast<std::int64_t>(bound_.size());
+    std::vector<std::int64_t> place(index(energy_->rows()), -1);  // among free, then bound
+    for (std::int64_t i = 0; i < n; ++i) place[index(free_[index(i)])] = i;
+    for (std::int64_t i = 0; i < bound; ++i) place[index(bound_[index(i)])] = n + i;
+
+    factor_ = DenseMatrix(n, n);
+    for (std::int64_t j = 0; j < n; ++j) {
+        const double* column = s.value.data() + free_[index(j)] * s.rows;
+        double* out = factor_.value.data() + j * n;
+        for (std::int64_t i = j; i < n; ++i) out[i] = column[free_[index(i)]];
+    }
+    DenseMatrix cross(bound, n), corner(bound, bound);  // A_bf, A_bb
+    for (std::int64_t j = 0; j < bound; ++j) {
+        const double* column = s.value.data() + bound_[index(j)] * s.rows;
+        for (std::int64_t i = 0; i < n; ++i) cross(j, i) = column[free_[index(i)]];
+        for (std::int64_t i = 0; i < bound; ++i) corner(i, j) = column[bound_[index(i)]];
+    }
+    for (const Triplet& t : springs_) {
+        const std::int64_t i = place[index(t.row)], j = place[index(t.column)];
+        if (i < 0 || j < 0) continue;
+        if (i < n && j < n)
+            factor_(i, j) += t.value;
+        else if (i >= n && j < n)
+            cross(i - n, j) += t.value;
+        else if (i >= n && j >= n)
+            corner(i - n, j - n) += t.value;
+    }
+    if (bound > 0) {
+        // A_ff + A_fb M + M^T A_bf + M^T A_bb M
+        DenseMatrix half = multiply(corner, binding_);
+        for (std::size_t i = 0; i < half.value.size(); ++i) half.value[i] = 0.5 * half.value[i] + cross.value[i];
+        const DenseMatrix product = multiply_transposed(binding_, half);
+        for (std::int64_t j = 0; j < n; ++j)
+            for (std::int64_t i = j; i < n; ++i) factor_(i, j) += product(i, j) + product(j, i);
+    }
+    if (!factor_definite(factor_)) return false;
+    if (rigid_.columns == 0) return true;
+
+    std::vector<std::uint8_t> active(held_);
+    for (const Coupling& c : couplings_)
+        if (c.value != 0.0) active[index(c.row)] = 1;
+    motions_ = split_motions(rigid_rows_, active);
+    const DenseMatrix z = multiply(rigid_, motions_.held);
+    motion_x_ = DenseMatrix(z.rows, z.columns);
+    motion_y_ = z;
+    for (double& v : motion_y_.value) v = -v;
+    motion_coupling_ = DenseMatrix(n, z.columns);
+    DenseMatrix schur(z.columns, z.columns);
+    for (std::int64_t c = 0; c < z.columns; ++c) {
+        std::vector<double> on_free(index(n));
+        for (std::int64_t i = 0; i < n; ++i) on_free[index(i)] = z(free_[index(i)], c);
+        const std::vector<double> x = expand(on_free);
+        std::copy(x.begin(), x.end(), motion_x_.value.begin() + c * z.rows);
+    }
+    for (std::size_t i = 0; i < motion_y_.value.size(); ++i) motion_y_.value[i] += motion_x_.value[i];
+    const auto column = [](const DenseMatrix& a, std::int64_t c) {
+        return std::span<const double>(a.value).subspan(index(c * a.rows), index(a.rows));
+    };
+    for (std::int64_t c = 0; c < z.columns; ++c) {
+        std::vector<double> image(index(z.rows)), springs(image.size(), 0.0);
+        multiply_symmetric(shifted_, column(motion_y_, c), image);
+        for (const Triplet& t : springs_) springs[index(t.row)] += t.value * column(motion_x_, c)[index(t.column)];
+        for (std::int64_t d = 0; d < z.columns; ++d) schur(d, c) = dot(column(motion_y_, d), image) + dot(column(motion_x_, d), springs);
+        for (std::size_t i = 0; i < image.size(); ++i) image[i] += springs[i];
+        const std::vector<double> w = reduce(image);
+        std::copy(w.begin(), w.end(), motion_coupling_.value.begin() + c * n);
+    }
+    motion_solved_ = motion_coupling_;
+    solve_lower(factor_, motion_solved_);
+    subtract_gram(schur, motion_solved_);
+    for (std::int64_t c = 0; c < z.columns; ++c)
+        solve_lower_transposed(factor_, std::span<double>(motion_solved_.value).subspan(index(c * n), index(n)));
+    motion_scale_.assign(index(z.columns), 0.0);
+    for (std::int64_t c = 0; c < z.columns; ++c) {
+        if (!(schur(c, c) > 0.0)) return false;
+        motion_scale_[index(c)] = 1.0 / std::sqrt(schur(c, c));
+    }
+    for (std::int64_t c = 0; c < z.columns; ++c)
+        for (std::int64_t d = c; d < z.columns; ++d) schur(d, c) *= motion_scale_[index(c)] * motion_scale_[index(d)];
+    motion_factor_ = std::move(schur);
+    return factor_definite(motion_factor_);
+}
+
+Zone::Solution Zone::solve(std::span<const double> theta, std::span<const double> row_force) const {
+    Solution solution;
+    std::vector<double> g(index(energy_->rows()));
+    multiply(energy_->load, theta, g);
+    const auto pull = [&](std::size_t row, double force) {
+        for (const auto& [i, n] : rows_[row].unknowns) g[index(i)] += n * force;
+    };
+    for (std::size_t r = 0; r < row_force.size(); ++r)
+        if (held_[r] == 0 && row_force[r] != 0.0) pull(r, row_force[r]);
+    std::vector<double> fixed(bound_.size(), 0.0);
+    if (with_offsets_) {
+        const std::vector<double> offset = offsets(theta);
+        for (const Coupling& c : couplings_)
+            if (held_[index(c.row)] == 0 && held_[index(c.column)] == 0) pull(index(c.row), -c.value * offset[index(c.column)]);
+        for (std::size_t b = 0; b < bound_.size(); ++b)
+            for (std::size_t i = 0; i < bound_rows_.size(); ++i)
+                fixed[b] -= operations_(static_cast<std::int64_t>(b), static_cast<std::int64_t>(i)) * offset[index(bound_rows_[i])];
+    }
+    const std::vector<double> load = g;
+    std::vector<double> start(g.size(), 0.0);
+    for (std::size_t b = 0; b < bound_.size(); ++b) start[index(bound_[b])] = fixed[b];
+    if (std::any_of(fixed.begin(), fixed.end(), [](double v) { return v != 0.0; })) {
+        const std::vector<double> image = apply(start);
+        for (std::size_t i = 0; i < g.size(); ++i) g[i] -= image[i];
+    }
+
+    for (std::int64_t c = 0; rigid_.columns > 0 && c < motions_.free.columns; ++c) {
+        double total = 0.0, size = 0.0;
+        for (std::int64_t i = 0; i < rigid_.rows; ++i) {
+            double z = 0.0;
+            for (std::int64_t k = 0; k < rigid_.columns; ++k) z += rigid_(i, k) * motions_.free(k, c);
+            total += z * g[index(i)];
+            size += std::abs(z * g[index(i)]);
+        }
+        if (std::abs(total) > unbalanced * size) {
+            solution.balanced = false;
+            return solution;
+        }
+    }
+
+    std::vector<double> y = reduce(g);
+    solve_lower(factor_, y);
+    solve_lower_transposed(factor_, y);
+    std::vector<double> moved(g.size(), 0.0);
+    if (rigid_.columns > 0 && motion_x_.columns > 0) {
+        std::vector<double> alpha(index(motion_x_.columns)), carried(alpha.size());
+        multiply_transposed(motion_x_, g, alpha);
+        multiply_transposed(motion_coupling_, y, carried);
+        for (std::size_t c = 0; c < alpha.size(); ++c) alpha[c] = motion_scale_[c] * (alpha[c] - carried[c]);
+        solve_lower(motion_factor_, alpha);
+        solve_lower_transposed(motion_factor_, alpha);
+        for (std::size_t c = 0; c < alpha.size(); ++c) alpha[c] *= motion_scale_[c];
+        std::vector<double> correction(y.size());
+        multiply(motion_solved_, alpha, correction);
+        for (std::size_t i = 0; i < y.size(); ++i) y[i] -= correction[i];
+        multiply(motion_x_, alpha, moved);
+    }
+    solution.unknowns = expand(y);
+    for (std::size_t i = 0; i < moved.size(); ++i) solution.unknowns[i] += moved[i] + start[i];
+
+    solution.multiplier.assign(rows_.size(), 0.0);
+    if (bound_.empty()) return solution;
+    std::vector<double> spring(g.size(), 0.0);
+    for (const Triplet& t : springs_) spring[index(t.row)] += t.value * solution.unknowns[index(t.column)];
+    for (std::size_t b = 0; b < bound_.size(); ++b) {
+        const auto u = index(bound_[b]);
+        const auto column = std::span<const double>(energy_->stiffness.value).subspan(u * index(energy_->rows()), index(energy_->rows()));
+        const double left = load[u] - spring[u] - dot(column, solution.unknowns);
+        for (std::size_t i = 0; i < bound_rows_.size(); ++i)
+            solution.multiplier[index(bound_rows_[i])] += operations_(static_cast<std::int64_t>(b), static_cast<std::int64_t>(i)) * left;
+    }
+    return solution;
+}
+
+std::vector<double> Zone::jumps(std::span<const double> theta, std::span<const double> unknowns) const {
+    std::vector<double> j = offsets(theta);
+    for (std::size_t r = 0; r < rows_.size(); ++r)
+        for (const auto& [i, n] : rows_[r].unknowns) j[r] += n * unknowns[index(i)];
+    return j;
+}
+
+}  // namespace delam
