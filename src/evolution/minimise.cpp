@@ -3,8 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "evolution/zone_newton.hpp"
 
 namespace delam {
+
+namespace {
+
+constexpr double rounding = 1e-12;  // of an energy of the whole scene, a sum of large terms
+
+}  // namespace
 
 bool Minimiser::displace(State& state) const {
     const std::vector<double> stiffness = spring_stiffness(pairs, state.adhesion);
@@ -21,11 +30,12 @@ bool Minimiser::displace(State& state) const {
 }
 
 bool Minimiser::alternate(State& state, std::span<const double> adhesion_old) const {
+    const std::vector<Toughness> toughness = toughnesses(pairs, state.mixity);
     bool converged = true;
     while (true) {
         monitor.progress("minimise", state.counts.am_iterations, 0);
         converged = displace(state) && converged;
-        const std::vector<double> next = damage_step(pairs, state.mixity, adhesion_old, state.response.jump);
+        const std::vector<double> next = damage_step(pairs, toughness, adhesion_old, state.response.jump);
         double change = 0.0;
         for (std::size_t p = 0; p < next.size(); ++p) change = std::max(change, std::abs(next[p] - state.adhesion[p]));
         state.adhesion = next;
@@ -35,6 +45,56 @@ bool Minimiser::alternate(State& state, std::span<const double> adhesion_old) co
         if (!fixed_point && state.counts.am_iterations < limit) continue;
         if (change > 0.0) converged = displace(state) && converged;
         return converged && fixed_point;
+    }
+}
+
+// E + D of a state whose displacements belong to its adhesion, up to a constant of the step.
+double Minimiser::energy(const State& state, std::span<const double> adhesion_old) const {
+    return state.response.stored_bulk + state.response.load_potential + stored_energy(pairs, state.adhesion, state.response.jump) +
+           dissipation(pairs, state.mixity, adhesion_old, state.adhesion);
+}
+
+// Each round is a step of alternate minimisation, which is also the stopping test; between rounds the adhesion leaps ahead. A leap that raised
+// the energy of the whole is taken back, and the plain step made instead.
+bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) const {
+    const std::vector<Toughness> toughness = toughnesses(pairs, state.mixity);
+    auto* condensed = dynamic_cast<Condensed*>(&op);
+    bool converged = true, leapt = false;
+    std::optional<State> before;
+    std::vector<double> plain;
+    double level = 0.0;
+    while (true) {
+        monitor.progress("minimise", state.counts.am_iterations, 0);
+        converged = displace(state) && converged;
+        const double reached = energy(state, adhesion_old);
+        if (leapt && reached > level + rounding * std::abs(level)) {
+            const Counts counts = state.counts;
+            state = std::move(*before);
+            state.counts = counts;
+            state.adhesion = plain;
+            leapt = false;
+            continue;
+        }
+        level = reached;
+        plain = damage_step(pairs, toughness, adhesion_old, state.response.jump);
+        double change = 0.0;
+        for (std::size_t p = 0; p < plain.size(); ++p) change = std::max(change, std::abs(plain[p] - state.adhesion[p]));
+        state.counts.damage_change = change;
+        ++state.counts.am_iterations;
+        if (change <= tolerance) return converged;
+        if (state.counts.am_iterations >= limit) {
+            state.adhesion = plain;
+            displace(state);
+            return false;
+        }
+        if (condensed == nullptr) {
+            state.adhesion = plain;
+            continue;
+        }
+        before = state;
+        ZoneNewton{*condensed, pairs, contact, monitor, tolerance, limit}.leap(state, toughness, adhesion_old);
+        leapt = state.adhesion != before->adhesion;
+        if (!leapt) state.adhesion = plain;
     }
 }
 

@@ -23,6 +23,9 @@ struct Minimiser {
     // Displacements and contact at the state's adhesion and theta; counts are added up.
     // False: a limit of the linear or contact iteration was met.
     bool displace(State& state) const;
+    double energy(const State& state, std::span<const double> adhesion_old) const;
+    // The faster way to the same stopping test, safeguarded by the energy; zone leaps where the operator is condensed.
+    bool accelerate(State& state, std::span<const double> adhesion_old) const;
     // Both unknowns; adhesion starts at the state's and stays below `adhesion_old`; B is the state's mixity. False: limit.
     bool alternate(State& state, std::span<const double> adhesion_old) const;
 };

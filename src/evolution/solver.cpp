@@ -115,7 +115,8 @@ Outcome Solver::advance(double time) {
         next.mixity_before = committed_.mixity;
         next.mixity = mixities(pairs_, committed_.response.jump, committed_.mixity);
     }
-    converged = minimiser().alternate(next, committed_.adhesion) && converged;
+    converged = (problem_.options.minimisation == "alternate" ? minimiser().alternate(next, committed_.adhesion)
+                                                             : minimiser().accelerate(next, committed_.adhesion)) && converged;
     next.loaded = committed_.loaded != 0 || any_jump(pairs_, next.response.jump) ? 1 : 0;
     book_step(next);
     next.memory = operator_->memory();

@@ -36,6 +36,8 @@ struct Counts {
     std::int64_t contact_iterations_max = 0;
     std::int64_t contact_fallbacks = 0;
     std::int64_t linear_iterations = 0;
+    std::int64_t newton_solves = 0;   // dense solves within the process zone
+    std::int64_t debond_moves = 0;    // unstable pairs taken to their debonded branch
     std::int64_t backtracks = 0;
     double damage_change = 0.0;
     double linear_residual = 0.0;

@@ -110,6 +110,8 @@ constexpr Entry table[] = {
     {"contact_iterations_max", [](const Solver& s) { return count(s.state().counts.contact_iterations_max); }},
     {"contact_fallbacks", [](const Solver& s) { return count(s.state().counts.contact_fallbacks); }},
     {"linear_iterations", [](const Solver& s) { return count(s.state().counts.linear_iterations); }},
+    {"newton_solves", [](const Solver& s) { return count(s.state().counts.newton_solves); }},
+    {"debond_moves", [](const Solver& s) { return count(s.state().counts.debond_moves); }},
     {"contact_pairs", contact_pairs},
     {"debonded_length",
      [](const Solver& s) { return over_bond(s, [](double zeta) { return zeta <= debonded_below ? 1.0 : 0.0; }); }},

@@ -55,12 +55,19 @@ std::vector<double> spring_stiffness(const PairLaws& pairs, std::span<const doub
     return s;
 }
 
-std::vector<double> damage_step(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
+std::vector<Toughness> toughnesses(const PairLaws& pairs, std::span<const double> mixity) {
+    std::vector<Toughness> t(mixity.size(), Toughness{0.0, 0.0});
+    for (std::size_t p = 0; p < t.size(); ++p)
+        if (pairs.law[p] != nullptr) t[p] = pairs.law[p]->toughness(mixity[p]);
+    return t;
+}
+
+std::vector<double> damage_step(const PairLaws& pairs, std::span<const Toughness> toughness, std::span<const double> adhesion_old,
                                 std::span<const double> jump) {
     std::vector<double> zeta(adhesion_old.begin(), adhesion_old.end());
     for (std::size_t p = 0; p < zeta.size(); ++p)
         if (pairs.law[p] != nullptr && zeta[p] > 0.0)
-            zeta[p] = damage_minimiser(pairs.law[p]->toughness(mixity[p]), driving_energy(pairs, p, jump).total(), zeta[p]);
+            zeta[p] = damage_minimiser(toughness[p], driving_energy(pairs, p, jump).total(), zeta[p]);
     return zeta;
 }
 

@@ -30,8 +30,10 @@ std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump
 bool any_jump(const PairLaws& pairs, std::span<const double> jump);
 // s = weight k zeta of every row, [rows].
 std::vector<double> spring_stiffness(const PairLaws& pairs, std::span<const double> adhesion);
-// zeta = argmin over 0 <= zeta <= adhesion_old at the frozen mixity; returns [pairs].
-std::vector<double> damage_step(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
+// Go and Gc at the mixities, [pairs]; zero where there is no law.
+std::vector<Toughness> toughnesses(const PairLaws& pairs, std::span<const double> mixity);
+// zeta = argmin over 0 <= zeta <= adhesion_old at the frozen mixity of `toughness`; returns [pairs].
+std::vector<double> damage_step(const PairLaws& pairs, std::span<const Toughness> toughness, std::span<const double> adhesion_old,
                                 std::span<const double> jump);
 
 double stored_energy(const PairLaws& pairs, std::span<const double> adhesion, std::span<const double> jump);       // sum w zeta Y

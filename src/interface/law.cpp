@@ -144,6 +144,13 @@ double stored_slides(const Toughness& t, double zeta) {
     return -(t.total - t.onset) * (zeta * (1.0 - zeta) * (t.total / (t.onset * (1.0 - zeta) + t.total * zeta)));
 }
 
+// zeta = (Gc sqrt(Go/Y) - Go)/D on the softening branch.
+double damage_slope(const Toughness& t, double driving, double zeta_old) {
+    const double zeta = damage_minimiser(t, driving, zeta_old);
+    if (!(zeta > 0.0 && zeta < zeta_old)) return 0.0;
+    return -0.5 * t.total * std::sqrt(t.onset / driving) / ((t.total - t.onset) * driving);
+}
+
 // With s = sqrt(Go/Y) the stationary point (Gc s - Go)/D is a difference of close numbers over a small one when D is
 // small beside Go. Multiplied by Gc s + Go it becomes
 //

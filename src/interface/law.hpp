@@ -43,5 +43,7 @@ struct Law {
 double dissipated(const Toughness& t, double zeta);              // g(zeta), g(1) = 0
 double stored_slides(const Toughness& t, double zeta);           // f(zeta) <= 0
 double damage_minimiser(const Toughness& t, double driving, double zeta_old);  // driving = Y
+// d zeta/dY of the minimiser where 0 < zeta < zeta_old, else 0; < 0.
+double damage_slope(const Toughness& t, double driving, double zeta_old);
 
 }  // namespace delam

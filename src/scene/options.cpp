@@ -43,9 +43,9 @@ const std::array<Row, 12>& rows() {
          &Options::backtracking_tolerance,
          0.0,
          1.0},
-        {{"minimisation", "text", "-", "auto", "auto | alternate | newton",
+        {{"minimisation", "text", "-", "auto", "auto | alternate | accelerated",
           "how a load step is minimised: plain alternate minimisation, or sped up by Newton steps and moves of unstable pairs to their debonded "
-          "branch, each checked by the energy, to the same stopping test; newton needs the condensed reduction; auto: newton where it can"},
+          "branch, each checked by the energy, to the same stopping test; auto: accelerated"},
          &Options::minimisation},
         {{"reduction", "text", "-", "auto", "auto | condensed | feti",
           "how the bodies are reduced to their interfaces: condensed once into a dense operator, or total FETI; auto: by predicted cost and "

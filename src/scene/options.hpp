@@ -13,7 +13,7 @@ struct Options {
     double damage_tolerance = 1e-5;             // delta
     std::int64_t minimisation_limit = 5000;     // alternate minimisation steps
     double backtracking_tolerance = 1e-3;       // eta: relative tolerance of the two-sided estimate that is reported
-    std::string minimisation = "auto";          // auto | alternate | newton
+    std::string minimisation = "auto";          // auto | alternate | accelerated
     // mechanics
     std::string reduction = "auto";             // auto | condensed | feti
     // contact

@@ -186,6 +186,7 @@ void Condensed::condense(std::vector<std::uint8_t> level) {
         floating = orthonormalised(std::move(floating));
     }
     zone_ = std::make_unique<Zone>(inner_->energy(), std::move(rows), std::move(floating));
+    if (getenv("DBG")) { size_t held=0; for(double v:spring_) held+=v<0; fprintf(stderr,"condense %ld: n %zu outer kept %zu zone %zu held %zu floats %ld\n",(long)condensations_,unknowns,near.size(),zone_unknowns_.size(),held,(long)0);}
 }
 
 Zone& Condensed::zone(const Springs& springs, std::span<const std::uint8_t> wanted) {
@@ -236,6 +237,7 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
         if (held[z] == 0 && springs.stiffness[r] > 0.0)
             couplings.push_back({static_cast<std::int64_t>(z), static_cast<std::int64_t>(z), springs.stiffness[r]});
     }
+    if (getenv("DBG")) { size_t h=0; for(auto v:held) h+=v; fprintf(stderr,"   solve zone %zu held %zu\n",held.size(),h);}
     if (!zone_->factor(couplings, held))
         fail(DELAM_ERROR_NUMERICAL, "the condensed stiffness of the process zone (", zone_rows_.size(), " rows) is not positive definite");
     const Zone::Solution solution = zone_->solve(theta, {});

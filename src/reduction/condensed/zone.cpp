@@ -283,6 +283,26 @@ Zone::Solution Zone::solve(std::span<const double> theta, std::span<const double
     return solution;
 }
 
+void Zone::complete_forces(std::span<const double> theta, const Solution& solution, std::span<double> row_force) const {
+    std::vector<double> left(index(energy_->rows())), image(left.size());
+    multiply(energy_->load, theta, left);
+    multiply_symmetric(energy_->stiffness, solution.unknowns, image);
+    for (std::size_t i = 0; i < left.size(); ++i) left[i] -= image[i];
+    for (const std::int64_t r : bound_rows_) row_force[index(r)] = solution.multiplier[index(r)];
+    for (std::size_t r = 0; r < rows_.size(); ++r)
+        if (plain_[r] < 0 || held_[r] == 0)
+            for (const auto& [i, n] : rows_[r].unknowns) left[index(i)] -= n * row_force[r];
+    for (std::size_t r = 0; r < rows_.size(); ++r)
+        if (plain_[r] >= 0 && held_[r] != 0) row_force[r] = left[index(plain_[r])];
+}
+
+double Zone::energy_of(std::span<const double> theta, std::span<const double> unknowns) const {
+    std::vector<double> load(unknowns.size()), image(unknowns.size());
+    multiply(energy_->load, theta, load);
+    multiply_symmetric(energy_->stiffness, unknowns, image);
+    return 0.5 * dot(unknowns, image) - dot(unknowns, load);
+}
+
 std::vector<double> Zone::jumps(std::span<const double> theta, std::span<const double> unknowns) const {
     std::vector<double> j = offsets(theta);
     for (std::size_t r = 0; r < rows_.size(); ++r)

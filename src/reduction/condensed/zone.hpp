@@ -42,9 +42,10 @@ public:
     const DenseEnergy& energy() const { return *energy_; }
     // j of all rows.
     std::vector<double> jumps(std::span<const double> theta, std::span<const double> unknowns) const;
-    // Rows that are nothing but an unknown.
-    bool plain(std::size_t row) const { return plain_[row] >= 0; }
-    std::int64_t unknown(std::size_t row) const { return plain_[row]; }
+    // Forces on all rows: those of rows that are not held are given, those of held rows are added.
+    void complete_forces(std::span<const double> theta, const Solution& solution, std::span<double> row_force) const;
+    // 1/2 x^T S x - theta^T L^T x
+    double energy_of(std::span<const double> theta, std::span<const double> unknowns) const;
 
 private:
     void hold(std::span<const std::uint8_t> held);

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/zone_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace delam {
+
+namespace {
+
+constexpr double noise = 1e-11;            // of the largest jump or force in the zone: rounding
+constexpr std::int64_t contact_steps = 30; // active-set steps of one Newton step; beyond them the step is not taken
+// A pair joins the zone when its driving energy is above this part of what damages it.
+constexpr double nearly_loaded = 0.7;
+
+double largest(std::span<const double> values) {
+    double m = 0.0;
+    for (const double v : values) m = std::max(m, std::abs(v));
+    return m;
+}
+
+// Pairs of the zone with all their rows; rows of other pairs have constant springs.
+struct ZonePair {
+    std::size_t pair;
+    std::size_t first;  // row of the zone: normal, then tangents
+};
+
+class Leap {
+public:
+    Leap(const ZoneNewton& newton, State& state, std::span<const Toughness> toughness, std::span<const double> adhesion_old)
+        : newton_(newton), state_(state), toughness_(toughness), old_(adhesion_old), dim_(static_cast<std::size_t>(newton.pairs.dimension)),
+          zone_(find_zone()) {
+        const std::vector<std::int64_t>& rows = newton_.op.zone_rows();
+        held_.resize(rows.size());
+        spring_.assign(rows.size(), 0.0);
+        normal_.assign(rows.size(), 0);
+        for (std::size_t z = 0; z < rows.size(); ++z) {
+            const auto row = static_cast<std::size_t>(rows[z]);
+            held_[z] = springs_.held[row];
+            spring_[z] = springs_.stiffness[row];
+            normal_[z] = row % dim_ == 0 && newton_.contact.bonded[row / dim_] == 0 ? 1 : 0;
+        }
+        for (std::size_t z = 0; z + dim_ <= rows.size(); ++z) {
+            const auto row = static_cast<std::size_t>(rows[z]);
+            if (row % dim_ != 0 || static_cast<std::size_t>(rows[z + dim_ - 1]) != row + dim_ - 1) continue;
+            const std::size_t pair = row / dim_;
+            if (newton_.pairs.law[pair] == nullptr || old_[pair] <= 0.0) continue;
+            members_.push_back({pair, z});
+            for (std::size_t c = 0; c < dim_; ++c) spring_[z + c] = 0.0;
+        }
+    }
+
+    void run();
+
+private:
+    // Where an iterate stands: jumps of all zone rows, energy, adhesion of the members.
+    struct Point {
+        std::vector<double> unknowns;
+        std::vector<double> jump;
+        std::vector<double> adhesion;
+        double energy = 0.0;
+    };
+
+    Zone& find_zone();
+    Point point(std::vector<double> unknowns) const;
+    // Model about a point: tangents of the members scaled between secant (0) and full (1), with one of them debonded (or none: -1).
+    bool model(const Point& at, double tangent, std::int64_t debonded);
+    // Minimiser of the model under contact; false: indefinite, or the contact set did not settle.
+    bool minimise(const Point& at, double tangent, std::int64_t debonded, Point& out);
+    // The point between `at` and `to` on which the energy falls; false: none.
+    bool descend(const Point& at, Point& to) const;
+    std::int64_t least_stable(const Point& at) const;
+
+    const ZoneNewton& newton_;
+    State& state_;
+    std::span<const Toughness> toughness_;
+    std::span<const double> old_;
+    std::size_t dim_;
+    Springs springs_;
+    Zone& zone_;
+    std::vector<std::uint8_t> held_;
+    std::vector<std::uint8_t> normal_;
+    std::vector<double> spring_;  // of rows that belong to no member
+    std::vector<ZonePair> members_;
+    std::vector<Zone::Coupling> couplings_;
+    std::vector<double> row_force_;
+};
+
+Zone& Leap::find_zone() {
+    springs_.stiffness = spring_stiffness(newton_.pairs, state_.adhesion);
+    springs_.held.assign(springs_.stiffness.size(), 0);
+    std::vector<std::uint8_t> wanted(springs_.stiffness.size(), 0);
+    for (std::size_t p = 0; p < old_.size(); ++p) {
+        const bool bonded = newton_.contact.bonded[p] != 0;
+        for (std::size_t c = 0; c < dim_; ++c) springs_.held[p * dim_ + c] = bonded || (c == 0 && state_.closed[p] != 0) ? 1 : 0;
+        if (bonded || newton_.pairs.law[p] == nullptr || old_[p] <= 0.0) continue;
+        const double driving = driving_energy(newton_.pairs, p, state_.response.jump).total();
+        if (state_.adhesion[p] < old_[p] || damage_minimiser(toughness_[p], driving / nearly_loaded, old_[p]) < old_[p])
+            for (std::size_t c = 0; c < dim_; ++c) wanted[p * dim_ + c] = 1;
+    }
+    return newton_.op.zone(springs_, wanted);
+}
+
+Leap::Point Leap::point(std::vector<double> unknowns) const {
+    Point at;
+    at.jump = zone_.jumps(state_.theta, unknowns);
+    at.energy = zone_.energy_of(state_.theta, unknowns);
+    for (std::size_t z = 0; z < spring_.size(); ++z) at.energy += 0.5 * spring_[z] * at.jump[z] * at.jump[z];
+    at.unknowns = std::move(unknowns);
+    for (const ZonePair& m : members_) {
+        const Law& law = *newton_.pairs.law[m.pair];
+        const double opening = std::max(0.0, at.jump[m.first]);
+        double slip = 0.0;
+        for (std::size_t c = 1; c < dim_; ++c) slip += at.jump[m.first + c] * at.jump[m.first + c];
+        const double driving = 0.5 * (law.normal_stiffness * opening * opening + law.tangential_stiffness * slip);
+        const double zeta = damage_minimiser(toughness_[m.pair], driving, old_[m.pair]);
+        at.adhesion.push_back(zeta);
+        at.energy += newton_.pairs.weight[m.pair] * (zeta * driving + dissipated(toughness_[m.pair], zeta));
+    }
+    return at;
+}
+
+// w [zeta K + zeta'(Y) (K j)(K j)^T] and the force h = C j - w zeta K j of its affine part.
+bool Leap::model(const Point& at, double tangent, std::int64_t debonded) {
+    couplings_.clear();
+    row_force_.assign(spring_.size(), 0.0);
+    const auto add = [&](std::size_t r, std::size_t q, double value) {
+        couplings_.push_back({static_cast<std::int64_t>(r), static_cast<std::int64_t>(q), value});
+    };
+    for (std::size_t z = 0; z < spring_.size(); ++z)
+        if (spring_[z] > 0.0) add(z, z, spring_[z]);
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        if (static_cast<std::int64_t>(i) == debonded) continue;
+        const ZonePair& m = members_[i];
+        const Law& law = *newton_.pairs.law[m.pair];
+        const double weight = newton_.pairs.weight[m.pair], zeta = at.adhesion[i];
+        double pull[3] = {law.normal_stiffness * std::max(0.0, at.jump[m.first]), 0.0, 0.0};
+        double driving = 0.5 * pull[0] * std::max(0.0, at.jump[m.first]);
+        for (std::size_t c = 1; c < dim_; ++c) {
+            pull[c] = law.tangential_stiffness * at.jump[m.first + c];
+            driving += 0.5 * pull[c] * at.jump[m.first + c];
+        }
+        const double slope = tangent > 0.0 ? tangent * damage_slope(toughness_[m.pair], driving, old_[m.pair]) : 0.0;
+        if (zeta > 0.0)
+            for (std::size_t c = 0; c < dim_; ++c)
+                add(m.first + c, m.first + c, weight * zeta * (c == 0 ? law.normal_stiffness : law.tangential_stiffness));
+        if (slope == 0.0) continue;
+        for (std::size_t r = 0; r < dim_; ++r)
+            for (std::size_t q = 0; q < dim_; ++q) {
+                const double value = weight * slope * pull[r] * pull[q];
+                if (value == 0.0) continue;
+                add(m.first + r, m.first + q, value);
+                row_force_[m.first + r] += value * at.jump[m.first + q];
+            }
+    }
+    return zone_.factor(couplings_, held_);
+}
+
+bool Leap::minimise(const Point& at, double tangent, std::int64_t debonded, Point& out) {
+    const std::vector<std::uint8_t> before = held_;
+    for (std::int64_t step = 0; step < contact_steps; ++step) {
+        newton_.monitor.progress("minimise", state_.counts.am_iterations, 0);
+        ++state_.counts.newton_solves;
+        if (!model(at, tangent, debonded)) break;
+        const Zone::Solution solution = zone_.solve(state_.theta, row_force_);
+        if (!solution.balanced) break;
+        const std::vector<double> jump = zone_.jumps(state_.theta, solution.unknowns);
+        std::vector<double> force(jump.size());
+        for (std::size_t z = 0; z < force.size(); ++z) force[z] = -row_force_[z];
+        for (const Zone::Coupling& c : couplings_)
+            force[static_cast<std::size_t>(c.row)] += c.value * jump[static_cast<std::size_t>(c.column)];
+        zone_.complete_forces(state_.theta, solution, force);
+        const double jump_scale = noise * largest(jump), force_scale = noise * largest(force);
+        bool settled = true;
+        for (std::size_t z = 0; z < held_.size(); ++z) {
+            if (normal_[z] == 0) continue;
+            if (held_[z] != 0 ? force[z] > force_scale : jump[z] < -jump_scale) {
+                held_[z] ^= 1;
+                settled = false;
+            }
+        }
+        if (!settled) continue;
+        out = point(solution.unknowns);
+        return true;
+    }
+    held_ = before;
+    return false;
+}
+
+bool Leap::descend(const Point& at, Point& to) const {
+    const double rounding = 1e-14 * (std::abs(at.energy) + std::abs(to.energy));
+    for (int halvings = 0; halvings < 7; ++halvings) {
+        if (halvings > 0) {
+            std::vector<double> between(at.unknowns.size());
+            for (std::size_t i = 0; i < between.size(); ++i)
+                between[i] = at.unknowns[i] + 0.5 * (to.unknowns[i] - at.unknowns[i]);
+            to = point(std::move(between));
+        }
+        if (to.energy <= at.energy + rounding) return true;
+    }
+    return false;
+}
+
+// The softening pair nearest to its end: the one that the next plain steps would break.
+std::int64_t Leap::least_stable(const Point& at) const {
+    std::int64_t found = -1;
+    double least = 1.0;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        const double left = at.adhesion[i] / old_[members_[i].pair];
+        if (at.adhesion[i] <= 0.0 || !(left < least)) continue;
+        least = left;
+        found = static_cast<std::int64_t>(i);
+    }
+    return found;
+}
+
+void Leap::run() {
+    if (members_.empty()) return;
+    Point at = point([&] {
+        std::vector<double> x(static_cast<std::size_t>(zone_.energy().rows()), 0.0);
+        const std::vector<std::int64_t>& rows = newton_.op.zone_rows();
+        for (std::size_t z = 0; z < rows.size(); ++z)
+            if (const Bulk::Row& row = zone_.rows()[z]; row.offset.empty() && row.unknowns.size() == 1 && row.unknowns.front().second == 1.0)
+                x[static_cast<std::size_t>(row.unknowns.front().first)] = state_.response.jump[static_cast<std::size_t>(rows[z])];
+        return x;
+    }());
+    for (std::int64_t step = 0; step < newton_.limit; ++step) {
+        Point next;
+        bool taken = minimise(at, 1.0, -1, next) && descend(at, next);
+        bool newton = taken;
+        if (!taken) {
+            const std::int64_t weakest = least_stable(at);
+            if (weakest >= 0) {
+                const std::vector<std::uint8_t> before = held_;
+                taken = minimise(at, 0.0, weakest, next) && next.energy < at.energy;
+                if (taken) ++state_.counts.debond_moves;
+                if (!taken) held_ = before;
+            }
+            if (!taken) taken = minimise(at, 0.0, -1, next) && next.energy <= at.energy + 1e-14 * std::abs(at.energy);
+            if (!taken) break;
+        }
+        double change = 0.0;
+        for (std::size_t i = 0; i < members_.size(); ++i) change = std::max(change, std::abs(next.adhesion[i] - at.adhesion[i]));
+        at = std::move(next);
+        // Newton's method squares the error: the next one would be far below delta.
+        if (newton ? change * change <= 0.01 * newton_.tolerance : change <= newton_.tolerance) break;
+    }
+    for (std::size_t i = 0; i < members_.size(); ++i) state_.adhesion[members_[i].pair] = at.adhesion[i];
+    const std::vector<std::int64_t>& rows = newton_.op.zone_rows();
+    for (std::size_t z = 0; z < rows.size(); ++z)
+        if (normal_[z] != 0) state_.closed[static_cast<std::size_t>(rows[z]) / dim_] = held_[z];
+}
+
+}  // namespace
+
+void ZoneNewton::leap(State& state, std::span<const Toughness> toughness, std::span<const double> adhesion_old) const {
+    Leap(*this, state, toughness, adhesion_old).run();
+}
+
+}  // namespace delam
