@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "evolution/extrapolation.hpp"
 #include "evolution/zone_newton.hpp"
 
 namespace delam {
@@ -62,6 +63,7 @@ bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) c
     bool converged = true, leapt = false;
     std::optional<State> before;
     std::vector<double> plain;
+    Extrapolation extrapolation;
     double level = 0.0;
     while (true) {
         monitor.progress("minimise", state.counts.am_iterations, 0);
@@ -73,6 +75,7 @@ bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) c
             state.counts = counts;
             state.adhesion = plain;
             leapt = false;
+            extrapolation.forget();
             continue;
         }
         level = reached;
@@ -87,11 +90,13 @@ bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) c
             displace(state);
             return false;
         }
+        before = state;
         if (condensed == nullptr) {
-            state.adhesion = plain;
+            state.adhesion = extrapolation.next(state.adhesion, plain);
+            for (std::size_t p = 0; p < plain.size(); ++p) state.adhesion[p] = std::clamp(state.adhesion[p], 0.0, adhesion_old[p]);
+            leapt = state.adhesion != plain;
             continue;
         }
-        before = state;
         ZoneNewton{*condensed, pairs, contact, monitor, tolerance, limit}.leap(state, toughness, adhesion_old);
         leapt = state.adhesion != before->adhesion;
         if (!leapt) state.adhesion = plain;
