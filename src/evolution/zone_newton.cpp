@@ -2,14 +2,17 @@
 #include "evolution/zone_newton.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+
+#include "evolution/extrapolation.hpp"
 
 namespace delam {
 
 namespace {
 
 constexpr double noise = 1e-11;            // of the largest jump or force in the zone: rounding
+constexpr std::int64_t longest_wait = 8;   // plain steps between two attempts of what has failed
 constexpr std::int64_t contact_steps = 30; // active-set steps of one Newton step; beyond them the step is not taken
 // A pair joins the zone when its driving energy is above this part of what damages it.
 constexpr double nearly_loaded = 0.7;
@@ -24,6 +27,25 @@ double largest(std::span<const double> values) {
 struct ZonePair {
     std::size_t pair;
     std::size_t first;  // row of the zone: normal, then tangents
+};
+
+// What failed is tried again after 1, 2, 4, 8, 8 ... steps.
+class Patience {
+public:
+    bool try_now() {
+        if (wait_ == 0) return true;
+        --wait_;
+        return false;
+    }
+    bool report(bool success) {
+        next_ = success ? 1 : std::min(2 * next_, longest_wait);
+        wait_ = success ? 0 : next_;
+        return success;
+    }
+
+private:
+    std::int64_t next_ = 1;
+    std::int64_t wait_ = 0;
 };
 
 class Leap {
@@ -65,12 +87,13 @@ private:
     Zone& find_zone();
     Point point(std::vector<double> unknowns) const;
     // Model about a point: tangents of the members scaled between secant (0) and full (1), with one of them debonded (or none: -1).
-    bool model(const Point& at, double tangent, std::int64_t debonded);
+    bool model(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded);
     // Minimiser of the model under contact; false: indefinite, or the contact set did not settle.
-    bool minimise(const Point& at, double tangent, std::int64_t debonded, Point& out);
+    bool minimise(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded, Point& out);
     // The point between `at` and `to` on which the energy falls; false: none.
     bool descend(const Point& at, Point& to) const;
-    std::int64_t least_stable(const Point& at) const;
+    std::int64_t weakest(const Point& at) const;
+    std::array<double, 9> tangent(const ZonePair& m, const Point& at, double zeta, double fraction) const;
 
     const ZoneNewton& newton_;
     State& state_;
@@ -121,8 +144,8 @@ Leap::Point Leap::point(std::vector<double> unknowns) const {
     return at;
 }
 
-// w [zeta K + zeta'(Y) (K j)(K j)^T] and the force h = C j - w zeta K j of its affine part.
-bool Leap::model(const Point& at, double tangent, std::int64_t debonded) {
+// Tangents C, and the force h = C j - w zeta K j of their affine part.
+bool Leap::model(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded) {
     couplings_.clear();
     row_force_.assign(spring_.size(), 0.0);
     const auto add = [&](std::size_t r, std::size_t q, double value) {
@@ -133,36 +156,23 @@ bool Leap::model(const Point& at, double tangent, std::int64_t debonded) {
     for (std::size_t i = 0; i < members_.size(); ++i) {
         if (static_cast<std::int64_t>(i) == debonded) continue;
         const ZonePair& m = members_[i];
-        const Law& law = *newton_.pairs.law[m.pair];
-        const double weight = newton_.pairs.weight[m.pair], zeta = at.adhesion[i];
-        double pull[3] = {law.normal_stiffness * std::max(0.0, at.jump[m.first]), 0.0, 0.0};
-        double driving = 0.5 * pull[0] * std::max(0.0, at.jump[m.first]);
-        for (std::size_t c = 1; c < dim_; ++c) {
-            pull[c] = law.tangential_stiffness * at.jump[m.first + c];
-            driving += 0.5 * pull[c] * at.jump[m.first + c];
-        }
-        const double slope = tangent > 0.0 ? tangent * damage_slope(toughness_[m.pair], driving, old_[m.pair]) : 0.0;
-        if (zeta > 0.0)
-            for (std::size_t c = 0; c < dim_; ++c)
-                add(m.first + c, m.first + c, weight * zeta * (c == 0 ? law.normal_stiffness : law.tangential_stiffness));
-        if (slope == 0.0) continue;
+        const std::array<double, 9> full = tangent(m, at, adhesion[i], fraction), secant = tangent(m, at, adhesion[i], 0.0);
         for (std::size_t r = 0; r < dim_; ++r)
             for (std::size_t q = 0; q < dim_; ++q) {
-                const double value = weight * slope * pull[r] * pull[q];
-                if (value == 0.0) continue;
-                add(m.first + r, m.first + q, value);
-                row_force_[m.first + r] += value * at.jump[m.first + q];
+                if (full[r * dim_ + q] == 0.0) continue;
+                add(m.first + r, m.first + q, full[r * dim_ + q]);
+                row_force_[m.first + r] += (full[r * dim_ + q] - secant[r * dim_ + q]) * at.jump[m.first + q];
             }
     }
     return zone_.factor(couplings_, held_);
 }
 
-bool Leap::minimise(const Point& at, double tangent, std::int64_t debonded, Point& out) {
+bool Leap::minimise(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded, Point& out) {
     const std::vector<std::uint8_t> before = held_;
     for (std::int64_t step = 0; step < contact_steps; ++step) {
         newton_.monitor.progress("minimise", state_.counts.am_iterations, 0);
         ++state_.counts.newton_solves;
-        if (!model(at, tangent, debonded)) break;
+        if (!model(at, adhesion, fraction, debonded)) break;
         const Zone::Solution solution = zone_.solve(state_.theta, row_force_);
         if (!solution.balanced) break;
         const std::vector<double> jump = zone_.jumps(state_.theta, solution.unknowns);
@@ -202,8 +212,27 @@ bool Leap::descend(const Point& at, Point& to) const {
     return false;
 }
 
-// The softening pair nearest to its end: the one that the next plain steps would break.
-std::int64_t Leap::least_stable(const Point& at) const {
+// w [zeta K + zeta'(Y) (K j)(K j)^T] of a member, with slope for zeta'; row-major.
+std::array<double, 9> Leap::tangent(const ZonePair& m, const Point& at, double zeta, double fraction) const {
+    const Law& law = *newton_.pairs.law[m.pair];
+    const double weight = newton_.pairs.weight[m.pair];
+    double pull[3] = {law.normal_stiffness * std::max(0.0, at.jump[m.first]), 0.0, 0.0};
+    double driving = 0.5 * pull[0] * std::max(0.0, at.jump[m.first]);
+    for (std::size_t c = 1; c < dim_; ++c) {
+        pull[c] = law.tangential_stiffness * at.jump[m.first + c];
+        driving += 0.5 * pull[c] * at.jump[m.first + c];
+    }
+    const double slope = fraction > 0.0 ? fraction * damage_slope(toughness_[m.pair], driving, old_[m.pair]) : 0.0;
+    std::array<double, 9> c{};
+    for (std::size_t r = 0; r < dim_; ++r) {
+        for (std::size_t q = 0; q < dim_; ++q) c[r * dim_ + q] = weight * slope * pull[r] * pull[q];
+        c[r * dim_ + r] += weight * zeta * (r == 0 ? law.normal_stiffness : law.tangential_stiffness);
+    }
+    return c;
+}
+
+// The softening pair nearest to its end: the one that plain steps would break next.
+std::int64_t Leap::weakest(const Point& at) const {
     std::int64_t found = -1;
     double least = 1.0;
     for (std::size_t i = 0; i < members_.size(); ++i) {
@@ -225,20 +254,35 @@ void Leap::run() {
                 x[static_cast<std::size_t>(row.unknowns.front().first)] = state_.response.jump[static_cast<std::size_t>(rows[z])];
         return x;
     }());
+    Extrapolation extrapolation;
+    std::vector<double> used = at.adhesion;
+    Patience newton_patience, move_patience;
     for (std::int64_t step = 0; step < newton_.limit; ++step) {
         Point next;
-        bool taken = minimise(at, 1.0, -1, next) && descend(at, next);
-        bool newton = taken;
+        const std::vector<std::uint8_t> before = held_;
+        const bool newton = newton_patience.try_now() && newton_patience.report(minimise(at, at.adhesion, 1.0, -1, next) && descend(at, next));
+        bool taken = newton;
+        if (!taken && move_patience.try_now()) {
+            held_ = before;
+            const std::int64_t pair = weakest(at);
+            taken = move_patience.report(pair >= 0 && minimise(at, at.adhesion, 0.0, pair, next) && next.energy < at.energy);
+            if (taken) ++state_.counts.debond_moves;
+        }
+        if (taken) {
+            extrapolation.forget();
+            used = next.adhesion;
+        } else {
+            held_ = before;
+            std::vector<double> ahead = extrapolation.next(used, at.adhesion);
+            for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] = std::clamp(ahead[i], 0.0, old_[members_[i].pair]);
+            taken = minimise(at, ahead, 0.0, -1, next) && next.energy < at.energy;
+            used = std::move(ahead);
+        }
         if (!taken) {
-            const std::int64_t weakest = least_stable(at);
-            if (weakest >= 0) {
-                const std::vector<std::uint8_t> before = held_;
-                taken = minimise(at, 0.0, weakest, next) && next.energy < at.energy;
-                if (taken) ++state_.counts.debond_moves;
-                if (!taken) held_ = before;
-            }
-            if (!taken) taken = minimise(at, 0.0, -1, next) && next.energy <= at.energy + 1e-14 * std::abs(at.energy);
-            if (!taken) break;
+            held_ = before;
+            extrapolation.forget();
+            used = at.adhesion;
+            if (!minimise(at, at.adhesion, 0.0, -1, next) || next.energy > at.energy + 1e-14 * std::abs(at.energy)) break;
         }
         double change = 0.0;
         for (std::size_t i = 0; i < members_.size(); ++i) change = std::max(change, std::abs(next.adhesion[i] - at.adhesion[i]));
