@@ -14,8 +14,11 @@ std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 // A spring weaker than this part of the bodies' stiffness is no hold to factor with: such rows stay in the zone, which can.
 constexpr double weak = 1e-9;
+// A spring stiffer than this multiple of the bodies' own stiffness hides it.
+constexpr double stiff = 1e5;
 
-enum : std::uint8_t { outer_level = 0, inner_level = 1, zone_level = 2 };
+// So many choices of a zone later an unknown that has not changed may leave it.
+constexpr std::uint8_t forgotten = 3;
 
 std::size_t count(const std::vector<std::uint8_t>& set) {
     return static_cast<std::size_t>(std::count_if(set.begin(), set.end(), [](std::uint8_t v) { return v != 0; }));
@@ -67,7 +70,9 @@ Condensed::Condensed(std::unique_ptr<Bulk> bulk, const Problem& problem, Monitor
     SparseMatrix graph = from_triplets(static_cast<std::int64_t>(unknowns), static_cast<std::int64_t>(unknowns), std::move(links));
     neighbour_start_ = std::move(graph.start);
     neighbour_ = std::move(graph.column);
-    recent_.assign(unknowns, 0);
+    age_.assign(unknowns, forgotten);
+    near_.assign(unknowns, 1);
+    inside_.assign(unknowns, 1);
 }
 
 double Condensed::spring_of(const Springs& springs, std::size_t unknown) const {
@@ -77,8 +82,8 @@ double Condensed::spring_of(const Springs& springs, std::size_t unknown) const {
 
 bool Condensed::covers(const Springs& springs) const {
     if (zone_ == nullptr) return false;
-    for (std::size_t i = 0; i < level_.size(); ++i)
-        if (level_[i] != zone_level && spring_[i] != spring_of(springs, i)) return false;
+    for (std::size_t i = 0; i < inside_.size(); ++i)
+        if (inside_[i] == 0 && spring_[i] != spring_of(springs, i)) return false;
     return true;
 }
 
@@ -110,57 +115,87 @@ std::vector<std::uint8_t> Condensed::grown(std::vector<std::uint8_t> set, std::s
 void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wanted) {
     const std::size_t unknowns = always_.size();
     std::vector<std::uint8_t> set(always_);
+    std::vector<double> now(unknowns);
     for (std::size_t i = 0; i < unknowns; ++i) {
-        const double s = spring_of(springs, i);
+        now[i] = spring_of(springs, i);
+        age_[i] = wanted[i] != 0 ? std::uint8_t{0} : std::min<std::uint8_t>(forgotten, static_cast<std::uint8_t>(age_[i] + 1));
         const double body = bulk_->energy().stiffness(static_cast<std::int64_t>(i), static_cast<std::int64_t>(i));
-        if (wanted[i] != 0 || (s > 0.0 && s < weak * body)) set[i] = 1;
+        if (age_[i] < forgotten || (now[i] > 0.0 && now[i] < weak * body)) set[i] = 1;
     }
     const std::size_t needed = count(set);
     set = grown(std::move(set), needed + std::max<std::size_t>(16, needed / 3));
-    bool outer_holds = outer_ != nullptr;
-    for (std::size_t i = 0; i < unknowns && outer_holds; ++i)
-        outer_holds = level_[i] != outer_level || (set[i] == 0 && spring_[i] == spring_of(springs, i));
-    std::vector<std::uint8_t> level(unknowns, outer_level);
-    const std::vector<std::uint8_t> near =
-        outer_holds ? std::vector<std::uint8_t>() : grown(set, count(set) + std::max<std::size_t>(64, unknowns / 6));
-    for (std::size_t i = 0; i < unknowns; ++i)
-        level[i] = set[i] != 0 ? zone_level : (outer_holds ? level_[i] != outer_level : near[i] != 0) ? inner_level : outer_level;
-    std::vector<double> spring(unknowns);
-    for (std::size_t i = 0; i < unknowns; ++i) spring[i] = spring_of(springs, i);
-    if (!outer_holds) outer_.reset();
-    spring_ = std::move(spring);
-    condense(std::move(level));
-    std::fill(recent_.begin(), recent_.end(), std::uint8_t{0});
+
+    bool renew = outer_ == nullptr;
+    std::vector<std::int64_t> back;
+    for (std::size_t i = 0; i < unknowns && !renew; ++i) {
+        if (near_[i] != 0 || (set[i] == 0 && spring_[i] == now[i])) continue;
+        back.push_back(static_cast<std::int64_t>(i));
+        // What a stiff spring hides cannot be got back by subtracting it.
+        renew = outer_spring_[i] > stiff * bulk_->energy().stiffness(static_cast<std::int64_t>(i), static_cast<std::int64_t>(i));
+    }
+    if (!renew && !back.empty()) {
+        const double cost = outer_->release_cost(static_cast<std::int64_t>(back.size()));
+        renew = released_cost_ + cost > outer_->cost();
+    }
+    spring_ = std::move(now);
+    inside_ = std::move(set);
+    if (renew)
+        condense_outer(grown(inside_, count(inside_) + std::max<std::size_t>(64, unknowns / 6)));
+    else if (!back.empty())
+        release(std::move(back));
+    condense_inner();
 }
 
-void Condensed::condense(std::vector<std::uint8_t> level) {
+void Condensed::condense_outer(std::span<const std::uint8_t> near) {
     monitor_.progress("zone", condensations_, 0);
     ++condensations_;
-    level_ = std::move(level);
-    zone_.reset();
+    near_.assign(near.begin(), near.end());
+    outer_spring_ = spring_;
+    released_.clear();
+    released_cost_ = 0.0;
+    std::vector<std::int64_t> kept, eliminated;
+    std::vector<double> stiffness(near_.size());
+    for (std::size_t i = 0; i < near_.size(); ++i) {
+        if (near_[i] != 0)
+            kept.push_back(static_cast<std::int64_t>(i));
+        else if (outer_spring_[i] >= 0.0)
+            eliminated.push_back(static_cast<std::int64_t>(i));
+        stiffness[i] = std::max(0.0, outer_spring_[i]);
+    }
     inner_.reset();
-    const std::size_t unknowns = level_.size();
-    const auto pick = [&](const DenseEnergy& parent, std::span<const std::int64_t> members, std::uint8_t own) {
-        std::vector<std::int64_t> kept, eliminated;
-        std::vector<double> stiffness(members.size(), 0.0);
-        for (std::size_t m = 0; m < members.size(); ++m) {
-            const auto i = index(members[m]);
-            if (level_[i] > own)
-                kept.push_back(static_cast<std::int64_t>(m));
-            else if (spring_[i] >= 0.0)
-                eliminated.push_back(static_cast<std::int64_t>(m));
-            stiffness[m] = std::max(0.0, spring_[i]);
-        }
-        return std::make_unique<Condensation>(parent, std::move(kept), std::move(eliminated), stiffness);
-    };
-    std::vector<std::int64_t> all(unknowns), near;
-    for (std::size_t i = 0; i < unknowns; ++i) all[i] = static_cast<std::int64_t>(i);
-    if (outer_ == nullptr) outer_ = pick(bulk_->energy(), all, outer_level);
-    for (const std::int64_t k : outer_->kept()) near.push_back(k);
-    inner_ = pick(outer_->energy(), near, inner_level);
-    zone_unknowns_.clear();
-    for (const std::int64_t k : inner_->kept()) zone_unknowns_.push_back(near[index(k)]);
+    zone_.reset();
+    outer_.reset();
+    outer_ = std::make_unique<Condensation>(bulk_->energy(), std::move(kept), std::move(eliminated), stiffness);
+}
 
+void Condensed::release(std::vector<std::int64_t> unknowns) {
+    monitor_.progress("zone", condensations_, 0);
+    released_cost_ += outer_->release_cost(static_cast<std::int64_t>(unknowns.size()));
+    std::vector<double> stiffness(outer_spring_);
+    for (double& s : stiffness) s = std::max(0.0, s);
+    outer_->release(bulk_->energy(), unknowns, stiffness);
+    for (const std::int64_t i : unknowns) near_[index(i)] = 1;
+    released_.push_back(std::move(unknowns));
+}
+
+void Condensed::condense_inner() {
+    const std::vector<std::int64_t>& near = outer_->kept();
+    std::vector<std::int64_t> kept, eliminated;
+    std::vector<double> stiffness(near.size());
+    zone_unknowns_.clear();
+    for (std::size_t m = 0; m < near.size(); ++m) {
+        const auto i = index(near[m]);
+        stiffness[m] = std::max(0.0, spring_[i]);
+        if (inside_[i] != 0)
+            kept.push_back(static_cast<std::int64_t>(m));
+        else if (spring_[i] >= 0.0)
+            eliminated.push_back(static_cast<std::int64_t>(m));
+    }
+    for (const std::int64_t k : kept) zone_unknowns_.push_back(near[index(k)]);
+    zone_.reset();
+    inner_ = std::make_unique<Condensation>(outer_->energy(), std::move(kept), std::move(eliminated), stiffness);
+
+    const std::size_t unknowns = inside_.size();
     std::vector<std::int64_t> place(unknowns, -1);
     for (std::size_t z = 0; z < zone_unknowns_.size(); ++z) place[index(zone_unknowns_[z])] = static_cast<std::int64_t>(z);
     zone_rows_.clear();
@@ -175,10 +210,10 @@ void Condensed::condense(std::vector<std::uint8_t> level) {
     }
     // Rigid motions that no active row outside the zone holds.
     const DenseMatrix& rigid = bulk_->rigid();
-    std::vector<std::uint8_t> active(unknowns, 0);
-    for (std::size_t i = 0; i < unknowns; ++i) active[i] = place[i] < 0 && spring_[i] != 0.0 ? 1 : 0;
     DenseMatrix floating(static_cast<std::int64_t>(zone_unknowns_.size()), 0);
     if (rigid.columns > 0) {
+        std::vector<std::uint8_t> active(unknowns, 0);
+        for (std::size_t i = 0; i < unknowns; ++i) active[i] = place[i] < 0 && spring_[i] != 0.0 ? 1 : 0;
         const DenseMatrix free = multiply(rigid, split_motions(rigid, active).free);
         floating = DenseMatrix(floating.rows, free.columns);
         for (std::int64_t c = 0; c < free.columns; ++c)
@@ -186,7 +221,7 @@ void Condensed::condense(std::vector<std::uint8_t> level) {
         floating = orthonormalised(std::move(floating));
     }
     zone_ = std::make_unique<Zone>(inner_->energy(), std::move(rows), std::move(floating));
-    if (getenv("DBG")) { size_t held=0; for(double v:spring_) held+=v<0; fprintf(stderr,"condense %ld: n %zu outer kept %zu zone %zu held %zu floats %ld\n",(long)condensations_,unknowns,near.size(),zone_unknowns_.size(),held,(long)0);}
+    if (getenv("DBG")) fprintf(stderr,"condense %ld: n %zu outer kept %zu zone %zu released %zu cost %g of %g\n",(long)condensations_,unknowns,near.size(),zone_unknowns_.size(),released_.size(),released_cost_,outer_->cost());
 }
 
 Zone& Condensed::zone(const Springs& springs, std::span<const std::uint8_t> wanted) {
@@ -196,13 +231,13 @@ Zone& Condensed::zone(const Springs& springs, std::span<const std::uint8_t> want
         if (wanted[r] == 0) continue;
         for (const auto& [i, n] : bulk_->rows()[r].unknowns) {
             unknowns[index(i)] = 1;
-            inside = inside && level_[index(i)] == zone_level;
+            inside = inside && inside_[index(i)] != 0;
         }
     }
     if (!inside) {
         if (zone_ != nullptr)
             for (std::size_t i = 0; i < unknowns.size(); ++i)
-                if (level_[i] != zone_level && spring_[i] != spring_of(springs, i)) unknowns[i] = 1;
+                if (inside_[i] == 0 && spring_[i] != spring_of(springs, i)) unknowns[i] = 1;
         choose(springs, unknowns);
     }
     return *zone_;
@@ -220,13 +255,13 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
         respond(springs, theta, nullptr, response);
         return;
     }
-    for (std::size_t i = 0; i < now.size() && !last_.empty(); ++i)
-        if (now[i] != last_[i]) recent_[i] = 1;
-    if (!covers(springs)) {
-        std::vector<std::uint8_t> wanted = recent_;
-        if (last_.empty()) std::fill(wanted.begin(), wanted.end(), std::uint8_t{0});
-        choose(springs, wanted);
+    std::vector<std::uint8_t> wanted(now.size(), 0);
+    for (std::size_t i = 0; i < now.size() && !last_.empty(); ++i) {
+        if (now[i] == last_[i]) continue;
+        wanted[i] = 1;
+        age_[i] = 0;
     }
+    if (!covers(springs)) choose(springs, wanted);
     last_ = std::move(now);
 
     std::vector<Zone::Coupling> couplings;
@@ -327,34 +362,65 @@ double Condensed::equilibrium_defect(std::span<const double> theta, const Respon
     return bulk_->defect(theta, u, response.force, bulk_->reaction(theta, u, response.force));
 }
 
+// Per unknown: springs (outer, now, last) and a code of age, inside and near before any release; then the groups that were released.
 std::vector<double> Condensed::memory() const {
     if (zone_ == nullptr) return {};
+    const std::size_t unknowns = always_.size();
+    std::vector<std::uint8_t> near = near_;
+    for (const auto& group : released_)
+        for (const std::int64_t i : group) near[index(i)] = 0;
     std::vector<double> m;
-    for (std::size_t i = 0; i < level_.size(); ++i) m.push_back(level_[i] + 4.0 * recent_[i]);
-    m.insert(m.end(), spring_.begin(), spring_.end());
-    m.insert(m.end(), last_.begin(), last_.end());
+    m.reserve(4 * unknowns + 64);
+    for (std::size_t i = 0; i < unknowns; ++i) m.push_back(age_[i] + 4 * inside_[i] + 8 * near[i]);
+    for (const auto* springs : {&outer_spring_, &spring_, &last_}) {
+        m.insert(m.end(), springs->begin(), springs->end());
+        m.resize(m.size() + unknowns - springs->size(), 0.0);
+    }
+    for (const auto& group : released_) {
+        m.push_back(static_cast<double>(group.size()));
+        m.insert(m.end(), group.begin(), group.end());
+    }
     return m;
 }
 
 void Condensed::recall(std::span<const double> memory) {
     const std::size_t unknowns = always_.size();
     if (memory.empty() || std::ranges::equal(memory, this->memory())) return;
-    if (memory.size() != 3 * unknowns && memory.size() != 2 * unknowns) fail(DELAM_ERROR_SNAPSHOT, "the operator's memory has another size");
-    std::vector<std::uint8_t> level(unknowns);
+    const auto damaged = [](bool yes) {
+        if (yes) fail(DELAM_ERROR_SNAPSHOT, "the memory of the condensed operator is damaged");
+    };
+    damaged(memory.size() < 4 * unknowns);
+    std::vector<std::uint8_t> age(unknowns), inside(unknowns), near(unknowns);
     for (std::size_t i = 0; i < unknowns; ++i) {
-        const double code = memory[i];
-        if (!(code >= 0.0 && code <= 6.0) || code != std::floor(code)) fail(DELAM_ERROR_SNAPSHOT, "the operator's memory is damaged");
-        level[i] = static_cast<std::uint8_t>(std::fmod(code, 4.0));
-        recent_[i] = code >= 4.0 ? 1 : 0;
-        if (level[i] == 3) fail(DELAM_ERROR_SNAPSHOT, "the operator's memory is damaged");
+        damaged(!(memory[i] >= 0.0 && memory[i] < 16.0) || memory[i] != std::floor(memory[i]));
+        const auto code = static_cast<unsigned>(memory[i]);
+        age[i] = code & 3U;
+        inside[i] = (code >> 2U) & 1U;
+        near[i] = (code >> 3U) & 1U;
     }
-    const std::span<const double> spring = memory.subspan(unknowns, unknowns), last = memory.subspan(2 * unknowns);
-    const bool same = zone_ != nullptr && level == level_ && std::ranges::equal(spring, spring_);
-    spring_.assign(spring.begin(), spring.end());
-    last_.assign(last.begin(), last.end());
-    if (same) return;
-    outer_.reset();
-    condense(std::move(level));
+    std::vector<std::vector<std::int64_t>> groups;
+    for (std::size_t at = 4 * unknowns; at < memory.size();) {
+        const double size = memory[at++];
+        damaged(!(size >= 1.0 && size <= static_cast<double>(memory.size() - at)));
+        std::vector<std::int64_t> group;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(size); ++k, ++at) {
+            damaged(!(memory[at] >= 0.0 && memory[at] < static_cast<double>(unknowns)));
+            group.push_back(static_cast<std::int64_t>(memory[at]));
+        }
+        groups.push_back(std::move(group));
+    }
+    const auto part = [&](std::size_t k) { return memory.subspan(k * unknowns, unknowns); };
+    age_ = std::move(age);
+    inside_ = std::move(inside);
+    last_.assign(part(3).begin(), part(3).end());
+    const bool same_outer = outer_ != nullptr && std::ranges::equal(part(1), outer_spring_) && groups == released_;
+    spring_.assign(part(1).begin(), part(1).end());
+    if (!same_outer) {
+        condense_outer(near);
+        for (auto& group : groups) release(std::move(group));
+    }
+    spring_.assign(part(2).begin(), part(2).end());
+    condense_inner();
 }
 
 std::string Condensed::description() const {

@@ -3,7 +3,8 @@
 //
 // Between two solves only the process zone and the contact set change. So most unknowns are minimised out at the springs they have
 // (dense_energy.hpp), in two nested steps: far ones rarely, near ones more often; what is left, the zone, is factored in each solve. An unknown
-// whose spring changes although it was minimised out makes the zone be chosen anew.
+// whose spring changes although it was minimised out makes the zone be chosen anew; a far one is released by a low-rank update while that
+// is cheaper than minimising all far ones again.
 #pragma once
 
 #include <memory>
@@ -37,7 +38,9 @@ public:
 private:
     bool covers(const Springs& springs) const;
     void choose(const Springs& springs, std::span<const std::uint8_t> wanted);
-    void condense(std::vector<std::uint8_t> level);
+    void condense_outer(std::span<const std::uint8_t> near);
+    void release(std::vector<std::int64_t> unknowns);
+    void condense_inner();
     std::vector<std::uint8_t> grown(std::vector<std::uint8_t> set, std::size_t count) const;
     std::vector<double> unknowns_of(const Response& response) const;
     double spring_of(const Springs& springs, std::size_t unknown) const;  // -1: held
@@ -50,12 +53,15 @@ private:
     std::vector<std::int64_t> neighbour_start_, neighbour_;  // of unknowns
     std::vector<std::vector<std::int64_t>> rows_of_;     // [unknowns]
 
-    // The choice that holds, [unknowns]: 0 minimised out in the first step, 1 in the second, 2 in the zone; and the springs that they were
-    // minimised at (-1: held).
-    std::vector<std::uint8_t> level_;
-    std::vector<double> spring_;
-    std::vector<std::uint8_t> recent_;  // changed since the zone was chosen
-    std::vector<double> last_;          // springs of the solve before
+    // The choice that holds, [unknowns]. Springs: -1 is held.
+    std::vector<std::uint8_t> near_;       // not minimised out in the first step
+    std::vector<std::uint8_t> inside_;     // in the zone
+    std::vector<double> outer_spring_;     // at the time of the first step
+    std::vector<double> spring_;           // at which they are minimised out now
+    std::vector<double> last_;             // of the solve before
+    std::vector<std::uint8_t> age_;        // choices since it last changed or was asked for, up to `forgotten`
+    std::vector<std::vector<std::int64_t>> released_;  // from the first step, group after group
+    double released_cost_ = 0.0;
     std::unique_ptr<Condensation> outer_, inner_;
     std::unique_ptr<Zone> zone_;
     std::vector<std::int64_t> zone_unknowns_, zone_rows_;

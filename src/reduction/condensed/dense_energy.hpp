@@ -19,23 +19,41 @@ struct DenseEnergy {
 
 // Some rows e of a parent energy are minimised together with their springs s_e, some rows k stay, the others are held at zero:
 //   S_kk - S_ke (S_ee + s_e)^-1 S_ek = S_kk - V^T V,    V = L^-1 S_ek,  L L^T = S_ee + s_e
+// An unknown that was minimised out can be taken back without another factorisation: with x_R* = W x_k + w theta its minimiser and
+// D = (S_ee + s_e)^-1 restricted to R,
+//   E(x_k, x_R) = E(x_k) + 1/2 (x_R - x_R*)^T D^-1 (x_R - x_R*) - 1/2 s_R x_R^2,
+// a low-rank update; one that was held is admitted by its column of V.
 class Condensation {
 public:
     Condensation() = default;
     // stiffness: [parent rows] springs. Throws Error(DELAM_ERROR_NUMERICAL) when the eliminated rows are not held.
     Condensation(const DenseEnergy& parent, std::vector<std::int64_t> kept, std::vector<std::int64_t> eliminated,
                  std::span<const double> stiffness);
-    const DenseEnergy& energy() const { return energy_; }
-    const std::vector<std::int64_t>& kept() const { return kept_; }
+    // Takes parent rows back among the kept ones; `parent` and `stiffness` as they were given.
+    void release(const DenseEnergy& parent, std::span<const std::int64_t> rows, std::span<const double> stiffness);
+    // Multiplications of a release of so many rows, and of doing it all again.
+    double release_cost(std::int64_t rows) const;
+    double cost() const;
+
+    const DenseEnergy& energy() const { return released_.empty() ? base_ : energy_; }
+    const std::vector<std::int64_t>& kept() const { return kept_; }  // the order of energy()
     // Parent's unknowns from the kept ones.
     void recover(std::span<const double> theta, std::span<const double> kept_values, std::span<double> parent) const;
 
 private:
-    std::vector<std::int64_t> kept_;
+    void update(std::span<const double> stiffness);
+
+    std::vector<std::int64_t> kept_;        // those that were never minimised out, then the released ones
     std::vector<std::int64_t> eliminated_;
-    DenseMatrix factor_;     // L
-    DenseMatrix coupling_;   // V
-    DenseMatrix load_;       // L^-1 L_e
+    std::vector<std::int64_t> released_;    // places in eliminated_
+    DenseMatrix factor_;                    // L
+    DenseMatrix coupling_;                  // V
+    DenseMatrix load_;                      // L^-1 L_e
+    DenseEnergy base_;                      // with the released ones minimised out
+    DenseMatrix unit_;                      // Z = L^-1 E_R, so that D = Z^T Z = C C^T
+    DenseMatrix root_;                      // C
+    DenseMatrix image_;                     // C^-1 W
+    DenseMatrix image_load_;                // C^-1 w
     DenseEnergy energy_;
 };
 
