@@ -15,7 +15,7 @@ namespace {
 
 std::vector<double> cell_coordinates(const Mesh& mesh, std::int64_t cell) {
     std::vector<double> x;
-    x.reserve(24);
+    x.reserve(3 * most_cell_nodes);
     for (const std::int64_t n : mesh.cell(cell)) x.insert(x.end(), mesh.node(n).begin(), mesh.node(n).end());
     return x;
 }
@@ -88,8 +88,9 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> 
     k.value.assign(k.column.size(), 0.0);
 
     const std::vector<double> elasticity = elasticity_matrix(material, mesh.dimension(), plane);
+    std::array<double, 9 * most_cell_nodes * most_cell_nodes> matrix;
     for (std::size_t c = 0; c < cells.size(); ++c) {
-        const auto matrix = element_stiffness(mesh.cell_type(cells[c]), cell_coordinates(mesh, cells[c]), elasticity);
+        element_stiffness(mesh.cell_type(cells[c]), cell_coordinates(mesh, cells[c]), elasticity, matrix);
         const std::size_t size = local[c].size() * dim;
         for (std::size_t a = 0; a < local[c].size(); ++a) {
             const std::size_t node = at(local[c][a]);

@@ -11,10 +11,10 @@
 
 namespace delam {
 
-// Stiffness of a cell, row-major, DOFs dimension*local node + component; exactly symmetric.
-// coordinates: [nodes][dimension]; elasticity as of elasticity_matrix().
-std::vector<double> element_stiffness(CellType type, std::span<const double> coordinates,
-                                      std::span<const double> elasticity);
+// Stiffness of a cell, row-major into matrix[size*size], size = nodes*dimension; DOFs dimension*local node + component;
+// exactly symmetric. coordinates: [nodes][dimension]; elasticity as of elasticity_matrix(). Allocates nothing.
+void element_stiffness(CellType type, std::span<const double> coordinates, std::span<const double> elasticity,
+                       std::span<double> matrix);
 
 // Strains (engineering, order of elasticity_matrix) at the cell's centre from its nodal displacements
 // [nodes][dimension].

@@ -32,7 +32,25 @@ using Labels = std::vector<std::int32_t>;
 using Indices = std::vector<std::int64_t>;
 using Numbers = std::vector<double>;
 
-constexpr CellType all_types[] = {CellType::tri3, CellType::quad4, CellType::tet4, CellType::hex8};
+constexpr CellType all_types[] = {CellType::tri3, CellType::quad4, CellType::tet4,  CellType::hex8, CellType::tri6,
+                                  CellType::quad8, CellType::quad9, CellType::tet10, CellType::hex20};
+
+bool quadratic(CellType type) { return topology(type).nodes > topology(type).corners; }
+bool triangles(CellType type) { return topology(type).face_corners == 3; }
+// Nodes in a box of n[0] x n[1] (x n[2]) boxes of a block, faces and edges shared.
+std::int64_t lattice_nodes(CellType type, std::vector<std::int64_t> n) {
+    std::int64_t corners = 1;
+    std::int64_t all = 1;
+    for (const std::int64_t k : n) {
+        corners *= k + 1;
+        all *= 2 * k + 1;
+    }
+    if (!quadratic(type)) return corners;
+    if (type != CellType::quad8 && type != CellType::hex20) return all;
+    std::int64_t edges = 0;  // each along one axis, between corners of the other ones
+    for (const std::int64_t k : n) edges += corners / (k + 1) * k;
+    return corners + edges;
+}
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
@@ -139,16 +157,22 @@ START_TEST(layered_blocks) {
         const Numbers lengths = plane ? Numbers{2.0} : Numbers{2.0, 1.5};
         const Indices divisions = plane ? Indices{5} : Indices{5, 4};
         Mesh mesh = layers(type, lengths, divisions, {0.3, 0.1, 0.2}, {2, 1, 3});
-        const std::int64_t level = plane ? 6 : 30;
         const std::int64_t boxes = plane ? 5 : 20;
-        const std::int64_t per_box = type == CellType::tri3 ? 2 : type == CellType::tet4 ? 6 : 1;
-        ck_assert_int_eq(mesh.node_count(), level * (3 + 2 + 4));
+        const std::int64_t per_box = type == CellType::tri3 || type == CellType::tri6 ? 2 : triangles(type) ? 6 : 1;
+        const auto nodes_of = [&](std::int64_t through) {
+            return lattice_nodes(type, plane ? Indices{5, through} : Indices{5, 4, through});
+        };
+        // On one level: hex20 has there what quad8 has in the plane, and tet10 a full lattice.
+        const std::int64_t level = plane ? (quadratic(type) ? 11 : 6)
+                                         : lattice_nodes(type == CellType::hex20 ? CellType::quad8 : type, {5, 4});
+        ck_assert_int_eq(mesh.node_count(), nodes_of(2) + nodes_of(1) + nodes_of(3));
         ck_assert_int_eq(mesh.cell_count(), boxes * per_box * (2 + 1 + 3));
         ck_assert_int_eq(mesh.body_count(), 3);
         ck_assert(mesh.size() == 2.0);
         // x fastest, the last axis slowest
-        ck_assert(mesh.node(1)[0] == 0.4 && mesh.node(1)[1] == 0.0);
-        ck_assert(mesh.node(level)[0] == 0.0 && std::abs(mesh.node(level)[plane ? 1 : 2] - 0.15) < 1e-15);
+        ck_assert(mesh.node(1)[0] == (quadratic(type) ? 0.2 : 0.4) && mesh.node(1)[1] == 0.0);
+        ck_assert(mesh.node(level)[0] == 0.0);
+        ck_assert(std::abs(mesh.node(level)[plane ? 1 : 2] - (quadratic(type) ? 0.075 : 0.15)) < 1e-15);
         // Boundary: closed, of the right extent.
         for (std::int32_t b = 0; b < 3; ++b) {
             const Numbers box{2.0, plane ? std::array{0.3, 0.1, 0.2}[at(b)] : 1.5, std::array{0.3, 0.1, 0.2}[at(b)]};
@@ -169,8 +193,8 @@ START_TEST(layered_blocks) {
         const InterfaceGeometry& down = mesh.interfaces()[1];
         for (const InterfaceGeometry* i : {&up, &down}) {
             ck_assert_int_eq(i->pair_count(), level);
-            ck_assert_int_eq(i->face_count(), type == CellType::tet4 ? 2 * boxes : boxes);
-            ck_assert_int_eq(i->nodes_per_face, plane ? 2 : type == CellType::tet4 ? 3 : 4);
+            ck_assert_int_eq(i->face_count(), triangles(type) ? 2 * boxes : boxes);
+            ck_assert_int_eq(i->nodes_per_face, topology(type).face_nodes);
             ck_assert(std::abs(sum(i->weight) - (plane ? 2.0 : 3.0)) <= 1e-14);
             ck_assert(*std::min_element(i->weight.begin(), i->weight.end()) > 0.0);
             check_frames(mesh, *i);
@@ -370,9 +394,10 @@ START_TEST(refused_interfaces) {
         Mesh overhanging = two_blocks(type, 4, 4, 1.0, 0.25, 0.0);
         overhanging.add_interface(0, 1, 0.0);
         ck_assert(std::abs(sum(overhanging.interfaces()[0].weight) - 0.75) < 1e-14);
-        // Tolerance is relative to the shortest edge, 1/4.
-        Mesh near = two_blocks(type, 4, 4, 1.0, 0.0, 0.024);
-        ck_assert_refused(DELAM_ERROR_MESH, "as close as 0.024", near.add_interface(0, 1, 0.09));
+        // Tolerance is relative to the shortest edge, 1/4 or, from corner to middle, 1/8.
+        Mesh near = two_blocks(type, 4, 4, 1.0, 0.0, quadratic(type) ? 0.012 : 0.024);
+        ck_assert_refused(DELAM_ERROR_MESH, quadratic(type) ? "as close as 0.012" : "as close as 0.024",
+                          near.add_interface(0, 1, 0.09));
         near.add_interface(0, 1, 0.1);
         // Sitting inside each other.
         Mesh inside = two_blocks(type, 4, 4, 1.0, 0.0, -0.5);
@@ -453,7 +478,7 @@ START_TEST(patches) {
                 ck_assert(std::abs(moment - middle * extent) <= 1e-13);
             }
             for (std::size_t k = 0; k < patch.nodes.size(); ++k) {
-                ck_assert(patch.weights[k] > 0.0);
+                ck_assert(patch.weights[k] > 0.0 || quadratic(type));
                 ck_assert(mesh.node(patch.nodes[k]).back() == top);
             }
         }
