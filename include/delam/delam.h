@@ -214,6 +214,11 @@ DELAM_API void delam_problem_destroy(delam_problem **problem);
 DELAM_API int32_t delam_problem_set_plane(delam_problem *problem, const char *assumption);
 /* Isotropic elasticity of a body (-1: of all): young > 0 (F/L2), -1 < poisson < 0.5. */
 DELAM_API int32_t delam_problem_set_elastic(delam_problem *problem, int32_t body, double young, double poisson);
+/* How the cells of a body (-1: of all) are computed: "standard" (default), or "incompatible" for bodies of quad4 or hex8 alone
+ * (DELAM_ERROR_ARGUMENT names another cell): internal bending modes after Wilson, Taylor and Beresford, condensed in each
+ * cell. Pure bending of rectangular cells is then exact, where standard ones are too stiff (by half for squares). The
+ * displacement between nodes may gap or overlap a little. */
+DELAM_API int32_t delam_problem_set_formulation(delam_problem *problem, int32_t body, const char *formulation);
 /* The law of an interface; its parameters are taken as they are now. Initial adhesion 1 everywhere. */
 DELAM_API int32_t delam_problem_set_law(delam_problem *problem, int64_t interface_index, const delam_law *law);
 /* The interface is glued perfectly and for ever (zero compliance). Each interface needs a law or this. */

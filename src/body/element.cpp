@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "body/element.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace delam {
@@ -48,43 +50,58 @@ Matrix<dim> tangent(const double* x, const double* gradient) {
     return j;
 }
 
-// K_ai,bk = sum_jl D_(ij)(kl) T_ab,jl,  T_ab,jl = int dN_a/dx_j dN_b/dx_l dx : the points of the quadrature see only
-// gradients, the elasticity enters once for each pair of nodes. Pairs a <= b are summed and their transposes copied, so
-// that K equals its transpose bit for bit.
+// T_ab,jl = int dN_a/dx_j dN_b/dx_l dx  of the pairs a <= b, row by row. Internal modes count as further nodes.
 template <std::size_t nodes, std::size_t dim>
-void stiffness(const double* coordinates, const Quadrature& gauss, const double* elasticity, double* k) {
-    constexpr std::size_t strains = strain_count(dim);
-    constexpr std::size_t size = nodes * dim;
-    constexpr std::size_t square = dim * dim;
-    double x[size];  // relative to the first node: sums then do not cancel for a cell far from the origin
-    for (std::size_t i = 0; i < size; ++i) x[i] = coordinates[i] - coordinates[i % dim];
+using Products = std::array<double, nodes * (nodes + 1) / 2 * dim * dim>;
 
-    double product[nodes * (nodes + 1) / 2 * square] = {};  // T of the pairs a <= b
+// The displacement modes 1 - xi_i^2 of Wilson (1973), which bend, in the form of Taylor, Beresford and Wilson (Int. J.
+// Numer. Meth. Eng. 10, 1976): their gradients are those at the centre, scaled,
+//     dM_i/dx = (det J_0 / det J) J_0^-T dM_i/dxi,
+// so that int dM_i/dx dx = 0: a constant stress does no work on them, and the patch test holds on distorted cells.
+template <std::size_t nodes, std::size_t dim, std::size_t modes>
+void gradient_products(CellType type, const double* coordinates, Products<nodes + modes, dim>& product) {
+    constexpr std::size_t square = dim * dim;
+    double x[nodes * dim];  // relative to the first node: sums then do not cancel for a cell far from the origin
+    for (std::size_t i = 0; i < nodes * dim; ++i) x[i] = coordinates[i] - coordinates[i % dim];
+    Matrix<dim> centre_cofactor{};
+    if constexpr (modes > 0) centre_cofactor = cofactors<dim>(tangent<nodes, dim>(x, centre_gradient(type).data()));
+
+    const Quadrature& gauss = quadrature(type);
     for (std::size_t q = 0; q < gauss.points.size(); ++q) {
         const double* reference = gauss.gradients[q].data();
         const Matrix<dim> j = tangent<nodes, dim>(x, reference);
         const Matrix<dim> cofactor = cofactors<dim>(j);
-        const double factor = gauss.weights[q] / determinant<dim>(j, cofactor);  // of det dN/dx, twice
-        double g[size];
+        const double factor = gauss.weights[q] / determinant<dim>(j, cofactor);
+        double g[(nodes + modes) * dim];  // det J dN/dx
         for (std::size_t a = 0; a < nodes; ++a)
             for (std::size_t i = 0; i < dim; ++i) {
                 double sum = 0.0;
                 for (std::size_t c = 0; c < dim; ++c) sum += cofactor[i * dim + c] * reference[a * dim + c];
                 g[a * dim + i] = sum;
             }
-        double* t = product;
-        for (std::size_t a = 0; a < nodes; ++a) {
+        for (std::size_t m = 0; m < modes; ++m)
+            for (std::size_t i = 0; i < dim; ++i)
+                g[(nodes + m) * dim + i] = centre_cofactor[i * dim + m] * -2.0 * gauss.points[q][m];
+        double* t = product.data();
+        for (std::size_t a = 0; a < nodes + modes; ++a) {
             double left[dim];
             for (std::size_t i = 0; i < dim; ++i) left[i] = factor * g[a * dim + i];
-            for (std::size_t b = a; b < nodes; ++b, t += square)
+            for (std::size_t b = a; b < nodes + modes; ++b, t += square)
                 for (std::size_t i = 0; i < dim; ++i)
                     for (std::size_t l = 0; l < dim; ++l) t[i * dim + l] += left[i] * g[b * dim + l];
         }
     }
+}
 
-    const double* t = product;
+// K_ai,bk = sum_jl D_(ij)(kl) T_ab,jl : the elasticity enters once for each pair of nodes. Pairs a <= b are computed and
+// copied, so that K equals its transpose bit for bit.
+template <std::size_t nodes, std::size_t dim>
+void contract(const Products<nodes, dim>& product, const double* elasticity, double* k) {
+    constexpr std::size_t strains = strain_count(dim);
+    constexpr std::size_t size = nodes * dim;
+    const double* t = product.data();
     for (std::size_t a = 0; a < nodes; ++a) {
-        for (std::size_t b = a; b < nodes; ++b, t += square) {
+        for (std::size_t b = a; b < nodes; ++b, t += dim * dim) {
             for (std::size_t i = 0; i < dim; ++i) {
                 for (std::size_t m = (a == b ? i : 0); m < dim; ++m) {
                     double sum = 0.0;
@@ -99,24 +116,65 @@ void stiffness(const double* coordinates, const Quadrature& gauss, const double*
     }
 }
 
+// Static condensation of the last `modes` of `all` unknowns:  K_uu - K_ua K_aa^-1 K_au = K_uu - V^T V,  V = L^-1 K_au with
+// Cholesky's K_aa = L L^T.
+template <std::size_t all, std::size_t modes>
+void condense(const double* full, double* k) {
+    constexpr std::size_t size = all - modes;
+    double v[modes][all];  // rows of L^-1 (K_au | K_aa): the last block becomes L^T
+    for (std::size_t r = 0; r < modes; ++r) {
+        std::copy_n(full + (size + r) * all, all, v[r]);
+        for (std::size_t s = 0; s < r; ++s) {
+            const double share = v[s][size + r];
+            for (std::size_t i = 0; i < all; ++i) v[r][i] -= share * v[s][i];
+        }
+        const double pivot = std::sqrt(v[r][size + r]);
+        for (std::size_t i = 0; i < all; ++i) v[r][i] /= pivot;
+    }
+    for (std::size_t i = 0; i < size; ++i) {
+        for (std::size_t j = i; j < size; ++j) {
+            double sum = full[i * all + j];
+            for (std::size_t r = 0; r < modes; ++r) sum -= v[r][i] * v[r][j];
+            k[i * size + j] = sum;
+            k[j * size + i] = sum;
+        }
+    }
+}
+
+template <std::size_t nodes, std::size_t dim>
+void standard(CellType type, const double* x, const double* elasticity, double* k) {
+    Products<nodes, dim> product{};
+    gradient_products<nodes, dim, 0>(type, x, product);
+    contract<nodes, dim>(product, elasticity, k);
+}
+
+template <std::size_t nodes, std::size_t dim>
+void incompatible(CellType type, const double* x, const double* elasticity, double* k) {
+    Products<nodes + dim, dim> product{};
+    gradient_products<nodes, dim, dim>(type, x, product);
+    double full[(nodes + dim) * dim * (nodes + dim) * dim];
+    contract<nodes + dim, dim>(product, elasticity, full);
+    condense<(nodes + dim) * dim, dim * dim>(full, k);
+}
+
 }  // namespace
 
 void element_stiffness(CellType type, std::span<const double> coordinates, std::span<const double> elasticity,
-                       std::span<double> matrix) {
-    const Quadrature& gauss = quadrature(type);
+                       Formulation formulation, std::span<double> matrix) {
     const double* x = coordinates.data();
     const double* d = elasticity.data();
     double* k = matrix.data();
+    const bool modes = formulation == Formulation::incompatible;
     switch (type) {
-        case CellType::tri3: return stiffness<3, 2>(x, gauss, d, k);
-        case CellType::quad4: return stiffness<4, 2>(x, gauss, d, k);
-        case CellType::tet4: return stiffness<4, 3>(x, gauss, d, k);
-        case CellType::hex8: return stiffness<8, 3>(x, gauss, d, k);
-        case CellType::tri6: return stiffness<6, 2>(x, gauss, d, k);
-        case CellType::quad8: return stiffness<8, 2>(x, gauss, d, k);
-        case CellType::quad9: return stiffness<9, 2>(x, gauss, d, k);
-        case CellType::tet10: return stiffness<10, 3>(x, gauss, d, k);
-        case CellType::hex20: return stiffness<20, 3>(x, gauss, d, k);
+        case CellType::tri3: return standard<3, 2>(type, x, d, k);
+        case CellType::quad4: return modes ? incompatible<4, 2>(type, x, d, k) : standard<4, 2>(type, x, d, k);
+        case CellType::tet4: return standard<4, 3>(type, x, d, k);
+        case CellType::hex8: return modes ? incompatible<8, 3>(type, x, d, k) : standard<8, 3>(type, x, d, k);
+        case CellType::tri6: return standard<6, 2>(type, x, d, k);
+        case CellType::quad8: return standard<8, 2>(type, x, d, k);
+        case CellType::quad9: return standard<9, 2>(type, x, d, k);
+        case CellType::tet10: return standard<10, 3>(type, x, d, k);
+        case CellType::hex20: return standard<20, 3>(type, x, d, k);
     }
 }
 

@@ -21,6 +21,7 @@ inline constexpr std::size_t most_face_nodes = 8;
 // Nodes of a cell: its corners, then those midway between two corners. Its faces (edges in 2D) as lists of local
 // nodes: corners, outward when walked in order, then the mid-side nodes, the k-th between corners k and k+1.
 struct CellTopology {
+    const char* name;
     int dimension;
     int nodes;
     int corners;

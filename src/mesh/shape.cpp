@@ -87,13 +87,14 @@ struct Reference {
     std::vector<ReferencePoint> nodes;
     Quadrature rule;
     std::vector<ShapeGradient> checked;  // gradients at the quadrature points and nodes
+    ShapeGradient at_centre;
 };
 
 const Reference& reference(CellType type) {
     static const std::vector<Reference> list = [] {
         std::vector<Reference> made;
         for (const CellType t : all_types) {
-            Reference r{node_list(t), rule_of(t), {}};
+            Reference r{node_list(t), rule_of(t), {}, reference_gradient(t, centre(t))};
             for (const ReferencePoint& p : r.rule.points) r.rule.gradients.push_back(reference_gradient(t, p));
             r.checked = r.rule.gradients;
             if (t != CellType::tri3 && t != CellType::tet4)
@@ -211,6 +212,8 @@ ShapeGradient local_coordinates(int dimension, std::span<const double> coordinat
 }
 
 }  // namespace
+
+const ShapeGradient& centre_gradient(CellType type) { return reference(type).at_centre; }
 
 const Quadrature& quadrature(CellType type) { return reference(type).rule; }
 

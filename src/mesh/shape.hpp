@@ -29,6 +29,7 @@ const Quadrature& quadrature(CellType type);
 // Where the nodes of a cell sit on its reference cell.
 std::span<const ReferencePoint> reference_nodes(CellType type);
 const ReferencePoint& centre(CellType type);
+const ShapeGradient& centre_gradient(CellType type);  // dN/dxi there
 
 ShapeValues shape_values(CellType type, const ReferencePoint& at);
 ShapeGradient reference_gradient(CellType type, const ReferencePoint& at);

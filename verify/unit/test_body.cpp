@@ -57,7 +57,7 @@ Mesh distorted_block(CellType type, double offset, double unit, std::int64_t div
 }
 
 SparseMatrix whole_stiffness(const Mesh& mesh, Plane plane) {
-    return assemble_stiffness(mesh, mesh.body_cells(0), mesh.body_nodes(0), steel, plane);
+    return assemble_stiffness(mesh, mesh.body_cells(0), mesh.body_nodes(0), BodyModel{steel, plane, Formulation::standard});
 }
 
 std::vector<double> dense(const SparseMatrix& k) {
@@ -102,7 +102,7 @@ std::vector<double> eigenvalues(std::vector<double> a, std::size_t n) {
 
 std::vector<double> element_matrix(CellType type, std::span<const double> x, std::span<const double> elasticity) {
     std::vector<double> k(x.size() * x.size());
-    element_stiffness(type, x, elasticity, k);
+    element_stiffness(type, x, elasticity, Formulation::standard, k);
     return k;
 }
 
@@ -249,8 +249,8 @@ START_TEST(patch_test) {
                 dim == 2 ? std::vector{sigma[0][0], sigma[1][1], sigma[2][2], sigma[0][1]}
                          : std::vector{sigma[0][0], sigma[1][1], sigma[2][2], sigma[0][1], sigma[1][2], sigma[2][0]};
 
-            const Elastic materials[] = {steel};
-            const std::vector<double> stress = centre_stress(mesh, materials, plane, u);
+            const BodyModel models[] = {{steel, plane, Formulation::standard}};
+            const std::vector<double> stress = centre_stress(mesh, models, u);
             ck_assert_uint_eq(stress.size(), expected.size() * static_cast<std::size_t>(mesh.cell_count()));
             for (std::size_t s = 0; s < stress.size(); ++s)
                 ck_assert(std::abs(stress[s] - expected[s % expected.size()]) <= 1e-11 * steel.young * 1e-3);
@@ -402,7 +402,7 @@ START_TEST(assembly_of_parts) {
             }
             std::sort(nodes.begin(), nodes.end());
             nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-            const SparseMatrix part = assemble_stiffness(mesh, cells, nodes, steel, Plane::strain);
+            const SparseMatrix part = assemble_stiffness(mesh, cells, nodes, BodyModel{steel, Plane::strain, Formulation::standard});
             const std::vector<double> full = dense(part);
             const std::size_t m = nodes.size() * dim;
             for (std::size_t i = 0; i < m; ++i)

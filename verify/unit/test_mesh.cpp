@@ -308,6 +308,171 @@ START_TEST(weights_of_distorted_faces) {
 }
 END_TEST
 
+// Rings of quadratic cells with their middle nodes on the circle: normals are radial to the fourth order of the cell's angle,
+// at middle nodes exactly, weights positive with the length of the circle.
+START_TEST(curved_cells) {
+    for (const CellType type : {CellType::quad8, CellType::quad9, CellType::tri6}) {
+        const int n = 24;
+        Mesh plain = layers(type, {2.0 * M_PI}, {n}, {0.5, 0.5}, {1, 1});
+        // Bent by (x, y) -> (1+y)(cos x, -sin x), upper half plane first; the ends meet but are not one.
+        Mesh mesh = rebuilt(plain, 4, [](std::span<double> x) {
+            const double radius = 1.0 + x[1];
+            const double angle = x[0];
+            x[0] = -radius * std::cos(angle);
+            x[1] = radius * std::sin(angle);
+        });
+        mesh.add_interface(0, 1, 0.0);
+        const InterfaceGeometry& i = mesh.interfaces()[0];
+        ck_assert_int_eq(i.nodes_per_face, 3);
+        ck_assert_int_eq(i.face_count(), n);
+        ck_assert(*std::min_element(i.weight.begin(), i.weight.end()) > 0.0);
+        ck_assert(std::abs(sum(i.weight) / (3.0 * M_PI) - 1.0) < 1e-5);
+        check_frames(mesh, i);
+        for (std::size_t p = 0; p < i.node_a.size(); ++p) {
+            const auto x = mesh.node(i.node_a[p]);
+            ck_assert(std::abs(i.frame[4 * p] - x[0] / 1.5) < 1e-2 && std::abs(i.frame[4 * p + 1] - x[1] / 1.5) < 1e-2);
+        }
+        for (std::size_t f = 0; f < at(i.face_count()); ++f) {
+            const std::size_t middle = at(i.face[3 * f + 2]);
+            const auto x = mesh.node(i.node_a[middle]);
+            ck_assert(std::abs(i.frame[4 * middle] - x[0] / 1.5) < 1e-13);
+            ck_assert(std::abs(i.frame[4 * middle + 1] - x[1] / 1.5) < 1e-13);
+        }
+    }
+}
+END_TEST
+
+// Weights of flat faces by hand; of faces with shifted middle nodes and of warped ones: positive, summing to the length,
+// to the area of what the nodes span.
+START_TEST(weights_of_quadratic_faces) {
+    const auto weights_of = [](CellType type, const std::function<void(std::span<double>)>& map) {
+        const bool plane = topology(type).dimension == 2;
+        Mesh mesh = rebuilt(layers(type, plane ? Numbers{1} : Numbers{1, 1}, plane ? Indices{1} : Indices{1, 1},
+                                   {1, 1}, {1, 1}), 0, map);
+        mesh.add_interface(0, 1, 0.0);
+        check_frames(mesh, mesh.interfaces()[0]);
+        return mesh.interfaces()[0];
+    };
+    for (const CellType type : {CellType::tri6, CellType::quad8, CellType::quad9}) {
+        const InterfaceGeometry simpson = weights_of(type, {});
+        ck_assert(simpson.face == (Indices{2, 0, 1}) || simpson.face == (Indices{0, 2, 1}));
+        const Numbers expected{1.0 / 6, 4.0 / 6, 1.0 / 6};
+        for (std::size_t p = 0; p < 3; ++p) ck_assert(std::abs(simpson.weight[p] - expected[p]) < 1e-15);
+        // The middle shifted along the edge: x'(-1) = 0.5 + 2 * 0.1, x'(1) = 0.5 - 0.2.
+        const InterfaceGeometry shifted = weights_of(type, [](std::span<double> x) {
+            if (x[0] == 0.5) x[0] += 0.1;
+        });
+        const Numbers off{0.7 / 3, 2.0 / 3, 0.3 / 3};
+        for (std::size_t p = 0; p < 3; ++p) ck_assert(std::abs(shifted.weight[p] - off[p]) < 1e-15);
+        // A parabola of height 0.1 over length 1: its arc in closed form.
+        const InterfaceGeometry bent = weights_of(type, [](std::span<double> x) { x[1] += 0.4 * x[0] * (1.0 - x[0]); });
+        const double s = 0.4;  // slope at the ends
+        const double arc = 0.5 * std::hypot(1.0, s) + std::asinh(s) / (2.0 * s);
+        ck_assert(std::abs(sum(bent.weight) - arc) < 2e-8);
+        ck_assert(bent.weight[0] > 0.0 && bent.weight[1] > 0.0);
+        ck_assert(std::abs(bent.frame[0] + s / std::hypot(1.0, s)) < 1e-14);
+    }
+    const InterfaceGeometry square = weights_of(CellType::hex20, {});
+    ck_assert_int_eq(square.nodes_per_face, 8);
+    const Numbers expected{1.0 / 24, 5.0 / 24, 1.0 / 24, 5.0 / 24, 5.0 / 24, 1.0 / 24, 5.0 / 24, 1.0 / 24};
+    for (std::size_t p = 0; p < 8; ++p) ck_assert(std::abs(square.weight[p] - expected[p]) < 1e-15);
+    const InterfaceGeometry triangle = weights_of(CellType::tet10, {});
+    ck_assert_int_eq(triangle.nodes_per_face, 6);
+    ck_assert(std::abs(sum(triangle.weight) - 1.0) < 1e-14);
+    for (std::size_t p = 0; p < 9; ++p) {  // corners 1/24 of a triangle of area 1/2, middles 1/8; diagonal pairs twice
+        const double w = triangle.weight[p] * 24.0;
+        ck_assert(std::abs(w - 1) < 1e-13 || std::abs(w - 2) < 1e-13 || std::abs(w - 3) < 1e-13 ||
+                  std::abs(w - 6) < 1e-13);
+    }
+    for (const CellType type : {CellType::tet10, CellType::hex20}) {
+        const InterfaceGeometry warped = weights_of(type, [](std::span<double> x) {
+            x[2] += 0.2 * std::sin(2.0 * x[0] + x[1]);
+            x[0] += 0.05 * std::sin(5.0 * x[1]);
+        });
+        ck_assert(*std::min_element(warped.weight.begin(), warped.weight.end()) > 0.0);
+        ck_assert(sum(warped.weight) > 1.0 && sum(warped.weight) < 1.1);
+    }
+}
+END_TEST
+
+// A mid-side node that has no partner is named, wherever it is missing.
+START_TEST(missing_middle_nodes) {
+    for (const CellType type : all_types) {
+        if (!quadratic(type)) continue;
+        const bool plane = topology(type).dimension == 2;
+        const auto block = [&](CellType t) {
+            return layers(t, plane ? Numbers{1} : Numbers{1, 1}, plane ? Indices{2} : Indices{2, 2}, {0.5, 0.5}, {1, 1});
+        };
+        // A middle node of the upper block on the interface, moved along an edge.
+        const Mesh plain = block(type);
+        std::int64_t middle = -1;
+        for (std::int64_t c = 0; c < plain.cell_count(); ++c)
+            for (std::size_t k = at(topology(type).corners); k < plain.cell(c).size(); ++k) {
+                const auto x = plain.node(plain.cell(c)[k]);
+                if (plain.cell_body(c) == 1 && x.back() == 0.5 && x[0] == 0.25) middle = plain.cell(c)[k];
+            }
+        ck_assert(middle >= 0);
+        Numbers nodes(plain.nodes().begin(), plain.nodes().end());
+        nodes[at(middle) * at(plain.dimension())] += 0.02;
+        Mesh moved(plain.dimension(), nodes);
+        for (std::int64_t c = 0; c < plain.cell_count(); ++c)
+            moved.add_cells(type, plain.cell(c), Labels{plain.cell_body(c)});
+        const std::string named = "mid-side node " + std::to_string(middle) + " at (0.27";
+        ck_assert_refused(DELAM_ERROR_MESH, named.c_str(), moved.add_interface(0, 1, 0.0));
+        // Linear cells above quadratic ones, and the other way round.
+        const CellType other = plane ? (triangles(type) ? CellType::tri3 : CellType::quad4)
+                                     : (triangles(type) ? CellType::tet4 : CellType::hex8);
+        const Mesh linear = block(other);
+        for (const bool swap : {false, true}) {
+            const Mesh& first = swap ? linear : plain;
+            const Mesh& second = swap ? plain : linear;
+            Numbers both(first.nodes().begin(), first.nodes().end());
+            both.insert(both.end(), second.nodes().begin(), second.nodes().end());
+            Mesh mesh(plain.dimension(), both);
+            for (std::int64_t c = 0; c < first.cell_count(); ++c)
+                if (first.cell_body(c) == 0) mesh.add_cells(first.cell_type(c), first.cell(c), Labels{0});
+            for (std::int64_t c = 0; c < second.cell_count(); ++c) {
+                if (second.cell_body(c) == 0) continue;
+                Indices cell(second.cell(c).begin(), second.cell(c).end());
+                for (std::int64_t& n : cell) n += first.node_count();
+                mesh.add_cells(second.cell_type(c), cell, Labels{1});
+            }
+            ck_assert_refused(DELAM_ERROR_MESH, "has no partner on the other side", mesh.add_interface(0, 1, 0.0));
+        }
+    }
+    // Within a body: two quad8 side by side, the edge between them with two middle nodes.
+    const Numbers nodes{0, 0, 1, 0, 1, 1, 0, 1, 2, 0, 2, 1, 0.5, 0, 1, 0.5, 0.5, 1, 0, 0.5, 1.5, 0, 2, 0.5, 1.5, 1, 1, 0.5};
+    Mesh mesh(2, nodes);
+    mesh.add_cells(CellType::quad8, Indices{0, 1, 2, 3, 6, 7, 8, 9, 1, 4, 5, 2, 10, 11, 12, 13}, {});
+    ck_assert_refused(DELAM_ERROR_MESH, "not its mid-side nodes", boundary_faces(mesh, 0));
+}
+END_TEST
+
+// The integrals of the shape functions over whole faces, known by hand: 1/6, 2/3, 1/6 of an edge; nothing of a corner and a third
+// of a middle node on a triangle; -1/12 and 1/3 on an 8-node face.
+START_TEST(patches_of_quadratic_faces) {
+    const Mesh plane = layers(CellType::quad8, {1}, {1}, {1}, {1});
+    const Patch edge = find_patch(plane, 0, Numbers{-1, 1}, Numbers{2, 1}, Numbers{0, 1});
+    ck_assert_uint_eq(edge.nodes.size(), 3);
+    for (std::size_t k = 0; k < 3; ++k)
+        ck_assert(std::abs(edge.weights[k] - (plane.node(edge.nodes[k])[0] == 0.5 ? 4.0 : 1.0) / 6.0) < 1e-15);
+    const Mesh cube = layers(CellType::hex20, {1, 1}, {1, 1}, {1}, {1});
+    const Patch face = find_patch(cube, 0, Numbers{-1, -1, 1}, Numbers{2, 2, 1}, Numbers{0, 0, 1});
+    ck_assert_uint_eq(face.nodes.size(), 8);
+    for (std::size_t k = 0; k < 8; ++k) {
+        const auto x = cube.node(face.nodes[k]);
+        ck_assert(std::abs(face.weights[k] - (x[0] == 0.5 || x[1] == 0.5 ? 1.0 / 3.0 : -1.0 / 12.0)) < 1e-15);
+    }
+    const Mesh tetrahedra = layers(CellType::tet10, {1, 1}, {1, 1}, {1}, {1});
+    const Patch middles = find_patch(tetrahedra, 0, Numbers{-1, -1, 1}, Numbers{2, 2, 1}, Numbers{0, 0, 1});
+    ck_assert_uint_eq(middles.nodes.size(), 5);  // corners have no share
+    for (std::size_t k = 0; k < 5; ++k) {
+        const auto x = tetrahedra.node(middles.nodes[k]);
+        ck_assert(std::abs(middles.weights[k] - (x[0] == 0.5 && x[1] == 0.5 ? 1.0 : 0.5) / 3.0) < 1e-15);
+    }
+}
+END_TEST
+
 START_TEST(refused_cells) {
     const Numbers square{0, 0, 1, 0, 1, 1, 0, 1, 2, 0, 2, 1};
     Mesh mesh(2, square);
@@ -667,6 +832,10 @@ int main() {
     tcase_add_test(cases, shuffled_nodes);
     tcase_add_test(cases, curved_interface);
     tcase_add_test(cases, weights_of_distorted_faces);
+    tcase_add_test(cases, curved_cells);
+    tcase_add_test(cases, weights_of_quadratic_faces);
+    tcase_add_test(cases, missing_middle_nodes);
+    tcase_add_test(cases, patches_of_quadratic_faces);
     tcase_add_test(cases, refused_cells);
     tcase_add_test(cases, refused_interfaces);
     tcase_add_test(cases, late_bodies);

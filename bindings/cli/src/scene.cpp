@@ -85,11 +85,12 @@ void read_geometry(const Table& root, Scene& scene) {
 
 void read_materials(const Table& root, Scene& scene) {
     for (const Table& table : root.tables("materials")) {
-        table.only({"name", "young", "poisson"});
+        table.only({"name", "young", "poisson", "formulation"});
         Material material;
         material.name = new_name(table, scene.materials, "material");
         material.young = table.number("young", positive);
         material.poisson = table.number("poisson", poisson_range);
+        material.formulation = table.choice("formulation", {"standard", "incompatible"}, "standard");
         material.place = table.place();
         scene.materials.push_back(std::move(material));
     }
