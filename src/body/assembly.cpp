@@ -132,6 +132,28 @@ SparseMatrix empty_matrix(const NodeGraph& graph, std::size_t dim) {
     return k;
 }
 
+// The matrix of a cell and where its nodes and pairs of nodes stand.
+struct Block {
+    std::span<const std::int32_t> node;
+    const std::int32_t* place;
+    const double* matrix;
+};
+
+template <std::size_t dim>
+void add(const Block& block, SparseMatrix& k) {
+    const std::size_t n = block.node.size();
+    for (std::size_t a = 0; a < n; ++a) {
+        for (std::size_t i = 0; i < dim; ++i) {
+            double* row = &k.value[at(k.start[at(block.node[a]) * dim + i])];
+            const double* own = &block.matrix[(a * dim + i) * n * dim];
+            for (std::size_t b = 0; b < n; ++b) {
+                double* to = row + at(block.place[a * n + b]) * dim;
+                for (std::size_t j = 0; j < dim; ++j) to[j] += own[b * dim + j];
+            }
+        }
+    }
+}
+
 }  // namespace
 
 // The pattern is known from the graph of nodes before any number is: element matrices are added straight into their
@@ -151,19 +173,9 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> 
     for (std::size_t c = 0; c < cells.size(); ++c) {
         element_stiffness(mesh.cell_type(cells[c]), cell_coordinates(mesh, cells[c]).view(), elasticity,
                           model.formulation, matrix);
-        const std::size_t n = local.start[c + 1] - local.start[c];
-        const std::int32_t* place = &graph.place[graph.cell_start[c]];
-        for (std::size_t a = 0; a < n; ++a) {
-            const std::size_t node = at(local.node[local.start[c] + a]);
-            for (std::size_t i = 0; i < dim; ++i) {
-                double* row = &k.value[at(k.start[node * dim + i])];
-                const double* own = &matrix[(a * dim + i) * n * dim];
-                for (std::size_t b = 0; b < n; ++b) {
-                    const std::size_t to = at(place[a * n + b]) * dim;
-                    for (std::size_t j = 0; j < dim; ++j) row[to + j] += own[b * dim + j];
-                }
-            }
-        }
+        const Block block{std::span(local.node).subspan(local.start[c], local.start[c + 1] - local.start[c]),
+                          &graph.place[graph.cell_start[c]], matrix.data()};
+        dim == 2 ? add<2>(block, k) : add<3>(block, k);
     }
     return k;
 }

@@ -50,9 +50,9 @@ Matrix<dim> tangent(const double* x, const double* gradient) {
     return j;
 }
 
-// T_ab,jl = int dN_a/dx_j dN_b/dx_l dx  of the pairs a <= b, row by row. Internal modes count as further nodes.
+// T_aj,bl = int dN_a/dx_j dN_b/dx_l dx, row-major, for a <= b. Internal modes count as further nodes.
 template <std::size_t nodes, std::size_t dim>
-using Products = std::array<double, nodes * (nodes + 1) / 2 * dim * dim>;
+using Products = std::array<double, nodes * dim * nodes * dim>;
 
 // The displacement modes 1 - xi_i^2 of Wilson (1973), which bend, in the form of Taylor, Beresford and Wilson (Int. J.
 // Numer. Meth. Eng. 10, 1976): their gradients are those at the centre, scaled,
@@ -60,7 +60,7 @@ using Products = std::array<double, nodes * (nodes + 1) / 2 * dim * dim>;
 // so that int dM_i/dx dx = 0: a constant stress does no work on them, and the patch test holds on distorted cells.
 template <std::size_t nodes, std::size_t dim, std::size_t modes>
 void gradient_products(CellType type, const double* coordinates, Products<nodes + modes, dim>& product) {
-    constexpr std::size_t square = dim * dim;
+    constexpr std::size_t size = (nodes + modes) * dim;
     double x[nodes * dim];  // relative to the first node: sums then do not cancel for a cell far from the origin
     for (std::size_t i = 0; i < nodes * dim; ++i) x[i] = coordinates[i] - coordinates[i % dim];
     Matrix<dim> centre_cofactor{};
@@ -72,7 +72,7 @@ void gradient_products(CellType type, const double* coordinates, Products<nodes 
         const Matrix<dim> j = tangent<nodes, dim>(x, reference);
         const Matrix<dim> cofactor = cofactors<dim>(j);
         const double factor = gauss.weights[q] / determinant<dim>(j, cofactor);
-        double g[(nodes + modes) * dim];  // det J dN/dx
+        double g[size];  // det J dN/dx
         for (std::size_t a = 0; a < nodes; ++a)
             for (std::size_t i = 0; i < dim; ++i) {
                 double sum = 0.0;
@@ -82,38 +82,75 @@ void gradient_products(CellType type, const double* coordinates, Products<nodes 
         for (std::size_t m = 0; m < modes; ++m)
             for (std::size_t i = 0; i < dim; ++i)
                 g[(nodes + m) * dim + i] = centre_cofactor[i * dim + m] * -2.0 * gauss.points[q][m];
-        double* t = product.data();
-        for (std::size_t a = 0; a < nodes + modes; ++a) {
-            double left[dim];
-            for (std::size_t i = 0; i < dim; ++i) left[i] = factor * g[a * dim + i];
-            for (std::size_t b = a; b < nodes + modes; ++b, t += square)
-                for (std::size_t i = 0; i < dim; ++i)
-                    for (std::size_t l = 0; l < dim; ++l) t[i * dim + l] += left[i] * g[b * dim + l];
+        for (std::size_t r = 0; r < size; ++r) {
+            const double left = factor * g[r];
+            double* row = &product[r * size];
+            for (std::size_t c = r / dim * dim; c < size; ++c) row[c] += left * g[c];
         }
     }
 }
 
-// K_ai,bk = sum_jl D_(ij)(kl) T_ab,jl : the elasticity enters once for each pair of nodes. Pairs a <= b are computed and
-// copied, so that K equals its transpose bit for bit.
+// Whether normal strains make shear stresses or one shear strain another's stress: not in isotropic materials.
+template <std::size_t dim>
+bool coupled(const double* elasticity) {
+    constexpr std::size_t strains = strain_count(dim);
+    for (std::size_t r = dim; r < strains; ++r)
+        for (std::size_t c = 0; c < r; ++c)
+            if (elasticity[r * strains + c] != 0.0 || elasticity[c * strains + r] != 0.0) return true;
+    return false;
+}
+
+// K_ai,bm = sum_rl D_(ir)(ml) T_ar,bl : the elasticity enters once for each pair of nodes. Pairs a <= b are computed and
+// copied, so that K equals its transpose bit for bit. block(t, k) makes the dim x dim entries of a pair from those of T.
+template <std::size_t nodes, std::size_t dim, class PairBlock>
+void each_pair(const Products<nodes, dim>& product, PairBlock&& block, double* k) {
+    constexpr std::size_t size = nodes * dim;
+    for (std::size_t a = 0; a < nodes; ++a) {
+        for (std::size_t b = a; b < nodes; ++b) {
+            double t[dim][dim];
+            double entry[dim][dim];
+            for (std::size_t i = 0; i < dim; ++i)
+                for (std::size_t m = 0; m < dim; ++m) t[i][m] = product[(a * dim + i) * size + b * dim + m];
+            block(t, entry);
+            for (std::size_t i = 0; i < dim; ++i)
+                for (std::size_t m = (a == b ? i : 0); m < dim; ++m) {
+                    k[(a * dim + i) * size + b * dim + m] = entry[i][m];
+                    k[(b * dim + m) * size + a * dim + i] = entry[i][m];
+                }
+        }
+    }
+}
+
+// Without coupling there are, beside D_(ii)(mm), only the terms of one shear strain, ir = ml: 15 instead of 81 in space.
 template <std::size_t nodes, std::size_t dim>
 void contract(const Products<nodes, dim>& product, const double* elasticity, double* k) {
     constexpr std::size_t strains = strain_count(dim);
-    constexpr std::size_t size = nodes * dim;
-    const double* t = product.data();
-    for (std::size_t a = 0; a < nodes; ++a) {
-        for (std::size_t b = a; b < nodes; ++b, t += dim * dim) {
-            for (std::size_t i = 0; i < dim; ++i) {
-                for (std::size_t m = (a == b ? i : 0); m < dim; ++m) {
-                    double sum = 0.0;
+    if (coupled<dim>(elasticity)) {
+        const auto block = [elasticity](const double(&t)[dim][dim], double(&entry)[dim][dim]) {
+            for (std::size_t i = 0; i < dim; ++i)
+                for (std::size_t m = 0; m < dim; ++m) {
+                    entry[i][m] = 0.0;
                     for (std::size_t r = 0; r < dim; ++r)
                         for (std::size_t l = 0; l < dim; ++l)
-                            sum += elasticity[voigt(dim, i, r) * strains + voigt(dim, m, l)] * t[r * dim + l];
-                    k[(a * dim + i) * size + b * dim + m] = sum;
-                    k[(b * dim + m) * size + a * dim + i] = sum;
+                            entry[i][m] += elasticity[voigt(dim, i, r) * strains + voigt(dim, m, l)] * t[r][l];
                 }
-            }
-        }
+        };
+        return each_pair<nodes, dim>(product, block, k);
     }
+    double normal[dim][dim];
+    double shear[dim][dim];  // 0 on the diagonal
+    for (std::size_t i = 0; i < dim; ++i)
+        for (std::size_t m = 0; m < dim; ++m) {
+            normal[i][m] = elasticity[i * strains + m];
+            shear[i][m] = i == m ? 0.0 : elasticity[voigt(dim, i, m) * (strains + 1)];
+        }
+    const auto block = [&normal, &shear](const double(&t)[dim][dim], double(&entry)[dim][dim]) {
+        for (std::size_t i = 0; i < dim; ++i) {
+            for (std::size_t m = 0; m < dim; ++m) entry[i][m] = normal[i][m] * t[i][m] + shear[i][m] * t[m][i];
+            for (std::size_t r = 0; r < dim; ++r) entry[i][i] += shear[i][r] * t[r][r];
+        }
+    };
+    each_pair<nodes, dim>(product, block, k);
 }
 
 // Static condensation of the last `modes` of `all` unknowns:  K_uu - K_ua K_aa^-1 K_au = K_uu - V^T V,  V = L^-1 K_au with

@@ -328,6 +328,51 @@ START_TEST(incompatible_modes) {
 }
 END_TEST
 
+// Any elasticity, coupling included: a linear field stores  eps : D : eps / 2  per volume.
+START_TEST(any_elasticity) {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> draw(-1.0, 1.0);
+    for (const CellType type : all_types) {
+        const Mesh mesh = block(type, 1);
+        const auto dim = size(mesh.dimension());
+        const std::size_t strains = dim == 2 ? 3 : 6;
+        for (const Formulation formulation : {Formulation::standard, Formulation::incompatible}) {
+            if (formulation == Formulation::incompatible && type != CellType::quad4 && type != CellType::hex8) continue;
+            std::vector<double> d(strains * strains, 0.0);  // A A^T + 1
+            std::vector<double> a(d.size());
+            for (double& v : a) v = draw(random);
+            for (std::size_t i = 0; i < strains; ++i)
+                for (std::size_t j = 0; j < strains; ++j) {
+                    d[i * strains + j] = i == j ? 1.0 : 0.0;
+                    for (std::size_t k = 0; k < strains; ++k) d[i * strains + j] += a[i * strains + k] * a[j * strains + k];
+                }
+            double h[3][3];
+            for (auto& row : h)
+                for (double& v : row) v = draw(random);
+            const double e[] = {h[0][0], h[1][1], dim == 2 ? h[0][1] + h[1][0] : h[2][2],
+                                h[0][1] + h[1][0], h[1][2] + h[2][1], h[2][0] + h[0][2]};
+            double density = 0.0;
+            for (std::size_t i = 0; i < strains; ++i)
+                for (std::size_t j = 0; j < strains; ++j) density += 0.5 * e[i] * d[i * strains + j] * e[j];
+            double stored = 0.0;
+            for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
+                std::vector<double> x;
+                for (const std::int64_t n : mesh.cell(c)) x.insert(x.end(), mesh.node(n).begin(), mesh.node(n).end());
+                std::vector<double> u(x.size(), 0.0);
+                for (std::size_t k = 0; k < x.size(); ++k)
+                    for (std::size_t j = 0; j < dim; ++j) u[k] += h[k % dim][j] * x[k - k % dim + j];
+                std::vector<double> k(x.size() * x.size());
+                element_stiffness(type, x, d, formulation, k);
+                for (std::size_t r = 0; r < x.size(); ++r)
+                    for (std::size_t s = 0; s < x.size(); ++s) stored += 0.5 * u[r] * k[r * x.size() + s] * u[s];
+            }
+            const double exact = density * block_size[0] * block_size[1] * (dim == 3 ? block_size[2] : 1.0);
+            ck_assert_msg(std::abs(stored - exact) < 1e-12 * exact, "%s", topology(type).name);
+        }
+    }
+}
+END_TEST
+
 namespace {
 
 // A bar of length 10 and height 1 (width 1), one cell across, its ends turned against each other: u_x = -kappa x (y - 1/2)
@@ -412,6 +457,7 @@ int main() {
     tcase_add_test(cases, shape_functions);
     tcase_add_test(cases, quadratic_fields);
     tcase_add_test(cases, incompatible_modes);
+    tcase_add_test(cases, any_elasticity);
     tcase_add_test(cases, slender_bending);
     suite_add_tcase(suite, cases);
     SRunner* runner = srunner_create(suite);
