@@ -36,6 +36,7 @@ struct LocalCells {
 LocalCells local_cells(const Mesh& mesh, std::span<const std::int64_t> cells, std::span<const std::int64_t> nodes) {
     LocalCells local;
     local.start.reserve(cells.size() + 1);
+    if (!cells.empty()) local.node.reserve(cells.size() * mesh.cell(cells.front()).size());
     std::array<std::size_t, most_cell_nodes> hint{};
     for (const std::int64_t c : cells) {
         const auto cell = mesh.cell(c);
@@ -62,13 +63,15 @@ struct NodeGraph {
     std::vector<std::int32_t> place;
 };
 
+// Rows are gathered in the order in which cells name their nodes. Turned over, row i giving itself to each of its
+// neighbours for i = 0, 1, ..., they come out ascending without being sorted, since the graph is symmetric.
 NodeGraph node_graph(const LocalCells& cells, std::size_t nodes) {
     // The cells of each node, as places in the list of their nodes.
     std::vector<std::size_t> begin(nodes + 1, 0);
     for (const std::int32_t i : cells.node) ++begin[at(i) + 1];
     for (std::size_t i = 0; i < nodes; ++i) begin[i + 1] += begin[i];
     struct Corner {
-        std::size_t cell, local;
+        std::int32_t cell, local;
     };
     std::vector<Corner> corner(cells.node.size());
     std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
@@ -77,36 +80,47 @@ NodeGraph node_graph(const LocalCells& cells, std::size_t nodes) {
     std::size_t places = 0;
     for (std::size_t c = 0; c + 1 < cells.start.size(); ++c) {
         const std::size_t n = cells.start[c + 1] - cells.start[c];
-        for (std::size_t a = 0; a < n; ++a) corner[next[at(cells.node[cells.start[c] + a])]++] = {c, a};
+        for (std::size_t a = 0; a < n; ++a)
+            corner[next[at(cells.node[cells.start[c] + a])]++] = {static_cast<std::int32_t>(c),
+                                                                  static_cast<std::int32_t>(a)};
         graph.cell_start.push_back(places);
         places += n * n;
     }
-    graph.place.resize(places);
 
+    std::vector<std::int32_t> met;  // the rows, not in order
+    std::vector<std::int32_t> mark(nodes, -1);
     graph.start.reserve(nodes + 1);
     graph.start.push_back(0);
-    std::vector<std::int32_t> mark(nodes, -1);  // first the row that met a node last, then its place in the row
     for (std::size_t i = 0; i < nodes; ++i) {
-        const std::size_t first = graph.neighbour.size();
-        const auto row = -2 - static_cast<std::int32_t>(i);
         for (std::size_t e = begin[i]; e < begin[i + 1]; ++e) {
-            for (std::size_t k = cells.start[corner[e].cell]; k < cells.start[corner[e].cell + 1]; ++k) {
+            const auto c = at(corner[e].cell);
+            for (std::size_t k = cells.start[c]; k < cells.start[c + 1]; ++k) {
                 const std::int32_t j = cells.node[k];
-                if (mark[at(j)] == row) continue;
-                mark[at(j)] = row;
-                graph.neighbour.push_back(j);
+                if (mark[at(j)] == static_cast<std::int32_t>(i)) continue;
+                mark[at(j)] = static_cast<std::int32_t>(i);
+                met.push_back(j);
             }
         }
-        std::sort(graph.neighbour.begin() + static_cast<std::ptrdiff_t>(first), graph.neighbour.end());
-        for (std::size_t k = first; k < graph.neighbour.size(); ++k)
+        graph.start.push_back(met.size());
+    }
+    graph.neighbour.resize(met.size());
+    next.assign(graph.start.begin(), graph.start.end() - 1);
+    for (std::size_t i = 0; i < nodes; ++i)
+        for (std::size_t e = graph.start[i]; e < graph.start[i + 1]; ++e)
+            graph.neighbour[next[at(met[e])]++] = static_cast<std::int32_t>(i);
+
+    graph.place.resize(places);
+    for (std::size_t i = 0; i < nodes; ++i) {
+        const std::size_t first = graph.start[i];
+        for (std::size_t k = first; k < graph.start[i + 1]; ++k)
             mark[at(graph.neighbour[k])] = static_cast<std::int32_t>(k - first);
         for (std::size_t e = begin[i]; e < begin[i + 1]; ++e) {
-            const auto [c, a] = corner[e];
+            const auto c = at(corner[e].cell);
+            const std::int32_t* node = &cells.node[cells.start[c]];
             const std::size_t n = cells.start[c + 1] - cells.start[c];
-            for (std::size_t b = 0; b < n; ++b)
-                graph.place[graph.cell_start[c] + a * n + b] = mark[at(cells.node[cells.start[c] + b])];
+            std::int32_t* place = &graph.place[graph.cell_start[c] + at(corner[e].local) * n];
+            for (std::size_t b = 0; b < n; ++b) place[b] = mark[at(node[b])];
         }
-        graph.start.push_back(graph.neighbour.size());
     }
     return graph;
 }
@@ -161,8 +175,8 @@ void add(const Block& block, SparseMatrix& k) {
 // the same order.
 SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> cells,
                                 std::span<const std::int64_t> nodes, const BodyModel& model) {
-    if (nodes.size() > at(std::numeric_limits<std::int32_t>::max() - 2))
-        fail(DELAM_ERROR_ARGUMENT, nodes.size(), " nodes in one part of a body: at most 2^31 - 3");
+    if (std::max(nodes.size(), cells.size()) > at(std::numeric_limits<std::int32_t>::max()))
+        fail(DELAM_ERROR_ARGUMENT, nodes.size(), " nodes, ", cells.size(), " cells in one part of a body: at most 2^31 - 1");
     const std::size_t dim = at(mesh.dimension());
     const LocalCells local = local_cells(mesh, cells, nodes);
     const NodeGraph graph = node_graph(local, nodes.size());
