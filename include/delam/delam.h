@@ -141,6 +141,8 @@ DELAM_API int32_t delam_mesh_add_cells(delam_mesh *mesh, int32_t cell_type, int6
  * named). Weights of pairs: nodal quadrature of the paired faces, positive, summing to the length (2D) or area (3D) of the
  * interface: trapezoid rule on 2-node edges, Simpson's on 3-node ones, vertex rule on faces. 6-node triangles count as four
  * triangles, 8-node faces as four corner triangles and the quadrilateral of their mid-side nodes, also where they are curved.
+ * Those of tet10 and hex20 are not in the proportion of a uniform traction: on a stiff interface pairs then bear up to 1.3
+ * (tet10) or 1.6 times (hex20) the traction at middle nodes and none, or a closed contact, at corners.
  * Pairs are ordered by coordinates, x first. */
 DELAM_API int32_t delam_mesh_add_interface(delam_mesh *mesh, int32_t body_a, int32_t body_b, double tolerance,
                                            int64_t *out_interface);

@@ -395,6 +395,40 @@ START_TEST(weights_of_quadratic_faces) {
 }
 END_TEST
 
+// Triangles among quadrilaterals: rows of eight with a shrunken side.
+START_TEST(mixed_faces) {
+    const Mesh bricks = layers(CellType::hex20, {1, 1}, {1, 1}, {1, 1}, {1, 1});
+    const Mesh tetrahedra = layers(CellType::tet10, {1, 1}, {1, 1}, {1, 1}, {1, 1});
+    Numbers nodes(bricks.nodes().begin(), bricks.nodes().end());
+    for (std::size_t i = 0; i < tetrahedra.nodes().size(); ++i)
+        nodes.push_back(tetrahedra.nodes()[i] + (i % 3 == 0 ? 5.0 : 0.0));
+    Mesh mesh(3, nodes);
+    for (std::int64_t c = 0; c < bricks.cell_count(); ++c)
+        mesh.add_cells(CellType::hex20, bricks.cell(c), Labels{bricks.cell_body(c)});
+    for (std::int64_t c = 0; c < tetrahedra.cell_count(); ++c) {
+        Indices cell(tetrahedra.cell(c).begin(), tetrahedra.cell(c).end());
+        for (std::int64_t& n : cell) n += bricks.node_count();
+        mesh.add_cells(CellType::tet10, cell, Labels{tetrahedra.cell_body(c)});
+    }
+    mesh.add_interface(0, 1, 0.0);
+    const InterfaceGeometry& i = mesh.interfaces()[0];
+    ck_assert_int_eq(i.nodes_per_face, 8);
+    ck_assert_int_eq(i.face_count(), 3);
+    ck_assert(std::abs(sum(i.weight) - 2.0) < 1e-14);
+    std::size_t shrunken = 0;
+    for (std::size_t f = 0; f < 3; ++f) {
+        const std::int64_t* face = &i.face[8 * f];
+        const auto x = [&](std::size_t k, std::size_t axis) { return mesh.node(i.node_a[at(face[k])])[axis]; };
+        shrunken += face[2] == face[3] ? 1 : 0;
+        ck_assert((face[2] == face[3]) == (x(0, 0) >= 5.0));
+        for (std::size_t k = 0; k < 4; ++k)  // every middle node between its corners, the shrunken side included
+            for (std::size_t axis = 0; axis < 2; ++axis)
+                ck_assert(std::abs(x(4 + k, axis) - 0.5 * (x(k, axis) + x((k + 1) % 4, axis))) < 1e-15 * 8);
+    }
+    ck_assert_uint_eq(shrunken, 2);
+}
+END_TEST
+
 // A mid-side node that has no partner is named, wherever it is missing.
 START_TEST(missing_middle_nodes) {
     for (const CellType type : all_types) {
@@ -834,6 +868,7 @@ int main() {
     tcase_add_test(cases, weights_of_distorted_faces);
     tcase_add_test(cases, curved_cells);
     tcase_add_test(cases, weights_of_quadratic_faces);
+    tcase_add_test(cases, mixed_faces);
     tcase_add_test(cases, missing_middle_nodes);
     tcase_add_test(cases, patches_of_quadratic_faces);
     tcase_add_test(cases, refused_cells);
