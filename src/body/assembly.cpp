@@ -45,7 +45,8 @@ LocalCells local_cells(const Mesh& mesh, std::span<const std::int64_t> cells, st
             if (place >= nodes.size() || nodes[place] != cell[a])
                 place = static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), cell[a]) - nodes.begin());
             if (place == nodes.size() || nodes[place] != cell[a])
-                fail(DELAM_ERROR_INTERNAL, "node ", cell[a], " of cell ", c, " is not among the nodes to assemble over");
+                fail(DELAM_ERROR_INTERNAL, "node ", cell[a], " of cell ", c,
+                     " is not among the nodes to assemble over");
             local.node.push_back(static_cast<std::int32_t>(place));
             hint[a] = place;
         }
@@ -176,7 +177,8 @@ void add(const Block& block, SparseMatrix& k) {
 SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> cells,
                                 std::span<const std::int64_t> nodes, const BodyModel& model) {
     if (std::max(nodes.size(), cells.size()) > at(std::numeric_limits<std::int32_t>::max()))
-        fail(DELAM_ERROR_ARGUMENT, nodes.size(), " nodes, ", cells.size(), " cells in one part of a body: at most 2^31 - 1");
+        fail(DELAM_ERROR_ARGUMENT, nodes.size(), " nodes, ", cells.size(),
+             " cells in one part of a body: at most 2^31 - 1");
     const std::size_t dim = at(mesh.dimension());
     const LocalCells local = local_cells(mesh, cells, nodes);
     const NodeGraph graph = node_graph(local, nodes.size());

@@ -100,8 +100,9 @@ bool coupled(const double* elasticity) {
     return false;
 }
 
-// K_ai,bm = sum_rl D_(ir)(ml) T_ar,bl : the elasticity enters once for each pair of nodes. Pairs a <= b are computed and
-// copied, so that K equals its transpose bit for bit. block(t, k) makes the dim x dim entries of a pair from those of T.
+// K_ai,bm = sum_rl D_(ir)(ml) T_ar,bl : the elasticity enters once for each pair of nodes. Pairs a <= b are computed
+// and copied, so that K equals its transpose bit for bit. block(t, k) makes the dim x dim entries of a pair from those
+// of T.
 template <std::size_t nodes, std::size_t dim, class PairBlock>
 void each_pair(const Products<nodes, dim>& product, PairBlock&& block, double* k) {
     constexpr std::size_t size = nodes * dim;
@@ -121,7 +122,8 @@ void each_pair(const Products<nodes, dim>& product, PairBlock&& block, double* k
     }
 }
 
-// Without coupling there are, beside D_(ii)(mm), only the terms of one shear strain, ir = ml: 15 instead of 81 in space.
+// Without coupling there are, beside D_(ii)(mm), only the terms of one shear strain, ir = ml: 15 instead of 81 in
+// space.
 template <std::size_t nodes, std::size_t dim>
 void contract(const Products<nodes, dim>& product, const double* elasticity, double* k) {
     constexpr std::size_t strains = strain_count(dim);
@@ -153,8 +155,8 @@ void contract(const Products<nodes, dim>& product, const double* elasticity, dou
     each_pair<nodes, dim>(product, block, k);
 }
 
-// Static condensation of the last `modes` of `all` unknowns:  K_uu - K_ua K_aa^-1 K_au = K_uu - V^T V,  V = L^-1 K_au with
-// Cholesky's K_aa = L L^T.
+// Static condensation of the last `modes` of `all` unknowns:  K_uu - K_ua K_aa^-1 K_au = K_uu - V^T V,  V = L^-1 K_au
+// with Cholesky's K_aa = L L^T.
 template <std::size_t all, std::size_t modes>
 void condense(const double* full, double* k) {
     constexpr std::size_t size = all - modes;

@@ -122,8 +122,9 @@ FaceTable match_faces(const Mesh& mesh, std::span<const std::int64_t> cells) {
                          " lie on the same side of the face they share: they overlap");
                 if (face.nodes != other.nodes ||
                     !std::is_permutation(face.middle().begin(), face.middle().end(), other.middle().begin()))
-                    fail(DELAM_ERROR_MESH, "cells ", cells[at(a)], " and ", cells[at(b)], " share the face with corner ",
-                         face.node[0], " but not its mid-side nodes: they do not fit together");
+                    fail(DELAM_ERROR_MESH, "cells ", cells[at(a)], " and ", cells[at(b)],
+                         " share the face with corner ", face.node[0],
+                         " but not its mid-side nodes: they do not fit together");
                 here = b;
                 there = a;
             }

@@ -70,7 +70,9 @@ Mesh make_layers(int dimension, std::span<const double> lengths, std::span<const
     if (layer_divisions.size() != thickness.size())
         fail(DELAM_ERROR_ARGUMENT, layer_divisions.size(), " layer_divisions for ", thickness.size(), " layers");
     const std::int64_t order = topology(type).nodes > topology(type).corners ? 2 : 1;
-    const auto lattice = [order](std::int64_t cells) { return static_cast<double>(order) * static_cast<double>(cells) + 1.0; };
+    const auto lattice = [order](std::int64_t cells) {
+        return static_cast<double>(order) * static_cast<double>(cells) + 1.0;
+    };
     double total = 0.0;
     double per_level = 1.0;
     for (std::size_t i = 0; i < across; ++i) {
@@ -123,8 +125,9 @@ Mesh make_layers(int dimension, std::span<const double> lengths, std::span<const
             for (std::int64_t j = 0; j < (dimension == 3 ? ny : 1); j += order) {
                 for (std::int64_t i = 0; i < nx; i += order) {
                     const std::int64_t n = k * level + j * row + i;
-                    const std::int64_t corner[] = {n,         n + right,         n + right + back,         n + back,
-                                                   n + above, n + right + above, n + right + back + above, n + back + above};
+                    const std::int64_t corner[] = {
+                        n,         n + right,         n + right + back,         n + back,
+                        n + above, n + right + above, n + right + back + above, n + back + above};
                     for (std::size_t c = 0; c < cells.size(); c += at(shape.corners)) {
                         const auto place = [&](int local) { return corner[cells[c + at(local)]]; };
                         for (int a = 0; a < shape.corners; ++a) connectivity.push_back(number[at(place(a))]);

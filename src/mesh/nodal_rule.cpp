@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Rules whose points are the nodes keep the stiffness of an interface diagonal. With the integrals of the shape functions
-// as weights, the corners of a 6-node triangle would count nothing and those of an 8-node face less than nothing.
+// Rules whose points are the nodes keep the stiffness of an interface diagonal. With the integrals of the shape
+// functions as weights, the corners of a 6-node triangle would count nothing and those of an 8-node face less than
+// nothing.
 #include "mesh/nodal_rule.hpp"
 
 #include <algorithm>

@@ -164,8 +164,8 @@ public:
     }
 
     // A 6- or 8-node face as triangles between its nodes. Within a triangle the reference coordinates are linear in
-    // space, so that on a flat face with straight, evenly divided sides the integrals of its shape functions, of degree 3
-    // at most, are exact; on a curved one they sum to the area of the triangles.
+    // space, so that on a flat face with straight, evenly divided sides the integrals of its shape functions, of degree
+    // 3 at most, are exact; on a curved one they sum to the area of the triangles.
     void add_quadratic_face(std::span<const std::int64_t> nodes, std::span<double> weight) const {
         const CellType type = nodes.size() == 6 ? CellType::tri6 : CellType::quad8;
         const auto place = reference_nodes(type);

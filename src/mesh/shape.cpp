@@ -18,8 +18,9 @@ constexpr ReferencePoint tetrahedron_centre = {0.25, 0.25, 0.25};
 constexpr ReferencePoint cube_centre = {0, 0, 0};
 
 constexpr int types = 9;
-constexpr CellType all_types[types] = {CellType::tri3,  CellType::quad4, CellType::tet4,  CellType::hex8, CellType::tri6,
-                                       CellType::quad8, CellType::quad9, CellType::tet10, CellType::hex20};
+constexpr CellType all_types[types] = {CellType::tri3,  CellType::quad4, CellType::tet4,
+                                       CellType::hex8,  CellType::tri6,  CellType::quad8,
+                                       CellType::quad9, CellType::tet10, CellType::hex20};
 std::size_t place(CellType type) { return static_cast<std::size_t>(type) - 1; }
 
 bool simplex(CellType type) {
@@ -57,8 +58,9 @@ Quadrature gauss_product(int dimension, int order) {
 // What a rule has to integrate: the products of gradients, and for constant stress the gradients times the cofactors
 // of dx/dxi. On tri6 both have degree 2: three points. On tet10 they have degrees 2 and 3; the vertices (1/40 each of
 // the volume) and the centroids of the faces (9/40 each) are exact to degree 3 (Keast, Comput. Meth. Appl. Mech. Eng.
-// 55, 1986, lists such rules), where the familiar four points would unbalance curved cells. On quad8, quad9 and hex20 the
-// degree in one variable is up to 4 and 5: three points in each direction; two would also leave motions without energy.
+// 55, 1986, lists such rules), where the familiar four points would unbalance curved cells. On quad8, quad9 and hex20
+// the degree in one variable is up to 4 and 5: three points in each direction; two would also leave motions without
+// energy.
 Quadrature rule_of(CellType type) {
     const double s = 1.0 / 6.0;
     const double t = 1.0 / 3.0;
@@ -258,7 +260,8 @@ double smallest_jacobian(CellType type, std::span<const double> coordinates) {
     const ShapeGradient local = local_coordinates(cell.dimension, coordinates);
     double smallest = std::numeric_limits<double>::infinity();
     for (const ShapeGradient& gradient : reference(type).checked)
-        smallest = std::min(smallest, determinant(cell.dimension, tangent(cell.dimension, cell.nodes, local, gradient)));
+        smallest =
+            std::min(smallest, determinant(cell.dimension, tangent(cell.dimension, cell.nodes, local, gradient)));
     return smallest;
 }
 

@@ -10,8 +10,11 @@ const CellTopology& topology(CellType type) {
     static constexpr CellTopology tri3{"tri3", 2, 3, 3, 3, 2, 2, {{{0, 1}, {1, 2}, {2, 0}}}, {}};
     static constexpr CellTopology quad4{"quad4", 2, 4, 4, 4, 2, 2, {{{0, 1}, {1, 2}, {2, 3}, {3, 0}}}, {}};
     static constexpr CellTopology tet4{"tet4", 3, 4, 4, 4, 3, 3, {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}}, {}};
-    static constexpr CellTopology hex8{"hex8", 3, 8, 8, 6, 4, 4, {{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}}, {}};
-    static constexpr CellTopology tri6{"tri6", 2, 6, 3, 3, 3, 2, {{{0, 1, 3}, {1, 2, 4}, {2, 0, 5}}}, {{{0, 1}, {1, 2}, {2, 0}}}};
+    static constexpr CellTopology hex8{
+        "hex8", 3, 8, 8, 6, 4, 4,
+        {{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}}, {}};
+    static constexpr CellTopology tri6{
+        "tri6", 2, 6, 3, 3, 3, 2, {{{0, 1, 3}, {1, 2, 4}, {2, 0, 5}}}, {{{0, 1}, {1, 2}, {2, 0}}}};
     static constexpr CellTopology quad8{"quad8", 2, 8, 4, 4, 3, 2, {{{0, 1, 4}, {1, 2, 5}, {2, 3, 6}, {3, 0, 7}}},
                                         {{{0, 1}, {1, 2}, {2, 3}, {3, 0}}}};
     static constexpr CellTopology quad9{"quad9", 2, 9, 4, 4, 3, 2, {{{0, 1, 4}, {1, 2, 5}, {2, 3, 6}, {3, 0, 7}}},

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A small delamination march with each cell type and formulation through the public API: two plies, a notch at one end, peeled
-// apart there, held at the other. The states pass the conditions of equilibrium and contact outside the solver, and reactions
-// and energies match what the direct reference finds for the same adhesion; elements that bend well agree with each other.
+// A small delamination march with each cell type and formulation through the public API: two plies, a notch at one end,
+// peeled apart there, held at the other. The states pass the conditions of equilibrium and contact outside the solver,
+// and reactions and energies match what the direct reference finds for the same adhesion; elements that bend well agree
+// with each other.
 #include <algorithm>
 #include <cmath>
 
@@ -41,7 +42,7 @@ std::vector<double> point(int d, double x, double y, double z) {
     return d == 2 ? std::vector<double>{x, z} : std::vector<double>{x, y, z};
 }
 
-// One cell across each ply. Both arms are pulled apart at x = 0, in the middle of their height so that no pair is prescribed.
+// One cell across each ply. The arms are pulled apart at x = 0 by their outer edges.
 Scene peel(const Element& e) {
     const int d = e.dimension;
     Scene scene(d, d == 2 ? std::vector<double>{length} : std::vector<double>{length, width},
@@ -138,11 +139,13 @@ CASE_TEST(refusals) {
                   "tri6 has no such formulation");
     cases::expect(message(triangles).find("body 1") != std::string::npos &&
                       message(triangles).find("tri6") != std::string::npos, message(triangles));
-    cases::expect(delam_problem_set_formulation(triangles.problem(), -1, "standard") == DELAM_OK, "standard is for all");
+    cases::expect(delam_problem_set_formulation(triangles.problem(), -1, "standard") == DELAM_OK,
+                  "standard is for all");
     const Scene squares = peel(elements[0]);
     cases::expect(delam_problem_set_formulation(squares.problem(), 0, "reduced") == DELAM_ERROR_ARGUMENT, "unknown");
     cases::expect(message(squares).find("known are standard, incompatible") != std::string::npos, message(squares));
-    cases::expect(delam_problem_set_formulation(squares.problem(), 7, "standard") == DELAM_ERROR_ARGUMENT, "no such body");
+    cases::expect(delam_problem_set_formulation(squares.problem(), 7, "standard") == DELAM_ERROR_ARGUMENT,
+                  "no such body");
     cases::expect(delam_problem_set_formulation(squares.problem(), 0, nullptr) == DELAM_ERROR_ARGUMENT, "NULL");
 }
 

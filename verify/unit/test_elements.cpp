@@ -344,7 +344,8 @@ START_TEST(any_elasticity) {
             for (std::size_t i = 0; i < strains; ++i)
                 for (std::size_t j = 0; j < strains; ++j) {
                     d[i * strains + j] = i == j ? 1.0 : 0.0;
-                    for (std::size_t k = 0; k < strains; ++k) d[i * strains + j] += a[i * strains + k] * a[j * strains + k];
+                    for (std::size_t k = 0; k < strains; ++k)
+                        d[i * strains + j] += a[i * strains + k] * a[j * strains + k];
                 }
             double h[3][3];
             for (auto& row : h)
@@ -375,9 +376,9 @@ END_TEST
 
 namespace {
 
-// A bar of length 10 and height 1 (width 1), one cell across, its ends turned against each other: u_x = -kappa x (y - 1/2)
-// there. Lateral contraction is free (plane stress; in space the anticlastic surface). The exact energy per length is
-// E I kappa^2 / 2; the ratio tells how much too stiff the cells are.
+// A bar of length 10 and height 1 (width 1), one cell across, its ends turned against each other: u_x = -kappa x (y -
+// 1/2) there. Lateral contraction is free (plane stress; in space the anticlastic surface). The exact energy per length
+// is E I kappa^2 / 2; the ratio tells how much too stiff the cells are.
 double bending_ratio(CellType type, Formulation formulation, double skew = 0.0) {
     const int dim = topology(type).dimension;
     const double lengths[] = {10.0, 1.0};

@@ -43,8 +43,9 @@ std::int64_t cells_of_size(const Table& root, const Table& table, std::string_vi
 
 std::int32_t cell_type(const std::string& name) {
     static const std::map<std::string, std::int32_t> types{
-        {"tri3", DELAM_TRI3},   {"quad4", DELAM_QUAD4}, {"tet4", DELAM_TET4},   {"hex8", DELAM_HEX8},  {"tri6", DELAM_TRI6},
-        {"quad8", DELAM_QUAD8}, {"quad9", DELAM_QUAD9}, {"tet10", DELAM_TET10}, {"hex20", DELAM_HEX20}};
+        {"tri3", DELAM_TRI3},   {"quad4", DELAM_QUAD4}, {"tet4", DELAM_TET4},
+        {"hex8", DELAM_HEX8},   {"tri6", DELAM_TRI6},   {"quad8", DELAM_QUAD8},
+        {"quad9", DELAM_QUAD9}, {"tet10", DELAM_TET10}, {"hex20", DELAM_HEX20}};
     return types.at(name);
 }
 
