@@ -94,11 +94,24 @@ DELAM_API int32_t delam_context_cancel(delam_context *context);
 
 /* ---- mesh: nodes, cells, bodies, interfaces ---------------------------------------------------------------------- */
 
-/* Cell types; node order as in VTK and Gmsh: counter-clockwise; bottom face then top face. */
+/* Cell types. Node order as in VTK: corners (counter-clockwise; bottom face, then top face), then the nodes midway between
+ * two corners, then the centre. With corners numbered from 0, the middle nodes sit between
+ *   tri6    0-1 1-2 2-0
+ *   quad8   0-1 1-2 2-3 3-0      quad9 likewise, then the centre
+ *   tet10   0-1 1-2 2-0 0-3 1-3 2-3                              (Gmsh exchanges the last two)
+ *   hex20   0-1 1-2 2-3 3-0  4-5 5-6 6-7 7-4  0-4 1-5 2-6 3-7    (Gmsh has another order)
+ * Cells may be curved: middle nodes need not be exactly midway. Neighbours share all nodes of a face. In bending, tri3,
+ * quad4, tet4 and hex8 are far too stiff unless many lie across the thickness; the others need few, and so do quad4
+ * and hex8 with delam_problem_set_formulation. */
 #define DELAM_TRI3 1
 #define DELAM_QUAD4 2
 #define DELAM_TET4 3
 #define DELAM_HEX8 4
+#define DELAM_TRI6 5
+#define DELAM_QUAD8 6
+#define DELAM_QUAD9 7
+#define DELAM_TET10 8
+#define DELAM_HEX20 9
 
 /* Nodes: [node_count][dimension], dimension 2 or 3, node_count >= 1. */
 DELAM_API int32_t delam_mesh_create(delam_context *context, int32_t dimension, int64_t node_count,
@@ -108,8 +121,10 @@ DELAM_API int32_t delam_mesh_create(delam_context *context, int32_t dimension, i
  * body 0 at the bottom. The block starts at the origin.
  *   lengths, divisions  [dimension-1] extent (L) and number of cells along the other axes
  *   thickness, layer_divisions  [layer_count] of each layer
- *   cell_type           DELAM_TRI3 / QUAD4 in 2D, TET4 / HEX8 in 3D; simplices split each box into 2 or 6.
- * Neighbouring layers match; no interface is made yet. Nodes of a layer are numbered x fastest, the last axis slowest. */
+ *   cell_type           DELAM_TRI3 / QUAD4 / TRI6 / QUAD8 / QUAD9 in 2D, TET4 / HEX8 / TET10 / HEX20 in 3D; simplices
+ *                       split each box into 2 or 6
+ * Neighbouring layers match; no interface is made yet. Nodes of a layer are numbered x fastest, the last axis slowest,
+ * middle nodes among the corners. */
 DELAM_API int32_t delam_mesh_create_layers(delam_context *context, int32_t dimension, const double *lengths,
                                            const int64_t *divisions, int64_t layer_count, const double *thickness,
                                            const int64_t *layer_divisions, int32_t cell_type, delam_mesh **out);
@@ -121,9 +136,14 @@ DELAM_API int32_t delam_mesh_add_cells(delam_mesh *mesh, int32_t cell_type, int6
 
 /* Pairs the coinciding boundary faces of two bodies. The jump of a pair is u_b - u_a; the normal points from a to b, so a
  * positive normal jump is an opening. `tolerance`: largest distance of two nodes that count as one, as a fraction of the
- * shortest edge of the two bodies; 0 gives 1e-6; must be < 0.5. DELAM_ERROR_MESH when no face matches, or when faces overlap
- * but do not match (the first place is named). Weights of pairs: nodal quadrature of the paired faces (trapezoid rule on edges, vertex rule on faces),
- * positive, summing to the length (2D) or area (3D) of the interface. Pairs are ordered by coordinates, x first. */
+ * shortest edge of the two bodies (of quadratic cells: from corner to mid-side node); 0 gives 1e-6; must be < 0.5.
+ * DELAM_ERROR_MESH when no face matches, or when faces overlap but do not match, mid-side nodes included (the first place is
+ * named). Weights of pairs: nodal quadrature of the paired faces, positive, summing to the length (2D) or area (3D) of the
+ * interface: trapezoid rule on 2-node edges, Simpson's on 3-node ones, vertex rule on faces. 6-node triangles count as four
+ * triangles, 8-node faces as four corner triangles and the quadrilateral of their mid-side nodes, also where they are curved.
+ * Those of tet10 and hex20 are not in the proportion of a uniform traction: on a stiff interface pairs then bear up to 1.3
+ * (tet10) or 1.6 times (hex20) the traction at middle nodes and none, or a closed contact, at corners.
+ * Pairs are ordered by coordinates, x first. */
 DELAM_API int32_t delam_mesh_add_interface(delam_mesh *mesh, int32_t body_a, int32_t body_b, double tolerance,
                                            int64_t *out_interface);
 DELAM_API void delam_mesh_destroy(delam_mesh **mesh);
@@ -146,7 +166,8 @@ DELAM_API int32_t delam_mesh_interface_size(const delam_mesh *mesh, int64_t inte
  * frames: [pair_count][dimension][dimension], rows normal, tangent(s), orthonormal. */
 DELAM_API int32_t delam_mesh_interface_pairs(const delam_mesh *mesh, int64_t interface_index, int64_t *nodes_a,
                                              int64_t *nodes_b, double *weights, double *frames);
-/* Faces as pair indices: [face_count][nodes_per_face]; faces with fewer corners repeat the last one. */
+/* Faces as pair indices: [face_count][nodes_per_face], corners then mid-sides (2, 3, 4 nodes; 3, 6, 8 of quadratic cells).
+ * Triangles among quadrilaterals repeat their last corner, also as the mid-side node of the side that has shrunk to it. */
 DELAM_API int32_t delam_mesh_interface_faces(const delam_mesh *mesh, int64_t interface_index, int64_t *faces);
 /* Nodes of a body (-1: of all) inside the closed box lower..upper ([dimension] each; widened by 1e-9 of the mesh's size).
  * *count receives how many there are; the first `capacity` are written, ascending. */
@@ -155,7 +176,8 @@ DELAM_API int32_t delam_mesh_find_nodes(const delam_mesh *mesh, int32_t body, co
 /* Integrals of the nodal shape functions over the part of a body's boundary faces inside the box: the weights of a uniform
  * traction on a patch of fixed size, independent of the mesh. Faces are cut exactly where the box ends within them (2D: exact; 3D:
  * faces as triangles). Only faces whose outward normal is within 45 degrees of `direction` ([dimension], any length) count.
- * nodes, weights: up to `capacity` entries; *count receives how many. Weights in L (2D) or L2 (3D), all > 0. */
+ * nodes, weights: up to `capacity` entries; *count receives how many. Weights in L (2D) or L2 (3D), with a sum > 0. Those of
+ * linear cells are all > 0; quadratic cells also have negative ones (a corner of an 8-node face: -1/12 of its area). */
 DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, const double *lower, const double *upper,
                                         const double *direction, int64_t capacity, int64_t *nodes, double *weights,
                                         int64_t *count);
@@ -194,6 +216,11 @@ DELAM_API void delam_problem_destroy(delam_problem **problem);
 DELAM_API int32_t delam_problem_set_plane(delam_problem *problem, const char *assumption);
 /* Isotropic elasticity of a body (-1: of all): young > 0 (F/L2), -1 < poisson < 0.5. */
 DELAM_API int32_t delam_problem_set_elastic(delam_problem *problem, int32_t body, double young, double poisson);
+/* How the cells of a body (-1: of all) are computed: "standard" (default), or "incompatible" for bodies of quad4 or hex8 alone
+ * (DELAM_ERROR_ARGUMENT names another cell): internal bending modes after Wilson, Taylor and Beresford, condensed in each
+ * cell. Pure bending of rectangular cells is then exact, where standard ones are too stiff (by half for squares). The
+ * displacement between nodes may gap or overlap a little. */
+DELAM_API int32_t delam_problem_set_formulation(delam_problem *problem, int32_t body, const char *formulation);
 /* The law of an interface; its parameters are taken as they are now. Initial adhesion 1 everywhere. */
 DELAM_API int32_t delam_problem_set_law(delam_problem *problem, int64_t interface_index, const delam_law *law);
 /* The interface is glued perfectly and for ever (zero compliance). Each interface needs a law or this. */
@@ -214,7 +241,8 @@ DELAM_API int32_t delam_problem_prescribe_nodes(delam_problem *problem, int64_t 
                                                 const double *coefficients, int32_t index_base);
 /* Prescribes one weighted mean over nodes: sum_i weights[i] direction . u_i / sum_i weights[i] = sum of coefficients[p] *
  * factor_p(t). With the weights of delam_mesh_find_patch: a support or load spread as a uniform traction over a patch of fixed
- * size, which has a limit as the mesh is refined (a point support has none). weights: [count] > 0; coefficients: [pattern_count]. */
+ * size, which has a limit as the mesh is refined (a point support has none). weights: [count], sum > 0; coefficients:
+ * [pattern_count]. */
 DELAM_API int32_t delam_problem_prescribe_mean(delam_problem *problem, int64_t count, const int64_t *nodes,
                                                const double *weights, const double *direction, int64_t pattern_count,
                                                const int64_t *patterns, const double *coefficients, int32_t index_base);

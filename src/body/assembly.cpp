@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "base/error.hpp"
 #include "body/element.hpp"
@@ -13,44 +14,159 @@ namespace delam {
 
 namespace {
 
-std::vector<double> cell_coordinates(const Mesh& mesh, std::int64_t cell) {
-    std::vector<double> x;
-    x.reserve(24);
-    for (const std::int64_t n : mesh.cell(cell)) x.insert(x.end(), mesh.node(n).begin(), mesh.node(n).end());
-    return x;
+// Coordinates of a cell's nodes; its size is that of the type.
+struct Coordinates {
+    std::array<double, 3 * most_cell_nodes> x;
+    std::size_t count = 0;
+    std::span<const double> view() const { return std::span(x).first(count); }
+};
+Coordinates cell_coordinates(const Mesh& mesh, std::int64_t cell) {
+    Coordinates c;
+    for (const std::int64_t n : mesh.cell(cell))
+        for (const double x : mesh.node(n)) c.x[c.count++] = x;
+    return c;
+}
+
+// Where the nodes of all cells stand in `nodes`, cell after cell. Neighbouring cells tend to be neighbours in the list
+// too: the place after that of the same corner of the cell before is tried first.
+struct LocalCells {
+    std::vector<std::size_t> start{0};
+    std::vector<std::int32_t> node;
+};
+LocalCells local_cells(const Mesh& mesh, std::span<const std::int64_t> cells, std::span<const std::int64_t> nodes) {
+    LocalCells local;
+    local.start.reserve(cells.size() + 1);
+    if (!cells.empty()) local.node.reserve(cells.size() * mesh.cell(cells.front()).size());
+    std::array<std::size_t, most_cell_nodes> hint{};
+    for (const std::int64_t c : cells) {
+        const auto cell = mesh.cell(c);
+        for (std::size_t a = 0; a < cell.size(); ++a) {
+            std::size_t place = hint[a] + 1;
+            if (place >= nodes.size() || nodes[place] != cell[a])
+                place = static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), cell[a]) - nodes.begin());
+            if (place == nodes.size() || nodes[place] != cell[a])
+                fail(DELAM_ERROR_INTERNAL, "node ", cell[a], " of cell ", c,
+                     " is not among the nodes to assemble over");
+            local.node.push_back(static_cast<std::int32_t>(place));
+            hint[a] = place;
+        }
+        local.start.push_back(local.node.size());
+    }
+    return local;
 }
 
 // Which nodes share a cell: compressed rows over the local nodes, each with its neighbours (itself included) ascending.
+// Node b of a cell is neighbour number place[a*n + b] of node a, from the cell's own first place on.
 struct NodeGraph {
-    std::vector<std::int64_t> start;
-    std::vector<std::int64_t> neighbour;
+    std::vector<std::size_t> start;
+    std::vector<std::int32_t> neighbour;
+    std::vector<std::size_t> cell_start;
+    std::vector<std::int32_t> place;
 };
 
-NodeGraph node_graph(std::span<const std::vector<std::int64_t>> cells, std::size_t nodes) {
-    std::vector<std::int64_t> begin(nodes + 1, 0);
-    for (const auto& cell : cells)
-        for (const std::int64_t i : cell) ++begin[at(i) + 1];
+// Rows are gathered in the order in which cells name their nodes. Turned over, row i giving itself to each of its
+// neighbours for i = 0, 1, ..., they come out ascending without being sorted, since the graph is symmetric.
+NodeGraph node_graph(const LocalCells& cells, std::size_t nodes) {
+    // The cells of each node, as places in the list of their nodes.
+    std::vector<std::size_t> begin(nodes + 1, 0);
+    for (const std::int32_t i : cells.node) ++begin[at(i) + 1];
     for (std::size_t i = 0; i < nodes; ++i) begin[i + 1] += begin[i];
-    std::vector<std::size_t> cell_of(at(begin.back()));
-    std::vector<std::int64_t> next(begin.begin(), begin.end() - 1);
-    for (std::size_t c = 0; c < cells.size(); ++c)
-        for (const std::int64_t i : cells[c]) cell_of[at(next[at(i)]++)] = c;
+    struct Corner {
+        std::int32_t cell, local;
+    };
+    std::vector<Corner> corner(cells.node.size());
+    std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+    NodeGraph graph;
+    graph.cell_start.reserve(cells.start.size());
+    std::size_t places = 0;
+    for (std::size_t c = 0; c + 1 < cells.start.size(); ++c) {
+        const std::size_t n = cells.start[c + 1] - cells.start[c];
+        for (std::size_t a = 0; a < n; ++a)
+            corner[next[at(cells.node[cells.start[c] + a])]++] = {static_cast<std::int32_t>(c),
+                                                                  static_cast<std::int32_t>(a)};
+        graph.cell_start.push_back(places);
+        places += n * n;
+    }
 
-    NodeGraph graph{{0}, {}};
-    std::vector<std::size_t> seen(nodes, nodes);  // the row that met a node last
+    std::vector<std::int32_t> met;  // the rows, not in order
+    std::vector<std::int32_t> mark(nodes, -1);
+    graph.start.reserve(nodes + 1);
+    graph.start.push_back(0);
     for (std::size_t i = 0; i < nodes; ++i) {
-        const auto first = static_cast<std::ptrdiff_t>(graph.neighbour.size());
-        for (std::size_t e = at(begin[i]); e < at(begin[i + 1]); ++e) {
-            for (const std::int64_t j : cells[cell_of[e]]) {
-                if (seen[at(j)] == i) continue;
-                seen[at(j)] = i;
-                graph.neighbour.push_back(j);
+        for (std::size_t e = begin[i]; e < begin[i + 1]; ++e) {
+            const auto c = at(corner[e].cell);
+            for (std::size_t k = cells.start[c]; k < cells.start[c + 1]; ++k) {
+                const std::int32_t j = cells.node[k];
+                if (mark[at(j)] == static_cast<std::int32_t>(i)) continue;
+                mark[at(j)] = static_cast<std::int32_t>(i);
+                met.push_back(j);
             }
         }
-        std::sort(graph.neighbour.begin() + first, graph.neighbour.end());
-        graph.start.push_back(static_cast<std::int64_t>(graph.neighbour.size()));
+        graph.start.push_back(met.size());
+    }
+    graph.neighbour.resize(met.size());
+    next.assign(graph.start.begin(), graph.start.end() - 1);
+    for (std::size_t i = 0; i < nodes; ++i)
+        for (std::size_t e = graph.start[i]; e < graph.start[i + 1]; ++e)
+            graph.neighbour[next[at(met[e])]++] = static_cast<std::int32_t>(i);
+
+    graph.place.resize(places);
+    for (std::size_t i = 0; i < nodes; ++i) {
+        const std::size_t first = graph.start[i];
+        for (std::size_t k = first; k < graph.start[i + 1]; ++k)
+            mark[at(graph.neighbour[k])] = static_cast<std::int32_t>(k - first);
+        for (std::size_t e = begin[i]; e < begin[i + 1]; ++e) {
+            const auto c = at(corner[e].cell);
+            const std::int32_t* node = &cells.node[cells.start[c]];
+            const std::size_t n = cells.start[c + 1] - cells.start[c];
+            std::int32_t* place = &graph.place[graph.cell_start[c] + at(corner[e].local) * n];
+            for (std::size_t b = 0; b < n; ++b) place[b] = mark[at(node[b])];
+        }
     }
     return graph;
+}
+
+// The pattern of the matrix: each entry of the graph is a block of dimension x dimension.
+SparseMatrix empty_matrix(const NodeGraph& graph, std::size_t dim) {
+    const std::size_t nodes = graph.start.size() - 1;
+    SparseMatrix k;
+    k.rows = k.columns = static_cast<std::int64_t>(nodes * dim);
+    k.start.resize(nodes * dim + 1);
+    k.column.resize(graph.neighbour.size() * dim * dim);
+    k.value.assign(k.column.size(), 0.0);
+    std::size_t entry = 0;
+    k.start[0] = 0;
+    for (std::size_t i = 0; i < nodes; ++i) {
+        for (std::size_t row = 0; row < dim; ++row) {
+            for (std::size_t e = graph.start[i]; e < graph.start[i + 1]; ++e)
+                for (std::size_t j = 0; j < dim; ++j)
+                    k.column[entry++] = static_cast<std::int64_t>(at(graph.neighbour[e]) * dim + j);
+            k.start[i * dim + row + 1] = static_cast<std::int64_t>(entry);
+        }
+    }
+    return k;
+}
+
+// The matrix of a cell and where its nodes and pairs of nodes stand.
+struct Block {
+    std::span<const std::int32_t> node;
+    const std::int32_t* place;
+    const double* matrix;
+};
+
+template <std::size_t dim>
+void add(const Block& block, SparseMatrix& k) {
+    const std::size_t n = block.node.size();
+    for (std::size_t a = 0; a < n; ++a) {
+        for (std::size_t i = 0; i < dim; ++i) {
+            double* row = &k.value[at(k.start[at(block.node[a]) * dim + i])];
+            const double* own = &block.matrix[(a * dim + i) * n * dim];
+            for (std::size_t b = 0; b < n; ++b) {
+                double* to = row + at(block.place[a * n + b]) * dim;
+                for (std::size_t j = 0; j < dim; ++j) to[j] += own[b * dim + j];
+            }
+        }
+    }
 }
 
 }  // namespace
@@ -59,61 +175,33 @@ NodeGraph node_graph(std::span<const std::vector<std::int64_t>> cells, std::size
 // places, cell after cell, and no list of all their entries ever exists. Both triangles receive the same numbers in
 // the same order.
 SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> cells,
-                                std::span<const std::int64_t> nodes, const Elastic& material, Plane plane) {
+                                std::span<const std::int64_t> nodes, const BodyModel& model) {
+    if (std::max(nodes.size(), cells.size()) > at(std::numeric_limits<std::int32_t>::max()))
+        fail(DELAM_ERROR_ARGUMENT, nodes.size(), " nodes, ", cells.size(),
+             " cells in one part of a body: at most 2^31 - 1");
     const std::size_t dim = at(mesh.dimension());
-    std::vector<std::vector<std::int64_t>> local(cells.size());
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-        for (const std::int64_t n : mesh.cell(cells[c])) {
-            const auto place = std::lower_bound(nodes.begin(), nodes.end(), n);
-            if (place == nodes.end() || *place != n)
-                fail(DELAM_ERROR_INTERNAL, "node ", n, " of cell ", cells[c],
-                     " is not among the nodes to assemble over");
-            local[c].push_back(place - nodes.begin());
-        }
-    }
+    const LocalCells local = local_cells(mesh, cells, nodes);
     const NodeGraph graph = node_graph(local, nodes.size());
+    SparseMatrix k = empty_matrix(graph, dim);
 
-    SparseMatrix k;
-    k.rows = k.columns = static_cast<std::int64_t>(nodes.size() * dim);
-    k.start.reserve(nodes.size() * dim + 1);
-    k.column.reserve(graph.neighbour.size() * dim * dim);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        for (std::size_t row = 0; row < dim; ++row) {
-            for (std::size_t e = at(graph.start[i]); e < at(graph.start[i + 1]); ++e)
-                for (std::size_t j = 0; j < dim; ++j)
-                    k.column.push_back(graph.neighbour[e] * mesh.dimension() + static_cast<std::int64_t>(j));
-            k.start.push_back(static_cast<std::int64_t>(k.column.size()));
-        }
-    }
-    k.value.assign(k.column.size(), 0.0);
-
-    const std::vector<double> elasticity = elasticity_matrix(material, mesh.dimension(), plane);
+    const std::vector<double> elasticity = elasticity_matrix(model.elastic, mesh.dimension(), model.plane);
+    std::vector<double> matrix(9 * most_cell_nodes * most_cell_nodes);
     for (std::size_t c = 0; c < cells.size(); ++c) {
-        const auto matrix = element_stiffness(mesh.cell_type(cells[c]), cell_coordinates(mesh, cells[c]), elasticity);
-        const std::size_t size = local[c].size() * dim;
-        for (std::size_t a = 0; a < local[c].size(); ++a) {
-            const std::size_t node = at(local[c][a]);
-            const auto first = graph.neighbour.begin() + graph.start[node];
-            const auto last = graph.neighbour.begin() + graph.start[node + 1];
-            for (std::size_t b = 0; b < local[c].size(); ++b) {
-                const std::size_t offset = at(std::lower_bound(first, last, local[c][b]) - first) * dim;
-                for (std::size_t i = 0; i < dim; ++i) {
-                    const std::size_t place = at(k.start[node * dim + i]) + offset;
-                    for (std::size_t j = 0; j < dim; ++j)
-                        k.value[place + j] += matrix[(a * dim + i) * size + b * dim + j];
-                }
-            }
-        }
+        element_stiffness(mesh.cell_type(cells[c]), cell_coordinates(mesh, cells[c]).view(), elasticity,
+                          model.formulation, matrix);
+        const Block block{std::span(local.node).subspan(local.start[c], local.start[c + 1] - local.start[c]),
+                          &graph.place[graph.cell_start[c]], matrix.data()};
+        dim == 2 ? add<2>(block, k) : add<3>(block, k);
     }
     return k;
 }
 
-std::vector<double> centre_stress(const Mesh& mesh, std::span<const Elastic> materials, Plane plane,
+std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> models,
                                   std::span<const double> displacement) {
     const std::size_t dim = at(mesh.dimension());
     std::vector<std::vector<double>> elasticity;
-    for (const Elastic& material : materials)
-        elasticity.push_back(elasticity_matrix(material, mesh.dimension(), plane));
+    for (const BodyModel& model : models)
+        elasticity.push_back(elasticity_matrix(model.elastic, mesh.dimension(), model.plane));
 
     std::vector<double> stress;
     stress.reserve(at(mesh.cell_count()) * (dim == 2 ? 4 : 6));
@@ -122,7 +210,7 @@ std::vector<double> centre_stress(const Mesh& mesh, std::span<const Elastic> mat
         u.clear();
         for (const std::int64_t n : mesh.cell(c))
             for (std::size_t i = 0; i < dim; ++i) u.push_back(displacement[at(n) * dim + i]);
-        const std::vector<double> strain = centre_strain(mesh.cell_type(c), cell_coordinates(mesh, c), u);
+        const std::vector<double> strain = centre_strain(mesh.cell_type(c), cell_coordinates(mesh, c).view(), u);
         const std::size_t body = at(mesh.cell_body(c));
         const std::vector<double>& matrix = elasticity[body];
         std::array<double, 6> s{};
@@ -131,7 +219,8 @@ std::vector<double> centre_stress(const Mesh& mesh, std::span<const Elastic> mat
         if (dim == 3) {
             stress.insert(stress.end(), s.begin(), s.end());
         } else {
-            const double zz = plane == Plane::strain ? materials[body].poisson * (s[0] + s[1]) : 0.0;
+            const BodyModel& model = models[body];
+            const double zz = model.plane == Plane::strain ? model.elastic.poisson * (s[0] + s[1]) : 0.0;
             stress.insert(stress.end(), {s[0], s[1], zz, s[2]});
         }
     }

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "body/material.hpp"
+#include "body/model.hpp"
 #include "linalg/sparse.hpp"
 #include "mesh/mesh.hpp"
 
@@ -15,11 +15,11 @@ namespace delam {
 // Full symmetric stiffness (both triangles) of some cells of one body over the DOFs of `nodes` (ascending mesh nodes
 // that include all nodes of the cells): DOF dimension*i + component of nodes[i].
 SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> cells,
-                                std::span<const std::int64_t> nodes, const Elastic& material, Plane plane);
+                                std::span<const std::int64_t> nodes, const BodyModel& model);
 
 // Stresses at cell centres, [cells][4 or 6]: xx, yy, zz, xy (2D, zz from the plane assumption) or xx, yy, zz, xy, yz,
-// zx. displacement: [mesh nodes][dimension]; material by body index.
-std::vector<double> centre_stress(const Mesh& mesh, std::span<const Elastic> materials, Plane plane,
+// zx. displacement: [mesh nodes][dimension]; models by body index.
+std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> models,
                                   std::span<const double> displacement);
 
 }  // namespace delam

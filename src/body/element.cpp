@@ -1,71 +1,233 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "body/element.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 
 namespace delam {
 
 namespace {
 
-// The strain operator B of one node at one point, [strains][components]: u_i,j collected as xx, yy, 2xy in the plane
-// and xx, yy, zz, 2xy, 2yz, 2zx in space.
-using NodeStrain = std::array<double, 18>;
+constexpr std::size_t strain_count(std::size_t dim) { return dim == 2 ? 3 : 6; }
 
-NodeStrain node_strain(int dimension, const double* g) {
-    if (dimension == 2) return {g[0], 0.0, 0.0, g[1], g[1], g[0]};
-    return {g[0], 0.0,  0.0,  0.0, g[1], 0.0,  0.0,  0.0,  g[2],
-            g[1], g[0], 0.0,  0.0, g[2], g[1], g[2], 0.0,  g[0]};
+// Place of the strain component ij in the order xx, yy, 2xy and xx, yy, zz, 2xy, 2yz, 2zx.
+constexpr std::size_t voigt(std::size_t dim, std::size_t i, std::size_t j) {
+    if (i == j) return i;
+    return dim == 2 ? 2 : i + j == 1 ? 3 : i + j == 3 ? 4 : 5;
+}
+
+template <std::size_t dim>
+using Matrix = std::array<double, dim * dim>;
+
+// Cofactors of J, C = det(J) J^-T, so that  det(J) dN/dx = C dN/dxi.
+template <std::size_t dim>
+Matrix<dim> cofactors(const Matrix<dim>& j) {
+    if constexpr (dim == 2) {
+        return {j[3], -j[2], -j[1], j[0]};
+    } else {
+        return {j[4] * j[8] - j[5] * j[7], j[5] * j[6] - j[3] * j[8], j[3] * j[7] - j[4] * j[6],
+                j[2] * j[7] - j[1] * j[8], j[0] * j[8] - j[2] * j[6], j[1] * j[6] - j[0] * j[7],
+                j[1] * j[5] - j[2] * j[4], j[2] * j[3] - j[0] * j[5], j[0] * j[4] - j[1] * j[3]};
+    }
+}
+
+template <std::size_t dim>
+double determinant(const Matrix<dim>& j, const Matrix<dim>& cofactor) {
+    double det = 0.0;
+    for (std::size_t i = 0; i < dim; ++i) det += j[i] * cofactor[i];
+    return det;
+}
+
+// J_ij = dx_i/dxi_j = sum_a x_ai dN_a/dxi_j.
+template <std::size_t nodes, std::size_t dim>
+Matrix<dim> tangent(const double* x, const double* gradient) {
+    Matrix<dim> j{};
+    for (std::size_t a = 0; a < nodes; ++a)
+        for (std::size_t r = 0; r < dim; ++r)
+            for (std::size_t c = 0; c < dim; ++c) j[r * dim + c] += x[a * dim + r] * gradient[a * dim + c];
+    return j;
+}
+
+// T_aj,bl = int dN_a/dx_j dN_b/dx_l dx, row-major, for a <= b. Internal modes count as further nodes.
+template <std::size_t nodes, std::size_t dim>
+using Products = std::array<double, nodes * dim * nodes * dim>;
+
+// The displacement modes 1 - xi_i^2 of Wilson (1973), which bend, in the form of Taylor, Beresford and Wilson (Int. J.
+// Numer. Meth. Eng. 10, 1976): their gradients are those at the centre, scaled,
+//     dM_i/dx = (det J_0 / det J) J_0^-T dM_i/dxi,
+// so that int dM_i/dx dx = 0: a constant stress does no work on them, and the patch test holds on distorted cells.
+template <std::size_t nodes, std::size_t dim, std::size_t modes>
+void gradient_products(CellType type, const double* coordinates, Products<nodes + modes, dim>& product) {
+    constexpr std::size_t size = (nodes + modes) * dim;
+    double x[nodes * dim];  // relative to the first node: sums then do not cancel for a cell far from the origin
+    for (std::size_t i = 0; i < nodes * dim; ++i) x[i] = coordinates[i] - coordinates[i % dim];
+    Matrix<dim> centre_cofactor{};
+    if constexpr (modes > 0) centre_cofactor = cofactors<dim>(tangent<nodes, dim>(x, centre_gradient(type).data()));
+
+    const Quadrature& gauss = quadrature(type);
+    for (std::size_t q = 0; q < gauss.points.size(); ++q) {
+        const double* reference = gauss.gradients[q].data();
+        const Matrix<dim> j = tangent<nodes, dim>(x, reference);
+        const Matrix<dim> cofactor = cofactors<dim>(j);
+        const double factor = gauss.weights[q] / determinant<dim>(j, cofactor);
+        double g[size];  // det J dN/dx
+        for (std::size_t a = 0; a < nodes; ++a)
+            for (std::size_t i = 0; i < dim; ++i) {
+                double sum = 0.0;
+                for (std::size_t c = 0; c < dim; ++c) sum += cofactor[i * dim + c] * reference[a * dim + c];
+                g[a * dim + i] = sum;
+            }
+        for (std::size_t m = 0; m < modes; ++m)
+            for (std::size_t i = 0; i < dim; ++i)
+                g[(nodes + m) * dim + i] = centre_cofactor[i * dim + m] * -2.0 * gauss.points[q][m];
+        for (std::size_t r = 0; r < size; ++r) {
+            const double left = factor * g[r];
+            double* row = &product[r * size];
+            for (std::size_t c = r / dim * dim; c < size; ++c) row[c] += left * g[c];
+        }
+    }
+}
+
+// Whether normal strains make shear stresses or one shear strain another's stress: not in isotropic materials.
+template <std::size_t dim>
+bool coupled(const double* elasticity) {
+    constexpr std::size_t strains = strain_count(dim);
+    for (std::size_t r = dim; r < strains; ++r)
+        for (std::size_t c = 0; c < r; ++c)
+            if (elasticity[r * strains + c] != 0.0 || elasticity[c * strains + r] != 0.0) return true;
+    return false;
+}
+
+// K_ai,bm = sum_rl D_(ir)(ml) T_ar,bl : the elasticity enters once for each pair of nodes. Pairs a <= b are computed
+// and copied, so that K equals its transpose bit for bit. block(t, k) makes the dim x dim entries of a pair from those
+// of T.
+template <std::size_t nodes, std::size_t dim, class PairBlock>
+void each_pair(const Products<nodes, dim>& product, PairBlock&& block, double* k) {
+    constexpr std::size_t size = nodes * dim;
+    for (std::size_t a = 0; a < nodes; ++a) {
+        for (std::size_t b = a; b < nodes; ++b) {
+            double t[dim][dim];
+            double entry[dim][dim];
+            for (std::size_t i = 0; i < dim; ++i)
+                for (std::size_t m = 0; m < dim; ++m) t[i][m] = product[(a * dim + i) * size + b * dim + m];
+            block(t, entry);
+            for (std::size_t i = 0; i < dim; ++i)
+                for (std::size_t m = (a == b ? i : 0); m < dim; ++m) {
+                    k[(a * dim + i) * size + b * dim + m] = entry[i][m];
+                    k[(b * dim + m) * size + a * dim + i] = entry[i][m];
+                }
+        }
+    }
+}
+
+// Without coupling there are, beside D_(ii)(mm), only the terms of one shear strain, ir = ml: 15 instead of 81 in
+// space.
+template <std::size_t nodes, std::size_t dim>
+void contract(const Products<nodes, dim>& product, const double* elasticity, double* k) {
+    constexpr std::size_t strains = strain_count(dim);
+    if (coupled<dim>(elasticity)) {
+        const auto block = [elasticity](const double(&t)[dim][dim], double(&entry)[dim][dim]) {
+            for (std::size_t i = 0; i < dim; ++i)
+                for (std::size_t m = 0; m < dim; ++m) {
+                    entry[i][m] = 0.0;
+                    for (std::size_t r = 0; r < dim; ++r)
+                        for (std::size_t l = 0; l < dim; ++l)
+                            entry[i][m] += elasticity[voigt(dim, i, r) * strains + voigt(dim, m, l)] * t[r][l];
+                }
+        };
+        return each_pair<nodes, dim>(product, block, k);
+    }
+    double normal[dim][dim];
+    double shear[dim][dim];  // 0 on the diagonal
+    for (std::size_t i = 0; i < dim; ++i)
+        for (std::size_t m = 0; m < dim; ++m) {
+            normal[i][m] = elasticity[i * strains + m];
+            shear[i][m] = i == m ? 0.0 : elasticity[voigt(dim, i, m) * (strains + 1)];
+        }
+    const auto block = [&normal, &shear](const double(&t)[dim][dim], double(&entry)[dim][dim]) {
+        for (std::size_t i = 0; i < dim; ++i) {
+            for (std::size_t m = 0; m < dim; ++m) entry[i][m] = normal[i][m] * t[i][m] + shear[i][m] * t[m][i];
+            for (std::size_t r = 0; r < dim; ++r) entry[i][i] += shear[i][r] * t[r][r];
+        }
+    };
+    each_pair<nodes, dim>(product, block, k);
+}
+
+// Static condensation of the last `modes` of `all` unknowns:  K_uu - K_ua K_aa^-1 K_au = K_uu - V^T V,  V = L^-1 K_au
+// with Cholesky's K_aa = L L^T.
+template <std::size_t all, std::size_t modes>
+void condense(const double* full, double* k) {
+    constexpr std::size_t size = all - modes;
+    double v[modes][all];  // rows of L^-1 (K_au | K_aa): the last block becomes L^T
+    for (std::size_t r = 0; r < modes; ++r) {
+        std::copy_n(full + (size + r) * all, all, v[r]);
+        for (std::size_t s = 0; s < r; ++s) {
+            const double share = v[s][size + r];
+            for (std::size_t i = 0; i < all; ++i) v[r][i] -= share * v[s][i];
+        }
+        const double pivot = std::sqrt(v[r][size + r]);
+        for (std::size_t i = 0; i < all; ++i) v[r][i] /= pivot;
+    }
+    for (std::size_t i = 0; i < size; ++i) {
+        for (std::size_t j = i; j < size; ++j) {
+            double sum = full[i * all + j];
+            for (std::size_t r = 0; r < modes; ++r) sum -= v[r][i] * v[r][j];
+            k[i * size + j] = sum;
+            k[j * size + i] = sum;
+        }
+    }
+}
+
+template <std::size_t nodes, std::size_t dim>
+void standard(CellType type, const double* x, const double* elasticity, double* k) {
+    Products<nodes, dim> product{};
+    gradient_products<nodes, dim, 0>(type, x, product);
+    contract<nodes, dim>(product, elasticity, k);
+}
+
+template <std::size_t nodes, std::size_t dim>
+void incompatible(CellType type, const double* x, const double* elasticity, double* k) {
+    Products<nodes + dim, dim> product{};
+    gradient_products<nodes, dim, dim>(type, x, product);
+    double full[(nodes + dim) * dim * (nodes + dim) * dim];
+    contract<nodes + dim, dim>(product, elasticity, full);
+    condense<(nodes + dim) * dim, dim * dim>(full, k);
 }
 
 }  // namespace
 
-// K = int B^T D B dx, summed over the Gauss points node by node; the blocks below the diagonal are copied from those
-// above, and within a diagonal block likewise, so that K equals its transpose bit for bit.
-std::vector<double> element_stiffness(CellType type, std::span<const double> coordinates,
-                                      std::span<const double> elasticity) {
-    const CellTopology& shape = topology(type);
-    const auto nodes = static_cast<std::size_t>(shape.nodes);
-    const auto dim = static_cast<std::size_t>(shape.dimension);
-    const std::size_t strains = dim == 2 ? 3 : 6;
-    const std::size_t size = nodes * dim;
-    std::vector<double> k(size * size, 0.0);
-
-    const Quadrature gauss = quadrature(type);
-    for (const ReferencePoint& point : gauss.points) {
-        const PhysicalGradient at_point = physical_gradient(type, coordinates, point);
-        const double volume = gauss.weight * at_point.jacobian;
-        for (std::size_t b = 0; b < nodes; ++b) {
-            const NodeStrain right = node_strain(shape.dimension, &at_point.gradient[b * dim]);
-            NodeStrain stress{};  // D B_b, times the volume
-            for (std::size_t s = 0; s < strains; ++s)
-                for (std::size_t r = 0; r < strains; ++r)
-                    for (std::size_t j = 0; j < dim; ++j)
-                        stress[s * dim + j] += volume * elasticity[s * strains + r] * right[r * dim + j];
-            for (std::size_t a = 0; a <= b; ++a) {
-                const NodeStrain left = node_strain(shape.dimension, &at_point.gradient[a * dim]);
-                for (std::size_t i = 0; i < dim; ++i)
-                    for (std::size_t j = 0; j < dim; ++j)
-                        for (std::size_t s = 0; s < strains; ++s)
-                            k[(a * dim + i) * size + b * dim + j] += left[s * dim + i] * stress[s * dim + j];
-            }
-        }
+void element_stiffness(CellType type, std::span<const double> coordinates, std::span<const double> elasticity,
+                       Formulation formulation, std::span<double> matrix) {
+    const double* x = coordinates.data();
+    const double* d = elasticity.data();
+    double* k = matrix.data();
+    const bool modes = formulation == Formulation::incompatible;
+    switch (type) {
+        case CellType::tri3: return standard<3, 2>(type, x, d, k);
+        case CellType::quad4: return modes ? incompatible<4, 2>(type, x, d, k) : standard<4, 2>(type, x, d, k);
+        case CellType::tet4: return standard<4, 3>(type, x, d, k);
+        case CellType::hex8: return modes ? incompatible<8, 3>(type, x, d, k) : standard<8, 3>(type, x, d, k);
+        case CellType::tri6: return standard<6, 2>(type, x, d, k);
+        case CellType::quad8: return standard<8, 2>(type, x, d, k);
+        case CellType::quad9: return standard<9, 2>(type, x, d, k);
+        case CellType::tet10: return standard<10, 3>(type, x, d, k);
+        case CellType::hex20: return standard<20, 3>(type, x, d, k);
     }
-    for (std::size_t i = 0; i < size; ++i)
-        for (std::size_t j = 0; j < i; ++j) k[i * size + j] = k[j * size + i];
-    return k;
 }
 
+// eps_ij = (u_i,j + u_j,i)/2, the shear components doubled.
 std::vector<double> centre_strain(CellType type, std::span<const double> coordinates,
                                   std::span<const double> displacement) {
     const CellTopology& shape = topology(type);
     const auto dim = static_cast<std::size_t>(shape.dimension);
     const PhysicalGradient at_centre = physical_gradient(type, coordinates, centre(type));
-    std::vector<double> strain(dim == 2 ? 3 : 6, 0.0);
-    for (std::size_t a = 0; a < static_cast<std::size_t>(shape.nodes); ++a) {
-        const NodeStrain b = node_strain(shape.dimension, &at_centre.gradient[a * dim]);
-        for (std::size_t s = 0; s < strain.size(); ++s)
-            for (std::size_t i = 0; i < dim; ++i) strain[s] += b[s * dim + i] * displacement[a * dim + i];
-    }
+    std::vector<double> strain(strain_count(dim), 0.0);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(shape.nodes); ++a)
+        for (std::size_t i = 0; i < dim; ++i)
+            for (std::size_t j = 0; j < dim; ++j)
+                strain[voigt(dim, i, j)] += at_centre.gradient[a * dim + j] * displacement[a * dim + i];
     return strain;
 }
 

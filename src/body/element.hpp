@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Isoparametric elements with full Gauss quadrature: stiffness and centre strains of a single cell. The shape
+// Isoparametric elements with full quadrature: stiffness and centre strains of a single cell. The shape
 // functions, and with them smallest_jacobian(), are the mesh's (mesh/shape.hpp).
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "body/model.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/shape.hpp"
 
 namespace delam {
 
-// Stiffness of a cell, row-major, DOFs dimension*local node + component; exactly symmetric.
-// coordinates: [nodes][dimension]; elasticity as of elasticity_matrix().
-std::vector<double> element_stiffness(CellType type, std::span<const double> coordinates,
-                                      std::span<const double> elasticity);
+// Stiffness of a cell, row-major into matrix[size*size], size = nodes*dimension; DOFs dimension*local node + component;
+// exactly symmetric. coordinates: [nodes][dimension]; elasticity as of elasticity_matrix(). Allocates nothing.
+void element_stiffness(CellType type, std::span<const double> coordinates, std::span<const double> elasticity,
+                       Formulation formulation, std::span<double> matrix);
 
 // Strains (engineering, order of elasticity_matrix) at the cell's centre from its nodal displacements
-// [nodes][dimension].
+// [nodes][dimension]. Internal modes are at rest there: it is the same in each formulation.
 std::vector<double> centre_strain(CellType type, std::span<const double> coordinates,
                                   std::span<const double> displacement);
 

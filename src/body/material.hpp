@@ -11,6 +11,8 @@ enum class Plane { strain, stress };
 struct Elastic {
     double young = 0.0;    // F/L2, > 0
     double poisson = 0.0;  // -1 < nu < 1/2
+
+    bool operator==(const Elastic& other) const = default;
 };
 
 // Row-major: 2D 3x3 over (xx, yy, 2xy), plane strain or stress; 3D 6x6 over (xx, yy, zz, 2xy, 2yz, 2zx).

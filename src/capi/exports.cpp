@@ -17,19 +17,17 @@ void give(const SparseMatrix& matrix, std::int64_t* row_starts, std::int64_t* co
     if (values != nullptr) std::copy(matrix.value.begin(), matrix.value.end(), values);
 }
 
-// The mesh of a problem is fixed; materials and the plane assumption may change between two calls.
+// The mesh of a problem is fixed; what its bodies are made of may change between two calls.
 const SparseMatrix& body_matrix(const delam_problem& problem, std::int32_t body) {
     const Problem& core = *problem.core;
-    const std::optional<Elastic>& material = core.material[static_cast<std::size_t>(body)];
-    if (!material) {
+    if (!core.material[static_cast<std::size_t>(body)]) {
         fail(DELAM_ERROR_PROBLEM, "body ", core.mesh->body_label(body), ": no material (delam_problem_set_elastic)");
     }
+    const BodyModel model = core.model(body);
     delam_problem::BodyMatrix& last = problem.assembled;
-    if (last.body != body || last.young != material->young || last.poisson != material->poisson ||
-        last.plane != core.plane) {
-        SparseMatrix matrix = assemble_stiffness(*core.mesh, core.mesh->body_cells(body), core.mesh->body_nodes(body),
-                                                 *material, core.plane);
-        last = {body, material->young, material->poisson, core.plane, std::move(matrix)};
+    if (last.body != body || last.model != model) {
+        last = {body, model,
+                assemble_stiffness(*core.mesh, core.mesh->body_cells(body), core.mesh->body_nodes(body), model)};
     }
     return last.matrix;
 }

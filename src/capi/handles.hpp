@@ -17,7 +17,7 @@
 
 #include "base/error.hpp"
 #include "base/monitor.hpp"
-#include "body/material.hpp"
+#include "body/model.hpp"
 #include "delam/delam.h"
 #include "linalg/sparse.hpp"
 
@@ -63,9 +63,7 @@ struct delam_problem : delam::Handle<delam::magic_problem, delam::Problem> {
     // The stiffness asked for last (delam_problem_body_matrix is called for its sizes first); body -1: none.
     struct BodyMatrix {
         std::int32_t body = -1;
-        double young = 0.0;
-        double poisson = 0.0;
-        delam::Plane plane = delam::Plane::strain;
+        delam::BodyModel model;
         delam::SparseMatrix matrix;
     };
     mutable BodyMatrix assembled;

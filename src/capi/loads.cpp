@@ -206,10 +206,11 @@ int32_t delam_problem_prescribe_mean(delam_problem* problem, int64_t count, cons
         double sum = 0.0;
         std::vector<std::pair<std::int64_t, double>> members;
         for (std::int64_t i = 0; i < count; ++i) {
-            if (weights[i] <= 0.0) fail(DELAM_ERROR_ARGUMENT, "weights[", i, "] = ", weights[i], " must be > 0");
             members.emplace_back(require_node(*core.mesh, nodes[i], index_base, text("nodes[", i, "]")), weights[i]);
             sum += weights[i];
         }
+        // Weights of quadratic faces may be negative at their corners; their sum is the extent of the patch.
+        if (!(sum > 0.0)) fail(DELAM_ERROR_ARGUMENT, "weights: their sum is ", sum, ", must be > 0");
         std::sort(members.begin(), members.end());
         Constraint constraint;
         for (std::size_t i = 0; i < members.size(); ++i) {

@@ -20,8 +20,8 @@ std::span<const T> view(const T* data, std::int64_t count) {
 }
 
 CellType require_cell_type(std::int32_t type, std::int32_t dimension) {
-    if (type < DELAM_TRI3 || type > DELAM_HEX8) {
-        fail(DELAM_ERROR_ARGUMENT, "cell_type = ", type, " is outside ", DELAM_TRI3, " .. ", DELAM_HEX8);
+    if (type < DELAM_TRI3 || type > DELAM_HEX20) {
+        fail(DELAM_ERROR_ARGUMENT, "cell_type = ", type, " is outside ", DELAM_TRI3, " .. ", DELAM_HEX20);
     }
     const auto cell = static_cast<CellType>(type);
     if (topology(cell).dimension != dimension) {

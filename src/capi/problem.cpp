@@ -65,6 +65,27 @@ int32_t delam_problem_set_elastic(delam_problem* problem, int32_t body, double y
     });
 }
 
+int32_t delam_problem_set_formulation(delam_problem* problem, int32_t body, const char* formulation) {
+    return guard(problem, [&] {
+        require_pointer(formulation, "formulation");
+        const std::string word = formulation;
+        if (word != "standard" && word != "incompatible") {
+            fail(DELAM_ERROR_ARGUMENT, "formulation = '", word, "' is not known; known are standard, incompatible");
+        }
+        Problem& core = *problem->core;
+        const std::int32_t index = body < 0 ? -1 : core.mesh->body_of_label(body);
+        if (body != -1 && index < 0) fail(DELAM_ERROR_ARGUMENT, "body = ", body, ": no cell carries this label");
+        const Formulation chosen = word == "standard" ? Formulation::standard : Formulation::incompatible;
+        std::vector<Formulation> changed = core.formulation;
+        for (std::int32_t i = 0; i < core.mesh->body_count(); ++i) {
+            if (body != -1 && i != index) continue;
+            require_formulation(*core.mesh, i, chosen, DELAM_ERROR_ARGUMENT);
+            changed[static_cast<std::size_t>(i)] = chosen;
+        }
+        core.formulation = std::move(changed);
+    });
+}
+
 int32_t delam_problem_set_law(delam_problem* problem, int64_t interface_index, const delam_law* law) {
     return guard(problem, [&] {
         InterfaceProperties& interface = problem->core->interfaces[require_interface(*problem->core, interface_index)];

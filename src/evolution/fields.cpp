@@ -52,9 +52,9 @@ std::vector<double> field(const Solver& solver, const std::string& key, std::int
     if (key == "displacement") return solver.displacement();
     if (key == "reaction") return solver.reaction();
     if (key == "stress") {
-        std::vector<Elastic> materials;
-        for (const auto& m : problem.material) materials.push_back(*m);
-        return centre_stress(*problem.mesh, materials, problem.plane, solver.displacement());
+        std::vector<BodyModel> models;
+        for (std::int32_t body = 0; body < problem.mesh->body_count(); ++body) models.push_back(problem.model(body));
+        return centre_stress(*problem.mesh, models, solver.displacement());
     }
     const auto first = static_cast<std::size_t>(pair_range(solver, part).first);
     const auto columns = static_cast<std::size_t>(shape.columns);

@@ -12,7 +12,7 @@ namespace delam {
 namespace {
 
 struct Key {
-    std::array<std::int64_t, 4> node;  // ascending; unused entries at the end, beyond every node
+    std::array<std::int64_t, 4> node;  // corners, ascending; unused entries at the end, beyond every node
     std::int64_t place;                // i*stride + f
     bool operator==(const Key& other) const { return node == other.node; }
 };
@@ -26,30 +26,52 @@ bool opposite(std::span<const std::int64_t> a, std::span<const std::int64_t> b) 
 
 }  // namespace
 
-std::array<std::int64_t, 4> face_nodes(const Mesh& mesh, std::int64_t cell, int face) {
+std::array<std::int64_t, most_face_nodes> face_nodes(const Mesh& mesh, std::int64_t cell, int face) {
     const CellTopology& shape = topology(mesh.cell_type(cell));
     const auto& local = shape.face[at(face)];
-    std::array<std::int64_t, 4> nodes{};
+    std::array<std::int64_t, most_face_nodes> nodes{};
     for (std::size_t k = 0; k < at(shape.face_nodes); ++k) nodes[k] = mesh.cell(cell)[at(local[k])];
     return nodes;
 }
 
-// The half cross product of the diagonals of a quadrilateral holds for a warped one too: it depends on the boundary
-// alone.
+std::span<const FacePiece> face_pieces(int dimension, std::size_t face_nodes) {
+    static constexpr FacePiece edge2[] = {{2, {0, 1}}};
+    static constexpr FacePiece edge3[] = {{2, {0, 2}}, {2, {2, 1}}};
+    static constexpr FacePiece triangle3[] = {{3, {0, 1, 2}}};
+    static constexpr FacePiece triangle6[] = {{3, {0, 3, 5}}, {3, {3, 1, 4}}, {3, {5, 4, 2}}, {3, {3, 4, 5}}};
+    static constexpr FacePiece square4[] = {{4, {0, 1, 2, 3}}};
+    static constexpr FacePiece square8[] = {
+        {3, {0, 4, 7}}, {3, {4, 1, 5}}, {3, {5, 2, 6}}, {3, {6, 3, 7}}, {4, {4, 5, 6, 7}}};
+    if (dimension == 2) return face_nodes == 2 ? std::span<const FacePiece>(edge2) : edge3;
+    if (face_nodes == 3) return triangle3;
+    if (face_nodes == 4) return square4;
+    return face_nodes == 6 ? std::span<const FacePiece>(triangle6) : square8;
+}
+
+// In the plane, int n ds = the chord turned, whatever the edge does in between. In space, the half cross product of
+// the diagonals of a quadrilateral holds for a warped one too: it depends on the boundary alone.
 std::array<double, 3> area_vector(const Mesh& mesh, std::span<const std::int64_t> nodes) {
     if (mesh.dimension() == 2) {
         const auto p = mesh.node(nodes[0]);
         const auto q = mesh.node(nodes[1]);
         return {q[1] - p[1], p[0] - q[0], 0.0};
     }
-    const bool triangle = nodes.size() == 3;
-    const auto p = mesh.node(nodes[0]);
-    const auto q = mesh.node(nodes[1]);
-    const auto r = mesh.node(nodes[2]);
-    const auto s = mesh.node(nodes[triangle ? 0 : 3]);
-    const double u[3] = {r[0] - p[0], r[1] - p[1], r[2] - p[2]};
-    const double v[3] = {s[0] - q[0], s[1] - q[1], s[2] - q[2]};
-    return {0.5 * (u[1] * v[2] - u[2] * v[1]), 0.5 * (u[2] * v[0] - u[0] * v[2]), 0.5 * (u[0] * v[1] - u[1] * v[0])};
+    std::array<double, 3> sum{};
+    for (const FacePiece& piece : face_pieces(3, nodes.size())) {
+        const auto corner = [&](std::size_t k) { return mesh.node(nodes[at(piece.node[k])]); };
+        const auto p = corner(0);
+        const auto q = corner(1);
+        const auto r = corner(2);
+        const auto s = corner(piece.nodes == 3 ? 0 : 3);
+        const double u[3] = {r[0] - p[0], r[1] - p[1], r[2] - p[2]};
+        const double v[3] = {s[0] - q[0], s[1] - q[1], s[2] - q[2]};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3;
+            const std::size_t k = (i + 2) % 3;
+            sum[i] += 0.5 * (u[j] * v[k] - u[k] * v[j]);
+        }
+    }
+    return sum;
 }
 
 // Faces are gathered under their smallest node by a counting sort; the few that meet there are compared directly.
@@ -63,8 +85,9 @@ FaceTable match_faces(const Mesh& mesh, std::span<const std::int64_t> cells) {
         for (std::size_t i = 0; i < cells.size(); ++i) {
             const CellTopology& shape = topology(mesh.cell_type(cells[i]));
             for (int f = 0; f < shape.faces; ++f) {
-                Key key{face_nodes(mesh, cells[i], f), static_cast<std::int64_t>(i) * FaceTable::stride + f};
-                std::fill(key.node.begin() + shape.face_nodes, key.node.end(), none);
+                Key key{{none, none, none, none}, static_cast<std::int64_t>(i) * FaceTable::stride + f};
+                const auto nodes = face_nodes(mesh, cells[i], f);
+                std::copy_n(nodes.begin(), shape.face_corners, key.node.begin());
                 std::sort(key.node.begin(), key.node.end());
                 visit(key);
             }
@@ -78,10 +101,11 @@ FaceTable match_faces(const Mesh& mesh, std::span<const std::int64_t> cells) {
         each_face([&](const Key& key) { sorted[at(next[at(key.node[0])]++)] = key; });
     }
 
-    const auto walk = [&](std::int64_t place) {
+    const auto face_of = [&](std::int64_t place) {
         const std::int64_t cell = cells[at(place / FaceTable::stride)];
-        const auto nodes = face_nodes(mesh, cell, static_cast<int>(place % FaceTable::stride));
-        return std::vector<std::int64_t>(nodes.begin(), nodes.begin() + topology(mesh.cell_type(cell)).face_nodes);
+        const CellTopology& shape = topology(mesh.cell_type(cell));
+        return BoundaryFace{cell, shape.face_nodes, shape.face_corners,
+                            face_nodes(mesh, cell, static_cast<int>(place % FaceTable::stride))};
     };
     for (std::size_t n = 0; n + 1 < begin.size(); ++n) {
         for (std::size_t i = at(begin[n]); i < at(begin[n + 1]); ++i) {
@@ -91,9 +115,16 @@ FaceTable match_faces(const Mesh& mesh, std::span<const std::int64_t> cells) {
                 std::int64_t& there = table.neighbour[at(sorted[j].place)];
                 const std::int64_t a = sorted[i].place / FaceTable::stride;
                 const std::int64_t b = sorted[j].place / FaceTable::stride;
-                if (here >= 0 || there >= 0 || !opposite(walk(sorted[i].place), walk(sorted[j].place)))
+                const BoundaryFace face = face_of(sorted[i].place);
+                const BoundaryFace other = face_of(sorted[j].place);
+                if (here >= 0 || there >= 0 || !opposite(face.corner(), other.corner()))
                     fail(DELAM_ERROR_MESH, "cells ", cells[at(a)], " and ", cells[at(b)],
                          " lie on the same side of the face they share: they overlap");
+                if (face.nodes != other.nodes ||
+                    !std::is_permutation(face.middle().begin(), face.middle().end(), other.middle().begin()))
+                    fail(DELAM_ERROR_MESH, "cells ", cells[at(a)], " and ", cells[at(b)],
+                         " share the face with corner ", face.node[0],
+                         " but not its mid-side nodes: they do not fit together");
                 here = b;
                 there = a;
             }

@@ -15,7 +15,8 @@ struct InterfaceGeometry {
     std::vector<double> weight;  // [pairs] length (2D) or area (3D) that a pair stands for, > 0
     std::vector<double> frame;   // [pairs][dim][dim] rows: normal from a to b, tangent(s); orthonormal
     int nodes_per_face = 2;
-    // [faces][nodes_per_face] pair indices; triangles among quads repeat their last corner
+    // [faces][nodes_per_face] pair indices, corners then mid-sides; triangles among quadrilaterals repeat their last
+    // corner, also as the mid-side node of the side that has shrunk to it
     std::vector<std::int64_t> face;
 
     std::int64_t pair_count() const { return static_cast<std::int64_t>(node_a.size()); }

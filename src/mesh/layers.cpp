@@ -22,12 +22,25 @@ constexpr int one_cube[] = {0, 1, 2, 3, 4, 5, 6, 7};
 
 std::span<const int> split(CellType type) {
     switch (type) {
-        case CellType::tri3: return two_triangles;
-        case CellType::quad4: return one_square;
-        case CellType::tet4: return six_tetrahedra;
-        case CellType::hex8: break;
+        case CellType::tri3:
+        case CellType::tri6: return two_triangles;
+        case CellType::quad4:
+        case CellType::quad8:
+        case CellType::quad9: return one_square;
+        case CellType::tet4:
+        case CellType::tet10: return six_tetrahedra;
+        case CellType::hex8:
+        case CellType::hex20: break;
     }
     return one_cube;
+}
+
+// Quadratic cells have nodes midway between those of linear ones, on a lattice of half their size: all of its places
+// where simplices cross the boxes or squares have a centre, else only those on the edges of boxes, which lie midway in
+// one direction at most.
+bool on_lattice(CellType type, std::int64_t i, std::int64_t j, std::int64_t k) {
+    if (type != CellType::quad8 && type != CellType::hex20) return true;
+    return i % 2 + j % 2 + k % 2 <= 1;
 }
 
 void check(const char* what, std::size_t place, double value) {
@@ -56,58 +69,77 @@ Mesh make_layers(int dimension, std::span<const double> lengths, std::span<const
     if (thickness.empty()) fail(DELAM_ERROR_ARGUMENT, "layer_count 0: must be >= 1");
     if (layer_divisions.size() != thickness.size())
         fail(DELAM_ERROR_ARGUMENT, layer_divisions.size(), " layer_divisions for ", thickness.size(), " layers");
+    const std::int64_t order = topology(type).nodes > topology(type).corners ? 2 : 1;
+    const auto lattice = [order](std::int64_t cells) {
+        return static_cast<double>(order) * static_cast<double>(cells) + 1.0;
+    };
     double total = 0.0;
     double per_level = 1.0;
     for (std::size_t i = 0; i < across; ++i) {
         check("lengths", i, lengths[i]);
         check("divisions", i, divisions[i]);
-        per_level *= static_cast<double>(divisions[i]) + 1.0;
+        per_level *= lattice(divisions[i]);
     }
     for (std::size_t l = 0; l < thickness.size(); ++l) {
         check("thickness", l, thickness[l]);
         check("layer_divisions", l, layer_divisions[l]);
-        total += per_level * (static_cast<double>(layer_divisions[l]) + 1.0);
+        total += per_level * lattice(layer_divisions[l]);
     }
     if (total > 2e9) fail(DELAM_ERROR_ARGUMENT, total, " nodes: at most 2e9");
 
-    const std::int64_t nx = divisions[0];
-    const std::int64_t ny = dimension == 3 ? divisions[1] : 0;  // a plane block is one sheet of nodes
+    // The lattice of nodes: x, then y in space, then the axis of the stack; a plane block is one sheet.
+    const std::int64_t nx = order * divisions[0];
+    const std::int64_t ny = dimension == 3 ? order * divisions[1] : 0;
+    const std::int64_t row = nx + 1;
+    const std::int64_t level = row * (ny + 1);
+    const CellTopology& shape = topology(type);
+    const std::span<const int> cells = split(type);
     std::vector<double> nodes;
     std::vector<std::int64_t> connectivity;
     std::vector<std::int32_t> labels;
+    std::vector<std::int64_t> number;  // of the node at each place of a layer's lattice; -1: none
     nodes.reserve(at(static_cast<std::int64_t>(total) * dimension));
-    std::int64_t first = 0;
+    std::int64_t count = 0;
     double base = 0.0;
     for (std::size_t layer = 0; layer < thickness.size(); ++layer) {
-        const std::int64_t nz = layer_divisions[layer];
+        const std::int64_t nz = order * layer_divisions[layer];
         const double top = base + thickness[layer];
+        number.clear();
         for (std::int64_t k = 0; k <= nz; ++k) {
             const double z = k == nz ? top : base + even(thickness[layer], k, nz);
             for (std::int64_t j = 0; j <= ny; ++j) {
                 for (std::int64_t i = 0; i <= nx; ++i) {
+                    const bool there = on_lattice(type, i, j, k);
+                    number.push_back(there ? count++ : -1);
+                    if (!there) continue;
                     nodes.push_back(even(lengths[0], i, nx));
                     if (dimension == 3) nodes.push_back(even(lengths[1], j, ny));
                     nodes.push_back(z);
                 }
             }
         }
-        const std::int64_t row = nx + 1;
-        const std::int64_t level = row * (ny + 1);
-        for (std::int64_t k = 0; k < nz; ++k) {
-            for (std::int64_t j = 0; j < (dimension == 3 ? ny : 1); ++j) {
-                for (std::int64_t i = 0; i < nx; ++i) {
-                    const std::int64_t n = first + k * level + j * row + i;
-                    const std::int64_t up = dimension == 3 ? row : level;  // the second axis within a VTK face
-                    const std::int64_t corner[] = {n,         n + 1,         n + 1 + up,         n + up,
-                                                   n + level, n + 1 + level, n + 1 + up + level, n + up + level};
-                    const std::span<const int> cells = split(type);
-                    for (const int c : cells) connectivity.push_back(corner[c]);
-                    labels.insert(labels.end(), cells.size() / at(topology(type).nodes),
-                                  static_cast<std::int32_t>(layer));
+        const std::int64_t right = order;
+        const std::int64_t above = order * level;
+        const std::int64_t back = dimension == 3 ? order * row : above;  // the second axis within a VTK face
+        for (std::int64_t k = 0; k < nz; k += order) {
+            for (std::int64_t j = 0; j < (dimension == 3 ? ny : 1); j += order) {
+                for (std::int64_t i = 0; i < nx; i += order) {
+                    const std::int64_t n = k * level + j * row + i;
+                    const std::int64_t corner[] = {
+                        n,         n + right,         n + right + back,         n + back,
+                        n + above, n + right + above, n + right + back + above, n + back + above};
+                    for (std::size_t c = 0; c < cells.size(); c += at(shape.corners)) {
+                        const auto place = [&](int local) { return corner[cells[c + at(local)]]; };
+                        for (int a = 0; a < shape.corners; ++a) connectivity.push_back(number[at(place(a))]);
+                        for (int m = 0; m < shape.nodes - shape.corners; ++m) {
+                            const auto& [a, b] = shape.middle[at(m)];
+                            connectivity.push_back(number[at((place(a) + place(b)) / 2)]);
+                        }
+                        labels.push_back(static_cast<std::int32_t>(layer));
+                    }
                 }
             }
         }
-        first += level * (nz + 1);
         base = top;
     }
     Mesh mesh(dimension, nodes);

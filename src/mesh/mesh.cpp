@@ -11,21 +11,6 @@
 
 namespace delam {
 
-const CellTopology& topology(CellType type) {
-    static constexpr CellTopology tri3{2, 3, 3, 2, {{{0, 1}, {1, 2}, {2, 0}}}};
-    static constexpr CellTopology quad4{2, 4, 4, 2, {{{0, 1}, {1, 2}, {2, 3}, {3, 0}}}};
-    static constexpr CellTopology tet4{3, 4, 4, 3, {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}}};
-    static constexpr CellTopology hex8{
-        3, 8, 6, 4, {{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}}};
-    switch (type) {
-        case CellType::tri3: return tri3;
-        case CellType::quad4: return quad4;
-        case CellType::tet4: return tet4;
-        case CellType::hex8: return hex8;
-    }
-    fail(DELAM_ERROR_ARGUMENT, "cell type ", static_cast<std::int32_t>(type), ": must be 1 (tri3) .. 4 (hex8)");
-}
-
 Mesh::Mesh(int dimension, std::span<const double> nodes) : dimension_(dimension), nodes_(nodes.begin(), nodes.end()) {
     if (dimension != 2 && dimension != 3) fail(DELAM_ERROR_ARGUMENT, "dimension ", dimension, ": must be 2 or 3");
     if (nodes.empty() || nodes.size() % at(dimension) != 0)
@@ -179,7 +164,7 @@ std::vector<BoundaryFace> boundary_faces(const Mesh& mesh, std::int32_t body) {
         const CellTopology& shape = topology(mesh.cell_type(cells[i]));
         for (int f = 0; f < shape.faces; ++f)
             if (table.neighbour[i * at(FaceTable::stride) + at(f)] < 0)
-                faces.push_back({cells[i], shape.face_nodes, face_nodes(mesh, cells[i], f)});
+                faces.push_back({cells[i], shape.face_nodes, shape.face_corners, face_nodes(mesh, cells[i], f)});
     }
     return faces;
 }

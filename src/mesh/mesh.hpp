@@ -11,15 +11,25 @@
 
 namespace delam {
 
-enum class CellType : std::int32_t { tri3 = 1, quad4 = 2, tet4 = 3, hex8 = 4 };  // values of DELAM_TRI3 ...
+// Values of DELAM_TRI3 ...
+enum class CellType : std::int32_t {
+    tri3 = 1, quad4 = 2, tet4 = 3, hex8 = 4, tri6 = 5, quad8 = 6, quad9 = 7, tet10 = 8, hex20 = 9
+};
+inline constexpr std::size_t most_cell_nodes = 20;
+inline constexpr std::size_t most_face_nodes = 8;
 
-// Corners of a cell; its faces (edges in 2D) as lists of local nodes, outward when walked in order.
+// Nodes of a cell: its corners, then those midway between two corners. Its faces (edges in 2D) as lists of local
+// nodes: corners, outward when walked in order, then the mid-side nodes, the k-th between corners k and k+1.
 struct CellTopology {
+    const char* name;
     int dimension;
     int nodes;
+    int corners;
     int faces;
     int face_nodes;
-    std::array<std::array<int, 4>, 6> face;  // first face_nodes entries are used
+    int face_corners;
+    std::array<std::array<int, most_face_nodes>, 6> face;  // first face_nodes entries are used
+    std::array<std::array<int, 2>, 12> middle;             // node corners+k sits between corners middle[k]
 };
 const CellTopology& topology(CellType type);
 
@@ -78,11 +88,16 @@ private:
     std::vector<InterfaceGeometry> interfaces_;
 };
 
-// A face that one cell alone has: cell, its nodes (outward), in order of cells and local faces.
+// A face that one cell alone has: cell, its nodes (corners outward, then mid-sides), in order of cells and local faces.
 struct BoundaryFace {
     std::int64_t cell;
     int nodes;
-    std::array<std::int64_t, 4> node;
+    int corners;
+    std::array<std::int64_t, most_face_nodes> node;
+
+    std::span<const std::int64_t> all() const { return std::span(node).first(static_cast<std::size_t>(nodes)); }
+    std::span<const std::int64_t> corner() const { return all().first(static_cast<std::size_t>(corners)); }
+    std::span<const std::int64_t> middle() const { return all().subspan(static_cast<std::size_t>(corners)); }
 };
 std::vector<BoundaryFace> boundary_faces(const Mesh& mesh, std::int32_t body);
 

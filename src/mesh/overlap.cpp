@@ -19,8 +19,6 @@ Point cross(const Point& a, const Point& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-std::span<const std::int64_t> nodes_of(const BoundaryFace& face) { return std::span(face.node).first(at(face.nodes)); }
-
 Point position(const Mesh& mesh, std::int64_t node) {
     Point p{};
     std::copy(mesh.node(node).begin(), mesh.node(node).end(), p.begin());
@@ -28,7 +26,7 @@ Point position(const Mesh& mesh, std::int64_t node) {
 }
 
 Point unit_normal(const Mesh& mesh, const BoundaryFace& face) {
-    Point n = area_vector(mesh, nodes_of(face));
+    Point n = area_vector(mesh, face.all());
     const double length = std::sqrt(dot(n, n));
     for (double& component : n) component /= length;
     return n;
@@ -53,14 +51,17 @@ bool on_triangle(const Point& p, const Point& a, const Point& b, const Point& c,
 }
 
 bool on_face(const Mesh& mesh, const BoundaryFace& face, const Point& p, double distance) {
-    std::array<Point, 4> x{};
-    for (std::size_t k = 0; k < at(face.nodes); ++k) x[k] = position(mesh, face.node[k]);
-    if (face.nodes == 2) return on_segment(p, x[0], x[1], distance);
-    return on_triangle(p, x[0], x[1], x[2], distance) ||
-           (face.nodes == 4 && on_triangle(p, x[0], x[2], x[3], distance));
+    const auto pieces = face_pieces(mesh.dimension(), face.all().size());
+    return std::any_of(pieces.begin(), pieces.end(), [&](const FacePiece& piece) {
+        std::array<Point, 4> x{};
+        for (std::size_t k = 0; k < at(piece.nodes); ++k) x[k] = position(mesh, face.node[at(piece.node[k])]);
+        if (piece.nodes == 2) return on_segment(p, x[0], x[1], distance);
+        return on_triangle(p, x[0], x[1], x[2], distance) ||
+               (piece.nodes == 4 && on_triangle(p, x[0], x[2], x[3], distance));
+    });
 }
 
-// One way round: the centroid of a face, and its corners drawn in by a thousandth, so that faces which only touch along
+// One way round: the centroid of a face, and its nodes drawn in by a thousandth, so that faces which only touch along
 // their rim do not count.
 std::pair<std::int64_t, std::int64_t> find_covered(const Mesh& mesh, std::span<const BoundaryFace> under,
                                                    std::span<const BoundaryFace> over, double distance) {
@@ -68,7 +69,7 @@ std::pair<std::int64_t, std::int64_t> find_covered(const Mesh& mesh, std::span<c
     boxes.reserve(under.size());
     for (const BoundaryFace& face : under) {
         Box box{position(mesh, face.node[0]), position(mesh, face.node[0])};
-        for (const std::int64_t node : nodes_of(face)) {
+        for (const std::int64_t node : face.all()) {
             const Point p = position(mesh, node);
             for (std::size_t i = 0; i < 3; ++i) {
                 box.low[i] = std::min(box.low[i], p[i]);
@@ -85,10 +86,10 @@ std::pair<std::int64_t, std::int64_t> find_covered(const Mesh& mesh, std::span<c
     for (std::size_t f = 0; f < over.size(); ++f) {
         const Point normal = unit_normal(mesh, over[f]);
         Point centroid{};
-        for (const std::int64_t node : nodes_of(over[f]))
+        for (const std::int64_t node : over[f].all())
             for (std::size_t i = 0; i < 3; ++i) centroid[i] += position(mesh, node)[i] / over[f].nodes;
         std::vector<Point> probes{centroid};
-        for (const std::int64_t node : nodes_of(over[f])) {
+        for (const std::int64_t node : over[f].all()) {
             const Point p = position(mesh, node);
             Point q;
             for (std::size_t i = 0; i < 3; ++i) q[i] = p[i] + 1e-3 * (centroid[i] - p[i]);

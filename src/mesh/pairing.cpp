@@ -14,14 +14,12 @@
 #include "mesh/box_tree.hpp"
 #include "mesh/faces.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/nodal_rule.hpp"
 #include "mesh/overlap.hpp"
-#include "mesh/shape.hpp"
 
 namespace delam {
 
 namespace {
-
-std::span<const std::int64_t> nodes_of(const BoundaryFace& face) { return std::span(face.node).first(at(face.nodes)); }
 
 Point position(const Mesh& mesh, std::int64_t node) {
     Point p{};
@@ -34,16 +32,29 @@ std::string place(const Mesh& mesh, std::int64_t node) {
     return p.size() == 2 ? text("(", p[0], ", ", p[1], ")") : text("(", p[0], ", ", p[1], ", ", p[2], ")");
 }
 
+// Between neighbouring nodes: of a quadratic cell, from a corner to the mid-side node.
 double shortest_edge(const Mesh& mesh, std::int32_t body) {
     double shortest = std::numeric_limits<double>::infinity();
+    const auto measure = [&](std::int64_t a, std::int64_t b) {
+        const Point p = position(mesh, a);
+        const Point q = position(mesh, b);
+        shortest = std::min(shortest, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+    };
     for (const std::int64_t c : mesh.body_cells(body)) {
         const CellTopology& shape = topology(mesh.cell_type(c));
+        const auto cell = mesh.cell(c);
+        const auto corners = at(shape.face_corners);
         for (std::size_t f = 0; f < at(shape.faces); ++f) {
-            for (std::size_t k = 0; k < at(shape.face_nodes); ++k) {
-                const int next = shape.face[f][(k + 1) % at(shape.face_nodes)];
-                const Point p = position(mesh, mesh.cell(c)[at(shape.face[f][k])]);
-                const Point q = position(mesh, mesh.cell(c)[at(next)]);
-                shortest = std::min(shortest, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+            for (std::size_t k = 0; k < corners; ++k) {
+                const std::int64_t here = cell[at(shape.face[f][k])];
+                const std::int64_t next = cell[at(shape.face[f][(k + 1) % corners])];
+                if (shape.face_nodes == shape.face_corners) {
+                    measure(here, next);
+                } else {
+                    const std::int64_t between = cell[at(shape.face[f][corners + (corners == 2 ? 0 : k)])];
+                    measure(here, between);
+                    measure(between, next);
+                }
             }
         }
     }
@@ -52,7 +63,7 @@ double shortest_edge(const Mesh& mesh, std::int32_t body) {
 
 std::vector<std::int64_t> distinct_nodes(std::span<const BoundaryFace> faces) {
     std::vector<std::int64_t> nodes;
-    for (const BoundaryFace& face : faces) nodes.insert(nodes.end(), nodes_of(face).begin(), nodes_of(face).end());
+    for (const BoundaryFace& face : faces) nodes.insert(nodes.end(), face.all().begin(), face.all().end());
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     return nodes;
@@ -94,11 +105,31 @@ struct Matching {
     std::vector<BoundaryFace> left_a, left_b;                   // faces without a match
 };
 
+// Two faces whose corners coincide are one face. A mid-side node of either that meets none of the other is an error:
+// named here, since such faces lie on each other as they should.
+void require_same_middle(const Mesh& mesh, const BoundaryFace& a, const BoundaryFace& b,
+                         std::span<const std::int64_t> partner) {
+    std::vector<std::int64_t> met;
+    const auto refuse = [&](std::int64_t node) {
+        fail(DELAM_ERROR_MESH, "the face that cells ", a.cell, " and ", b.cell, " of the two bodies share at ",
+             place(mesh, a.node[0]), ": mid-side node ", node, " at ", place(mesh, node),
+             " has no partner on the other side: the nodes do not match");
+    };
+    for (const std::int64_t node : b.middle()) {
+        const std::int64_t image = partner[at(node)];
+        if (std::find(a.middle().begin(), a.middle().end(), image) == a.middle().end()) refuse(node);
+        met.push_back(image);
+    }
+    for (const std::int64_t node : a.middle())
+        if (std::find(met.begin(), met.end(), node) == met.end()) refuse(node);
+}
+
+// Faces are found by their corners.
 Matching match_boundaries(const Mesh& mesh, std::span<const BoundaryFace> faces_a,
                           std::span<const BoundaryFace> faces_b, std::span<const std::int64_t> partner) {
     std::vector<std::pair<FaceKey, std::size_t>> known;
     known.reserve(faces_a.size());
-    for (std::size_t f = 0; f < faces_a.size(); ++f) known.emplace_back(sorted_key(nodes_of(faces_a[f])), f);
+    for (std::size_t f = 0; f < faces_a.size(); ++f) known.emplace_back(sorted_key(faces_a[f].corner()), f);
     std::sort(known.begin(), known.end());
 
     Matching m;
@@ -106,22 +137,23 @@ Matching match_boundaries(const Mesh& mesh, std::span<const BoundaryFace> faces_
     for (const BoundaryFace& face : faces_b) {
         std::array<std::int64_t, 4> image{};
         bool complete = true;
-        for (std::size_t k = 0; k < at(face.nodes); ++k) {
+        for (std::size_t k = 0; k < face.corner().size(); ++k) {
             image[k] = partner[at(face.node[k])];
             complete = complete && image[k] >= 0;
         }
-        const FaceKey key = sorted_key(std::span(image).first(at(face.nodes)));
+        const FaceKey key = sorted_key(std::span(image).first(face.corner().size()));
         const auto found = std::lower_bound(known.begin(), known.end(), std::pair(key, std::size_t{0}));
         if (!complete || found == known.end() || found->first != key) {
             m.left_b.push_back(face);
             continue;
         }
         const BoundaryFace& other = faces_a[found->second];
-        if (dot(area_vector(mesh, nodes_of(face)), area_vector(mesh, nodes_of(other))) >= 0.0)
+        if (dot(area_vector(mesh, face.all()), area_vector(mesh, other.all())) >= 0.0)
             fail(DELAM_ERROR_MESH, "cells ", other.cell, " and ", face.cell, " of the two bodies lie on the same side ",
                  "of the face they share at ", place(mesh, face.node[0]), ": the bodies overlap");
+        require_same_middle(mesh, other, face, partner);
         used[found->second] = 1;
-        for (std::size_t k = 0; k < at(face.nodes); ++k) m.node.emplace_back(image[k], face.node[k]);
+        for (const std::int64_t node : face.all()) m.node.emplace_back(partner[at(node)], node);
     }
     for (std::size_t f = 0; f < faces_a.size(); ++f) (used[f] ? m.on_a : m.left_a).push_back(faces_a[f]);
     std::sort(m.node.begin(), m.node.end());
@@ -152,37 +184,6 @@ std::vector<std::size_t> spatial_order(const Mesh& mesh, std::span<const std::pa
     return order;
 }
 
-// Integrals of the nodal shape functions over a face: the trapezoid on edges, a third each on triangles; on
-// quadrilaterals, by 2 x 2 Gauss points at which all N_a are positive,
-//     w_a = int N_a |x_xi x x_eta| dxi deta.
-std::array<double, 4> vertex_weights(const Mesh& mesh, std::span<const std::int64_t> nodes) {
-    std::array<double, 4> weights{};
-    if (nodes.size() != 4) {
-        const Point area = area_vector(mesh, nodes);
-        const auto count = static_cast<double>(nodes.size());
-        std::fill_n(weights.begin(), nodes.size(), std::hypot(area[0], area[1], area[2]) / count);
-        return weights;
-    }
-    const Quadrature gauss = quadrature(CellType::quad4);
-    const auto corner = corners(CellType::quad4);
-    for (const ReferencePoint& p : gauss.points) {
-        const ShapeGradient g = reference_gradient(CellType::quad4, p);
-        Point u{};
-        Point v{};
-        for (std::size_t a = 0; a < 4; ++a) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                const double x = mesh.node(nodes[a])[i] - mesh.node(nodes[0])[i];
-                u[i] += g[2 * a] * x;
-                v[i] += g[2 * a + 1] * x;
-            }
-        }
-        const double area = std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
-        for (std::size_t a = 0; a < 4; ++a)
-            weights[a] += gauss.weight * area * 0.25 * (1.0 + corner[a][0] * p[0]) * (1.0 + corner[a][1] * p[1]);
-    }
-    return weights;
-}
-
 // Rows normal, tangent(s). In the plane the tangent is the normal turned clockwise; in space the first one is the x
 // axis laid into the face, or the y axis where the normal is close to x, and the second completes a right-handed
 // frame.
@@ -205,6 +206,38 @@ void write_frame(int dimension, const Point& area, double* frame) {
     std::copy(std::begin(rows), std::end(rows), frame);
 }
 
+// A face as pairs: walked from its smallest pair (edges: from their first corner on), so that neither weights nor order
+// depend on how the host numbered its cells.
+struct PairFace {
+    std::vector<std::int64_t> pair;  // corners, then mid-sides
+    std::size_t corners;
+    bool operator<(const PairFace& other) const { return pair < other.pair; }
+};
+
+PairFace pair_face(const BoundaryFace& face, const std::map<std::int64_t, std::int64_t>& index) {
+    PairFace result{{}, face.corner().size()};
+    for (const std::int64_t node : face.all()) result.pair.push_back(index.at(node));
+    if (result.corners == 2) return result;
+    const auto first = result.pair.begin();
+    const auto middle = first + static_cast<std::ptrdiff_t>(result.corners);
+    const auto turn = std::min_element(first, middle) - first;
+    std::rotate(first, first + turn, middle);
+    if (middle != result.pair.end()) std::rotate(middle, middle + turn, result.pair.end());
+    return result;
+}
+
+// The face in the list of an interface whose largest faces have more corners: the last corner is repeated, and where
+// there is no mid-side node, the corner before it stands in.
+void append_padded(const PairFace& face, std::size_t corners, std::size_t nodes, std::vector<std::int64_t>& out) {
+    const std::size_t own = face.corners;
+    for (std::size_t k = 0; k < corners; ++k) out.push_back(face.pair[std::min(k, own - 1)]);
+    for (std::size_t side = 0; side < nodes - corners; ++side) {
+        const std::size_t mine = side + 1 == corners ? own - 1 : side;  // the last side closes either polygon
+        const bool there = own + mine < face.pair.size() && (side + 1 < own || side + 1 == corners);
+        out.push_back(there ? face.pair[own + mine] : face.pair[std::min(side, own - 1)]);
+    }
+}
+
 InterfaceGeometry geometry(const Mesh& mesh, const Matching& m, double distance) {
     InterfaceGeometry result;
     std::map<std::int64_t, std::int64_t> index;  // pair of a node of a
@@ -213,33 +246,30 @@ InterfaceGeometry geometry(const Mesh& mesh, const Matching& m, double distance)
         result.node_a.push_back(m.node[i].first);
         result.node_b.push_back(m.node[i].second);
     }
-    for (const BoundaryFace& face : m.on_a) result.nodes_per_face = std::max(result.nodes_per_face, face.nodes);
-
-    // Faces by their pairs, so that neither weights nor order depend on how the host numbered its cells.
-    std::vector<std::vector<std::int64_t>> faces;
+    std::size_t corners = 2;
+    bool quadratic = false;
+    std::vector<PairFace> faces;
     for (const BoundaryFace& face : m.on_a) {
-        std::vector<std::int64_t> pairs;
-        for (const std::int64_t node : nodes_of(face)) pairs.push_back(index.at(node));
-        if (face.nodes > 2) std::rotate(pairs.begin(), std::min_element(pairs.begin(), pairs.end()), pairs.end());
-        faces.push_back(std::move(pairs));
+        corners = std::max(corners, face.corner().size());
+        quadratic = quadratic || !face.middle().empty();
+        faces.push_back(pair_face(face, index));
     }
     std::sort(faces.begin(), faces.end());
+    const std::size_t nodes_per_face = !quadratic ? corners : corners == 2 ? 3 : 2 * corners;
+    result.nodes_per_face = static_cast<int>(nodes_per_face);
 
     const auto dim = at(mesh.dimension());
     result.weight.assign(result.node_a.size(), 0.0);
     std::vector<Point> area(result.node_a.size(), Point{});
-    for (const std::vector<std::int64_t>& pairs : faces) {
-        std::array<std::int64_t, 4> nodes{};
-        for (std::size_t k = 0; k < pairs.size(); ++k) nodes[k] = result.node_a[at(pairs[k])];
-        const auto face = std::span<const std::int64_t>(nodes).first(pairs.size());
-        const std::array<double, 4> weights = vertex_weights(mesh, face);
-        const Point vector = area_vector(mesh, face);
-        for (std::size_t k = 0; k < pairs.size(); ++k) {
-            result.weight[at(pairs[k])] += weights[k];
-            for (std::size_t i = 0; i < 3; ++i) area[at(pairs[k])][i] += vector[i];
+    for (const PairFace& face : faces) {
+        std::array<std::int64_t, most_face_nodes> nodes{};
+        for (std::size_t k = 0; k < face.pair.size(); ++k) nodes[k] = result.node_a[at(face.pair[k])];
+        const NodalRule rule = nodal_rule(mesh, std::span<const std::int64_t>(nodes).first(face.pair.size()));
+        for (std::size_t k = 0; k < face.pair.size(); ++k) {
+            result.weight[at(face.pair[k])] += rule.weight[k];
+            for (std::size_t i = 0; i < 3; ++i) area[at(face.pair[k])][i] += rule.area[k][i];
         }
-        for (std::size_t k = 0; k < at(result.nodes_per_face); ++k)
-            result.face.push_back(pairs[std::min(k, pairs.size() - 1)]);
+        append_padded(face, corners, nodes_per_face, result.face);
     }
     result.frame.resize(result.node_a.size() * dim * dim);
     for (std::size_t p = 0; p < result.node_a.size(); ++p) {

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
+#include "mesh/shape.hpp"
 
 namespace delam {
 
@@ -106,9 +107,105 @@ public:
         weight[at(nodes[1])] += length * middle;
     }
 
+    // A 3-node edge x(xi) = m + c xi + d xi^2: where it crosses the sides of the box it is cut, and what lies inside is
+    // integrated by 5 Gauss points. Exact for straight edges, up to rounding for moderately curved ones.
+    void add_quadratic_edge(std::span<const std::int64_t> nodes, std::span<double> weight) const {
+        const auto p = mesh_.node(nodes[0]);
+        const auto q = mesh_.node(nodes[1]);
+        const auto m = mesh_.node(nodes[2]);
+        double c[2];
+        double d[2];
+        for (std::size_t i = 0; i < 2; ++i) {
+            c[i] = 0.5 * (q[i] - p[i]);
+            d[i] = 0.5 * ((p[i] - m[i]) + (q[i] - m[i]));
+        }
+        std::vector<double> cuts{-1.0, 1.0};
+        for (std::size_t i = 0; i < 2; ++i) {
+            if (!cut_[i]) continue;
+            for (const double bound : {lower_[i], upper_[i]}) {  // roots of d xi^2 + c xi + (m - bound), without loss
+                const double square = c[i] * c[i] - 4.0 * d[i] * (m[i] - bound);
+                if (!(square >= 0.0)) continue;
+                const double half = -0.5 * (c[i] + std::copysign(std::sqrt(square), c[i]));
+                for (const double root : {half / d[i], (m[i] - bound) / half})
+                    if (root > -1.0 && root < 1.0) cuts.push_back(root);
+            }
+        }
+        std::sort(cuts.begin(), cuts.end());
+        constexpr double point[] = {-0.90617984593866399280, -0.53846931010568309104, 0.0, 0.53846931010568309104,
+                                    0.90617984593866399280};
+        constexpr double gauss[] = {0.23692688505618908751, 0.47862867049936646804, 0.56888888888888888889,
+                                    0.47862867049936646804, 0.23692688505618908751};
+        for (std::size_t k = 1; k < cuts.size(); ++k) {
+            const double half = 0.5 * (cuts[k] - cuts[k - 1]);
+            const double middle = cuts[k - 1] + half;
+            bool inside = half > sliver;
+            for (std::size_t i = 0; i < 2; ++i) {
+                const double x = m[i] + middle * (c[i] + middle * d[i]);
+                inside = inside && (!cut_[i] || (x >= lower_[i] && x <= upper_[i]));
+            }
+            if (!inside) continue;
+            for (std::size_t g = 0; g < 5; ++g) {
+                const double xi = middle + half * point[g];
+                const double ds = half * gauss[g] * std::hypot(c[0] + 2.0 * xi * d[0], c[1] + 2.0 * xi * d[1]);
+                weight[at(nodes[0])] += ds * 0.5 * xi * (xi - 1.0);
+                weight[at(nodes[1])] += ds * 0.5 * xi * (xi + 1.0);
+                weight[at(nodes[2])] += ds * (1.0 - xi * xi);
+            }
+        }
+    }
+
     // Linear functions are integrated exactly over a triangle by their mean at the corners; the clipped polygon
     // is a fan.
     void add_triangle(const std::array<std::int64_t, 3>& nodes, double factor, std::span<double> weight) const {
+        clipped_fan(nodes, [&](const Vertex& a, const Vertex& b, const Vertex& c, double area) {
+            for (std::size_t i = 0; i < 3; ++i)
+                weight[at(nodes[i])] += factor * area * (a.share[i] + b.share[i] + c.share[i]) / 3.0;
+        });
+    }
+
+    // A 6- or 8-node face as triangles between its nodes. Within a triangle the reference coordinates are linear in
+    // space, so that on a flat face with straight, evenly divided sides the integrals of its shape functions, of degree
+    // 3 at most, are exact; on a curved one they sum to the area of the triangles.
+    void add_quadratic_face(std::span<const std::int64_t> nodes, std::span<double> weight) const {
+        const CellType type = nodes.size() == 6 ? CellType::tri6 : CellType::quad8;
+        const auto place = reference_nodes(type);
+        const auto add = [&](const std::array<int, 3>& local, double factor) {
+            const auto at_share = [&](const std::array<double, 3>& share) {
+                ReferencePoint xi{};
+                for (std::size_t k = 0; k < 3; ++k)
+                    for (std::size_t i = 0; i < 2; ++i) xi[i] += share[k] * place[at(local[k])][i];
+                return shape_values(type, xi);
+            };
+            const std::array<std::int64_t, 3> corner{nodes[at(local[0])], nodes[at(local[1])], nodes[at(local[2])]};
+            clipped_fan(corner, [&](const Vertex& a, const Vertex& b, const Vertex& c, double area) {
+                // Exact to degree 3: 3/60 of each corner, 8/60 of each middle, 27/60 of the centre.
+                const double rule[7][4] = {{1, 0, 0, 3}, {0, 1, 0, 3}, {0, 0, 1, 3}, {0.5, 0.5, 0, 8},
+                                           {0, 0.5, 0.5, 8}, {0.5, 0, 0.5, 8}, {1.0 / 3, 1.0 / 3, 1.0 / 3, 27}};
+                for (const auto& r : rule) {
+                    std::array<double, 3> share;
+                    for (std::size_t i = 0; i < 3; ++i)
+                        share[i] = r[0] * a.share[i] + r[1] * b.share[i] + r[2] * c.share[i];
+                    const ShapeValues value = at_share(share);
+                    for (std::size_t n = 0; n < nodes.size(); ++n)
+                        weight[at(nodes[n])] += factor * area * r[3] / 60.0 * value[n];
+                }
+            });
+        };
+        for (const FacePiece& piece : face_pieces(3, nodes.size())) {
+            const auto& k = piece.node;
+            const double factor = piece.nodes == 3 ? 1.0 : 0.5;
+            add({k[0], k[1], k[2]}, factor);
+            if (piece.nodes == 3) continue;
+            add({k[0], k[2], k[3]}, factor);
+            add({k[0], k[1], k[3]}, factor);
+            add({k[1], k[2], k[3]}, factor);
+        }
+    }
+
+private:
+    // The part of a triangle in the box, as triangles around its first corner: visit(a, b, c, area).
+    template <class Visit>
+    void clipped_fan(const std::array<std::int64_t, 3>& nodes, Visit&& visit) const {
         std::vector<Vertex> polygon(3);
         for (std::size_t k = 0; k < 3; ++k) {
             std::copy(mesh_.node(nodes[k]).begin(), mesh_.node(nodes[k]).end(), polygon[k].x.begin());
@@ -121,17 +218,11 @@ public:
             polygon = clip(polygon, i, upper_[i], -1.0);
         }
         for (std::size_t k = 2; k < polygon.size(); ++k) {
-            const Vertex& a = polygon[0];
-            const Vertex& b = polygon[k - 1];
-            const Vertex& c = polygon[k];
-            const double area = measure(a, b, c);
-            if (!(area > sliver * whole)) continue;
-            for (std::size_t i = 0; i < 3; ++i)
-                weight[at(nodes[i])] += factor * area * (a.share[i] + b.share[i] + c.share[i]) / 3.0;
+            const double area = measure(polygon[0], polygon[k - 1], polygon[k]);
+            if (area > sliver * whole) visit(polygon[0], polygon[k - 1], polygon[k], area);
         }
     }
 
-private:
     static constexpr double sliver = 1e-12;  // shares of a face below this are rounding of the box's place
 
     const Mesh& mesh_;
@@ -169,14 +260,17 @@ Patch find_patch(const Mesh& mesh, std::int32_t body, std::span<const double> lo
     const double cosine = std::sqrt(0.5) - 1e-9;  // 45 degrees, the limit included
     for (std::int32_t b = body < 0 ? 0 : body; b < (body < 0 ? mesh.body_count() : body + 1); ++b) {
         for (const BoundaryFace& face : boundary_faces(mesh, b)) {
-            const auto nodes = std::span(face.node).first(at(face.nodes));
+            const auto nodes = face.all();
             if (!window.look_at(nodes)) continue;
             const auto area = area_vector(mesh, nodes);
             double along = 0.0;
             for (std::size_t i = 0; i < direction.size(); ++i) along += area[i] * (direction[i] / length);
             if (along < cosine * std::hypot(area[0], area[1], area[2])) continue;
+            const bool quadratic = face.nodes > face.corners;
+            if (quadratic && face.corners == 2) window.add_quadratic_edge(nodes, weight);
+            if (quadratic && face.corners > 2) window.add_quadratic_face(nodes, weight);
             if (face.nodes == 2) window.add_edge(nodes, weight);
-            if (face.nodes == 3) window.add_triangle({nodes[0], nodes[1], nodes[2]}, 1.0, weight);
+            if (!quadratic && face.nodes == 3) window.add_triangle({nodes[0], nodes[1], nodes[2]}, 1.0, weight);
             if (face.nodes == 4) {  // the mean of both ways to halve it: no corner is preferred
                 window.add_triangle({nodes[0], nodes[1], nodes[2]}, 0.5, weight);
                 window.add_triangle({nodes[0], nodes[2], nodes[3]}, 0.5, weight);
@@ -185,9 +279,12 @@ Patch find_patch(const Mesh& mesh, std::int32_t body, std::span<const double> lo
             }
         }
     }
+    // The corners of a 6-node triangle have no share at all, up to rounding.
+    double largest = 0.0;
+    for (const double w : weight) largest = std::max(largest, std::abs(w));
     Patch patch;
     for (std::int64_t n = 0; n < mesh.node_count(); ++n) {
-        if (!(weight[at(n)] > 0.0)) continue;
+        if (!(std::abs(weight[at(n)]) > 1e-13 * largest)) continue;
         patch.nodes.push_back(n);
         patch.weights.push_back(weight[at(n)]);
     }

@@ -16,7 +16,8 @@ std::vector<std::int64_t> find_nodes(const Mesh& mesh, std::int32_t body, std::s
 
 struct Patch {
     std::vector<std::int64_t> nodes;  // ascending
-    std::vector<double> weights;      // integral of the node's shape function over the part of the boundary in the box
+    // Integral of the node's shape function over the part of the boundary in the box: on quadratic cells some are < 0.
+    std::vector<double> weights;
 };
 Patch find_patch(const Mesh& mesh, std::int32_t body, std::span<const double> lower, std::span<const double> upper,
                  std::span<const double> direction);

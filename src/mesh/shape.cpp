@@ -2,6 +2,7 @@
 #include "mesh/shape.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace delam {
@@ -12,18 +13,173 @@ constexpr ReferencePoint simplex_corner[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0
 constexpr ReferencePoint square_corner[] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
 constexpr ReferencePoint cube_corner[] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                                           {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+constexpr ReferencePoint triangle_centre = {1.0 / 3.0, 1.0 / 3.0, 0};
+constexpr ReferencePoint tetrahedron_centre = {0.25, 0.25, 0.25};
+constexpr ReferencePoint cube_centre = {0, 0, 0};
 
-// Gauss points of order 3 per direction sit at +-1/sqrt(3): the corners, drawn in.
-constexpr double gauss = 0.57735026918962576451;
-constexpr ReferencePoint square_gauss[] = {
-    {-gauss, -gauss, 0}, {gauss, -gauss, 0}, {gauss, gauss, 0}, {-gauss, gauss, 0}};
-constexpr ReferencePoint cube_gauss[] = {{-gauss, -gauss, -gauss}, {gauss, -gauss, -gauss}, {gauss, gauss, -gauss},
-                                         {-gauss, gauss, -gauss},  {-gauss, -gauss, gauss}, {gauss, -gauss, gauss},
-                                         {gauss, gauss, gauss},    {-gauss, gauss, gauss}};
+constexpr int types = 9;
+constexpr CellType all_types[types] = {CellType::tri3,  CellType::quad4, CellType::tet4,
+                                       CellType::hex8,  CellType::tri6,  CellType::quad8,
+                                       CellType::quad9, CellType::tet10, CellType::hex20};
+std::size_t place(CellType type) { return static_cast<std::size_t>(type) - 1; }
 
-constexpr ReferencePoint triangle_centre[] = {{1.0 / 3.0, 1.0 / 3.0, 0}};
-constexpr ReferencePoint tetrahedron_centre[] = {{0.25, 0.25, 0.25}};
-constexpr ReferencePoint cube_centre[] = {{0, 0, 0}};
+bool simplex(CellType type) {
+    return type == CellType::tri3 || type == CellType::tet4 || type == CellType::tri6 || type == CellType::tet10;
+}
+
+std::vector<ReferencePoint> node_list(CellType type) {
+    const CellTopology& shape = topology(type);
+    const ReferencePoint* corner = simplex(type) ? simplex_corner : shape.dimension == 2 ? square_corner : cube_corner;
+    std::vector<ReferencePoint> nodes(corner, corner + shape.corners);
+    for (std::size_t k = 0; nodes.size() < static_cast<std::size_t>(shape.nodes); ++k) {
+        const ReferencePoint& p = corner[shape.middle[k][0]];
+        const ReferencePoint& q = corner[shape.middle[k][1]];
+        nodes.push_back({0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]), 0.5 * (p[2] + q[2])});
+    }
+    return nodes;
+}
+
+// Products of the rules of Gauss on [-1,1] with 2 points (exact to degree 3 in each direction) or 3 (degree 5).
+Quadrature gauss_product(int dimension, int order) {
+    const double two = 1.0 / std::sqrt(3.0);
+    const double three = std::sqrt(0.6);
+    const std::vector<double> x = order == 2 ? std::vector{-two, two} : std::vector{-three, 0.0, three};
+    const std::vector<double> w = order == 2 ? std::vector{1.0, 1.0} : std::vector{5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+    Quadrature rule;
+    for (std::size_t k = 0; k < (dimension == 3 ? x.size() : 1); ++k)
+        for (std::size_t j = 0; j < x.size(); ++j)
+            for (std::size_t i = 0; i < x.size(); ++i) {
+                rule.points.push_back({x[i], x[j], dimension == 3 ? x[k] : 0.0});
+                rule.weights.push_back(w[i] * w[j] * (dimension == 3 ? w[k] : 1.0));
+            }
+    return rule;
+}
+
+// What a rule has to integrate: the products of gradients, and for constant stress the gradients times the cofactors
+// of dx/dxi. On tri6 both have degree 2: three points. On tet10 they have degrees 2 and 3; the vertices (1/40 each of
+// the volume) and the centroids of the faces (9/40 each) are exact to degree 3 (Keast, Comput. Meth. Appl. Mech. Eng.
+// 55, 1986, lists such rules), where the familiar four points would unbalance curved cells. On quad8, quad9 and hex20
+// the degree in one variable is up to 4 and 5: three points in each direction; two would also leave motions without
+// energy.
+Quadrature rule_of(CellType type) {
+    const double s = 1.0 / 6.0;
+    const double t = 1.0 / 3.0;
+    switch (type) {
+        case CellType::tri3: return {{triangle_centre}, {0.5}, {}};
+        case CellType::tet4: return {{tetrahedron_centre}, {s}, {}};
+        case CellType::tri6: return {{{s, s, 0}, {4 * s, s, 0}, {s, 4 * s, 0}}, {s, s, s}, {}};
+        case CellType::tet10: {
+            const double vertex = s / 40.0;
+            const double face = 9.0 * s / 40.0;
+            return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {t, t, t}, {0, t, t}, {t, 0, t}, {t, t, 0}},
+                    {vertex, vertex, vertex, vertex, face, face, face, face},
+                    {}};
+        }
+        case CellType::quad4: return gauss_product(2, 2);
+        case CellType::quad8:
+        case CellType::quad9: return gauss_product(2, 3);
+        case CellType::hex8: return gauss_product(3, 2);
+        case CellType::hex20: break;
+    }
+    return gauss_product(3, 3);
+}
+
+// All that is known of a type before any cell: computed once.
+struct Reference {
+    std::vector<ReferencePoint> nodes;
+    Quadrature rule;
+    std::vector<ShapeGradient> checked;  // gradients at the quadrature points and nodes
+    ShapeGradient at_centre;
+};
+
+const Reference& reference(CellType type) {
+    static const std::vector<Reference> list = [] {
+        std::vector<Reference> made;
+        for (const CellType t : all_types) {
+            Reference r{node_list(t), rule_of(t), {}, reference_gradient(t, centre(t))};
+            for (const ReferencePoint& p : r.rule.points) r.rule.gradients.push_back(reference_gradient(t, p));
+            r.checked = r.rule.gradients;
+            if (t != CellType::tri3 && t != CellType::tet4)
+                for (const ReferencePoint& p : r.nodes) r.checked.push_back(reference_gradient(t, p));
+            made.push_back(std::move(r));
+        }
+        return made;
+    }();
+    return list[place(type)];
+}
+
+// A shape function with its gradient.
+struct Shape {
+    double value;
+    ReferencePoint gradient;
+};
+
+// Barycentric coordinates L of a simplex: linear N_a = L_a; quadratic N_a = L_a (2 L_a - 1) at corners and
+// 4 L_a L_b midway between a and b.
+Shape simplex_shape(const CellTopology& cell, std::size_t node, const ReferencePoint& at) {
+    const auto barycentric = [&](std::size_t a) -> Shape {
+        if (a == 0) return {1.0 - at[0] - at[1] - (cell.dimension == 3 ? at[2] : 0.0), {-1, -1, -1}};
+        Shape l{at[a - 1], {}};
+        l.gradient[a - 1] = 1.0;
+        return l;
+    };
+    const auto corners = static_cast<std::size_t>(cell.corners);
+    if (node < corners) {
+        Shape l = barycentric(node);
+        if (cell.nodes == cell.corners) return l;
+        for (double& g : l.gradient) g *= 4.0 * l.value - 1.0;
+        return {l.value * (2.0 * l.value - 1.0), l.gradient};
+    }
+    const auto& [a, b] = cell.middle[node - corners];
+    const Shape p = barycentric(static_cast<std::size_t>(a));
+    const Shape q = barycentric(static_cast<std::size_t>(b));
+    Shape n{4.0 * p.value * q.value, {}};
+    for (std::size_t i = 0; i < 3; ++i) n.gradient[i] = 4.0 * (p.gradient[i] * q.value + p.value * q.gradient[i]);
+    return n;
+}
+
+// Product of a factor for each direction; the serendipity corners carry one more factor (sum_i xi_i c_i - d + 1).
+Shape box_shape(CellType type, const CellTopology& cell, const ReferencePoint& c, const ReferencePoint& at) {
+    const auto dim = static_cast<std::size_t>(cell.dimension);
+    const double share = cell.dimension == 2 ? 0.25 : 0.125;
+    std::array<double, 3> f{1, 1, 1};
+    std::array<double, 3> df{0, 0, 0};
+    double scale = 1.0;
+    bool corner = true;
+    for (std::size_t i = 0; i < dim; ++i) {
+        const bool middle = c[i] == 0.0;
+        corner = corner && !middle;
+        if (type == CellType::quad9) {  // Lagrange polynomials in each direction
+            f[i] = middle ? 1.0 - at[i] * at[i] : 0.5 * at[i] * (at[i] + c[i]);
+            df[i] = middle ? -2.0 * at[i] : at[i] + 0.5 * c[i];
+        } else {
+            f[i] = middle ? 1.0 - at[i] * at[i] : 1.0 + c[i] * at[i];
+            df[i] = middle ? -2.0 * at[i] : c[i];
+        }
+    }
+    if (type != CellType::quad9) scale = corner ? share : 2.0 * share;
+    Shape n{scale * f[0] * f[1] * f[2],
+            {scale * df[0] * f[1] * f[2], scale * f[0] * df[1] * f[2], scale * f[0] * f[1] * df[2]}};
+    if (corner && (type == CellType::quad8 || type == CellType::hex20)) {
+        double more = 1.0 - static_cast<double>(dim);
+        for (std::size_t i = 0; i < dim; ++i) more += c[i] * at[i];
+        for (std::size_t i = 0; i < dim; ++i) n.gradient[i] = n.gradient[i] * more + n.value * c[i];
+        n.value *= more;
+    }
+    return n;
+}
+
+Shape shape(CellType type, std::size_t node, const ReferencePoint& at) {
+    const CellTopology& cell = topology(type);
+    if (simplex(type)) return simplex_shape(cell, node, at);
+    const auto corners = static_cast<std::size_t>(cell.corners);
+    const ReferencePoint* corner = cell.dimension == 2 ? square_corner : cube_corner;
+    if (node < corners) return box_shape(type, cell, corner[node], at);
+    ReferencePoint c;
+    for (std::size_t i = 0; i < 3; ++i)
+        c[i] = 0.5 * (corner[cell.middle[node - corners][0]][i] + corner[cell.middle[node - corners][1]][i]);
+    return box_shape(type, cell, c, at);
+}
 
 using Matrix3 = std::array<double, 9>;  // row-major, the leading dimension x dimension block in use, stride 3
 
@@ -50,8 +206,8 @@ Matrix3 inverse(int dimension, const Matrix3& j, double det) {
 }
 
 // Coordinates are taken relative to the first node: the sums above then do not cancel for a cell far from the origin.
-std::array<double, 24> local_coordinates(int dimension, std::span<const double> coordinates) {
-    std::array<double, 24> local{};
+ShapeGradient local_coordinates(int dimension, std::span<const double> coordinates) {
+    ShapeGradient local{};
     const auto dim = static_cast<std::size_t>(dimension);
     for (std::size_t i = 0; i < coordinates.size(); ++i) local[i] = coordinates[i] - coordinates[i % dim];
     return local;
@@ -59,88 +215,53 @@ std::array<double, 24> local_coordinates(int dimension, std::span<const double> 
 
 }  // namespace
 
-Quadrature quadrature(CellType type) {
-    switch (type) {
-        case CellType::tri3: return {triangle_centre, 0.5};
-        case CellType::quad4: return {square_gauss, 1.0};
-        case CellType::tet4: return {tetrahedron_centre, 1.0 / 6.0};
-        case CellType::hex8: break;
-    }
-    return {cube_gauss, 1.0};
-}
+const ShapeGradient& centre_gradient(CellType type) { return reference(type).at_centre; }
 
-std::span<const ReferencePoint> corners(CellType type) {
-    switch (type) {
-        case CellType::tri3: return std::span(simplex_corner).first(3);
-        case CellType::quad4: return square_corner;
-        case CellType::tet4: return simplex_corner;
-        case CellType::hex8: break;
-    }
-    return cube_corner;
-}
+const Quadrature& quadrature(CellType type) { return reference(type).rule; }
+
+std::span<const ReferencePoint> reference_nodes(CellType type) { return reference(type).nodes; }
 
 const ReferencePoint& centre(CellType type) {
-    switch (type) {
-        case CellType::tri3: return triangle_centre[0];
-        case CellType::tet4: return tetrahedron_centre[0];
-        case CellType::quad4:
-        case CellType::hex8: break;
-    }
-    return cube_centre[0];
+    if (!simplex(type)) return cube_centre;
+    return topology(type).dimension == 2 ? triangle_centre : tetrahedron_centre;
+}
+
+ShapeValues shape_values(CellType type, const ReferencePoint& at) {
+    ShapeValues n{};
+    for (std::size_t a = 0; a < static_cast<std::size_t>(topology(type).nodes); ++a) n[a] = shape(type, a, at).value;
+    return n;
 }
 
 ShapeGradient reference_gradient(CellType type, const ReferencePoint& at) {
-    const auto& [x, y, z] = at;
+    const CellTopology& cell = topology(type);
+    const auto dim = static_cast<std::size_t>(cell.dimension);
     ShapeGradient g{};
-    switch (type) {
-        case CellType::tri3: return {-1, -1, 1, 0, 0, 1};
-        case CellType::tet4: return {-1, -1, -1, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-        case CellType::quad4:
-            for (std::size_t a = 0; a < 4; ++a) {
-                const auto& [u, v, w] = square_corner[a];
-                g[2 * a] = 0.25 * u * (1.0 + v * y);
-                g[2 * a + 1] = 0.25 * (1.0 + u * x) * v;
-            }
-            break;
-        case CellType::hex8:
-            for (std::size_t a = 0; a < 8; ++a) {
-                const auto& [u, v, w] = cube_corner[a];
-                g[3 * a] = 0.125 * u * (1.0 + v * y) * (1.0 + w * z);
-                g[3 * a + 1] = 0.125 * (1.0 + u * x) * v * (1.0 + w * z);
-                g[3 * a + 2] = 0.125 * (1.0 + u * x) * (1.0 + v * y) * w;
-            }
-            break;
-    }
+    for (std::size_t a = 0; a < static_cast<std::size_t>(cell.nodes); ++a)
+        std::copy_n(shape(type, a, at).gradient.begin(), dim, g.begin() + static_cast<std::ptrdiff_t>(a * dim));
     return g;
 }
 
 PhysicalGradient physical_gradient(CellType type, std::span<const double> coordinates, const ReferencePoint& at) {
     const CellTopology& cell = topology(type);
     const auto dim = static_cast<std::size_t>(cell.dimension);
-    const ShapeGradient reference = reference_gradient(type, at);
-    const Matrix3 j = tangent(cell.dimension, cell.nodes, local_coordinates(cell.dimension, coordinates), reference);
+    const ShapeGradient on_reference = reference_gradient(type, at);
+    const Matrix3 j = tangent(cell.dimension, cell.nodes, local_coordinates(cell.dimension, coordinates), on_reference);
     PhysicalGradient result{{}, determinant(cell.dimension, j)};
     const Matrix3 inv = inverse(cell.dimension, j, result.jacobian);
     for (std::size_t a = 0; a < static_cast<std::size_t>(cell.nodes); ++a)
         for (std::size_t c = 0; c < dim; ++c)
             for (std::size_t r = 0; r < dim; ++r)
-                result.gradient[a * dim + c] += reference[a * dim + r] * inv[3 * r + c];
+                result.gradient[a * dim + c] += on_reference[a * dim + r] * inv[3 * r + c];
     return result;
 }
 
 double smallest_jacobian(CellType type, std::span<const double> coordinates) {
     const CellTopology& cell = topology(type);
-    const std::array<double, 24> local = local_coordinates(cell.dimension, coordinates);
+    const ShapeGradient local = local_coordinates(cell.dimension, coordinates);
     double smallest = std::numeric_limits<double>::infinity();
-    const auto visit = [&](std::span<const ReferencePoint> points) {
-        for (const ReferencePoint& p : points) {
-            const ShapeGradient gradient = reference_gradient(type, p);
-            smallest =
-                std::min(smallest, determinant(cell.dimension, tangent(cell.dimension, cell.nodes, local, gradient)));
-        }
-    };
-    visit(quadrature(type).points);
-    if (type == CellType::quad4 || type == CellType::hex8) visit(corners(type));
+    for (const ShapeGradient& gradient : reference(type).checked)
+        smallest =
+            std::min(smallest, determinant(cell.dimension, tangent(cell.dimension, cell.nodes, local, gradient)));
     return smallest;
 }
 

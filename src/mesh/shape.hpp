@@ -1,28 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shape functions of the four cell types on their reference cells: the triangle or tetrahedron with corners 0, e1, e2
-// (, e3), the square [-1,1]^2 and the cube [-1,1]^3; corners in the order of VTK.
+// Shape functions of the cell types on their reference cells: the triangle or tetrahedron with corners 0, e1, e2
+// (, e3), the square [-1,1]^2 and the cube [-1,1]^3; nodes in the order of VTK.
 #pragma once
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "mesh/mesh.hpp"
 
 namespace delam {
 
 using ReferencePoint = std::array<double, 3>;
+using ShapeValues = std::array<double, most_cell_nodes>;
+// dN/dxi or dN/dx: [nodes][dimension].
+using ShapeGradient = std::array<double, 3 * most_cell_nodes>;
 
-// Quadrature on the reference cell: Gauss, exact for the stiffness of an undistorted cell. Equal weights.
+// Gauss quadrature on the reference cell with the gradients dN/dxi at its points. It integrates the stiffness of an
+// undistorted cell exactly, and on any cell, curved ones included, int dN_a/dx dx: constant stresses are in balance
+// (the patch test). All weights are positive.
 struct Quadrature {
-    std::span<const ReferencePoint> points;
-    double weight;
+    std::vector<ReferencePoint> points;
+    std::vector<double> weights;
+    std::vector<ShapeGradient> gradients;
 };
-Quadrature quadrature(CellType type);
-std::span<const ReferencePoint> corners(CellType type);
-const ReferencePoint& centre(CellType type);
+const Quadrature& quadrature(CellType type);
 
-// dN/dxi at a reference point: [nodes][dimension].
-using ShapeGradient = std::array<double, 24>;
+// Where the nodes of a cell sit on its reference cell.
+std::span<const ReferencePoint> reference_nodes(CellType type);
+const ReferencePoint& centre(CellType type);
+const ShapeGradient& centre_gradient(CellType type);  // dN/dxi there
+
+ShapeValues shape_values(CellType type, const ReferencePoint& at);
 ShapeGradient reference_gradient(CellType type, const ReferencePoint& at);
 
 // dN/dx at a reference point, and the determinant of dx/dxi. coordinates: [nodes][dimension].
@@ -32,7 +41,7 @@ struct PhysicalGradient {
 };
 PhysicalGradient physical_gradient(CellType type, std::span<const double> coordinates, const ReferencePoint& at);
 
-// Smallest Jacobian determinant over the quadrature points and corners; <= 0: inverted or degenerate.
+// Smallest Jacobian determinant over the quadrature points and nodes; <= 0: inverted or degenerate.
 double smallest_jacobian(CellType type, std::span<const double> coordinates);
 
 }  // namespace delam

@@ -117,6 +117,7 @@ std::uint64_t hash(const Problem& problem) {
             fnv.add(material->poisson);
         }
     }
+    for (const Formulation formulation : problem.formulation) fnv.add(static_cast<std::int64_t>(formulation));
     for (const InterfaceProperties& interface : problem.interfaces) {
         fnv.add(interface.bonded);
         fnv.add(interface.law.has_value());

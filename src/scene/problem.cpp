@@ -17,6 +17,7 @@ double Pattern::at(double time) const {
 
 Problem::Problem(std::shared_ptr<const Mesh> mesh_) : mesh(std::move(mesh_)) {
     material.resize(static_cast<std::size_t>(mesh->body_count()));
+    formulation.resize(material.size(), Formulation::standard);
     interfaces.resize(mesh->interfaces().size());
     for (std::size_t i = 0; i < interfaces.size(); ++i) {
         interfaces[i].adhesion.assign(static_cast<std::size_t>(mesh->interfaces()[i].pair_count()), 1.0);
@@ -27,6 +28,11 @@ std::int64_t Problem::pair_count() const {
     std::int64_t count = 0;
     for (const InterfaceGeometry& face : mesh->interfaces()) count += face.pair_count();
     return count;
+}
+
+BodyModel Problem::model(std::int32_t body) const {
+    const auto i = static_cast<std::size_t>(body);
+    return {*material[i], plane, formulation[i]};
 }
 
 std::vector<double> Problem::factors(double time) const {

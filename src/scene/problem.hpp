@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "body/material.hpp"
+#include "body/model.hpp"
 #include "interface/law.hpp"
 #include "linalg/sparse.hpp"
 #include "mesh/mesh.hpp"
@@ -52,6 +52,7 @@ struct Problem {
     std::shared_ptr<const Mesh> mesh;
     Plane plane = Plane::strain;
     std::vector<std::optional<Elastic>> material;  // [bodies]
+    std::vector<Formulation> formulation;          // [bodies]
     std::vector<InterfaceProperties> interfaces;
     std::vector<Pattern> patterns;
     std::vector<Constraint> constraints;
@@ -60,6 +61,8 @@ struct Problem {
 
     // DOFs of all pairs: rows of the jump, interface after interface, pair after pair, normal first.
     std::int64_t pair_count() const;
+    // Of a body whose material is there.
+    BodyModel model(std::int32_t body) const;
     std::int64_t jump_count() const { return pair_count() * mesh->dimension(); }
     std::vector<double> factors(double time) const;
     // Right-hand side coefficients [constraints][patterns], row-major.

@@ -24,6 +24,7 @@ void check_bodies(const Problem& problem) {
         if (!problem.material[static_cast<std::size_t>(body)]) {
             fail(DELAM_ERROR_PROBLEM, "body ", mesh.body_label(body), ": no material (delam_problem_set_elastic)");
         }
+        require_formulation(mesh, body, problem.formulation[static_cast<std::size_t>(body)], DELAM_ERROR_PROBLEM);
     }
 }
 

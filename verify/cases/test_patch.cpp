@@ -17,7 +17,9 @@ struct Shape {
     const char* name;
 };
 constexpr Shape shapes[] = {
-    {2, DELAM_TRI3, "tri3"}, {2, DELAM_QUAD4, "quad4"}, {3, DELAM_TET4, "tet4"}, {3, DELAM_HEX8, "hex8"}};
+    {2, DELAM_TRI3, "tri3"}, {2, DELAM_QUAD4, "quad4"}, {3, DELAM_TET4, "tet4"}, {3, DELAM_HEX8, "hex8"},
+    {2, DELAM_TRI6, "tri6"}, {2, DELAM_QUAD8, "quad8"}, {2, DELAM_QUAD9, "quad9"}, {3, DELAM_TET10, "tet10"},
+    {3, DELAM_HEX20, "hex20"}};
 constexpr int subdomain_counts[] = {1, 2, 3, 4, 5, 6, 7, 8};
 constexpr double young = 10e9;
 constexpr double poisson = 0.3;
@@ -166,16 +168,26 @@ CASE_TEST(compliant_interface_in_series) {
         const std::string where = std::string(shape.name) + ", " + std::to_string(subdomains) + " subdomains";
         const auto jump = solver.field("jump");
         const auto traction = solver.field("traction");
+        const double area = d == 2 ? corner[0] : corner[0] * corner[1];
+        const auto accepted = reference::accept(solver, reference::Exported(scene));
+        cases::expect_below(accepted.worst(), 1e-10, where + ": " + accepted.text());
+        // The corners of these faces bear no uniform traction (see test_reference): exact in equilibrium only.
+        if (shape.cell == DELAM_TET10 || shape.cell == DELAM_HEX20) {
+            const auto weight = scene.pairs(0).weight;
+            double force = 0.0;
+            for (std::size_t p = 0; p < weight.size(); ++p) force += weight[p] * traction[p * d];
+            const double reaction = solver.value("reaction:pull");
+            cases::expect_near(force, reaction, 1e-10, t * area, where + ": sum of tractions");
+            cases::expect_near(reaction, t * area, 0.1, t * area, where + ": reaction");
+            continue;
+        }
         for (std::size_t i = 0; i < jump.size(); ++i) {
             cases::expect_near(jump[i], i % d == 0 ? t / k : 0.0, 1e-10, t / k, where + ": jump");
             cases::expect_near(traction[i], i % d == 0 ? t : 0.0, 1e-10, t, where + ": traction");
         }
-        const double area = d == 2 ? corner[0] : corner[0] * corner[1];
         cases::expect_near(solver.value("reaction:pull"), t * area, 1e-10, t * area, where + ": reaction");
         cases::expect_near(solver.value("stored_interface"), 0.5 * t * t / k * area, 1e-10, t * t / k * area,
                            where + ": energy");
-        const auto accepted = reference::accept(solver, reference::Exported(scene));
-        cases::expect_below(accepted.worst(), 1e-10, where + ": " + accepted.text());
     }
 }
 
@@ -184,9 +196,9 @@ CASE_TEST(compliant_interface_in_series) {
 int main() {
     Suite* suite = suite_create("patch");
     TCase* tests = tcase_create("two blocks");
-    tcase_add_loop_test(tests, bonded_blocks, 0, 4);
-    tcase_add_loop_test(tests, bonded_blocks_redundant, 0, 4);
-    tcase_add_loop_test(tests, compliant_interface_in_series, 0, 4);
+    tcase_add_loop_test(tests, bonded_blocks, 0, 9);
+    tcase_add_loop_test(tests, bonded_blocks_redundant, 0, 9);
+    tcase_add_loop_test(tests, compliant_interface_in_series, 0, 9);
     suite_add_tcase(suite, tests);
     return cases::run_suite(suite);
 }

@@ -15,10 +15,19 @@ constexpr double young = 70e9;
 constexpr double length = 0.3;
 constexpr double height = 0.25;
 
+bool in_plane(std::int32_t cell) {
+    return cell == DELAM_TRI3 || cell == DELAM_QUAD4 || cell == DELAM_TRI6 || cell == DELAM_QUAD8 || cell == DELAM_QUAD9;
+}
+
+// On the faces of tet10 and hex20 the forces of a uniform traction are not in the proportion of any positive nodal
+// weights (a corner gets none or a pull the other way): the traction of the pairs scatters around the exact one within a
+// cell's size, which makes the interface softer by about 0.2 h/E.
+bool scatters(std::int32_t cell) { return cell == DELAM_TET10 || cell == DELAM_HEX20; }
+
 // Two blocks without lateral contraction, the lower face held, the upper one driven by `w` along the stack. With
 // `redundant` supports both nodes of the pairs at the rim are held sideways.
 Scene stack(std::int32_t cell, double k, double w, bool hold_below, bool redundant) {
-    const int d = cell == DELAM_TRI3 || cell == DELAM_QUAD4 ? 2 : 3;
+    const int d = in_plane(cell) ? 2 : 3;
     const bool plane = d == 2;
     Scene scene(d, plane ? std::vector<double>{length} : std::vector<double>{length, length},
                 plane ? std::vector<std::int64_t>{4} : std::vector<std::int64_t>{3, 2}, {0.1, 0.15}, {2, 2}, cell);
@@ -47,9 +56,10 @@ Scene stack(std::int32_t cell, double k, double w, bool hold_below, bool redunda
     return scene;
 }
 
-constexpr std::int32_t cells[] = {DELAM_TRI3, DELAM_QUAD4, DELAM_TET4, DELAM_HEX8};
+constexpr std::int32_t cells[] = {DELAM_TRI3, DELAM_QUAD4, DELAM_TET4,  DELAM_HEX8, DELAM_TRI6,
+                                  DELAM_QUAD8, DELAM_QUAD9, DELAM_TET10, DELAM_HEX20};
 
-double area(std::int32_t cell) { return cell == DELAM_TRI3 || cell == DELAM_QUAD4 ? length : length * length; }
+double area(std::int32_t cell) { return in_plane(cell) ? length : length * length; }
 
 // Interfaces far softer than this see the rounding of the assembled matrices: the bulk's K u is then nothing but the
 // difference of numbers as large as E w / h, and a translation costs eps of them.
@@ -63,6 +73,11 @@ CASE_TEST(tension_at_any_stiffness) {
             const double t = w / (height / young + 1.0 / k);
             const auto d = static_cast<std::size_t>(scene.dimension());
             const std::string where = "k " + std::to_string(k) + ": ";
+            if (scatters(cells[loop])) {
+                const double force = t * area(cells[loop]);
+                cases::expect_near(state.pattern[0], force, 0.1, force, where + "reaction");
+                continue;
+            }
             for (std::size_t i = 0; i < state.jump.size(); ++i) {
                 const double exact = i % d == 0 ? t : 0.0;
                 cases::expect_near(state.traction[i], exact, 1e-12, t, where + "traction");
@@ -87,6 +102,11 @@ CASE_TEST(compression_closes) {
         DirectReference direct(scene);
         const auto state = direct.solve(1.0, std::vector<double>(scene.pair_count(), adhesion));
         const double pressure = -w * young / height;
+        if (scatters(cells[loop])) {
+            cases::expect_near(state.pattern[0], -pressure * area(cells[loop]), 0.1, pressure * area(cells[loop]),
+                               "reaction");
+            continue;
+        }
         const auto d = static_cast<std::size_t>(scene.dimension());
         for (std::size_t p = 0; p < state.contact.size(); ++p) {
             cases::expect(state.contact[p], "closed");
@@ -130,10 +150,10 @@ CASE_TEST(free_body_is_refused) {
 int main() {
     Suite* suite = suite_create("direct reference");
     TCase* tests = tcase_create("closed forms");
-    tcase_add_loop_test(tests, tension_at_any_stiffness, 0, 4);
-    tcase_add_loop_test(tests, compression_closes, 0, 4);
-    tcase_add_loop_test(tests, debonded_block_opens, 0, 4);
-    tcase_add_loop_test(tests, free_body_is_refused, 0, 4);
+    tcase_add_loop_test(tests, tension_at_any_stiffness, 0, 9);
+    tcase_add_loop_test(tests, compression_closes, 0, 9);
+    tcase_add_loop_test(tests, debonded_block_opens, 0, 9);
+    tcase_add_loop_test(tests, free_body_is_refused, 0, 9);
     suite_add_tcase(suite, tests);
     return cases::run_suite(suite);
 }

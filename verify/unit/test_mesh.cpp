@@ -32,7 +32,25 @@ using Labels = std::vector<std::int32_t>;
 using Indices = std::vector<std::int64_t>;
 using Numbers = std::vector<double>;
 
-constexpr CellType all_types[] = {CellType::tri3, CellType::quad4, CellType::tet4, CellType::hex8};
+constexpr CellType all_types[] = {CellType::tri3, CellType::quad4, CellType::tet4,  CellType::hex8, CellType::tri6,
+                                  CellType::quad8, CellType::quad9, CellType::tet10, CellType::hex20};
+
+bool quadratic(CellType type) { return topology(type).nodes > topology(type).corners; }
+bool triangles(CellType type) { return topology(type).face_corners == 3; }
+// Nodes in a box of n[0] x n[1] (x n[2]) boxes of a block, faces and edges shared.
+std::int64_t lattice_nodes(CellType type, std::vector<std::int64_t> n) {
+    std::int64_t corners = 1;
+    std::int64_t all = 1;
+    for (const std::int64_t k : n) {
+        corners *= k + 1;
+        all *= 2 * k + 1;
+    }
+    if (!quadratic(type)) return corners;
+    if (type != CellType::quad8 && type != CellType::hex20) return all;
+    std::int64_t edges = 0;  // each along one axis, between corners of the other ones
+    for (const std::int64_t k : n) edges += corners / (k + 1) * k;
+    return corners + edges;
+}
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
@@ -139,16 +157,22 @@ START_TEST(layered_blocks) {
         const Numbers lengths = plane ? Numbers{2.0} : Numbers{2.0, 1.5};
         const Indices divisions = plane ? Indices{5} : Indices{5, 4};
         Mesh mesh = layers(type, lengths, divisions, {0.3, 0.1, 0.2}, {2, 1, 3});
-        const std::int64_t level = plane ? 6 : 30;
         const std::int64_t boxes = plane ? 5 : 20;
-        const std::int64_t per_box = type == CellType::tri3 ? 2 : type == CellType::tet4 ? 6 : 1;
-        ck_assert_int_eq(mesh.node_count(), level * (3 + 2 + 4));
+        const std::int64_t per_box = type == CellType::tri3 || type == CellType::tri6 ? 2 : triangles(type) ? 6 : 1;
+        const auto nodes_of = [&](std::int64_t through) {
+            return lattice_nodes(type, plane ? Indices{5, through} : Indices{5, 4, through});
+        };
+        // On one level: hex20 has there what quad8 has in the plane, and tet10 a full lattice.
+        const std::int64_t level = plane ? (quadratic(type) ? 11 : 6)
+                                         : lattice_nodes(type == CellType::hex20 ? CellType::quad8 : type, {5, 4});
+        ck_assert_int_eq(mesh.node_count(), nodes_of(2) + nodes_of(1) + nodes_of(3));
         ck_assert_int_eq(mesh.cell_count(), boxes * per_box * (2 + 1 + 3));
         ck_assert_int_eq(mesh.body_count(), 3);
         ck_assert(mesh.size() == 2.0);
         // x fastest, the last axis slowest
-        ck_assert(mesh.node(1)[0] == 0.4 && mesh.node(1)[1] == 0.0);
-        ck_assert(mesh.node(level)[0] == 0.0 && std::abs(mesh.node(level)[plane ? 1 : 2] - 0.15) < 1e-15);
+        ck_assert(mesh.node(1)[0] == (quadratic(type) ? 0.2 : 0.4) && mesh.node(1)[1] == 0.0);
+        ck_assert(mesh.node(level)[0] == 0.0);
+        ck_assert(std::abs(mesh.node(level)[plane ? 1 : 2] - (quadratic(type) ? 0.075 : 0.15)) < 1e-15);
         // Boundary: closed, of the right extent.
         for (std::int32_t b = 0; b < 3; ++b) {
             const Numbers box{2.0, plane ? std::array{0.3, 0.1, 0.2}[at(b)] : 1.5, std::array{0.3, 0.1, 0.2}[at(b)]};
@@ -169,8 +193,8 @@ START_TEST(layered_blocks) {
         const InterfaceGeometry& down = mesh.interfaces()[1];
         for (const InterfaceGeometry* i : {&up, &down}) {
             ck_assert_int_eq(i->pair_count(), level);
-            ck_assert_int_eq(i->face_count(), type == CellType::tet4 ? 2 * boxes : boxes);
-            ck_assert_int_eq(i->nodes_per_face, plane ? 2 : type == CellType::tet4 ? 3 : 4);
+            ck_assert_int_eq(i->face_count(), triangles(type) ? 2 * boxes : boxes);
+            ck_assert_int_eq(i->nodes_per_face, topology(type).face_nodes);
             ck_assert(std::abs(sum(i->weight) - (plane ? 2.0 : 3.0)) <= 1e-14);
             ck_assert(*std::min_element(i->weight.begin(), i->weight.end()) > 0.0);
             check_frames(mesh, *i);
@@ -284,6 +308,205 @@ START_TEST(weights_of_distorted_faces) {
 }
 END_TEST
 
+// Rings of quadratic cells with their middle nodes on the circle: normals are radial to the fourth order of the cell's angle,
+// at middle nodes exactly, weights positive with the length of the circle.
+START_TEST(curved_cells) {
+    for (const CellType type : {CellType::quad8, CellType::quad9, CellType::tri6}) {
+        const int n = 24;
+        Mesh plain = layers(type, {2.0 * M_PI}, {n}, {0.5, 0.5}, {1, 1});
+        // Bent by (x, y) -> (1+y)(cos x, -sin x), upper half plane first; the ends meet but are not one.
+        Mesh mesh = rebuilt(plain, 4, [](std::span<double> x) {
+            const double radius = 1.0 + x[1];
+            const double angle = x[0];
+            x[0] = -radius * std::cos(angle);
+            x[1] = radius * std::sin(angle);
+        });
+        mesh.add_interface(0, 1, 0.0);
+        const InterfaceGeometry& i = mesh.interfaces()[0];
+        ck_assert_int_eq(i.nodes_per_face, 3);
+        ck_assert_int_eq(i.face_count(), n);
+        ck_assert(*std::min_element(i.weight.begin(), i.weight.end()) > 0.0);
+        ck_assert(std::abs(sum(i.weight) / (3.0 * M_PI) - 1.0) < 1e-5);
+        check_frames(mesh, i);
+        for (std::size_t p = 0; p < i.node_a.size(); ++p) {
+            const auto x = mesh.node(i.node_a[p]);
+            ck_assert(std::abs(i.frame[4 * p] - x[0] / 1.5) < 1e-2 && std::abs(i.frame[4 * p + 1] - x[1] / 1.5) < 1e-2);
+        }
+        for (std::size_t f = 0; f < at(i.face_count()); ++f) {
+            const std::size_t middle = at(i.face[3 * f + 2]);
+            const auto x = mesh.node(i.node_a[middle]);
+            ck_assert(std::abs(i.frame[4 * middle] - x[0] / 1.5) < 1e-13);
+            ck_assert(std::abs(i.frame[4 * middle + 1] - x[1] / 1.5) < 1e-13);
+        }
+    }
+}
+END_TEST
+
+// Weights of flat faces by hand; of faces with shifted middle nodes and of warped ones: positive, summing to the length,
+// to the area of what the nodes span.
+START_TEST(weights_of_quadratic_faces) {
+    const auto weights_of = [](CellType type, const std::function<void(std::span<double>)>& map) {
+        const bool plane = topology(type).dimension == 2;
+        Mesh mesh = rebuilt(layers(type, plane ? Numbers{1} : Numbers{1, 1}, plane ? Indices{1} : Indices{1, 1},
+                                   {1, 1}, {1, 1}), 0, map);
+        mesh.add_interface(0, 1, 0.0);
+        check_frames(mesh, mesh.interfaces()[0]);
+        return mesh.interfaces()[0];
+    };
+    for (const CellType type : {CellType::tri6, CellType::quad8, CellType::quad9}) {
+        const InterfaceGeometry simpson = weights_of(type, {});
+        ck_assert(simpson.face == (Indices{2, 0, 1}) || simpson.face == (Indices{0, 2, 1}));
+        const Numbers expected{1.0 / 6, 4.0 / 6, 1.0 / 6};
+        for (std::size_t p = 0; p < 3; ++p) ck_assert(std::abs(simpson.weight[p] - expected[p]) < 1e-15);
+        // The middle shifted along the edge: x'(-1) = 0.5 + 2 * 0.1, x'(1) = 0.5 - 0.2.
+        const InterfaceGeometry shifted = weights_of(type, [](std::span<double> x) {
+            if (x[0] == 0.5) x[0] += 0.1;
+        });
+        const Numbers off{0.7 / 3, 2.0 / 3, 0.3 / 3};
+        for (std::size_t p = 0; p < 3; ++p) ck_assert(std::abs(shifted.weight[p] - off[p]) < 1e-15);
+        // A parabola of height 0.1 over length 1: its arc in closed form.
+        const InterfaceGeometry bent = weights_of(type, [](std::span<double> x) { x[1] += 0.4 * x[0] * (1.0 - x[0]); });
+        const double s = 0.4;  // slope at the ends
+        const double arc = 0.5 * std::hypot(1.0, s) + std::asinh(s) / (2.0 * s);
+        ck_assert(std::abs(sum(bent.weight) - arc) < 2e-8);
+        ck_assert(bent.weight[0] > 0.0 && bent.weight[1] > 0.0);
+        ck_assert(std::abs(bent.frame[0] + s / std::hypot(1.0, s)) < 1e-14);
+    }
+    const InterfaceGeometry square = weights_of(CellType::hex20, {});
+    ck_assert_int_eq(square.nodes_per_face, 8);
+    const Numbers expected{1.0 / 24, 5.0 / 24, 1.0 / 24, 5.0 / 24, 5.0 / 24, 1.0 / 24, 5.0 / 24, 1.0 / 24};
+    for (std::size_t p = 0; p < 8; ++p) ck_assert(std::abs(square.weight[p] - expected[p]) < 1e-15);
+    const InterfaceGeometry triangle = weights_of(CellType::tet10, {});
+    ck_assert_int_eq(triangle.nodes_per_face, 6);
+    ck_assert(std::abs(sum(triangle.weight) - 1.0) < 1e-14);
+    for (std::size_t p = 0; p < 9; ++p) {  // corners 1/24 of a triangle of area 1/2, middles 1/8; diagonal pairs twice
+        const double w = triangle.weight[p] * 24.0;
+        ck_assert(std::abs(w - 1) < 1e-13 || std::abs(w - 2) < 1e-13 || std::abs(w - 3) < 1e-13 ||
+                  std::abs(w - 6) < 1e-13);
+    }
+    for (const CellType type : {CellType::tet10, CellType::hex20}) {
+        const InterfaceGeometry warped = weights_of(type, [](std::span<double> x) {
+            x[2] += 0.2 * std::sin(2.0 * x[0] + x[1]);
+            x[0] += 0.05 * std::sin(5.0 * x[1]);
+        });
+        ck_assert(*std::min_element(warped.weight.begin(), warped.weight.end()) > 0.0);
+        ck_assert(sum(warped.weight) > 1.0 && sum(warped.weight) < 1.1);
+    }
+}
+END_TEST
+
+// Triangles among quadrilaterals: rows of eight with a shrunken side.
+START_TEST(mixed_faces) {
+    const Mesh bricks = layers(CellType::hex20, {1, 1}, {1, 1}, {1, 1}, {1, 1});
+    const Mesh tetrahedra = layers(CellType::tet10, {1, 1}, {1, 1}, {1, 1}, {1, 1});
+    Numbers nodes(bricks.nodes().begin(), bricks.nodes().end());
+    for (std::size_t i = 0; i < tetrahedra.nodes().size(); ++i)
+        nodes.push_back(tetrahedra.nodes()[i] + (i % 3 == 0 ? 5.0 : 0.0));
+    Mesh mesh(3, nodes);
+    for (std::int64_t c = 0; c < bricks.cell_count(); ++c)
+        mesh.add_cells(CellType::hex20, bricks.cell(c), Labels{bricks.cell_body(c)});
+    for (std::int64_t c = 0; c < tetrahedra.cell_count(); ++c) {
+        Indices cell(tetrahedra.cell(c).begin(), tetrahedra.cell(c).end());
+        for (std::int64_t& n : cell) n += bricks.node_count();
+        mesh.add_cells(CellType::tet10, cell, Labels{tetrahedra.cell_body(c)});
+    }
+    mesh.add_interface(0, 1, 0.0);
+    const InterfaceGeometry& i = mesh.interfaces()[0];
+    ck_assert_int_eq(i.nodes_per_face, 8);
+    ck_assert_int_eq(i.face_count(), 3);
+    ck_assert(std::abs(sum(i.weight) - 2.0) < 1e-14);
+    std::size_t shrunken = 0;
+    for (std::size_t f = 0; f < 3; ++f) {
+        const std::int64_t* face = &i.face[8 * f];
+        const auto x = [&](std::size_t k, std::size_t axis) { return mesh.node(i.node_a[at(face[k])])[axis]; };
+        shrunken += face[2] == face[3] ? 1 : 0;
+        ck_assert((face[2] == face[3]) == (x(0, 0) >= 5.0));
+        for (std::size_t k = 0; k < 4; ++k)  // every middle node between its corners, the shrunken side included
+            for (std::size_t axis = 0; axis < 2; ++axis)
+                ck_assert(std::abs(x(4 + k, axis) - 0.5 * (x(k, axis) + x((k + 1) % 4, axis))) < 1e-15 * 8);
+    }
+    ck_assert_uint_eq(shrunken, 2);
+}
+END_TEST
+
+// A mid-side node that has no partner is named, wherever it is missing.
+START_TEST(missing_middle_nodes) {
+    for (const CellType type : all_types) {
+        if (!quadratic(type)) continue;
+        const bool plane = topology(type).dimension == 2;
+        const auto block = [&](CellType t) {
+            return layers(t, plane ? Numbers{1} : Numbers{1, 1}, plane ? Indices{2} : Indices{2, 2}, {0.5, 0.5}, {1, 1});
+        };
+        // A middle node of the upper block on the interface, moved along an edge.
+        const Mesh plain = block(type);
+        std::int64_t middle = -1;
+        for (std::int64_t c = 0; c < plain.cell_count(); ++c)
+            for (std::size_t k = at(topology(type).corners); k < plain.cell(c).size(); ++k) {
+                const auto x = plain.node(plain.cell(c)[k]);
+                if (plain.cell_body(c) == 1 && x.back() == 0.5 && x[0] == 0.25) middle = plain.cell(c)[k];
+            }
+        ck_assert(middle >= 0);
+        Numbers nodes(plain.nodes().begin(), plain.nodes().end());
+        nodes[at(middle) * at(plain.dimension())] += 0.02;
+        Mesh moved(plain.dimension(), nodes);
+        for (std::int64_t c = 0; c < plain.cell_count(); ++c)
+            moved.add_cells(type, plain.cell(c), Labels{plain.cell_body(c)});
+        const std::string named = "mid-side node " + std::to_string(middle) + " at (0.27";
+        ck_assert_refused(DELAM_ERROR_MESH, named.c_str(), moved.add_interface(0, 1, 0.0));
+        // Linear cells above quadratic ones, and the other way round.
+        const CellType other = plane ? (triangles(type) ? CellType::tri3 : CellType::quad4)
+                                     : (triangles(type) ? CellType::tet4 : CellType::hex8);
+        const Mesh linear = block(other);
+        for (const bool swap : {false, true}) {
+            const Mesh& first = swap ? linear : plain;
+            const Mesh& second = swap ? plain : linear;
+            Numbers both(first.nodes().begin(), first.nodes().end());
+            both.insert(both.end(), second.nodes().begin(), second.nodes().end());
+            Mesh mesh(plain.dimension(), both);
+            for (std::int64_t c = 0; c < first.cell_count(); ++c)
+                if (first.cell_body(c) == 0) mesh.add_cells(first.cell_type(c), first.cell(c), Labels{0});
+            for (std::int64_t c = 0; c < second.cell_count(); ++c) {
+                if (second.cell_body(c) == 0) continue;
+                Indices cell(second.cell(c).begin(), second.cell(c).end());
+                for (std::int64_t& n : cell) n += first.node_count();
+                mesh.add_cells(second.cell_type(c), cell, Labels{1});
+            }
+            ck_assert_refused(DELAM_ERROR_MESH, "has no partner on the other side", mesh.add_interface(0, 1, 0.0));
+        }
+    }
+    // Within a body: two quad8 side by side, the edge between them with two middle nodes.
+    const Numbers nodes{0, 0, 1, 0, 1, 1, 0, 1, 2, 0, 2, 1, 0.5, 0, 1, 0.5, 0.5, 1, 0, 0.5, 1.5, 0, 2, 0.5, 1.5, 1, 1, 0.5};
+    Mesh mesh(2, nodes);
+    mesh.add_cells(CellType::quad8, Indices{0, 1, 2, 3, 6, 7, 8, 9, 1, 4, 5, 2, 10, 11, 12, 13}, {});
+    ck_assert_refused(DELAM_ERROR_MESH, "not its mid-side nodes", boundary_faces(mesh, 0));
+}
+END_TEST
+
+// The integrals of the shape functions over whole faces, known by hand: 1/6, 2/3, 1/6 of an edge; nothing of a corner and a third
+// of a middle node on a triangle; -1/12 and 1/3 on an 8-node face.
+START_TEST(patches_of_quadratic_faces) {
+    const Mesh plane = layers(CellType::quad8, {1}, {1}, {1}, {1});
+    const Patch edge = find_patch(plane, 0, Numbers{-1, 1}, Numbers{2, 1}, Numbers{0, 1});
+    ck_assert_uint_eq(edge.nodes.size(), 3);
+    for (std::size_t k = 0; k < 3; ++k)
+        ck_assert(std::abs(edge.weights[k] - (plane.node(edge.nodes[k])[0] == 0.5 ? 4.0 : 1.0) / 6.0) < 1e-15);
+    const Mesh cube = layers(CellType::hex20, {1, 1}, {1, 1}, {1}, {1});
+    const Patch face = find_patch(cube, 0, Numbers{-1, -1, 1}, Numbers{2, 2, 1}, Numbers{0, 0, 1});
+    ck_assert_uint_eq(face.nodes.size(), 8);
+    for (std::size_t k = 0; k < 8; ++k) {
+        const auto x = cube.node(face.nodes[k]);
+        ck_assert(std::abs(face.weights[k] - (x[0] == 0.5 || x[1] == 0.5 ? 1.0 / 3.0 : -1.0 / 12.0)) < 1e-15);
+    }
+    const Mesh tetrahedra = layers(CellType::tet10, {1, 1}, {1, 1}, {1}, {1});
+    const Patch middles = find_patch(tetrahedra, 0, Numbers{-1, -1, 1}, Numbers{2, 2, 1}, Numbers{0, 0, 1});
+    ck_assert_uint_eq(middles.nodes.size(), 5);  // corners have no share
+    for (std::size_t k = 0; k < 5; ++k) {
+        const auto x = tetrahedra.node(middles.nodes[k]);
+        ck_assert(std::abs(middles.weights[k] - (x[0] == 0.5 && x[1] == 0.5 ? 1.0 : 0.5) / 3.0) < 1e-15);
+    }
+}
+END_TEST
+
 START_TEST(refused_cells) {
     const Numbers square{0, 0, 1, 0, 1, 1, 0, 1, 2, 0, 2, 1};
     Mesh mesh(2, square);
@@ -370,9 +593,10 @@ START_TEST(refused_interfaces) {
         Mesh overhanging = two_blocks(type, 4, 4, 1.0, 0.25, 0.0);
         overhanging.add_interface(0, 1, 0.0);
         ck_assert(std::abs(sum(overhanging.interfaces()[0].weight) - 0.75) < 1e-14);
-        // Tolerance is relative to the shortest edge, 1/4.
-        Mesh near = two_blocks(type, 4, 4, 1.0, 0.0, 0.024);
-        ck_assert_refused(DELAM_ERROR_MESH, "as close as 0.024", near.add_interface(0, 1, 0.09));
+        // Tolerance is relative to the shortest edge, 1/4 or, from corner to middle, 1/8.
+        Mesh near = two_blocks(type, 4, 4, 1.0, 0.0, quadratic(type) ? 0.012 : 0.024);
+        ck_assert_refused(DELAM_ERROR_MESH, quadratic(type) ? "as close as 0.012" : "as close as 0.024",
+                          near.add_interface(0, 1, 0.09));
         near.add_interface(0, 1, 0.1);
         // Sitting inside each other.
         Mesh inside = two_blocks(type, 4, 4, 1.0, 0.0, -0.5);
@@ -453,7 +677,7 @@ START_TEST(patches) {
                 ck_assert(std::abs(moment - middle * extent) <= 1e-13);
             }
             for (std::size_t k = 0; k < patch.nodes.size(); ++k) {
-                ck_assert(patch.weights[k] > 0.0);
+                ck_assert(patch.weights[k] > 0.0 || quadratic(type));
                 ck_assert(mesh.node(patch.nodes[k]).back() == top);
             }
         }
@@ -642,6 +866,11 @@ int main() {
     tcase_add_test(cases, shuffled_nodes);
     tcase_add_test(cases, curved_interface);
     tcase_add_test(cases, weights_of_distorted_faces);
+    tcase_add_test(cases, curved_cells);
+    tcase_add_test(cases, weights_of_quadratic_faces);
+    tcase_add_test(cases, mixed_faces);
+    tcase_add_test(cases, missing_middle_nodes);
+    tcase_add_test(cases, patches_of_quadratic_faces);
     tcase_add_test(cases, refused_cells);
     tcase_add_test(cases, refused_interfaces);
     tcase_add_test(cases, late_bodies);

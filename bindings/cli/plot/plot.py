@@ -151,15 +151,19 @@ def plot_energies(result):
 
 
 def boundary_edges(cells):
-    """Edges of plane cells that belong to one cell only."""
-    corners = cells.shape[1]
-    edges = np.concatenate([np.stack([cells[:, i], cells[:, (i + 1) % corners]], 1) for i in range(corners)])
+    """Edges of plane cells that belong to one cell only, and all edges; quadratic ones as two lines each."""
+    corners = {3: 3, 4: 4, 6: 3, 8: 4, 9: 4}[cells.shape[1]]
+    ring = [[i, (i + 1) % corners] for i in range(corners)]
+    if cells.shape[1] > 4:
+        ring = [pair for i, (a, b) in enumerate(ring) for pair in ([a, corners + i], [corners + i, b])]
+    edges = np.concatenate([cells[:, pair] for pair in ring])
     _, index, count = np.unique(np.sort(edges, 1), axis=0, return_index=True, return_counts=True)
     return edges[index[count == 1]], edges[index]
 
 
 def boundary_faces(cells):
-    """Faces of solid cells that belong to one cell only."""
+    """Faces of solid cells that belong to one cell only, by their corners."""
+    cells = cells[:, :{4: 4, 8: 8, 10: 4, 20: 8}[cells.shape[1]]]
     local = {8: [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]],
              4: [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]}[cells.shape[1]]
     faces = np.concatenate([cells[:, f] for f in local])
@@ -203,8 +207,9 @@ def draw_plane(ax, file, step, scale, light_mesh):
         faces = file["interfaces"][name]["faces"][()]
         for side in ("nodes_a", "nodes_b"):
             at = moved[file["interfaces"][name][side][()]]
-            drawn = LineCollection(at[faces[:, :2]], cmap=ZETA, linewidths=2.0, norm=plt.Normalize(0, 1))
-            drawn.set_array(zeta[faces[:, :2]].mean(axis=1))
+            lines = faces if faces.shape[1] == 2 else np.concatenate([faces[:, [0, 2]], faces[:, [2, 1]]])
+            drawn = LineCollection(at[lines], cmap=ZETA, linewidths=2.0, norm=plt.Normalize(0, 1))
+            drawn.set_array(zeta[lines].mean(axis=1))
             ax.add_collection(drawn)
     return drawn
 
@@ -269,7 +274,9 @@ def plot_solid(result, file, shots, scale):
             at = file["interfaces"][name]["points"][:, :2]
             zeta = step[name]["zeta"][()]
             faces = file["interfaces"][name]["faces"][()]
-            triangles = np.concatenate([faces[:, :3], faces[:, [0, 2, 3]]]) if faces.shape[1] == 4 else faces[:, :3]
+            pieces = {3: [[0, 1, 2]], 4: [[0, 1, 2], [0, 2, 3]], 6: [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]],
+                      8: [[0, 4, 7], [4, 1, 5], [5, 2, 6], [6, 3, 7], [4, 5, 6], [4, 6, 7]]}[faces.shape[1]]
+            triangles = np.concatenate([faces[:, piece] for piece in pieces])
             triangles = triangles[[len(set(t)) == 3 for t in triangles]]
             drawn = flat.tripcolor(at[:, 0], at[:, 1], triangles, zeta, cmap=ZETA, vmin=0, vmax=1, shading="gouraud")
             if zeta.min() < 0.5 < zeta.max():

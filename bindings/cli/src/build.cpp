@@ -166,6 +166,9 @@ Model build(Context context, const Scene& scene) {
         const Material& material = scene.materials[scene.layers[i].material];
         call(owner, delam_problem_set_elastic(problem, static_cast<std::int32_t>(i), material.young, material.poisson),
              material.place);
+        call(owner,
+             delam_problem_set_formulation(problem, static_cast<std::int32_t>(i), material.formulation.c_str()),
+             material.place);
     }
     set_interfaces(model, scene);
     for (const PatternData& pattern : scene.patterns) {

@@ -24,6 +24,21 @@ std::vector<double> points_3d(const std::vector<double>& nodes, std::size_t dime
     return out;
 }
 
+// XDMF's names; its node orders are VTK's.
+const char* topology_name(std::int32_t cell_type) {
+    switch (cell_type) {
+        case DELAM_TRI3: return "Triangle";
+        case DELAM_TET4: return "Tetrahedron";
+        case DELAM_HEX8: return "Hexahedron";
+        case DELAM_TRI6: return "Triangle_6";
+        case DELAM_QUAD8: return "Quadrilateral_8";
+        case DELAM_QUAD9: return "Quadrilateral_9";
+        case DELAM_TET10: return "Tetrahedron_10";
+        case DELAM_HEX20: return "Hexahedron_20";
+        default: return "Quadrilateral";
+    }
+}
+
 XdmfBlock write_interface(const Model& model, const InterfaceData& data, std::int64_t index, hid_t parent,
                           const std::vector<double>& points, std::size_t dimension) {
     const std::string what = "interface " + data.name;
@@ -55,10 +70,12 @@ XdmfBlock write_interface(const Model& model, const InterfaceData& data, std::in
     h5::write(group.get(), "nodes_b", b, 0);
     h5::write(group.get(), "weights", weights, 0);
     h5::write(group.get(), "frames", frames, dimension * dimension);
-    return {data.name, pairs, faces, per_face,
-            per_face == 2   ? "Polyline"
-            : per_face == 3 ? "Triangle"
-                            : "Quadrilateral"};
+    const char* topology = "Polyline";
+    if (per_face == 3) topology = dimension == 2 ? "Edge_3" : "Triangle";
+    if (per_face == 4) topology = "Quadrilateral";
+    if (per_face == 6) topology = "Triangle_6";
+    if (per_face == 8) topology = "Quadrilateral_8";
+    return {data.name, pairs, faces, per_face, topology};
 }
 
 // Mesh and interfaces; returns what the XDMF file has to say about them.
@@ -85,11 +102,7 @@ std::vector<XdmfBlock> write_mesh(const Model& model, const Scene& scene, hid_t 
         h5::write(group.get(), "cells", connectivity, static_cast<std::size_t>(per_cell));
         h5::write(group.get(), "body", bodies, 0);
     }
-    const char* topology = "Quadrilateral";
-    if (scene.geometry.cell_type == DELAM_TRI3) topology = "Triangle";
-    if (scene.geometry.cell_type == DELAM_TET4) topology = "Tetrahedron";
-    if (scene.geometry.cell_type == DELAM_HEX8) topology = "Hexahedron";
-    std::vector<XdmfBlock> blocks{{"bodies", nodes, cells, per_cell, topology}};
+    std::vector<XdmfBlock> blocks{{"bodies", nodes, cells, per_cell, topology_name(scene.geometry.cell_type)}};
     const h5::Group group(h5::new_group(file, "interfaces"), "fields.h5");
     for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
         blocks.push_back(write_interface(model, scene.interfaces[i], static_cast<std::int64_t>(i), group.get(), points,

@@ -103,7 +103,7 @@ std::vector<std::string> notes_of(const Scene& scene) {
                                       "or 4 cells and more)",
                                       layer.name, counted(layer.divisions, "cell"),
                                       geometry.dimension == 2 ? "tri3" : "tet4",
-                                      geometry.dimension == 2 ? "quad4" : "hex8"));
+                                      geometry.dimension == 2 ? "tri6 or quad8" : "tet10 or hex20"));
     }
     return out;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -40,6 +41,14 @@ std::int64_t cells_of_size(const Table& root, const Table& table, std::string_vi
                                                : "h = " + better + " divides all lengths and thicknesses"));
 }
 
+std::int32_t cell_type(const std::string& name) {
+    static const std::map<std::string, std::int32_t> types{
+        {"tri3", DELAM_TRI3},   {"quad4", DELAM_QUAD4}, {"tet4", DELAM_TET4},
+        {"hex8", DELAM_HEX8},   {"tri6", DELAM_TRI6},   {"quad8", DELAM_QUAD8},
+        {"quad9", DELAM_QUAD9}, {"tet10", DELAM_TET10}, {"hex20", DELAM_HEX20}};
+    return types.at(name);
+}
+
 void read_geometry(const Table& root, Scene& scene) {
     const Table table = root.table("geometry");
     table.only({"dimension", "length", "width", "divisions", "h", "cell", "plane"});
@@ -52,13 +61,11 @@ void read_geometry(const Table& root, Scene& scene) {
     if (dimension == 3) {
         geometry.lengths.push_back(table.number("width", positive));
         if (table.has("plane")) table.fail("plane", "is for dimension 2 only");
-        const std::string cell = table.choice("cell", {"hex8", "tet4"}, "hex8");
-        geometry.cell_type = cell == "hex8" ? DELAM_HEX8 : DELAM_TET4;
+        geometry.cell_type = cell_type(table.choice("cell", {"hex8", "tet4", "hex20", "tet10"}, "hex8"));
     } else {
         if (table.has("width")) table.fail("width", "is for dimension 3 only");
         geometry.plane = table.choice("plane", {"plane-strain", "plane-stress"}, "plane-strain");
-        const std::string cell = table.choice("cell", {"quad4", "tri3"}, "quad4");
-        geometry.cell_type = cell == "quad4" ? DELAM_QUAD4 : DELAM_TRI3;
+        geometry.cell_type = cell_type(table.choice("cell", {"quad4", "tri3", "quad8", "quad9", "tri6"}, "quad4"));
     }
     if (table.has("divisions") == table.has("h"))
         table.fail("h", "give either h (edge of a cell) or divisions (numbers of cells)");
@@ -79,11 +86,12 @@ void read_geometry(const Table& root, Scene& scene) {
 
 void read_materials(const Table& root, Scene& scene) {
     for (const Table& table : root.tables("materials")) {
-        table.only({"name", "young", "poisson"});
+        table.only({"name", "young", "poisson", "formulation"});
         Material material;
         material.name = new_name(table, scene.materials, "material");
         material.young = table.number("young", positive);
         material.poisson = table.number("poisson", poisson_range);
+        material.formulation = table.choice("formulation", {"standard", "incompatible"}, "standard");
         material.place = table.place();
         scene.materials.push_back(std::move(material));
     }

@@ -38,6 +38,7 @@ struct Material {
     std::string name;
     double young = 0;
     double poisson = 0;
+    std::string formulation;
     Place place;
 };
 

@@ -56,6 +56,17 @@ with h5py.File(os.path.join(other, "fields.h5")) as file:
            "every third step, snapshot and last")
 
 
+coarse = changed("h = 0.0015", "h = 0.003", changed("steps = 20", "steps = 2"))
+for cell, nodes, topology in (("tri6", 6, "Triangle_6"), ("quad8", 8, "Quadrilateral_8"), ("quad9", 9, "Quadrilateral_9")):
+    other = folder()
+    expect(delam("run", write(changed("dimension = 2", f'dimension = 2\ncell = "{cell}"', coarse)), "--out", other)[0] == 0,
+           f"a run with {cell}")
+    with h5py.File(os.path.join(other, "fields.h5")) as file:
+        expect(file["mesh/cells"].shape == (160 if nodes == 6 else 80, nodes), f"cells of {cell}")
+        expect(file["interfaces/interface_0/faces"].shape == (40, 3), f"faces of {cell}")
+    xdmf = read(os.path.join(other, "fields.xdmf")).decode()
+    expect(f'TopologyType="{topology}"' in xdmf and 'TopologyType="Edge_3"' in xdmf, f"XDMF names {topology}")
+
 
 def violated(out_folder, eta):
     """The rule, from the rows."""

@@ -84,6 +84,15 @@ expect("note: " in out and "locks" in out, "a note where cells lock")
 _, out, _ = delam("check", write(changed("dimension = 2", 'dimension = 2\ncell = "tri3"')))
 expect("note: " in out and "bending" in out, "a note where triangles are too stiff")
 
+quadratic = changed("dimension = 2", 'dimension = 2\ncell = "quad8"')
+_, out, error = delam("check", write(changed("h = 0.0015", "h = 0.003", quadratic)))
+expect(error == "" and "note: " not in out, "one quadratic cell across the thickness is enough")
+refuse(changed("dimension = 2", 'dimension = 2\ncell = "hex20"'), r"geometry\.cell", "quad8")
+bending = changed("poisson = 0.3", 'poisson = 0.3\nformulation = "incompatible"')
+expect(delam("check", write(bending))[0] == 0, "incompatible modes")
+refuse(changed("dimension = 2", 'dimension = 2\ncell = "tri6"', bending), r"materials\[0\]", "tri6")
+refuse(changed("incompatible", "reduced", bending), r"materials\[0\]\.formulation", "incompatible")
+
 with open("/dev/full", "w", encoding="utf-8") as full:
     for words in (("check", write(SCENE)), ("--help",)):
         done = subprocess.run([DELAM, *words], stdout=full, stderr=subprocess.PIPE, text=True, check=False)

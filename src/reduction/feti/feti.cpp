@@ -38,7 +38,7 @@ Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monito
         monitor_.progress("condense", static_cast<std::int64_t>(s), static_cast<std::int64_t>(subdomains_.size()));
         Subdomain& subdomain = subdomains_[s];
         subdomain.boundary = touched[s];
-        subdomain.condense(*problem_.mesh, cells[s], *problem_.material[index(subdomain.body)], problem_.plane, with_schur);
+        subdomain.condense(*problem_.mesh, cells[s], problem_.model(subdomain.body), with_schur);
     }
     rows_ = builder.finish(subdomains_);
     copies_ = builder.copies();

@@ -49,9 +49,9 @@ constexpr double rank_tolerance = 1e-8;
 
 }  // namespace
 
-void Subdomain::condense(const Mesh& mesh, std::span<const std::int64_t> cells, const Elastic& material, Plane plane,
+void Subdomain::condense(const Mesh& mesh, std::span<const std::int64_t> cells, const BodyModel& model,
                          bool with_schur) {
-    stiffness = assemble_stiffness(mesh, cells, nodes, material, plane);
+    stiffness = assemble_stiffness(mesh, cells, nodes, model);
     rigid_count = mesh.dimension() == 2 ? 3 : 6;
     rigid = DenseMatrix(stiffness.rows, rigid_count);
     rigid.value = rigid_modes(mesh, nodes);

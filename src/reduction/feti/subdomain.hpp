@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "body/material.hpp"
+#include "body/model.hpp"
 #include "linalg/cholesky.hpp"
 #include "linalg/dense.hpp"
 #include "mesh/mesh.hpp"
@@ -35,7 +35,7 @@ struct Subdomain {
     std::vector<double> diagonal;   // of the stiffness at the boundary
 
     // Numerical set-up, after nodes, boundary and body are known.
-    void condense(const Mesh& mesh, std::span<const std::int64_t> cells, const Elastic& material, Plane plane, bool with_schur);
+    void condense(const Mesh& mesh, std::span<const std::int64_t> cells, const BodyModel& model, bool with_schur);
     // u over all local DOFs from its boundary values, in equilibrium with f inside. f: local DOFs, only the interior is read.
     std::vector<double> extend(std::span<const double> boundary_values, std::span<const double> f) const;
     // Forces on the interior carried to the boundary: f_b - K_bi K_ii^-1 f_i.
