@@ -29,7 +29,7 @@ SparseMatrix assemble(const Problem& problem) {
     std::vector<std::vector<std::int64_t>> nodes;
     for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
         nodes.push_back(mesh.body_nodes(body));
-        part.push_back(assemble_stiffness(mesh, mesh.body_cells(body), nodes.back(), *problem.material[index(body)], problem.plane));
+        part.push_back(assemble_stiffness(mesh, mesh.body_cells(body), nodes.back(), problem.model(body)));
     }
     SparseMatrix k;
     k.rows = k.columns = dofs;
