@@ -133,10 +133,8 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
         // What a stiff spring hides cannot be got back by subtracting it.
         renew = outer_spring_[i] > stiff * bulk_->energy().stiffness(static_cast<std::int64_t>(i), static_cast<std::int64_t>(i));
     }
-    if (!renew && !back.empty()) {
-        const double cost = outer_->release_cost(static_cast<std::int64_t>(back.size()));
-        renew = released_cost_ + cost > outer_->cost();
-    }
+    // Releases, and second steps over what they have piled up, go on until they have cost as much as a new first step.
+    if (!renew) renew = spent_ + (back.empty() ? 0.0 : outer_->release_cost(static_cast<std::int64_t>(back.size()))) > outer_->cost();
     spring_ = std::move(now);
     inside_ = std::move(set);
     if (renew)
@@ -152,7 +150,7 @@ void Condensed::condense_outer(std::span<const std::uint8_t> near) {
     near_.assign(near.begin(), near.end());
     outer_spring_ = spring_;
     released_.clear();
-    released_cost_ = 0.0;
+    spent_ = 0.0;
     std::vector<std::int64_t> kept, eliminated;
     std::vector<double> stiffness(near_.size());
     for (std::size_t i = 0; i < near_.size(); ++i) {
@@ -170,7 +168,7 @@ void Condensed::condense_outer(std::span<const std::uint8_t> near) {
 
 void Condensed::release(std::vector<std::int64_t> unknowns) {
     monitor_.progress("zone", condensations_, 0);
-    released_cost_ += outer_->release_cost(static_cast<std::int64_t>(unknowns.size()));
+    spent_ += outer_->release_cost(static_cast<std::int64_t>(unknowns.size()));
     std::vector<double> stiffness(outer_spring_);
     for (double& s : stiffness) s = std::max(0.0, s);
     outer_->release(bulk_->energy(), unknowns, stiffness);
@@ -194,6 +192,7 @@ void Condensed::condense_inner() {
     for (const std::int64_t k : kept) zone_unknowns_.push_back(near[index(k)]);
     zone_.reset();
     inner_ = std::make_unique<Condensation>(outer_->energy(), std::move(kept), std::move(eliminated), stiffness);
+    spent_ += inner_->cost();
 
     const std::size_t unknowns = inside_.size();
     std::vector<std::int64_t> place(unknowns, -1);
@@ -221,7 +220,7 @@ void Condensed::condense_inner() {
         floating = orthonormalised(std::move(floating));
     }
     zone_ = std::make_unique<Zone>(inner_->energy(), std::move(rows), std::move(floating));
-    if (getenv("DBG")) fprintf(stderr,"condense %ld: n %zu outer kept %zu zone %zu released %zu cost %g of %g\n",(long)condensations_,unknowns,near.size(),zone_unknowns_.size(),released_.size(),released_cost_,outer_->cost());
+    if (getenv("DBG")) fprintf(stderr,"condense %ld: n %zu outer kept %zu zone %zu released %zu cost %g of %g\n",(long)condensations_,unknowns,near.size(),zone_unknowns_.size(),released_.size(),spent_,outer_->cost());
 }
 
 Zone& Condensed::zone(const Springs& springs, std::span<const std::uint8_t> wanted) {

@@ -61,7 +61,7 @@ private:
     std::vector<double> last_;             // of the solve before
     std::vector<std::uint8_t> age_;        // choices since it last changed or was asked for, up to `forgotten`
     std::vector<std::vector<std::int64_t>> released_;  // from the first step, group after group
-    double released_cost_ = 0.0;
+    double spent_ = 0.0;  // multiplications since the first step
     std::unique_ptr<Condensation> outer_, inner_;
     std::unique_ptr<Zone> zone_;
     std::vector<std::int64_t> zone_unknowns_, zone_rows_;
