@@ -48,6 +48,7 @@ private:
     void damage_step(const std::vector<double>& old, std::vector<double>& next) const;
     void update_mixity();
     double driving(std::size_t pair, std::size_t component) const;  // Y_n (0) or Y_t (1)
+    double stored_bulk(const std::vector<double>& theta) const;
     double stored_interface() const;
     double dissipation(const std::vector<double>& old) const;
 

@@ -130,20 +130,6 @@ UpperMatrix transform(const reference::Csr& k, const Unknowns& u) {
     return upper;
 }
 
-// x^T A y by the upper triangle.
-double product(const UpperMatrix& a, const std::vector<double>& x, const std::vector<double>& y) {
-    double sum = 0.0;
-    for (std::size_t j = 0; j < a.size(); ++j) {
-        const auto diagonal = index(a.start[j + 1]) - 1;
-        for (auto e = index(a.start[j]); e < diagonal; ++e) {
-            const auto i = index(a.row[e]);
-            sum += a.value[e] * (x[i] * y[j] + x[j] * y[i]);
-        }
-        sum += a.value[diagonal] * x[j] * y[j];
-    }
-    return sum;
-}
-
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
@@ -237,13 +223,13 @@ double Monolithic::held_force(std::size_t row, const std::vector<double>& v, con
     return -unbalance;
 }
 
-double Monolithic::stored_bulk(const std::vector<double>& v, const std::vector<double>& theta) const {
-    double twice = product(base_, v, v);
+double Monolithic::work_of_dead_loads(const std::vector<double>& v, const std::vector<double>& theta) const {
+    double work = 0.0;
     for (std::size_t p = 0; p < patterns_; ++p) {
-        twice += 2.0 * theta[p] * dot(lift_[p], v);
-        for (std::size_t q = 0; q < patterns_; ++q) twice += theta[p] * a_[p * patterns_ + q] * theta[q];
+        work += theta[p] * dot(dead_[p], v);
+        for (std::size_t q = 0; q < patterns_; ++q) work += theta[p] * potential_[p * patterns_ + q] * theta[q];
     }
-    return 0.5 * twice;
+    return work;
 }
 
 std::vector<double> Monolithic::conjugate(const std::vector<double>& v, const std::vector<double>& theta) const {

@@ -36,8 +36,8 @@ public:
     // Force that a held pair carries, pull positive: minus the out-of-balance force of bodies and loads.
     double held_force(std::size_t row, const std::vector<double>& v, const std::vector<double>& theta) const;
 
-    // 1/2 u^T K u, and dE/dtheta of each pattern.
-    double stored_bulk(const std::vector<double>& v, const std::vector<double>& theta) const;
+    // dE/dtheta of each pattern, and f . u. Both at solutions.
+    double work_of_dead_loads(const std::vector<double>& v, const std::vector<double>& theta) const;
     std::vector<double> conjugate(const std::vector<double>& v, const std::vector<double>& theta) const;
 
 private:

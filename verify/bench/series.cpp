@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "lse.hpp"
+#include "machine.hpp"
+#include "measure.hpp"
+
+namespace bench {
+namespace {
+
+constexpr int priced_systems = 24;  // factorisations that are timed where the baseline is priced instead of run
+
+// Everything that is known of one method.
+struct Entry {
+    const Method* method = nullptr;
+    std::optional<Choice> choice;  // library methods
+    std::string refusal;
+    std::vector<double> total, setup, factor, iterate;
+    std::optional<March> first;
+    bool slow = false;  // not repeated
+    // The baseline alone.
+    bool priced = false;
+    std::vector<double> factor_times, solve_times;
+    std::vector<std::int64_t> factorisations;
+};
+
+void keep(Entry& entry, March march) {
+    entry.total.push_back(march.total());
+    entry.setup.push_back(march.setup);
+    entry.factor.push_back(march.factor);
+    entry.iterate.push_back(march.iterate);
+    if (!entry.first) entry.first = std::move(march);
+}
+
+void run_baseline_round(Entry& entry, Stage& stage, bool wide, double cap) {
+    BaselineOptions options;
+    options.wide = wide;
+    BaselineTimes times;
+    March march = run_baseline(stage, options, cap, entry.priced ? priced_systems : 0, &times);
+    entry.factor_times.insert(entry.factor_times.end(), times.factor.begin(), times.factor.end());
+    entry.solve_times.insert(entry.solve_times.end(), times.solve.begin(), times.solve.end());
+    keep(entry, std::move(march));
+}
+
+}  // namespace
+
+void progress(const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); }
+
+Price price(const March& counted, double factor_seconds, double solve_seconds) {
+    Price p;
+    for (const StepRecord& r : counted.steps) p.solves += r.contact_iterations;
+    // The first system of a step has the matrix of the last one before, and the first step begins twice (elastic).
+    p.factorisations = std::max<std::int64_t>(0, p.solves - static_cast<std::int64_t>(counted.steps.size()) - 1);
+    p.seconds = static_cast<double>(p.factorisations) * factor_seconds + static_cast<double>(p.solves) * solve_seconds;
+    return p;
+}
+
+Json measure_series(const std::string& scene, int repeat, double cap) {
+    Stage stage = make_mesh(find_scene(scene));
+    declare(stage, {});
+    std::int64_t primal = 0;
+    std::int64_t dual = 0;
+    stage.scene.require(delam_problem_dofs(stage.scene.problem(), &primal, &dual), "delam_problem_dofs");
+    Lse lse(stage);
+    Json result;
+    result["scene"] = scene;
+    result["primal_dofs"] = primal;
+    result["dual_dofs"] = dual;
+    result["steps"] = stage.data.steps;
+    result["delta"] = 1e-5;
+    result["cap_s"] = cap;
+    result["machine"] = machine();
+    result["lse_index_width"] = lse.choose();
+    result["lse_facts"] = lse.facts();
+
+    std::map<std::string, Entry> entries;
+    for (const Method& method : methods()) {
+        Entry& entry = entries[method.key];
+        entry.method = &method;
+        if (method.reduction != nullptr) entry.choice = resolve(stage, method, 1e-5, entry.refusal);
+    }
+
+    // Counting march: tells what the baseline would take, and warms up.
+    const Entry& counter = entries["condensed"].choice ? entries["condensed"] : entries["feti"];
+    progress(scene + ": counting the alternations (" + counter.method->key + ")");
+    const March counted = run_library(stage, *counter.choice, cap);
+    Entry& baseline = entries["baseline"];
+    double one_system = 0.0;
+    {
+        const double linear = lse.measure();
+        const Price rough = price(counted, linear, 0.0);
+        baseline.priced = !counted.capped && rough.seconds > cap;
+        one_system = linear;
+    }
+    progress(scene + ": baseline " + (baseline.priced ? "priced" : "run") + ", one linear solve " +
+             std::to_string(one_system) + " s");
+
+    std::vector<double> lse_times[2];
+    int turn = 0;
+    const auto unit = [&] { lse_times[turn++ % 2].push_back(lse.measure()); };
+    for (int round = 0; round < repeat; ++round) {
+        unit();
+        for (const Method& method : methods()) {
+            Entry& entry = entries[method.key];
+            if (entry.slow || (method.reduction != nullptr && !entry.choice)) continue;
+            progress(scene + ": round " + std::to_string(round + 1) + ", " + method.key);
+            if (method.reduction == nullptr) {
+                run_baseline_round(entry, stage, lse.wide(), cap);
+            } else {
+                keep(entry, run_library(stage, *entry.choice, cap));
+            }
+            // A march that takes most of the cap is not repeated.
+            entry.slow = (entry.first->capped && !entry.priced) || entry.total.back() > 0.25 * cap;
+            unit();
+        }
+        if (turn % 2 != 0) unit();
+    }
+
+    std::vector<double> all = lse_times[0];
+    all.insert(all.end(), lse_times[1].begin(), lse_times[1].end());
+    const double one = median(all);
+    result["lse_s"] = spread(all);
+    result["noise_floor"] = {{"series_a", spread(lse_times[0])},
+                             {"series_b", spread(lse_times[1])},
+                             {"ratio_of_medians", median(lse_times[0]) / median(lse_times[1])}};
+
+    double baseline_seconds = 0.0;
+    for (const Method& method : methods()) {
+        Entry& entry = entries[method.key];
+        Json m;
+        if (!entry.first) {
+            m["skipped"] = entry.refusal;
+            result["methods"][method.key] = m;
+            continue;
+        }
+        double seconds = median(entry.total);
+        std::string label = entry.first->capped ? "stopped by the cap: lower bound" : "measured";
+        double iterate = median(entry.iterate);
+        if (method.reduction == nullptr) {
+            m["factor_system_s"] = spread(entry.factor_times);
+            m["rest_of_system_s"] = spread(entry.solve_times);
+            if (entry.priced) {
+                const Price p = price(counted, median(entry.factor_times), median(entry.solve_times));
+                iterate = p.seconds;
+                seconds = median(entry.setup) + median(entry.factor) + iterate;
+                label = "extrapolated";
+                m["extrapolated_from"] = {{"counted_on", counter.method->key},
+                                          {"factorisations", p.factorisations},
+                                          {"linear_systems", p.solves},
+                                          {"timed_factorisations", entry.factor_times.size()}};
+            }
+            baseline_seconds = seconds;
+        }
+        m["label"] = label;
+        m["total_s"] = entry.priced ? Json{{"median", seconds}} : spread(entry.total);
+        m["setup_s"] = spread(entry.setup);
+        m["factor_s"] = spread(entry.factor);
+        m["iterate_s"] = entry.priced ? Json{{"median", iterate}} : spread(entry.iterate);
+        m["lse"] = seconds / one;
+        if (baseline_seconds > 0.0 && method.reduction != nullptr) m["baseline_over_this"] = baseline_seconds / seconds;
+        m["counts"] = entry.priced ? counts(counted) : counts(*entry.first);
+        m["plan"] = entry.first->plan;
+        if (!entry.priced) m["history"] = history(*entry.first);
+        result["methods"][method.key] = m;
+    }
+    // Everybody who got to the end, against everybody else.
+    for (std::size_t i = 0; i < methods().size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            const Entry& a = entries[methods()[j].key];
+            const Entry& b = entries[methods()[i].key];
+            if (!a.first || !b.first || a.first->steps.empty() || b.first->steps.empty()) continue;
+            result["agreement"][std::string(a.method->key) + " / " + b.method->key] = compare(*a.first, *b.first);
+        }
+    }
+    return result;
+}
+
+}  // namespace bench
