@@ -104,7 +104,6 @@ reference::Scene layers(const SceneData& data) {
 const std::vector<Element>& elements() {
     static const std::vector<Element> list = {{"quad4", 2, DELAM_QUAD4, "", 1},
                                               {"quad4-incompatible", 2, DELAM_QUAD4, "incompatible", 1},
-                                              {"tri3", 2, DELAM_TRI3, "", 1},
                                               {"tri6", 2, tri6, "", 2},
                                               {"quad8", 2, quad8, "", 2},
                                               {"quad9", 2, quad9, "", 2}};
