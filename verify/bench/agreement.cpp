@@ -54,7 +54,8 @@ Json measure_agreement(const std::string& scene, double delta, double cap) {
             }
             march = run_library(stage, *choice, cap);
         }
-        result["methods"][method.key] = {{"capped", march.capped}, {"counts", counts(march)}, {"history", history(march)}};
+        result["methods"][method.key] = {
+            {"capped", march.capped}, {"counts", counts(march)}, {"history", history(march)}};
         for (const auto& [name, other] : marches) {
             if (!other.steps.empty() && !march.steps.empty())
                 result["agreement"][name + " / " + method.key] = compare(other, march);

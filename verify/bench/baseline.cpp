@@ -96,7 +96,8 @@ void Baseline::solve_linear(const std::vector<double>& theta) {
     for (std::size_t p = 0; p < pairs; ++p) {
         for (std::size_t c = 0; c < dimension_; ++c) {
             const std::size_t row = p * dimension_ + c;
-            spring_[row] = system_.weight()[p] * adhesion_[p] * (c == 0 ? data_.normal_stiffness : data_.tangential_stiffness);
+            spring_[row] =
+                system_.weight()[p] * adhesion_[p] * (c == 0 ? data_.normal_stiffness : data_.tangential_stiffness);
             held_[row] = c == 0 ? closed_[p] : std::uint8_t{0};
         }
     }
@@ -148,10 +149,10 @@ void Baseline::damage_step(const std::vector<double>& old, std::vector<double>& 
     std::vector<double> jump = jump_;
     for (std::size_t p = 0; p < old.size(); ++p) jump[p * dimension_] = std::max(0.0, jump[p * dimension_]);
     next.resize(old.size());
-    scene_->require(delam_law_respond(law_.get(), static_cast<std::int32_t>(dimension_),
-                                      static_cast<std::int64_t>(old.size()), jump.data(), mixity_.data(), old.data(),
-                                      next.data(), nullptr),
-                    "delam_law_respond");
+    scene_->require(
+        delam_law_respond(law_.get(), static_cast<std::int32_t>(dimension_), static_cast<std::int64_t>(old.size()),
+                          jump.data(), mixity_.data(), old.data(), next.data(), nullptr),
+        "delam_law_respond");
 }
 
 double Baseline::stored_interface() const {
@@ -161,8 +162,8 @@ double Baseline::stored_interface() const {
     return sum;
 }
 
-// At a solution u^T K u = theta . r + 2 f . u - sum of (force of a pair * jump): far less rounding than the product itself,
-// whose terms are the energies of single nodes moved alone.
+// At a solution u^T K u = theta . r + 2 f . u - sum of (force of a pair * jump): far less rounding than the product
+// itself, whose terms are the energies of single nodes moved alone.
 double Baseline::stored_bulk(const std::vector<double>& theta) const {
     double twice = 2.0 * system_.work_of_dead_loads(v_, theta);
     const auto conjugate = system_.conjugate(v_, theta);

@@ -46,12 +46,10 @@ Json measure_critical(const std::string& scene, double cap) {
     s.require(delam_law_create(s.context(), "piecewise-linear", &raw), "delam_law_create");
     const reference::Law law(raw);
     const auto& data = stage.data.law;
-    const std::pair<const char*, double> parameters[] = {{"normal_stiffness", data.normal_stiffness},
-                                                         {"tangential_stiffness", data.tangential_stiffness},
-                                                         {"normal_onset", data.normal_onset},
-                                                         {"tangential_onset", data.tangential_onset},
-                                                         {"normal_toughness", data.normal_toughness},
-                                                         {"tangential_toughness", data.tangential_toughness}};
+    const std::pair<const char*, double> parameters[] = {
+        {"normal_stiffness", data.normal_stiffness}, {"tangential_stiffness", data.tangential_stiffness},
+        {"normal_onset", data.normal_onset},         {"tangential_onset", data.tangential_onset},
+        {"normal_toughness", data.normal_toughness}, {"tangential_toughness", data.tangential_toughness}};
     for (const auto& [key, value] : parameters) s.require(delam_law_set(raw, key, value), key);
     const reference::Exported exported(s);
 
@@ -64,7 +62,8 @@ Json measure_critical(const std::string& scene, double cap) {
         Json& m = result["methods"][method.key];
         progress(scene + ": critical points, " + method.key);
         if (method.reduction == nullptr) {
-            // The library judges the baseline's last state by a displacement step of its own at the baseline's adhesion.
+            // The library judges the baseline's last state by a displacement step of its own at the baseline's
+            // adhesion.
             std::vector<double> last;
             double last_time = 0.0;
             std::vector<double> last_jump;
@@ -84,9 +83,11 @@ Json measure_critical(const std::string& scene, double cap) {
                 difference = std::max(difference, std::abs(jump[i] - last_jump[i]));
                 largest = std::max(largest, std::abs(jump[i]));
             }
-            m = {{"capped", march.capped}, {"steps", march.steps.size()},
+            m = {{"capped", march.capped},
+                 {"steps", march.steps.size()},
                  {"jump_against_library", largest > 0.0 ? difference / largest : 0.0},
-                 {"last_damage_change", march.steps.back().damage_change}, {"counts", counts(march)},
+                 {"last_damage_change", march.steps.back().damage_change},
+                 {"counts", counts(march)},
                  {"history", history(march)}};
             continue;
         }
@@ -98,8 +99,8 @@ Json measure_critical(const std::string& scene, double cap) {
         }
         const March march = run_library(stage, *choice, cap, [&](reference::Solver& solver, int k) {
             const auto adhesion = solver.field("adhesion");
-            worst_defect = std::max(worst_defect, damage_defect(s, raw, solver.field("jump"), solver.field("mixity"),
-                                                                old, adhesion));
+            worst_defect = std::max(worst_defect,
+                                    damage_defect(s, raw, solver.field("jump"), solver.field("mixity"), old, adhesion));
             old = adhesion;
             if (k == stage.data.steps) end = text_of(reference::accept(solver, exported));
         });

@@ -56,12 +56,14 @@ Json growth_table(const Settings& settings) {
             }
             const double n = series["primal_dofs"];
             add("one linear solve", "total", n, series["lse_s"]);
-            rows.push_back({name, "one linear solve", number(n, "%.0f"), number(series["lse_s"]["median"].get<double>())});
+            rows.push_back(
+                {name, "one linear solve", number(n, "%.0f"), number(series["lse_s"]["median"].get<double>())});
             for (const auto& [key, m] : series["methods"].items()) {
                 if (m.contains("skipped")) continue;
                 const std::string label = m["label"];
                 rows.push_back({name, key, number(n, "%.0f"), number(m["total_s"]["median"].get<double>()),
-                                number(m["setup_s"]["median"].get<double>()), number(m["factor_s"]["median"].get<double>()),
+                                number(m["setup_s"]["median"].get<double>()),
+                                number(m["factor_s"]["median"].get<double>()),
                                 number(m["iterate_s"]["median"].get<double>()), number(m["lse"].get<double>()), label});
                 if (label.rfind("stopped", 0) == 0) continue;  // a part of a march has no place in a fit
                 add(key, "total", n, m["total_s"]);

@@ -49,9 +49,14 @@ Json Lse::facts() const {
     const double numeric = clock.lap();
     factor.solve(right_, x);
     const double solve = clock.lap();
-    return {{"unknowns", unknowns()},          {"entries_K", matrix_.row.size()}, {"entries_L", factor.entries()},
-            {"ordering", factor.ordering()},   {"analyse_s", analyse},            {"factor_s", numeric},
-            {"solve_s", solve}, {"cholmod_peak_MB", 1e-6 * factor.peak_bytes()}};
+    return {{"unknowns", unknowns()},
+            {"entries_K", matrix_.row.size()},
+            {"entries_L", factor.entries()},
+            {"ordering", factor.ordering()},
+            {"analyse_s", analyse},
+            {"factor_s", numeric},
+            {"solve_s", solve},
+            {"cholmod_peak_MB", 1e-6 * factor.peak_bytes()}};
 }
 
 }  // namespace bench

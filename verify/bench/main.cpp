@@ -53,7 +53,8 @@ int main(int argc, char** argv) {
     const struct {
         const char* name;
         bench::Json (*make)(const bench::Settings&);
-    } tables[] = {{"march", bench::march_table}, {"precision", bench::precision_table}, {"growth", bench::growth_table}};
+    } tables[] = {
+        {"march", bench::march_table}, {"precision", bench::precision_table}, {"growth", bench::growth_table}};
     for (const auto& t : tables) {
         if (!understood || table != t.name) continue;
         try {
@@ -67,9 +68,10 @@ int main(int argc, char** argv) {
             result["command"] = command;
             result["machine"] = bench::machine();
             const auto& m = result["machine"];
-            std::printf("%s: libdelam %s (%s), %s, %s cores, BLAS kernels %s\n\n", t.name, m["version"].get<std::string>().c_str(),
-                        m["commit"].get<std::string>().c_str(), m["processor"].get<std::string>().c_str(),
-                        m["cores"].dump().c_str(), m["blas_core"].get<std::string>().c_str());
+            std::printf("%s: libdelam %s (%s), %s, %s cores, BLAS kernels %s\n\n", t.name,
+                        m["version"].get<std::string>().c_str(), m["commit"].get<std::string>().c_str(),
+                        m["processor"].get<std::string>().c_str(), m["cores"].dump().c_str(),
+                        m["blas_core"].get<std::string>().c_str());
             result["result"] = t.make(settings);
             if (!file.empty()) {
                 std::ofstream out(file);

@@ -120,8 +120,8 @@ March run_library(Stage& stage, const Choice& choice, double cap,
     return march;
 }
 
-March run_baseline(Stage& stage, const BaselineOptions& options, double cap, std::int64_t pricing,
-                   BaselineTimes* times, const std::function<void(Baseline&, int)>& at_step) {
+March run_baseline(Stage& stage, const BaselineOptions& options, double cap, std::int64_t pricing, BaselineTimes* times,
+                   const std::function<void(Baseline&, int)>& at_step) {
     March march;
     const Clock whole;
     Clock clock;
@@ -130,9 +130,7 @@ March run_baseline(Stage& stage, const BaselineOptions& options, double cap, std
     march.setup = clock.lap();
     Baseline baseline(stage.scene, stage.data.law, stage.adhesion, options);
     march.factor = clock.lap();
-    const auto stop = [&] {
-        return whole.seconds() > cap || (pricing > 0 && baseline.factorisations() > pricing);
-    };
+    const auto stop = [&] { return whole.seconds() > cap || (pricing > 0 && baseline.factorisations() > pricing); };
     for (int k = 1; k <= stage.data.steps; ++k) {
         clock.lap();
         const auto record = baseline.advance(step_time(stage.data, k), stop);

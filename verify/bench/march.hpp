@@ -12,8 +12,8 @@ namespace bench {
 
 // The four methods of the comparison.
 struct Method {
-    const char* key;         // baseline, feti, condensed, newton
-    const char* reduction;   // nullptr: the baseline, or whatever the library does by itself
+    const char* key;        // baseline, feti, condensed, newton
+    const char* reduction;  // nullptr: the baseline, or whatever the library does by itself
     const char* minimisation;
 };
 const std::vector<Method>& methods();

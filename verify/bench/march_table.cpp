@@ -43,7 +43,8 @@ void add_rows(std::vector<Row>& rows, const Json& series, const Json& memory, in
         const auto count = [&](const char* name) { return number(c[name].get<double>(), "%.0f"); };
         const bool has_memory = memory.contains(key) && memory[key].contains("peak_MB");
         rows.push_back({scene, std::to_string(threads), key, number(median_of(m, "total_s")), range_of(m, "total_s"),
-                        number(m["lse"].get<double>(), "%.4g"), m.contains("baseline_over_this") ? number(m["baseline_over_this"].get<double>()) : "",
+                        number(m["lse"].get<double>(), "%.4g"),
+                        m.contains("baseline_over_this") ? number(m["baseline_over_this"].get<double>()) : "",
                         number(median_of(m, "setup_s")), number(median_of(m, "factor_s")),
                         number(median_of(m, "iterate_s")), count("am_iterations"), count("displacement_solves"),
                         count("active_set_steps"), count("linear_iterations"), count("bulk_factorisations"),
@@ -57,8 +58,8 @@ void print_agreement(const char* title, const Json& part) {
     std::printf("\n%s\n", title);
     std::vector<Row> rows;
     for (const auto& [pair, d] : part["agreement"].items()) {
-        rows.push_back({pair, number(d["common_steps"].get<double>(), "%.0f"), number(d["reaction"].get<double>(), "%.1e"),
-                        number(d["stored_bulk"].get<double>(), "%.1e"),
+        rows.push_back({pair, number(d["common_steps"].get<double>(), "%.0f"),
+                        number(d["reaction"].get<double>(), "%.1e"), number(d["stored_bulk"].get<double>(), "%.1e"),
                         number(d["stored_interface"].get<double>(), "%.1e"),
                         number(d["dissipated"].get<double>(), "%.1e")});
     }
@@ -104,8 +105,8 @@ Json march_table(const Settings& settings) {
         result["scenes"][name] = std::move(scene);
     }
 
-    print_rows({"scene", "thr", "method", "total_s", "q1..q3", "LSE", "(a)/this", "setup_s", "factor_s", "iterate_s", "AM",
-                "displ", "active", "Krylov", "bulk_f", "refused", "peak_MB", "note"},
+    print_rows({"scene", "thr", "method", "total_s", "q1..q3", "LSE", "(a)/this", "setup_s", "factor_s", "iterate_s",
+                "AM", "displ", "active", "Krylov", "bulk_f", "refused", "peak_MB", "note"},
                rows);
     for (const auto& [name, scene] : result["scenes"].items()) {
         for (const auto& [n, series] : scene["threads"].items()) {

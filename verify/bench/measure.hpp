@@ -18,12 +18,12 @@ Json measure_agreement(const std::string& scene, double delta, double cap);
 // Is every method's end state a critical point? (critical.cpp)
 Json measure_critical(const std::string& scene, double cap);
 
-// Largest relative differences of two marches over their common steps: reaction over the largest reaction, energies over
-// the largest total energy.
+// Largest relative differences of two marches over their common steps: reaction over the largest reaction, energies
+// over the largest total energy.
 Json compare(const March& a, const March& b);
 
-// Predicted cost of the baseline from the counts of another march by plain alternation, whose iterates are the same, and
-// from times of single systems.
+// Predicted cost of the baseline from the counts of another march by plain alternation, whose iterates are the same,
+// and from times of single systems.
 struct Price {
     double seconds = 0.0;
     std::int64_t factorisations = 0;

@@ -7,8 +7,9 @@
 
 namespace bench {
 
-// The peak counts from the mesh in memory: the kernel's mark is set back before the measured part. For the factorisation
-// only the assembled matrix (and the mesh) is kept: its assembly must not be what the others are measured by.
+// The peak counts from the mesh in memory: the kernel's mark is set back before the measured part. For the
+// factorisation only the assembled matrix (and the mesh) is kept: its assembly must not be what the others are measured
+// by.
 Json measure_memory(const std::string& scene, const std::string& method, double cap) {
     Stage stage = make_mesh(find_scene(scene));
     Json result;

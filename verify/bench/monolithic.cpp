@@ -37,7 +37,8 @@ Unknowns choose_unknowns(const reference::Exported& exported) {
         auto pivot = index(c.start[r]);
         for (auto e = index(c.start[r]); e < index(c.start[r + 1]); ++e) {
             const auto dof = index(c.column[e]);
-            if (constraint[dof] >= 0) throw reference::Failure(0, "monolithic: a degree of freedom is constrained twice");
+            if (constraint[dof] >= 0)
+                throw reference::Failure(0, "monolithic: a degree of freedom is constrained twice");
             constraint[dof] = static_cast<std::int64_t>(r);
             if (std::abs(c.value[e]) > std::abs(c.value[pivot])) pivot = e;
         }
@@ -143,7 +144,8 @@ Monolithic::Monolithic(const reference::Scene& scene) {
     const Unknowns u = choose_unknowns(exported);
     patterns_ = exported.patterns;
     jump_ = u.jump;
-    for (const auto& pairs : exported.interfaces) weight_.insert(weight_.end(), pairs.weight.begin(), pairs.weight.end());
+    for (const auto& pairs : exported.interfaces)
+        weight_.insert(weight_.end(), pairs.weight.begin(), pairs.weight.end());
     base_ = transform(exported.stiffness, u);
     current_ = base_;
 

@@ -30,9 +30,7 @@ public:
     // Right-hand side at load factors theta; rows of held jumps are zero.
     void right_side(const std::vector<double>& theta, const std::vector<std::uint8_t>& held,
                     std::vector<double>& b) const;
-    double jump(std::size_t row, const std::vector<double>& v) const {
-        return v[static_cast<std::size_t>(jump_[row])];
-    }
+    double jump(std::size_t row, const std::vector<double>& v) const { return v[static_cast<std::size_t>(jump_[row])]; }
     // Force that a held pair carries, pull positive: minus the out-of-balance force of bodies and loads.
     double held_force(std::size_t row, const std::vector<double>& v, const std::vector<double>& theta) const;
 

@@ -29,7 +29,7 @@ def precision(result, figure):
         for name, colour in colours.items():
             for steps in sorted({r["steps"] for r in rows}):
                 # The error of the mesh alone where it is not zero by definition.
-                line = [r for r in rows if r["element"] == name and r["steps"] == steps and r[key + "_mesh"] > 0]
+                line = [r for r in rows if (r["element"], r["steps"]) == (name, steps) and r[key + "_mesh"] > 0]
                 line.sort(key=lambda r: -r["h_mm"])
                 main = steps == 40
                 axis.plot(
@@ -60,8 +60,9 @@ def march(result, figure):
             if "lse" not in m:
                 continue
             hatch = None if m["label"] == "measured" else "//"
-            axis.bar(i + 0.2 * (j - 1.5), m["lse"], 0.18, color=f"C{j}", hatch=hatch, label=method if i == 0 else None)
-            axis.annotate(f"{m['lse']:.3g}", (i + 0.2 * (j - 1.5), m["lse"]), ha="center", fontsize=7)
+            place = i + 0.2 * (j - 1.5)
+            axis.bar(place, m["lse"], 0.18, color=f"C{j}", hatch=hatch, label=method if i == 0 else None)
+            axis.annotate(f"{m['lse']:.3g}", (place, m["lse"]), ha="center", fontsize=7)
     axis.set(yscale="log", ylabel="linear-solve equivalents, 40 steps (hatched: extrapolated or capped)")
     axis.set_xticks(range(len(labels)), labels)
     axis.legend(fontsize=8)
@@ -98,7 +99,8 @@ def main():
     figure = plt.figure(figsize=(11, 5), layout="constrained")
     {"precision": precision, "march": march, "growth": growth}[data["table"]](data["result"], figure)
     machine = data["machine"]
-    figure.text(0.995, 0.005, f"{machine['processor']}, {machine['blas_core']}, {machine['commit']}", ha="right", fontsize=6)
+    note = f"{machine['processor']}, {machine['blas_core']}, {machine['commit']}"
+    figure.text(0.995, 0.005, note, ha="right", fontsize=6)
     figure.savefig(sys.argv[2], dpi=130)
 
 

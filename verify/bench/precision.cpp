@@ -92,8 +92,8 @@ Run run(const Element& element, double h, int steps, double delta, int repeat, d
     return r;
 }
 
-// Richardson: with errors c x^p the distances of two coarser results to the finest are c (x_i^p - x_finest^p). Their ratio
-// gives p (it grows with p, so it is bisected within 0.5 .. 6), and c x_finest^p is the error of the finest.
+// Richardson: with errors c x^p the distances of two coarser results to the finest are c (x_i^p - x_finest^p). Their
+// ratio gives p (it grows with p, so it is bisected within 0.5 .. 6), and c x_finest^p is the error of the finest.
 struct Extrapolation {
     double order;
     double error;
@@ -141,8 +141,8 @@ Meeting meet(std::vector<std::pair<double, const Run*>> by_error, double target)
 Json precision_table(const Settings& settings) {
     const int repeat = settings.repeat > 0 ? settings.repeat : (settings.quick ? 1 : 5);
     const double cap = settings.cap > 0.0 ? settings.cap : (settings.quick ? 60.0 : 600.0);
-    const std::vector<double> meshes = settings.quick ? std::vector<double>{1.0, 0.75, 0.5}
-                                                      : std::vector<double>{1.0, 0.75, 0.5, 0.25, 0.1};
+    const std::vector<double> meshes =
+        settings.quick ? std::vector<double>{1.0, 0.75, 0.5} : std::vector<double>{1.0, 0.75, 0.5, 0.25, 0.1};
     const std::vector<int> steps = settings.quick ? std::vector<int>{20, 40} : std::vector<int>{20, 40, 80, 160};
     constexpr int line_steps = 40;
 
@@ -180,7 +180,9 @@ Json precision_table(const Settings& settings) {
         const auto& fewer = mesh_reference.at(steps.back()).march;
         const auto step = richardson(4.0, 2.0, 1.0, distance(curve(fewest), curve(reference.march)),
                                      distance(curve(fewer), curve(reference.march)));
-        return Json{{"observed_order_h", mesh.order}, {"error_h", mesh.error}, {"observed_order_tau", step.order},
+        return Json{{"observed_order_h", mesh.order},
+                    {"error_h", mesh.error},
+                    {"observed_order_tau", step.order},
                     {"error_tau", step.error}};
     };
     result["reference"] = {{"element", best->name},
@@ -190,8 +192,9 @@ Json precision_table(const Settings& settings) {
                            {"seconds", median(reference.seconds)},
                            {"reaction", judge(reaction_curve)},
                            {"dissipated", judge(dissipation_curve)},
-                           {"judged_by", "Richardson: differences of the two next coarser meshes (and of half and a quarter "
-                                         "of the steps) to the finest"}};
+                           {"judged_by",
+                            "Richardson: differences of the two next coarser meshes (and of half and a quarter "
+                            "of the steps) to the finest"}};
 
     std::vector<Run> runs;
     for (const Element* e : available) {
@@ -211,8 +214,8 @@ Json precision_table(const Settings& settings) {
     const double reach_h = 10.0 * result["reference"]["reaction"]["error_h"].get<double>();
     std::map<std::string, std::vector<std::pair<double, const Run*>>> lines;
     for (const Run& r : runs) {
-        Json row{{"element", r.element->name}, {"h_mm", r.h}, {"steps", r.steps}, {"delta", r.delta},
-                 {"primal_dofs", r.primal}, {"dual_dofs", r.dual}, {"complete", r.complete()}};
+        Json row{{"element", r.element->name}, {"h_mm", r.h},         {"steps", r.steps},        {"delta", r.delta},
+                 {"primal_dofs", r.primal},    {"dual_dofs", r.dual}, {"complete", r.complete()}};
         if (!r.complete()) {
             row["note"] = "stopped by the cap";
             result["rows"].push_back(row);
@@ -242,13 +245,13 @@ Json precision_table(const Settings& settings) {
                         std::to_string(r.primal), number(median(r.seconds)), number(lse), number(error, "%.2e"),
                         number(error_h, "%.2e"), number(dissipated, "%.2e"), number(dissipated_h, "%.2e"),
                         r.element == best && r.h == fine_h ? "the reference's mesh"
-                        : error_h < reach_h                  ? "less than 10 errors of the reference"
-                                                             : ""});
+                        : error_h < reach_h                ? "less than 10 errors of the reference"
+                                                           : ""});
         const bool is_reference = r.element == best && r.h == fine_h;
         if (r.steps == line_steps && r.delta == 1e-5 && !is_reference) lines[r.element->name].emplace_back(error_h, &r);
     }
-    print_rows({"element", "h_mm", "steps", "delta", "DOFs", "seconds", "LSE", "err_F", "err_F_mesh", "err_D", "err_D_mesh",
-                "note"},
+    print_rows({"element", "h_mm", "steps", "delta", "DOFs", "seconds", "LSE", "err_F", "err_F_mesh", "err_D",
+                "err_D_mesh", "note"},
                rows);
     std::printf("\nreference: %s\n", result["reference"].dump().c_str());
 

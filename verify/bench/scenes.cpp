@@ -72,10 +72,10 @@ void prescribe(Stage& stage, const Place& where, const Point& direction, std::in
     std::vector<std::int64_t> nodes(scene.node_count());
     std::vector<double> weights(nodes.size());
     std::int64_t count = 0;
-    scene.require(delam_mesh_find_patch(scene.mesh(), where.body, where.lower.data(), where.upper.data(),
-                                        outward.data(), static_cast<std::int64_t>(nodes.size()), nodes.data(),
-                                        weights.data(), &count),
-                  "delam_mesh_find_patch");
+    scene.require(
+        delam_mesh_find_patch(scene.mesh(), where.body, where.lower.data(), where.upper.data(), outward.data(),
+                              static_cast<std::int64_t>(nodes.size()), nodes.data(), weights.data(), &count),
+        "delam_mesh_find_patch");
     const double one = 1.0;
     scene.require(delam_problem_prescribe_mean(scene.problem(), count, nodes.data(), weights.data(), direction.data(),
                                                pattern < 0 ? 0 : 1, pattern < 0 ? nullptr : &pattern,
@@ -84,9 +84,9 @@ void prescribe(Stage& stage, const Place& where, const Point& direction, std::in
 }
 
 reference::Scene layers(const SceneData& data) {
-    const std::int32_t type = data.element != nullptr  ? data.element->cell_type
-                              : data.dimension == 2 ? DELAM_QUAD4
-                                                    : DELAM_HEX8;
+    const std::int32_t type = data.element != nullptr ? data.element->cell_type
+                              : data.dimension == 2   ? DELAM_QUAD4
+                                                      : DELAM_HEX8;
     Point lengths{data.length};
     std::vector<std::int64_t> divisions{cells(data.length, data.h)};
     if (data.dimension == 3) {
@@ -123,7 +123,8 @@ SceneData find_scene(const std::string& name) {
     const auto dash = name.rfind('-');
     const std::string family = name.substr(0, dash);
     data.h = dash == std::string::npos ? 0.0 : 1e-3 * std::strtod(name.c_str() + dash + 1, nullptr);
-    if (!(data.h > 0.0 && data.h <= 3e-3)) throw reference::Failure(0, "scene '" + name + "': the edge in mm is missing");
+    if (!(data.h > 0.0 && data.h <= 3e-3))
+        throw reference::Failure(0, "scene '" + name + "': the edge in mm is missing");
     if (family == "enf-ductile") return data;
     if (family == "enf-brittle") {
         data.brittle = true;

@@ -28,13 +28,13 @@ struct SceneData {
     std::string name;
     const Element* element = nullptr;  // nullptr: quad4 or hex8
     int dimension = 2;
-    double h = 0.5e-3;        // m, edge of the elements
-    double length = 0.120;    // m, along x
-    double width = 0.0;       // m, along y, 3D only
-    double arm = 3e-3;        // m, thickness of each of the two arms
-    double notch = 0.030;     // m, from the left end
-    double patch = 0.0;       // m, length over which supports and load are spread as means; 0: points (3D: lines)
-    double final_load = 6e-3; // m
+    double h = 0.5e-3;         // m, edge of the elements
+    double length = 0.120;     // m, along x
+    double width = 0.0;        // m, along y, 3D only
+    double arm = 3e-3;         // m, thickness of each of the two arms
+    double notch = 0.030;      // m, from the left end
+    double patch = 0.0;        // m, length over which supports and load are spread as means; 0: points (3D: lines)
+    double final_load = 6e-3;  // m
     int steps = 40;
     reference::LawData law{125e9, 125e9, 100.0, 100.0, 250.0, 250.0};
     bool brittle = false;

@@ -139,10 +139,14 @@ double SparseFactor::entries() const {
 double SparseFactor::peak_bytes() const { return static_cast<double>(impl_->common.memory_usage); }
 const char* SparseFactor::ordering() const {
     switch (impl_->factor->ordering) {
-        case CHOLMOD_AMD: return "AMD";
-        case CHOLMOD_METIS: return "METIS";
-        case CHOLMOD_NATURAL: return "natural";
-        default: return "other";
+        case CHOLMOD_AMD:
+            return "AMD";
+        case CHOLMOD_METIS:
+            return "METIS";
+        case CHOLMOD_NATURAL:
+            return "natural";
+        default:
+            return "other";
     }
 }
 

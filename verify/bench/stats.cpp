@@ -18,7 +18,7 @@ double quantile(std::vector<double> sample, double q) {
 }
 
 Json spread(const std::vector<double>& sample) {
-    return {{"median", median(sample)},        {"min", quantile(sample, 0.0)}, {"q1", quantile(sample, 0.25)},
+    return {{"median", median(sample)},     {"min", quantile(sample, 0.0)}, {"q1", quantile(sample, 0.25)},
             {"q3", quantile(sample, 0.75)}, {"max", quantile(sample, 1.0)}, {"n", sample.size()}};
 }
 

@@ -11,8 +11,8 @@ namespace bench {
 
 struct Settings {
     bool quick = false;
-    int repeat = 0;      // 0: the table's own choice
-    double cap = 0.0;    // s; 0: the table's own choice
+    int repeat = 0;                   // 0: the table's own choice
+    double cap = 0.0;                 // s; 0: the table's own choice
     std::vector<std::string> scenes;  // empty: the table's own
     std::vector<int> threads;         // empty: 1 and 2
 };

@@ -47,8 +47,8 @@ void compare(const bench::SceneData& data, double tolerance, bool wide) {
         near(record->dissipated, "dissipated", energy);
         const auto same = [&](std::int64_t ours, const char* key) {
             const double theirs = solver.value(key);
-            cases::expect(static_cast<double>(ours) == theirs, where + key + ": baseline " + std::to_string(ours) +
-                                                                   ", library " + std::to_string(theirs));
+            cases::expect(static_cast<double>(ours) == theirs,
+                          where + key + ": baseline " + std::to_string(ours) + ", library " + std::to_string(theirs));
         };
         same(record->am_iterations, "am_iterations");
         same(record->displacement_solves, "displacement_solves");
