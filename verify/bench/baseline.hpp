@@ -32,6 +32,7 @@ public:
     std::optional<StepRecord> advance(double time, const std::function<bool()>& stop = {});
 
     const std::vector<double>& adhesion() const { return adhesion_; }
+    const std::vector<double>& mixity() const { return mixity_; }  // of the last step
     const std::vector<double>& jump() const { return jump_; }
     const std::vector<std::uint8_t>& closed() const { return closed_; }
     const Monolithic& system() const { return system_; }

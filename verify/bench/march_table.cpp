@@ -70,7 +70,7 @@ void print_agreement(const char* title, const Json& part) {
 
 Json march_table(const Settings& settings) {
     const int repeat = settings.repeat > 0 ? settings.repeat : (settings.quick ? 3 : 7);
-    const double cap = settings.cap > 0.0 ? settings.cap : (settings.quick ? 30.0 : 900.0);
+    const double cap = settings.cap > 0.0 ? settings.cap : (settings.quick ? 30.0 : 300.0);
     auto scenes = settings.scenes;
     if (scenes.empty() && settings.quick) scenes = {"enf-ductile-1", "enf-ductile-0.5"};
     if (scenes.empty()) scenes = {"enf-ductile-0.5", "enf-ductile-0.1", "enf-brittle-0.1"};
@@ -118,16 +118,19 @@ Json march_table(const Settings& settings) {
         if (!scene.contains("critical") || !scene["critical"].contains("methods")) continue;
         std::printf("\n%s: critical points\n", name.c_str());
         for (const auto& [key, m] : scene["critical"]["methods"].items()) {
-            if (m.contains("skipped") || m.is_null()) continue;
-            if (m.contains("end_state_kkt")) {
-                const Json& kkt = m["end_state_kkt"];
-                std::printf("%-10s %s steps, one more damage step moves %.1e at most; end state: %s\n", key.c_str(),
-                            m["steps"].dump().c_str(), m["damage_fixed_point_worst_of_steps"].get<double>(),
-                            kkt.is_object() ? kkt["text"].get<std::string>().c_str() : "not reached (cap)");
+            if (!m.contains("damage_fixed_point") || m["damage_fixed_point"].empty()) continue;
+            long beyond = 0;
+            for (const auto& defect : m["damage_fixed_point"]) beyond += defect.get<double>() > 1e-5 ? 1 : 0;
+            std::printf(
+                "%-10s %s steps; one more damage step moves %.1e at the end, %.1e at worst, beyond 1e-5 in %ld steps; ",
+                key.c_str(), m["steps"].dump().c_str(), m["damage_fixed_point"].back().get<double>(),
+                m["damage_fixed_point_worst_of_steps"].get<double>(), beyond);
+            if (m.contains("jump_against_library")) {
+                std::printf("jump against the library's %.1e\n", m["jump_against_library"].get<double>());
             } else {
-                std::printf("%-10s %s steps, last damage change %.1e, jump against the library's %.1e\n", key.c_str(),
-                            m["steps"].dump().c_str(), m["last_damage_change"].get<double>(),
-                            m["jump_against_library"].get<double>());
+                const Json& kkt = m["end_state_kkt"];
+                std::printf("end state: %s\n",
+                            kkt.is_object() ? kkt["text"].get<std::string>().c_str() : "not reached");
             }
         }
     }

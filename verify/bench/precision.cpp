@@ -198,7 +198,10 @@ Json precision_table(const Settings& settings) {
 
     std::vector<Run> runs;
     for (const Element* e : available) {
-        for (const double h : meshes) {
+        auto sizes = meshes;
+        // Elements of second order are worth a look where the others cannot bend at all.
+        if (e->order > 1) sizes.insert(sizes.begin(), {3.0, 1.5});
+        for (const double h : sizes) {
             for (const int n : steps) runs.push_back(run(*e, h, n, 1e-5, repeat, cap, n == line_steps));
         }
     }

@@ -11,7 +11,9 @@
 namespace bench {
 namespace {
 
-constexpr int priced_systems = 24;  // factorisations that are timed where the baseline is priced instead of run
+constexpr double slow_march = 30.0;   // s; a longer march is not repeated
+constexpr double counting_cap = 4.0;  // the counting march may take so many caps
+constexpr int priced_systems = 24;    // factorisations that are timed where the baseline is priced instead of run
 
 // Everything that is known of one method.
 struct Entry {
@@ -20,7 +22,7 @@ struct Entry {
     std::string refusal;
     std::vector<double> total, setup, factor, iterate;
     std::optional<March> first;
-    bool slow = false;  // not repeated
+    bool slow = false;  // measured once
     // The baseline alone.
     bool priced = false;
     std::vector<double> factor_times, solve_times;
@@ -83,20 +85,17 @@ Json measure_series(const std::string& scene, int repeat, double cap) {
         if (method.reduction != nullptr) entry.choice = resolve(stage, method, 1e-5, entry.refusal);
     }
 
-    // Counting march: tells what the baseline would take, and warms up.
-    const Entry& counter = entries["condensed"].choice ? entries["condensed"] : entries["feti"];
+    // Counting march: tells what the baseline would take, and warms up. A long one is kept as the method's measurement.
+    Entry& counter = entries["condensed"].choice ? entries["condensed"] : entries["feti"];
     progress(scene + ": counting the alternations (" + counter.method->key + ")");
-    const March counted = run_library(stage, *counter.choice, cap);
-    Entry& baseline = entries["baseline"];
-    double one_system = 0.0;
-    {
-        const double linear = lse.measure();
-        const Price rough = price(counted, linear, 0.0);
-        baseline.priced = !counted.capped && rough.seconds > cap;
-        one_system = linear;
+    const March counted = run_library(stage, *counter.choice, counting_cap * cap);
+    if (counted.capped || counted.total() > slow_march) {
+        keep(counter, counted);
+        counter.slow = true;
     }
-    progress(scene + ": baseline " + (baseline.priced ? "priced" : "run") + ", one linear solve " +
-             std::to_string(one_system) + " s");
+    Entry& baseline = entries["baseline"];
+    baseline.priced = price(counted, lse.measure(), 0.0).seconds > cap;
+    progress(scene + ": the baseline is " + (baseline.priced ? "priced" : "run"));
 
     std::vector<double> lse_times[2];
     int turn = 0;
@@ -112,8 +111,7 @@ Json measure_series(const std::string& scene, int repeat, double cap) {
             } else {
                 keep(entry, run_library(stage, *entry.choice, cap));
             }
-            // A march that takes most of the cap is not repeated.
-            entry.slow = (entry.first->capped && !entry.priced) || entry.total.back() > 0.25 * cap;
+            entry.slow = (entry.first->capped && !entry.priced) || entry.total.back() > slow_march;
             unit();
         }
         if (turn % 2 != 0) unit();
@@ -146,8 +144,9 @@ Json measure_series(const std::string& scene, int repeat, double cap) {
                 const Price p = price(counted, median(entry.factor_times), median(entry.solve_times));
                 iterate = p.seconds;
                 seconds = median(entry.setup) + median(entry.factor) + iterate;
-                label = "extrapolated";
+                label = counted.capped ? "extrapolated, lower bound" : "extrapolated";
                 m["extrapolated_from"] = {{"counted_on", counter.method->key},
+                                          {"counted_steps", counted.steps.size()},
                                           {"factorisations", p.factorisations},
                                           {"linear_systems", p.solves},
                                           {"timed_factorisations", entry.factor_times.size()}};
