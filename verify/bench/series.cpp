@@ -47,6 +47,18 @@ void run_baseline_round(Entry& entry, Stage& stage, bool wide, double cap) {
     keep(entry, std::move(march));
 }
 
+// Digit for digit: then one is the other under another name.
+bool same_march(const March& a, const March& b) {
+    if (a.steps.size() != b.steps.size()) return false;
+    for (std::size_t k = 0; k < a.steps.size(); ++k) {
+        const StepRecord& x = a.steps[k];
+        const StepRecord& y = b.steps[k];
+        if (x.reaction != y.reaction || x.dissipated != y.dissipated || x.am_iterations != y.am_iterations)
+            return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 void progress(const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); }
@@ -137,6 +149,10 @@ Json measure_series(const std::string& scene, int repeat, double cap) {
         double seconds = median(entry.total);
         std::string label = entry.first->capped ? "stopped by the cap: lower bound" : "measured";
         double iterate = median(entry.iterate);
+        const std::string method_key = method.key;
+        const auto& plain = entries["condensed"].first;
+        if (method_key == "newton" && plain && same_march(*plain, *entry.first))
+            label += ", the same march as condensed";
         if (method.reduction == nullptr) {
             m["factor_system_s"] = spread(entry.factor_times);
             m["rest_of_system_s"] = spread(entry.solve_times);
