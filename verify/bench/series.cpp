@@ -175,8 +175,12 @@ Json measure_series(const std::string& scene, int repeat, double cap) {
         m["factor_s"] = spread(entry.factor);
         m["iterate_s"] = entry.priced ? Json{{"median", iterate}} : spread(entry.iterate);
         m["lse"] = seconds / one;
-        if (baseline_seconds > 0.0 && method.reduction != nullptr) m["baseline_over_this"] = baseline_seconds / seconds;
+        // Against a method that was stopped there is no ratio to give.
+        if (baseline_seconds > 0.0 && method.reduction != nullptr && !entry.first->capped)
+            m["baseline_over_this"] = baseline_seconds / seconds;
         m["counts"] = entry.priced ? counts(counted) : counts(*entry.first);
+        if (m.contains("extrapolated_from"))  // and the one of the unloaded state
+            m["counts"]["bulk_factorisations"] = m["extrapolated_from"]["factorisations"].get<double>() + 1.0;
         m["plan"] = entry.first->plan;
         if (!entry.priced) m["history"] = history(*entry.first);
         result["methods"][method.key] = m;
