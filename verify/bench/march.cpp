@@ -56,7 +56,7 @@ const std::vector<Method>& methods() {
     static const std::vector<Method> list = {{"baseline", nullptr, nullptr},
                                              {"feti", "feti", "alternate"},
                                              {"condensed", "condensed", "alternate"},
-                                             {"newton", "condensed", "newton"}};
+                                             {"accelerated", "condensed", "accelerated"}};
     return list;
 }
 
@@ -64,7 +64,7 @@ const Method& find_method(const std::string& key) {
     for (const Method& m : methods()) {
         if (key == m.key) return m;
     }
-    throw reference::Failure(0, "method '" + key + "' is not known: baseline, feti, condensed, newton");
+    throw reference::Failure(0, "method '" + key + "' is not known: baseline, feti, condensed, accelerated");
 }
 
 std::optional<Choice> resolve(Stage& stage, const Method& method, double delta, std::string& refusal) {

@@ -12,7 +12,7 @@ namespace bench {
 
 // The four methods of the comparison.
 struct Method {
-    const char* key;        // baseline, feti, condensed, newton
+    const char* key;        // baseline, feti, condensed, accelerated
     const char* reduction;  // nullptr: the baseline, or whatever the library does by itself
     const char* minimisation;
 };

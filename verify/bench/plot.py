@@ -15,7 +15,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-METHODS = ("baseline", "feti", "condensed", "newton")
+METHODS = ("baseline", "feti", "condensed", "accelerated")
 
 
 def precision(result, figure):

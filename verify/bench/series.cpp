@@ -151,7 +151,7 @@ Json measure_series(const std::string& scene, int repeat, double cap) {
         double iterate = median(entry.iterate);
         const std::string method_key = method.key;
         const auto& plain = entries["condensed"].first;
-        if (method_key == "newton" && plain && same_march(*plain, *entry.first))
+        if (method_key == "accelerated" && plain && same_march(*plain, *entry.first))
             label += ", the same march as condensed";
         if (method.reduction == nullptr) {
             m["factor_system_s"] = spread(entry.factor_times);
