@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "lse.hpp"
+#include "machine.hpp"
+#include "measure.hpp"
+
+namespace bench {
+namespace {
+
+constexpr double slow_march = 30.0;   // s; a longer march is not repeated
+constexpr double counting_cap = 4.0;  // the counting march may take so many caps
+constexpr int priced_systems = 24;    // factorisations that are timed where the baseline is priced instead of run
+
+// Everything that is known of one method.
+struct Entry {
+    const Method* method = nullptr;
+    std::optional<Choice> choice;  // library methods
+    std::string refusal;
+    std::vector<double> total, setup, factor, iterate;
+    std::optional<March> first;
+    bool slow = false;  // measured once
+    // The baseline alone.
+    bool priced = false;
+    std::vector<double> factor_times, solve_times;
+    std::vector<std::int64_t> factorisations;
+};
+
+void keep(Entry& entry, March march) {
+    entry.total.push_back(march.total());
+    entry.setup.push_back(march.setup);
+    entry.factor.push_back(march.factor);
+    entry.iterate.push_back(march.iterate);
+    if (!entry.first) entry.first = std::move(march);
+}
+
+void run_baseline_round(Entry& entry, Stage& stage, bool wide, double cap) {
+    BaselineOptions options;
+    options.wide = wide;
+    BaselineTimes times;
+    March march = run_baseline(stage, options, cap, entry.priced ? priced_systems : 0, &times);
+    entry.factor_times.insert(entry.factor_times.end(), times.factor.begin(), times.factor.end());
+    entry.solve_times.insert(entry.solve_times.end(), times.solve.begin(), times.solve.end());
+    keep(entry, std::move(march));
+}
+
+// Digit for digit: then one is the other under another name.
+bool same_march(const March& a, const March& b) {
+    if (a.steps.size() != b.steps.size()) return false;
+    for (std::size_t k = 0; k < a.steps.size(); ++k) {
+        const StepRecord& x = a.steps[k];
+        const StepRecord& y = b.steps[k];
+        if (x.reaction != y.reaction || x.dissipated != y.dissipated || x.am_iterations != y.am_iterations)
+            return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+void progress(const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); }
+
+Price price(const March& counted, double factor_seconds, double solve_seconds) {
+    Price p;
+    for (const StepRecord& r : counted.steps) p.solves += r.contact_iterations;
+    // The first system of a step has the matrix of the last one before, and the first step begins twice (elastic).
+    p.factorisations = std::max<std::int64_t>(0, p.solves - static_cast<std::int64_t>(counted.steps.size()) - 1);
+    p.seconds = static_cast<double>(p.factorisations) * factor_seconds + static_cast<double>(p.solves) * solve_seconds;
+    return p;
+}
+
+Json measure_series(const std::string& scene, int repeat, double cap) {
+    Stage stage = make_mesh(find_scene(scene));
+    declare(stage, {});
+    std::int64_t primal = 0;
+    std::int64_t dual = 0;
+    stage.scene.require(delam_problem_dofs(stage.scene.problem(), &primal, &dual), "delam_problem_dofs");
+    Lse lse(stage);
+    Json result;
+    result["scene"] = scene;
+    result["primal_dofs"] = primal;
+    result["dual_dofs"] = dual;
+    result["steps"] = stage.data.steps;
+    result["delta"] = 1e-5;
+    result["cap_s"] = cap;
+    result["machine"] = machine();
+    result["lse_index_width"] = lse.choose();
+    result["lse_facts"] = lse.facts();
+
+    std::map<std::string, Entry> entries;
+    for (const Method& method : methods()) {
+        Entry& entry = entries[method.key];
+        entry.method = &method;
+        if (method.reduction != nullptr) entry.choice = resolve(stage, method, 1e-5, entry.refusal);
+    }
+
+    // Counting march: tells what the baseline would take, and warms up. A long one is kept as the method's measurement.
+    Entry& counter = entries["condensed"].choice ? entries["condensed"] : entries["feti"];
+    progress(scene + ": counting the alternations (" + counter.method->key + ")");
+    const March counted = run_library(stage, *counter.choice, counting_cap * cap);
+    if (counted.capped || counted.total() > slow_march) {
+        keep(counter, counted);
+        counter.slow = true;
+    }
+    Entry& baseline = entries["baseline"];
+    baseline.priced = price(counted, lse.measure(), 0.0).seconds > cap;
+    progress(scene + ": the baseline is " + (baseline.priced ? "priced" : "run"));
+
+    std::vector<double> lse_times[2];
+    int turn = 0;
+    const auto unit = [&] { lse_times[turn++ % 2].push_back(lse.measure()); };
+    for (int round = 0; round < repeat; ++round) {
+        unit();
+        for (const Method& method : methods()) {
+            Entry& entry = entries[method.key];
+            if (entry.slow || (method.reduction != nullptr && !entry.choice)) continue;
+            progress(scene + ": round " + std::to_string(round + 1) + ", " + method.key);
+            if (method.reduction == nullptr) {
+                run_baseline_round(entry, stage, lse.wide(), cap);
+            } else {
+                keep(entry, run_library(stage, *entry.choice, cap));
+            }
+            entry.slow = (entry.first->capped && !entry.priced) || entry.total.back() > slow_march;
+            unit();
+        }
+        if (turn % 2 != 0) unit();
+    }
+
+    std::vector<double> all = lse_times[0];
+    all.insert(all.end(), lse_times[1].begin(), lse_times[1].end());
+    const double one = median(all);
+    result["lse_s"] = spread(all);
+    result["noise_floor"] = {{"series_a", spread(lse_times[0])},
+                             {"series_b", spread(lse_times[1])},
+                             {"ratio_of_medians", median(lse_times[0]) / median(lse_times[1])}};
+
+    double baseline_seconds = 0.0;
+    for (const Method& method : methods()) {
+        Entry& entry = entries[method.key];
+        Json m;
+        if (!entry.first) {
+            m["skipped"] = entry.refusal;
+            result["methods"][method.key] = m;
+            continue;
+        }
+        double seconds = median(entry.total);
+        std::string label = entry.first->capped ? "stopped by the cap: lower bound" : "measured";
+        double iterate = median(entry.iterate);
+        const std::string method_key = method.key;
+        const auto& plain = entries["condensed"].first;
+        if (method_key == "accelerated" && plain && same_march(*plain, *entry.first))
+            label += ", the same march as condensed";
+        if (method.reduction == nullptr) {
+            m["factor_system_s"] = spread(entry.factor_times);
+            m["rest_of_system_s"] = spread(entry.solve_times);
+            if (entry.priced) {
+                const Price p = price(counted, median(entry.factor_times), median(entry.solve_times));
+                iterate = p.seconds;
+                seconds = median(entry.setup) + median(entry.factor) + iterate;
+                label = counted.capped ? "extrapolated, lower bound" : "extrapolated";
+                m["extrapolated_from"] = {{"counted_on", counter.method->key},
+                                          {"counted_steps", counted.steps.size()},
+                                          {"factorisations", p.factorisations},
+                                          {"linear_systems", p.solves},
+                                          {"timed_factorisations", entry.factor_times.size()}};
+            }
+            baseline_seconds = seconds;
+        }
+        m["label"] = label;
+        m["total_s"] = entry.priced ? Json{{"median", seconds}} : spread(entry.total);
+        m["setup_s"] = spread(entry.setup);
+        m["factor_s"] = spread(entry.factor);
+        m["iterate_s"] = entry.priced ? Json{{"median", iterate}} : spread(entry.iterate);
+        m["lse"] = seconds / one;
+        // Against a method that was stopped there is no ratio to give.
+        if (baseline_seconds > 0.0 && method.reduction != nullptr && !entry.first->capped)
+            m["baseline_over_this"] = baseline_seconds / seconds;
+        m["counts"] = entry.priced ? counts(counted) : counts(*entry.first);
+        if (m.contains("extrapolated_from"))  // and the one of the unloaded state
+            m["counts"]["bulk_factorisations"] = m["extrapolated_from"]["factorisations"].get<double>() + 1.0;
+        m["plan"] = entry.first->plan;
+        if (!entry.priced) m["history"] = history(*entry.first);
+        result["methods"][method.key] = m;
+    }
+    // Everybody who got to the end, against everybody else.
+    for (std::size_t i = 0; i < methods().size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            const Entry& a = entries[methods()[j].key];
+            const Entry& b = entries[methods()[i].key];
+            if (!a.first || !b.first || a.first->steps.empty() || b.first->steps.empty()) continue;
+            result["agreement"][std::string(a.method->key) + " / " + b.method->key] = compare(*a.first, *b.first);
+        }
+    }
+    return result;
+}
+
+}  // namespace bench

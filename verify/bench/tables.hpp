@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The tables of delam_bench: each measures, prints text on standard output, and returns everything as JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "stats.hpp"
+
+namespace bench {
+
+struct Settings {
+    bool quick = false;
+    int repeat = 0;                   // 0: the table's own choice
+    double cap = 0.0;                 // s; 0: the table's own choice
+    std::vector<std::string> scenes;  // empty: the table's own
+    std::vector<int> threads;         // empty: 1 and 2
+};
+
+Json march_table(const Settings& settings);
+Json precision_table(const Settings& settings);
+Json growth_table(const Settings& settings);
+
+}  // namespace bench
