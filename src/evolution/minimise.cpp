@@ -16,9 +16,9 @@ constexpr double rounding = 1e-12;  // of an energy of the whole scene, a sum of
 
 }  // namespace
 
-bool Minimiser::displace(State& state) const {
+bool Minimiser::displace(State& state, bool cold) const {
     const std::vector<double> stiffness = spring_stiffness(pairs, state.adhesion);
-    const ContactResult contact_result = solve_contact(op, contact, stiffness, state.theta, state.closed, state.response);
+    const ContactResult contact_result = solve_contact(op, contact, stiffness, state.theta, state.closed, state.response, cold);
     Counts& counts = state.counts;
     if (counts.displacement_solves == 0) counts.contact_iterations_first = contact_result.solves;
     ++counts.displacement_solves;

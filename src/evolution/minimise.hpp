@@ -22,7 +22,8 @@ struct Minimiser {
 
     // Displacements and contact at the state's adhesion and theta; counts are added up.
     // False: a limit of the linear or contact iteration was met.
-    bool displace(State& state) const;
+    // cold: the contact set at hand says nothing.
+    bool displace(State& state, bool cold = false) const;
     double energy(const State& state, std::span<const double> adhesion_old) const;
     // The faster way to the same stopping test, safeguarded by the energy; zone leaps where the operator is condensed.
     bool accelerate(State& state, std::span<const double> adhesion_old) const;

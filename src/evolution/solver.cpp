@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "interface/contact_levels.hpp"
 #include "reduction/choose.hpp"
 
 namespace delam {
@@ -23,6 +24,7 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time) : problem_
         }
         initial_adhesion_.insert(initial_adhesion_.end(), properties.adhesion.begin(), properties.adhesion.end());
     }
+    contact_.level = contact_levels(mesh.interfaces());
     operator_ = choose_operator(problem_, monitor_);
     lift_ = Lift(*operator_, static_cast<std::size_t>(problem_.jump_count()), problem_.patterns.size());
     double largest = 0.0;
@@ -105,7 +107,7 @@ Outcome Solver::advance(double time) {
     if (committed_.loaded == 0) {
         // Before the first load there is no jump to take the mixity from: the elastic solution of this step gives it.
         State elastic = next;
-        converged = minimiser().displace(elastic);
+        converged = minimiser().displace(elastic, true);
         next.counts = elastic.counts;
         next.mixity = mixities(pairs_, elastic.response.jump, committed_.mixity);
         next.mixity_before = next.mixity;

@@ -22,13 +22,13 @@ double largest(std::span<const double> values) {
 
 // Pairs that sit on the wrong side of the complementarity condition.
 std::vector<std::size_t> violators(const ContactScene& scene, std::span<const std::uint8_t> prescribed,
-                                   const std::vector<std::uint8_t>& closed, const Response& response) {
+                                   const std::vector<std::uint8_t>& closed, const Response& response, std::uint8_t level) {
     const auto dim = static_cast<std::size_t>(scene.dimension);
     const double jump_scale = noise * largest(response.jump);
     const double force_scale = noise * largest(response.force);
     std::vector<std::size_t> found;
     for (std::size_t p = 0; p < closed.size(); ++p) {
-        if (scene.bonded[p] != 0 || prescribed[p * dim] != 0) continue;
+        if (scene.bonded[p] != 0 || prescribed[p * dim] != 0 || scene.level[p] < level) continue;
         const bool wrong = closed[p] != 0 ? response.force[p * dim] > force_scale : response.jump[p * dim] < -jump_scale;
         if (wrong) found.push_back(p);
     }
@@ -38,13 +38,15 @@ std::vector<std::size_t> violators(const ContactScene& scene, std::span<const st
 }  // namespace
 
 ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
-                            std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response) {
+                            std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response, bool cold) {
     const auto dim = static_cast<std::size_t>(scene.dimension);
     const auto prescribed = op.prescribed_rows();
     Springs springs{{stiffness.begin(), stiffness.end()}, std::vector<std::uint8_t>(stiffness.size(), 0)};
     ContactResult result;
     std::set<std::vector<std::uint8_t>> seen;
     bool all_closed_tried = false;
+    std::uint8_t level = cold && !scene.level.empty() ? *std::max_element(scene.level.begin(), scene.level.end()) : 0;
+    if (level > 0) std::fill(closed.begin(), closed.end(), std::uint8_t{0});
     while (true) {
         for (std::size_t p = 0; p < closed.size(); ++p)
             for (std::size_t c = 0; c < dim; ++c)
@@ -56,6 +58,7 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
             if (all_closed_tried)
                 fail(DELAM_LIMIT, "no equilibrium: a dead force acts on a part that neither bonds, supports nor contact hold");
             all_closed_tried = true;
+            level = 0;
             for (std::size_t p = 0; p < closed.size(); ++p) closed[p] = scene.bonded[p] == 0 && prescribed[p * dim] == 0 ? 1 : 0;
             continue;
         }
@@ -63,7 +66,11 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
         result.linear_residual = std::max(result.linear_residual, response.residual);
         result.converged = result.converged && response.converged;
 
-        const std::vector<std::size_t> wrong = violators(scene, prescribed, closed, response);
+        std::vector<std::size_t> wrong = violators(scene, prescribed, closed, response, level);
+        while (wrong.empty() && level > 0) {
+            wrong = violators(scene, prescribed, closed, response, --level);
+            seen.clear();
+        }
         if (wrong.empty()) break;
         if (result.solves >= scene.limit) {
             result.converged = false;

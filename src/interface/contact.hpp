@@ -27,12 +27,14 @@ struct ContactResult {
 struct ContactScene {
     int dimension = 2;
     std::vector<std::uint8_t> bonded;  // [pairs] held in every direction for ever
+    std::vector<std::uint8_t> level;   // [pairs] of contact_levels.hpp
     std::int64_t limit = 200;
 };
 
 // spring stiffness: [rows]. closed: [pairs], the warm start in, the contact set out. Throws Error(DELAM_LIMIT) when no contact set balances
-// the loads, Error(DELAM_ERROR_PROBLEM) when prescribed displacements press faces into each other.
+// the loads, Error(DELAM_ERROR_PROBLEM) when prescribed displacements press faces into each other. cold: the set is searched from coarse to
+// fine, with all pairs open at first.
 ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
-                            std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response);
+                            std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response, bool cold);
 
 }  // namespace delam
