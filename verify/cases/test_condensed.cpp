@@ -259,6 +259,37 @@ CASE_TEST(dead_forces_on_a_loose_ply) {
         cases::expect_near(traction[0][i], traction[1][i], 1e-8, largest(traction[1]), "traction");
 }
 
+// ---- prescribed values that bind several jumps -----------------------------------------------------------------------
+
+// Nothing is damaged: the energy of a step lies between its two estimates.
+CASE_TEST(estimates_with_bound_jumps) {
+    const int d = loop / 2 == 0 ? 2 : 3;
+    Scene scene = cases::make_bound_jumps(d);
+    scene.law(0, {1e14, 1e14, 1e9, 1e9, 1e9, 1e9});
+    scene.text("reduction", loop % 2 == 0 ? "condensed" : "feti");
+    Solver solver(scene, 0.0);
+    for (const double time : {0.5, 1.0}) {
+        solver.step(time);
+        const double lower = solver.value("lower"), increment = solver.value("increment"), upper = solver.value("upper");
+        const double rounding = 1e-9 * std::abs(increment);
+        const std::string where = std::to_string(d) + "D, lower " + std::to_string(lower) + ", increment " + std::to_string(increment) + ", upper " + std::to_string(upper);
+        cases::expect(lower <= increment + rounding && increment <= upper + rounding, where);
+        solver.commit();
+    }
+}
+
+// A mean over the upper nodes of bonded pairs whose lower nodes are held contradicts the bond.
+CASE_TEST(bound_jumps_of_a_bond) {
+    Scene scene = cases::make_bound_jumps(2);
+    scene.bonded(0);
+    scene.text("reduction", loop == 0 ? "condensed" : "feti");
+    delam_solver* solver = nullptr;
+    const std::int32_t status = delam_solver_create(scene.problem(), 0.0, &solver);
+    const std::int32_t advanced = status == DELAM_OK ? delam_solver_advance(solver, 1.0) : status;
+    delam_solver_destroy(&solver);
+    cases::expect(status == DELAM_ERROR_PROBLEM, std::string("create: ") + delam_status_name(status) + ", advance: " + delam_status_name(advanced));
+}
+
 // ---- zones ---------------------------------------------------------------------------------------------------------
 
 struct Walk {
@@ -343,6 +374,8 @@ int main() {
     tcase_add_loop_test(tests, every_scene, 0, entry_count);
     tcase_add_loop_test(tests, floating, 0, 16);
     tcase_add_loop_test(tests, dead_forces_on_a_loose_ply, 0, 2);
+    tcase_add_loop_test(tests, estimates_with_bound_jumps, 0, 4);
+    tcase_add_loop_test(tests, bound_jumps_of_a_bond, 0, 2);
     tcase_add_loop_test(tests, long_walk, 0, walk_count);
     tcase_add_test(tests, rollback_of_the_first_step);
     suite_add_tcase(suite, tests);
