@@ -145,6 +145,118 @@ CASE_TEST(other_scene) {
     expect_refused(enf, bytes, "other mesh");
 }
 
+// Brittle, condensed, accelerated: fronts leap, so that the condensed operator chooses, releases and renews its zones. What it remembers of
+// that decides the last digits.
+Scene leaping_enf() {
+    cases::Enf e;
+    e.h = 1e-3;
+    e.subdomains = 0;
+    e.law = {125e15, 125e15, 0.01, 0.01, 25.0, 25.0};
+    Scene scene = cases::make_enf(e);
+    scene.text("reduction", "condensed");
+    scene.text("minimisation", "accelerated");
+    return scene;
+}
+
+constexpr int leaps = 40;
+
+void leap(Solver& solver, int first, int last) {
+    for (int k = first; k <= last; ++k) {
+        solver.step(cases::enf_time(k, leaps));
+        solver.commit();
+    }
+}
+
+CASE_TEST(resumed_leaps) {
+    const Scene scene = leaping_enf();
+    Solver whole(scene, 0.0);
+    std::vector<std::vector<std::uint8_t>> bytes{whole.save()};
+    for (int k = 1; k <= leaps; ++k) {
+        leap(whole, k, k);
+        bytes.push_back(whole.save());
+    }
+    cases::expect(whole.value("dissipated") > 0.0, "nothing was damaged");
+    const auto end = cases::read_bits(whole);
+    const Scene again = leaping_enf();
+    for (const int from : {0, 3, 10, 12, 13, 20, 31, 39}) {
+        const std::string where = "resumed at step " + std::to_string(from);
+        Solver resumed(again, 0.0);
+        again.require(resumed.load(bytes[static_cast<std::size_t>(from)]), "delam_solver_load");
+        leap(resumed, from + 1, leaps);
+        cases::expect_same(resumed, cases::read_bits(resumed), end, where);
+        cases::expect(resumed.save() == bytes.back(), where + ": snapshots in the end");
+    }
+}
+
+// Every step is taken twice, a far one and a displacement step in between: as if they had never been.
+CASE_TEST(leaps_rolled_back) {
+    const Scene scene = leaping_enf();
+    Solver straight(scene, 0.0), wavering(scene, 0.0);
+    for (int k = 1; k <= leaps; ++k) {
+        leap(straight, k, k);
+        wavering.step(cases::enf_time(k, leaps));
+        wavering.rollback();
+        if (k % 3 == 0) {
+            wavering.step(cases::enf_time(k + 9, leaps));
+            wavering.rollback();
+        }
+        if (k % 4 == 0) {
+            auto adhesion = wavering.field("adhesion");
+            for (std::size_t p = 0; p < adhesion.size(); p += 3) adhesion[p] *= 0.5;
+            wavering.equilibrate(cases::enf_time(k, leaps), adhesion);
+            wavering.rollback();
+        }
+        leap(wavering, k, k);
+        cases::expect(wavering.save() == straight.save(), "step " + std::to_string(k) + ": snapshots differ");
+    }
+    cases::expect_same(wavering, cases::read_bits(wavering), cases::read_bits(straight), "in the end");
+}
+
+// A solver that went elsewhere before loads a state and goes on from there.
+CASE_TEST(loaded_over_another_past) {
+    const Scene scene = leaping_enf();
+    Solver first(scene, 0.0), other(scene, 0.0);
+    leap(first, 1, 12);
+    const auto bytes = first.save();
+    leap(first, 13, 20);
+    other.step(cases::enf_time(35, leaps));
+    other.commit();
+    scene.require(other.load(bytes), "delam_solver_load");
+    cases::expect(other.save() == bytes, "what was loaded");
+    leap(other, 13, 20);
+    cases::expect(other.save() == first.save(), "the steps after it");
+}
+
+// Cancelled at any of its stages, a step leaves no trace.
+struct Countdown {
+    int left;
+};
+std::int32_t count_down(const char*, std::int64_t, std::int64_t, void* user) { return --static_cast<Countdown*>(user)->left == 0 ? 1 : 0; }
+
+CASE_TEST(cancelled_leaps) {
+    const Scene scene = leaping_enf();
+    Solver straight(scene, 0.0);
+    leap(straight, 1, 14);
+    const auto after = straight.save();
+    Solver cancelled(scene, 0.0);
+    leap(cancelled, 1, 11);
+    int cancellations = 0;
+    for (int k = 12; k <= 14; ++k) {
+        for (int stage = 1;; stage = stage < 12 ? stage + 1 : stage + 7) {
+            Countdown countdown{stage};
+            scene.require(delam_context_set_progress(scene.context(), count_down, &countdown), "delam_context_set_progress");
+            const std::int32_t status = cancelled.advance(cases::enf_time(k, leaps));
+            scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "delam_context_set_progress");
+            if (status == DELAM_OK) break;
+            cases::expect(status == DELAM_CANCELLED, std::string("status ") + delam_status_name(status));
+            ++cancellations;
+        }
+        cancelled.commit();
+    }
+    cases::expect(cancellations > 20, std::to_string(cancellations) + " cancellations");
+    cases::expect(cancelled.save() == after, "snapshots differ");
+}
+
 }  // namespace
 
 int main() {
@@ -156,6 +268,10 @@ int main() {
     tcase_add_test(tests, equilibrate_moves_no_ledger);
     tcase_add_test(tests, damaged_bytes);
     tcase_add_test(tests, other_scene);
+    tcase_add_test(tests, resumed_leaps);
+    tcase_add_test(tests, leaps_rolled_back);
+    tcase_add_test(tests, loaded_over_another_past);
+    tcase_add_test(tests, cancelled_leaps);
     suite_add_tcase(suite, tests);
     return cases::run_suite(suite);
 }

@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The condensed jump operator against FETI and against the direct reference, scene by scene, at random adhesion and under loads that are
+// reversed. Then long walks in which a few pairs change at a time, so that zones are chosen anew, released and renewed: every state
+// against that of a solver which has no past.
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <random>
+
+#include "acceptance.hpp"
+#include "comparison.hpp"
+#include "condensed_scenes.hpp"
+#include "direct.hpp"
+#include "enf.hpp"
+#include "support.hpp"
+
+namespace {
+
+using cases::block_law;
+using cases::LawData;
+using cases::Scene;
+using reference::DirectReference;
+using reference::Exported;
+using reference::Solver;
+
+struct Entry {
+    const char* name;
+    Scene (*make)();
+    bool unique_forces = true;  // of supports and bonds: else only displacements and energies are compared
+    bool both_signs = true;     // of the load
+};
+
+LawData stiff(double k) { return {k, 0.5 * k, 150.0, 200.0, 300.0, 500.0}; }
+
+const Entry entries[] = {
+    {"two plies", [] { return cases::make_plies(2, 2, DELAM_QUAD4, "standard", block_law); }},
+    {"four plies", [] { return cases::make_plies(2, 4, DELAM_QUAD4, "standard", block_law); }},
+    {"two plies 3D", [] { return cases::make_plies(3, 2, DELAM_HEX8, "standard", block_law, 8); }},
+    {"three plies 3D", [] { return cases::make_plies(3, 3, DELAM_HEX8, "standard", block_law, 6); }},
+    {"tri3", [] { return cases::make_plies(2, 3, DELAM_TRI3, "standard", block_law); }},
+    {"tri6", [] { return cases::make_plies(2, 3, DELAM_TRI6, "standard", block_law); }},
+    {"quad8", [] { return cases::make_plies(2, 3, DELAM_QUAD8, "standard", block_law); }},
+    {"quad9", [] { return cases::make_plies(2, 3, DELAM_QUAD9, "standard", block_law); }},
+    {"quad4 incompatible", [] { return cases::make_plies(2, 3, DELAM_QUAD4, "incompatible", block_law); }},
+    {"tet4", [] { return cases::make_plies(3, 2, DELAM_TET4, "standard", block_law, 5); }},
+    {"tet10", [] { return cases::make_plies(3, 2, DELAM_TET10, "standard", block_law, 4); }},
+    {"hex20", [] { return cases::make_plies(3, 2, DELAM_HEX20, "standard", block_law, 4); }},
+    {"hex8 incompatible", [] { return cases::make_plies(3, 2, DELAM_HEX8, "incompatible", block_law, 5); }},
+    {"k = 1e6", [] { return cases::make_plies(2, 3, DELAM_QUAD4, "standard", stiff(1e6)); }},
+    {"k = 1e9", [] { return cases::make_plies(2, 3, DELAM_QUAD4, "standard", stiff(1e9)); }},
+    {"k = 1e15", [] { return cases::make_plies(2, 3, DELAM_QUAD4, "standard", stiff(1e15)); }},
+    {"k = 1e18", [] { return cases::make_plies(2, 3, DELAM_QUAD4, "standard", stiff(1e18)); }},
+    {"k = 1e22", [] { return cases::make_plies(2, 3, DELAM_QUAD4, "standard", stiff(1e22)); }},
+    {"k = 1e22 3D", [] { return cases::make_plies(3, 2, DELAM_HEX8, "standard", stiff(1e22), 6); }},
+    {"tee", [] { return cases::make_tee(2, false, -1); }},
+    {"tee slanted", [] { return cases::make_tee(2, true, -1); }},
+    {"tee, one interface bonded", [] { return cases::make_tee(2, false, 1); }},
+    {"tee slanted, the ring closed by a bond", [] { return cases::make_tee(2, true, 2); }, false},
+    {"tee 3D", [] { return cases::make_tee(3, false, -1); }},
+    {"tee 3D slanted, bonded", [] { return cases::make_tee(3, true, 0); }},
+    {"cross", [] { return cases::make_cross(2, false, 0); }},
+    {"cross slanted", [] { return cases::make_cross(2, true, 0); }},
+    {"cross, one bonded", [] { return cases::make_cross(2, false, 8); }},
+    {"cross, two bonded", [] { return cases::make_cross(2, false, 9); }},
+    {"cross slanted, three bonded", [] { return cases::make_cross(2, true, 11); }, false},
+    {"cross 3D", [] { return cases::make_cross(3, false, 0); }},
+    {"cross 3D slanted, one bonded", [] { return cases::make_cross(3, true, 4); }},
+    {"cross, nodes without cells", [] { return cases::make_cross(2, false, 0, 5); }},
+    {"means", [] { return cases::make_means(2); }},
+    {"means 3D", [] { return cases::make_means(3); }},
+    {"slanted supports", [] { return cases::make_slanted_supports(2); }},
+    {"slanted supports 3D", [] { return cases::make_slanted_supports(3); }},
+    {"opened", [] { return cases::make_opened(2, 0.0); }, true, false},
+    {"opened, turned", [] { return cases::make_opened(2, 33.0); }, true, false},
+    {"opened 3D", [] { return cases::make_opened(3, 0.0); }, true, false},
+    {"opened 3D, turned", [] { return cases::make_opened(3, 33.0); }, true, false},
+    {"bound jumps", [] { return cases::make_bound_jumps(2); }},
+    {"bound jumps 3D", [] { return cases::make_bound_jumps(3); }},
+    {"redundant supports", [] { return cases::make_redundant(2); }, false},
+    {"redundant supports 3D", [] { return cases::make_redundant(3); }, false},
+    {"dead forces", [] { return cases::make_forces(2); }},
+    {"dead forces 3D", [] { return cases::make_forces(3); }},
+};
+constexpr int entry_count = static_cast<int>(std::size(entries));
+
+// Bonded interfaces keep the adhesion that they have.
+std::vector<double> random_adhesion(const Scene& scene, std::mt19937& random, const std::vector<double>& initial) {
+    std::uniform_real_distribution<double> draw(0.0, 1.0);
+    std::vector<double> zeta(initial);
+    std::size_t pair = 0;
+    for (std::size_t i = 0; i < scene.stiffness().size(); ++i)
+        for (std::size_t k = scene.pairs(static_cast<std::int64_t>(i)).count(); k > 0; --k, ++pair) {
+            if (scene.stiffness()[i].bonded) continue;
+            const double x = draw(random);
+            zeta[pair] = x < 0.25 ? 0.0 : x < 0.35 ? 1e-12 : x < 0.5 ? 1.0 : x < 0.6 ? 1e-4 : draw(random);
+        }
+    return zeta;
+}
+
+double largest(const std::vector<double>& v) {
+    double m = 0.0;
+    for (const double x : v) m = std::max(m, std::abs(x));
+    return m;
+}
+
+// Fields of two solvers at the same state, over the largest value of the second.
+void expect_equal(const Solver& a, const Solver& b, const std::vector<const char*>& fields, double tolerance, const std::string& where) {
+    for (const char* key : fields) {
+        const auto x = a.field(key), y = b.field(key);
+        const double scale = largest(y);
+        double worst = 0.0;
+        for (std::size_t i = 0; i < x.size(); ++i) worst = std::max(worst, std::abs(x[i] - y[i]));
+        cases::expect(std::isfinite(largest(x)), where + ": " + key + " is not finite");
+        if (worst > 0.0) cases::expect_below(worst / scale, tolerance, where + ": " + key);
+    }
+    const double energy = std::abs(b.value("stored_bulk")) + std::abs(b.value("stored_interface"));
+    for (const char* key : {"stored_bulk", "stored_interface", "load_potential"})
+        cases::expect_near(a.value(key), b.value(key), tolerance, energy + std::abs(b.value("load_potential")), where + ": " + key);
+}
+
+void expect_accepted(const Solver& solver, const Exported& exported, double tolerance, const std::string& where) {
+    const auto a = reference::accept(solver, exported);
+    cases::expect_below(a.worst(), tolerance, where + ": " + a.text());
+}
+
+CASE_TEST(every_scene) {
+    const Entry& entry = entries[loop];
+    Scene condensed = entry.make(), feti = entry.make();
+    condensed.text("reduction", "condensed");
+    feti.text("reduction", "feti");
+    feti.number("subdomains", 5);
+    feti.number("linear_limit", 20000);
+    const Exported exported(condensed);
+    Solver a(condensed, 0.0), b(feti, 0.0);
+    DirectReference direct(condensed);
+    const auto initial = a.field("adhesion");
+    std::mt19937 random(17U + static_cast<unsigned>(loop));
+    std::string failures;
+    int direct_states = 0;
+    for (int k = 0; k < 6; ++k) {
+        const double time = entry.both_signs ? std::array{1.0, -1.0, 0.3}[static_cast<std::size_t>(k) % 3] : 1.0 - 0.2 * (k % 3);
+        const auto zeta = k == 0 ? initial : random_adhesion(condensed, random, initial);
+        const std::string where = std::string(entry.name) + ", state " + std::to_string(k);
+        const auto attempt = [&](const std::function<void()>& check) {
+            try {
+                check();
+            } catch (const std::exception& e) {
+                if (failures.size() < 900) failures += std::string(e.what()) + "\n";
+            }
+        };
+        const std::int32_t status = delam_solver_equilibrate(a.get(), time, zeta.data());
+        if (status != DELAM_OK) throw std::runtime_error(where + ": condensed: " + delam_context_message(condensed.context()));
+        attempt([&] { expect_accepted(a, exported, 1e-10, where + ", condensed"); });
+        attempt([&] {
+            reference::State state;
+            try {
+                state = direct.solve(time, zeta);
+            } catch (const reference::Failure&) {
+                return;  // something floats
+            }
+            ++direct_states;
+            auto c = reference::compare(a, state, exported, 1e-9);
+            if (!entry.unique_forces) c.traction = 0.0;
+            cases::expect_below(c.worst(), 1e-8, where + ", direct: " + c.text());
+            // A stiff spring under pressure penetrates less than rounding: closed or not is then a matter of taste.
+            const bool rigid = std::any_of(condensed.stiffness().begin(), condensed.stiffness().end(), [](const auto& s) { return s.normal > 1e16; });
+            if (entry.unique_forces && !rigid) cases::expect(c.contacts == 0, where + ", direct: " + c.text());
+        });
+        const std::int32_t other = delam_solver_equilibrate(b.get(), time, zeta.data());
+        attempt([&] {
+            cases::expect(other == DELAM_OK, where + ", feti: " + delam_context_message(feti.context()));
+            std::vector<const char*> fields{"displacement", "jump"};
+            if (entry.unique_forces) fields.insert(fields.end(), {"traction", "reaction"});
+            expect_equal(a, b, fields, 1e-7, where + ", feti");
+        });
+        a.commit();
+        if (other >= 0) b.commit();
+    }
+    if (!failures.empty()) throw std::runtime_error(failures);
+    cases::expect(direct_states >= 3, std::string(entry.name) + ": the direct reference has seen " + std::to_string(direct_states) + " states");
+}
+
+// ---- what floats ---------------------------------------------------------------------------------------------------
+
+// Cross and tee with interfaces that have lost all adhesion: contact alone, or nothing, holds what is above. Only stresses, energies
+// and forces are unique.
+CASE_TEST(floating) {
+    const int d = loop % 2 == 0 ? 2 : 3;
+    const bool slanted = loop / 2 % 2 == 1;
+    const unsigned lost = static_cast<unsigned>(loop) / 4U;  // which
+    const auto make = [&] { return cases::make_cross(d, slanted, 0); };
+    Scene condensed = make(), feti = make();
+    condensed.text("reduction", "condensed");
+    feti.text("reduction", "feti");
+    feti.number("subdomains", 4);
+    const Exported exported(condensed);
+    Solver a(condensed, 0.0), b(feti, 0.0);
+    std::vector<double> zeta;
+    for (std::int64_t i = 0; i < 4; ++i)
+        zeta.insert(zeta.end(), condensed.pairs(i).count(), lost == 0 ? 0.0 : lost == 1 ? (i >= 2 ? 0.0 : 1.0) : (i == 1 || i == 3 ? 0.0 : 1.0));
+    // One weak spring more: the loose block hangs on almost nothing.
+    if (lost == 3) zeta.back() = 1e-12;
+    for (const double time : {1.0, -1.0, 0.5, -0.25}) {
+        const std::string where = std::string(d == 2 ? "2D" : "3D") + (slanted ? " slanted" : "") + ", case " + std::to_string(lost) +
+                                  ", time " + std::to_string(time);
+        const auto sa = delam_solver_equilibrate(a.get(), time, zeta.data());
+        cases::expect(sa == DELAM_OK, where + ": condensed: " + delam_context_message(condensed.context()));
+        const auto sb = delam_solver_equilibrate(b.get(), time, zeta.data());
+        cases::expect(sb == DELAM_OK, where + ": feti: " + delam_context_message(feti.context()));
+        const double size = largest(b.field("reaction"));
+        if (size > 1.0) {  // else the pulled blocks have left without stress
+            expect_accepted(a, exported, 1e-10, where);
+            expect_equal(a, b, {"traction", "reaction"}, 1e-7, where);
+        } else {
+            cases::expect_below(largest(a.field("reaction")), 1e-3, where + ": reaction of what is free");
+            for (const double j : a.field("jump")) cases::expect(std::isfinite(j), where + ": jump");
+        }
+        a.commit();
+        b.commit();
+    }
+}
+
+// Dead forces on a ply that has lost its adhesion: pressed it rests (equal in both), lifted it is lost: DELAM_LIMIT in both.
+CASE_TEST(dead_forces_on_a_loose_ply) {
+    const int d = loop == 0 ? 2 : 3;
+    std::int32_t lifted[2];
+    std::vector<double> traction[2];
+    for (const int which : {0, 1}) {
+        Scene scene = cases::two_plies(d, nullptr);
+        const auto bottom = cases::nodes_where(scene, 0, [](const double* x) { return x[1] < 1e-6; });
+        for (int k = 0; k < d; ++k) scene.hold(bottom, cases::unit(d, k));
+        const auto corner = cases::nodes_where(scene, 1, [](const double* x) { return x[0] < 1e-6 && x[1] > 0.0059; });
+        scene.hold(corner, cases::unit(d, 0));
+        if (d == 3) {
+            scene.hold(corner, cases::unit(3, 2));
+        }
+        const auto top = cases::nodes_where(scene, 1, [](const double* x) { return x[1] > 0.0059; });
+        std::vector<double> values;
+        for (std::size_t i = 0; i < top.size(); ++i) {
+            values.insert(values.end(), {0.0, -1.0 - 0.1 * static_cast<double>(i % 3)});
+            if (d == 3) values.push_back(0.0);
+        }
+        cases::forces(scene, cases::to_and_fro(scene, "dead", 1e3), top, values);
+        scene.text("reduction", which == 0 ? "condensed" : "feti");
+        Solver solver(scene, 0.0);
+        const std::vector<double> none(scene.pair_count(), 0.0);
+        scene.require(delam_solver_equilibrate(solver.get(), 1.0, none.data()), "pressed");
+        expect_accepted(solver, Exported(scene), 1e-10, which == 0 ? "condensed" : "feti");
+        traction[which] = solver.field("traction");
+        solver.commit();
+        lifted[which] = delam_solver_equilibrate(solver.get(), -1.0, none.data());
+        // The solver is none the worse for it.
+        scene.require(delam_solver_equilibrate(solver.get(), 1.0, none.data()), "pressed again");
+        expect_accepted(solver, Exported(scene), 1e-10, "again");
+    }
+    cases::expect(lifted[0] == DELAM_LIMIT && lifted[1] == DELAM_LIMIT,
+                  std::string("lifted: ") + delam_status_name(lifted[0]) + ", " + delam_status_name(lifted[1]));
+    for (std::size_t i = 0; i < traction[0].size(); ++i)
+        cases::expect_near(traction[0][i], traction[1][i], 1e-8, largest(traction[1]), "traction");
+}
+
+// ---- prescribed values that bind several jumps -----------------------------------------------------------------------
+
+// Nothing is damaged: the energy of a step lies between its two estimates.
+CASE_TEST(estimates_with_bound_jumps) {
+    const int d = loop / 2 == 0 ? 2 : 3;
+    Scene scene = cases::make_bound_jumps(d);
+    scene.law(0, {1e14, 1e14, 1e9, 1e9, 1e9, 1e9});
+    scene.text("reduction", loop % 2 == 0 ? "condensed" : "feti");
+    Solver solver(scene, 0.0);
+    for (const double time : {0.5, 1.0}) {
+        solver.step(time);
+        const double lower = solver.value("lower"), increment = solver.value("increment"), upper = solver.value("upper");
+        const double rounding = 1e-9 * std::abs(increment);
+        const std::string where = std::to_string(d) + "D, lower " + std::to_string(lower) + ", increment " + std::to_string(increment) + ", upper " + std::to_string(upper);
+        cases::expect(lower <= increment + rounding && increment <= upper + rounding, where);
+        solver.commit();
+    }
+}
+
+// A mean over the upper nodes of bonded pairs whose lower nodes are held contradicts the bond.
+CASE_TEST(bound_jumps_of_a_bond) {
+    Scene scene = cases::make_bound_jumps(2);
+    scene.bonded(0);
+    scene.text("reduction", loop == 0 ? "condensed" : "feti");
+    delam_solver* solver = nullptr;
+    const std::int32_t status = delam_solver_create(scene.problem(), 0.0, &solver);
+    const std::int32_t advanced = status == DELAM_OK ? delam_solver_advance(solver, 1.0) : status;
+    delam_solver_destroy(&solver);
+    cases::expect(status == DELAM_ERROR_PROBLEM, std::string("create: ") + delam_status_name(status) + ", advance: " + delam_status_name(advanced));
+}
+
+// ---- zones ---------------------------------------------------------------------------------------------------------
+
+struct Walk {
+    const char* name;
+    Scene (*make)();
+    int states;
+    double time;
+};
+const Walk walks[] = {
+    {"ENF", [] { cases::Enf e; e.h = 1e-3; e.subdomains = 0; return cases::make_enf(e); }, 120, 1.0},
+    {"ENF of k = 1e18", [] { cases::Enf e; e.h = 1e-3; e.subdomains = 0; e.law.normal_stiffness = e.law.tangential_stiffness = 1e18; return cases::make_enf(e); }, 120, 1.0},
+    {"plies 3D", [] { return cases::make_plies(3, 2, DELAM_HEX8, "standard", block_law, 40); }, 60, 1.0},
+    {"four plies", [] { return cases::make_plies(2, 4, DELAM_QUAD4, "standard", block_law, 60); }, 60, -1.0},
+    {"opened", [] { return cases::make_opened(2, 33.0); }, 60, 1.0},
+};
+constexpr int walk_count = static_cast<int>(std::size(walks));
+
+// A front that creeps, with now and then a change somewhere else, a jump back, or all at once.
+CASE_TEST(long_walk) {
+    const Walk& w = walks[loop];
+    Scene scene = w.make();
+    scene.text("reduction", "condensed");
+    Solver walker(scene, 0.0);
+    std::mt19937 random(5U + static_cast<unsigned>(loop));
+    std::uniform_real_distribution<double> draw(0.0, 1.0);
+    auto zeta = walker.field("adhesion");
+    const auto initial = zeta;
+    const auto pairs = zeta.size();
+    std::size_t front = pairs / 4;
+    for (int k = 0; k < w.states; ++k) {
+        const double kind = draw(random);
+        if (kind < 0.75) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                zeta[front % pairs] = i == 0 ? 0.0 : draw(random);
+                ++front;
+            }
+            front -= 2;
+        } else if (kind < 0.9) {
+            zeta[static_cast<std::size_t>(draw(random) * static_cast<double>(pairs))] = draw(random) < 0.5 ? 1e-12 : draw(random);
+        } else if (kind < 0.95) {
+            front = static_cast<std::size_t>(draw(random) * static_cast<double>(pairs));
+        } else {
+            zeta = initial;
+        }
+        const double time = w.time * (0.2 + 0.8 * draw(random));
+        walker.equilibrate(time, zeta);
+        Solver fresh(scene, 0.0);
+        fresh.equilibrate(time, zeta);
+        const std::string where = std::string(w.name) + ", state " + std::to_string(k);
+        expect_equal(walker, fresh, {"displacement", "jump", "traction", "reaction"}, 1e-8, where);
+        cases::expect_below(walker.value("kkt_equilibrium"), 1e-10, where + ": equilibrium");
+        walker.commit();
+    }
+}
+
+// Nothing adheres: the first step is taken, rolled back and another taken.
+CASE_TEST(rollback_of_the_first_step) {
+    const auto make = [] {
+        Scene scene = cases::make_plies(2, 2, DELAM_QUAD4, "standard", block_law, 60);
+        std::vector<std::int64_t> all(scene.pair_count());
+        for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::int64_t>(i);
+        scene.adhesion(0, all, std::vector<double>(all.size(), 0.0));
+        return scene;
+    };
+    const Scene scene = make();
+    Solver solver(scene, 0.0), fresh(scene, 0.0);
+    solver.step(0.4);
+    solver.rollback();
+    solver.step(0.7);
+    fresh.step(0.7);
+    cases::expect(solver.field("jump") == fresh.field("jump") && solver.field("traction") == fresh.field("traction"), "bits of the step");
+    solver.commit();
+    fresh.commit();
+    cases::expect(solver.save() == fresh.save(), "bytes of the snapshot");
+}
+
+}  // namespace
+
+int main() {
+    Suite* suite = suite_create("condensed");
+    TCase* tests = tcase_create("operator");
+    tcase_add_loop_test(tests, every_scene, 0, entry_count);
+    tcase_add_loop_test(tests, floating, 0, 16);
+    tcase_add_loop_test(tests, dead_forces_on_a_loose_ply, 0, 2);
+    tcase_add_loop_test(tests, estimates_with_bound_jumps, 0, 4);
+    tcase_add_loop_test(tests, bound_jumps_of_a_bond, 0, 2);
+    tcase_add_loop_test(tests, long_walk, 0, walk_count);
+    tcase_add_test(tests, rollback_of_the_first_step);
+    suite_add_tcase(suite, tests);
+    return cases::run_suite(suite);
+}
