@@ -9,12 +9,24 @@
 
 namespace delam {
 
-Lift::Lift(JumpOperator& op, std::size_t rows, std::size_t patterns)
+Lift::Lift(JumpOperator& op, std::span<const std::uint8_t> bonded_rows, std::span<const BoundRow> bound, std::size_t patterns)
     : a_(static_cast<std::int64_t>(patterns), static_cast<std::int64_t>(patterns)) {
-    const auto prescribed = op.prescribed_rows();
+    const std::size_t rows = bonded_rows.size();
+    std::vector<std::uint8_t> moving(op.prescribed_rows().begin(), op.prescribed_rows().end());
+    // Of each equation among jumps one row has to give way: its own, or one that is not bonded.
+    for (const BoundRow& equation : bound) {
+        std::int64_t gives = bonded_rows[static_cast<std::size_t>(equation.row)] == 0 ? equation.row : -1;
+        for (const std::int64_t other : equation.others)
+            if (gives < 0 && bonded_rows[static_cast<std::size_t>(other)] == 0 && moving[static_cast<std::size_t>(other)] == 0) gives = other;
+        if (gives >= 0)
+            moving[static_cast<std::size_t>(gives)] = 1;
+        else if (std::any_of(equation.offset.begin(), equation.offset.end(), [](double o) { return o != 0.0; }))
+            fail(DELAM_ERROR_PROBLEM, "prescribed displacements tear jump row ", equation.row, " and ", equation.others.size(),
+                 " others apart, whose interfaces are bonded for ever");
+    }
     Springs bonded{std::vector<double>(rows, 0.0), std::vector<std::uint8_t>(rows, 1)};
     for (std::size_t i = 0; i < rows; ++i) {
-        if (prescribed[i] == 0) continue;
+        if (moving[i] == 0) continue;
         bonded.held[i] = 0;
         prescribed_.push_back(i);
     }

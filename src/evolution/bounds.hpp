@@ -6,13 +6,14 @@
 // and its derivative is the conjugate force r = dE/dtheta, which every displacement solve returns. So with d = theta_k - theta_{k-1}
 //   lower = E(theta_k, q_k) - E(theta_{k-1}, q_k)         = d.r_k     - 1/2 d^T A d
 //   upper = E(theta_k, q_{k-1}) - E(theta_{k-1}, q_{k-1}) = d.r_{k-1} + 1/2 d^T A d
-// exactly, for any load path. Jumps that the device prescribes itself are not held; their springs s_i add s_i J_i J_i^T to A.
+// exactly, for any load path. Jumps that the device prescribes itself, or binds to others, are not held; their springs s_i add s_i J_i J_i^T to A.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "evolution/state.hpp"
+#include "reduction/bound_rows.hpp"
 #include "linalg/dense.hpp"
 
 namespace delam {
@@ -20,8 +21,9 @@ namespace delam {
 class Lift {
 public:
     Lift() = default;
-    // One bonded solve for each pattern.
-    Lift(JumpOperator& op, std::size_t rows, std::size_t patterns);
+    // One bonded solve for each pattern. bonded: [rows] never come apart; bound: equations among jumps. Throws Error(DELAM_ERROR_PROBLEM) where the
+    // device tears bonded rows apart or a dead force acts on what nothing holds.
+    Lift(JumpOperator& op, std::span<const std::uint8_t> bonded, std::span<const BoundRow> bound, std::size_t patterns);
     // 1/2 d^T A d with the springs of `stiffness` [rows] on prescribed jumps.
     double half_quadratic(std::span<const double> d, std::span<const double> stiffness) const;
     // Rows whose jump a load pattern drives by more than `rounding` per unit factor.

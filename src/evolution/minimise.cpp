@@ -35,7 +35,7 @@ bool Minimiser::alternate(State& state, std::span<const double> adhesion_old) co
     bool converged = true;
     while (true) {
         monitor.progress("minimise", state.counts.am_iterations, 0);
-        converged = displace(state) && converged;
+        converged = displace(state);
         const std::vector<double> next = damage_step(pairs, toughness, adhesion_old, state.response.jump);
         double change = 0.0;
         for (std::size_t p = 0; p < next.size(); ++p) change = std::max(change, std::abs(next[p] - state.adhesion[p]));
@@ -67,7 +67,7 @@ bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) c
     double level = 0.0;
     while (true) {
         monitor.progress("minimise", state.counts.am_iterations, 0);
-        converged = displace(state) && converged;
+        converged = displace(state);
         const double reached = energy(state, adhesion_old);
         if (leapt && reached > level + rounding * std::abs(level)) {
             const Counts counts = state.counts;
@@ -93,7 +93,16 @@ bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) c
         before = state;
         if (condensed == nullptr) {
             state.adhesion = extrapolation.next(state.adhesion, plain);
-            for (std::size_t p = 0; p < plain.size(); ++p) state.adhesion[p] = std::clamp(state.adhesion[p], 0.0, adhesion_old[p]);
+            // Where plain steps grow, the fixed point that extrapolation aims at lies behind them.
+            double along = 0.0;
+            for (std::size_t p = 0; p < plain.size(); ++p) {
+                state.adhesion[p] = std::clamp(state.adhesion[p], 0.0, adhesion_old[p]);
+                along += (state.adhesion[p] - before->adhesion[p]) * (plain[p] - before->adhesion[p]);
+            }
+            if (!(along > 0.0)) {
+                state.adhesion = plain;
+                extrapolation.forget();
+            }
             leapt = state.adhesion != plain;
             continue;
         }

@@ -26,7 +26,9 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time) : problem_
     }
     contact_.level = contact_levels(mesh.interfaces());
     operator_ = choose_operator(problem_, monitor_);
-    lift_ = Lift(*operator_, static_cast<std::size_t>(problem_.jump_count()), problem_.patterns.size());
+    std::vector<std::uint8_t> bonded_rows;
+    for (const std::uint8_t b : contact_.bonded) bonded_rows.insert(bonded_rows.end(), static_cast<std::size_t>(mesh.dimension()), b);
+    lift_ = Lift(*operator_, bonded_rows, bound_rows(problem_), problem_.patterns.size());
     double largest = 0.0;
     for (const double c : problem_.prescribed_matrix()) largest = std::max(largest, std::abs(c));
     for (const std::size_t row : lift_.driven_rows(1e-9 * largest)) {

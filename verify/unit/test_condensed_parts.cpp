@@ -17,7 +17,7 @@
 #include "linalg/sparse.hpp"
 #include "mesh/layers.hpp"
 #include "reduction/condensed/dense_energy.hpp"
-#include "reduction/condensed/jump_variables.hpp"
+#include "reduction/jump_variables.hpp"
 #include "reduction/condensed/rigid_jumps.hpp"
 #include "reduction/condensed/zone.hpp"
 #include "scene/problem.hpp"

@@ -17,8 +17,7 @@ namespace {
 
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-// Coefficients of dependent constraints below this are rounding.
-constexpr double dependent = 1e-10;
+constexpr double dependent = dependent_equation;
 
 // The stiffness of all bodies over all mesh DOFs; rows of nodes without cells are empty.
 SparseMatrix assemble(const Problem& problem) {

@@ -18,7 +18,7 @@
 #include "base/monitor.hpp"
 #include "linalg/cholesky.hpp"
 #include "reduction/condensed/dense_energy.hpp"
-#include "reduction/condensed/jump_variables.hpp"
+#include "reduction/jump_variables.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {

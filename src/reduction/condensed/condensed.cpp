@@ -15,7 +15,7 @@ std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 // A spring weaker than this part of the bodies' stiffness is no hold to factor with: such rows stay in the zone, which can.
 constexpr double weak = 1e-9;
 // A spring stiffer than this multiple of the bodies' own stiffness hides it.
-constexpr double stiff = 1e5;
+constexpr double stiff = 1e3;
 
 // So many choices of a zone later an unknown that has not changed may leave it.
 constexpr std::uint8_t forgotten = 3;
@@ -380,6 +380,7 @@ std::vector<double> Condensed::memory() const {
         m.insert(m.end(), springs->begin(), springs->end());
         m.resize(m.size() + unknowns - springs->size(), 0.0);
     }
+    m.push_back(spent_);
     for (const auto& group : released_) {
         m.push_back(static_cast<double>(group.size()));
         m.insert(m.end(), group.begin(), group.end());
@@ -389,11 +390,22 @@ std::vector<double> Condensed::memory() const {
 
 void Condensed::recall(std::span<const double> memory) {
     const std::size_t unknowns = always_.size();
-    if (memory.empty() || std::ranges::equal(memory, this->memory())) return;
+    if (std::ranges::equal(memory, this->memory())) return;
+    if (memory.empty()) {  // before the first zone was chosen
+        age_.assign(unknowns, forgotten);
+        near_.assign(unknowns, 1);
+        inside_.assign(unknowns, 1);
+        last_.clear();
+        released_.clear();
+        zone_.reset();
+        inner_.reset();
+        outer_.reset();
+        return;
+    }
     const auto damaged = [](bool yes) {
         if (yes) fail(DELAM_ERROR_SNAPSHOT, "the memory of the condensed operator is damaged");
     };
-    damaged(memory.size() < 4 * unknowns);
+    damaged(memory.size() < 4 * unknowns + 1);
     std::vector<std::uint8_t> age(unknowns), inside(unknowns), near(unknowns);
     for (std::size_t i = 0; i < unknowns; ++i) {
         damaged(!(memory[i] >= 0.0 && memory[i] < 16.0) || memory[i] != std::floor(memory[i]));
@@ -403,7 +415,7 @@ void Condensed::recall(std::span<const double> memory) {
         near[i] = (code >> 3U) & 1U;
     }
     std::vector<std::vector<std::int64_t>> groups;
-    for (std::size_t at = 4 * unknowns; at < memory.size();) {
+    for (std::size_t at = 4 * unknowns + 1; at < memory.size();) {
         const double size = memory[at++];
         damaged(!(size >= 1.0 && size <= static_cast<double>(memory.size() - at)));
         std::vector<std::int64_t> group;
@@ -425,6 +437,7 @@ void Condensed::recall(std::span<const double> memory) {
     }
     spring_.assign(part(2).begin(), part(2).end());
     condense_inner();
+    spent_ = memory[4 * unknowns];
 }
 
 std::string Condensed::description() const {

@@ -39,6 +39,9 @@ struct JumpVariables {
     std::vector<Equation> equations;
 };
 
+// Coefficients of equations below this are rounding.
+inline constexpr double dependent_equation = 1e-10;
+
 JumpVariables make_jump_variables(const Problem& problem);
 
 }  // namespace delam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reduction/condensed/jump_variables.hpp"
+#include "reduction/jump_variables.hpp"
 
 #include <algorithm>
 #include <cmath>
