@@ -315,6 +315,9 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   front                  L or L2: advance of the front, sum of weight (1 - zeta) over the pairs that adhered at first
  *   process_zone           L or L2: weight of the pairs with 1e-3 < zeta < 1 - 1e-3
  *   backtracks             returns to an earlier step (none yet: the two-sided estimate is reported, not acted on)
+ *   bulk_factorisations    sparse factorisations of the bodies since the solver was made: condensed 1, FETI one a subdomain
+ *   field_recoveries       how often displacements were recovered from the interfaces since then: by the fields displacement,
+ *                          stress and (condensed) reaction and by the kkt_ values; no other value needs them
  *   damage_change          last change of adhesion, max norm
  *   linear_residual        worst relative residual of the linear solves of the step
  *   kkt_gap                deepest penetration of the recovered displacements, over the largest jump (0 = none)
@@ -336,6 +339,7 @@ DELAM_API const char *delam_solver_value_name(const delam_solver *solver, int64_
  *   jump          [pairs][dimension]    L, local: normal (>= 0), tangent(s)
  *   traction      [pairs][dimension]    F/L2, local, on face b's side as pull positive; a pressure of contact is negative
  *   adhesion, mixity, contact  [pairs][1]   -, mixity B = Y_t/Y that the last step used, contact 1 = closed
+ *                          (mixity 0 where the plan left it out because the law does not depend on it: option mixity = always)
  *   reaction      [constraints][1]      F: force of the device, positive along the constraint
  * `part`: an interface index for pair fields, -1 for all interfaces one after another; otherwise -1. */
 DELAM_API int32_t delam_solver_field_shape(const delam_solver *solver, const char *key, int64_t part, int64_t *rows,

@@ -15,11 +15,15 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time) : problem_
     const Mesh& mesh = *problem_.mesh;
     pairs_.dimension = contact_.dimension = mesh.dimension();
     contact_.limit = problem_.options.contact_limit;
+    contact_.always = problem_.options.contact == "always";
     for (std::size_t i = 0; i < mesh.interfaces().size(); ++i) {
         const InterfaceProperties& properties = problem_.interfaces[i];
+        std::optional<Toughness> fixed;
+        if (!properties.bonded && problem_.options.mixity == "auto" && !properties.law->depends_on_mixity()) fixed = properties.law->toughness(0.0);
         for (const double weight : mesh.interfaces()[i].weight) {
             pairs_.weight.push_back(weight);
             pairs_.law.push_back(properties.bonded ? nullptr : &*properties.law);
+            pairs_.fixed.push_back(fixed);
             contact_.bonded.push_back(properties.bonded ? 1 : 0);
         }
         initial_adhesion_.insert(initial_adhesion_.end(), properties.adhesion.begin(), properties.adhesion.end());
@@ -171,10 +175,7 @@ void Solver::restore(State restored) {
 }
 
 const std::vector<double>& Solver::displacement() const {
-    if (displacement_.empty()) {
-        displacement_ = operator_->displacement(state().theta, state().response);
-        ++recoveries_;
-    }
+    if (displacement_.empty()) displacement_ = operator_->displacement(state().theta, state().response);
     return displacement_;
 }
 

@@ -48,7 +48,7 @@ public:
     // Forces of the device, [constraints].
     std::vector<double> reaction() const { return operator_->reaction(state().theta, state().response); }
     // How often displacements were recovered.
-    std::int64_t recoveries() const { return recoveries_; }
+    std::int64_t recoveries() const { return operator_->recoveries(); }
     const JumpOperator& jump_operator() const { return *operator_; }
     // Out-of-balance force over the largest reaction.
     double equilibrium_defect() const;
@@ -74,7 +74,6 @@ private:
     State committed_;
     std::optional<State> pending_;
     mutable std::vector<double> displacement_;  // of state(), empty: not recovered
-    mutable std::int64_t recoveries_ = 0;
 };
 
 }  // namespace delam

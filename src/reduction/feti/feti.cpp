@@ -296,6 +296,7 @@ std::vector<double> Feti::local_displacement(std::size_t subdomain, std::span<co
 }
 
 std::vector<double> Feti::displacement(std::span<const double> theta, const Response& response) const {
+    ++recoveries_;
     const int dim = problem_.mesh->dimension();
     std::vector<double> u(index(problem_.mesh->node_count() * dim), 0.0);
     for (std::size_t s = 0; s < subdomains_.size(); ++s) {
