@@ -346,9 +346,18 @@ DELAM_API int32_t delam_solver_field_shape(const delam_solver *solver, const cha
                                            int64_t *columns);
 DELAM_API int32_t delam_solver_field(delam_solver *solver, const char *key, int64_t part, int64_t capacity, double *values);
 
-/* What the scene needs and what was left out, in words (lines ended by '\n'), and the realisation that was chosen. Valid until
- * the next call with this solver. Never NULL. */
+/* What the scene needs and what was left out, each with its reason, its predicted cost and what the decision saves. In words, a line
+ * each, "subject: decision, reason (cost ..., saves ...)\n". Valid until the next call with this solver. Never NULL. */
 DELAM_API const char *delam_solver_plan(delam_solver *solver);
+/* The same as data, settled when the solver is made. Subjects: condensed operator, FETI, memory, subdomains, longest uninterruptible
+ * factorisation, contact of interface I, mixity of interface I (each I), gradient term, acceleration of the minimisation,
+ * displacements and stresses inside the bodies, backtracking. */
+DELAM_API int32_t delam_solver_plan_count(const delam_solver *solver, int64_t *count);
+/* decision: "used" or "left out". cost: predicted, of what is used (0 for what is left out); saving: predicted, against the other
+ * decision; both in `unit` ("flop", "flop/step", "comparison/solve", "byte", "s" at a nominal rate that the reason states; "-" for
+ * none). Any output may be NULL; texts live as long as the solver. */
+DELAM_API int32_t delam_solver_plan_item(const delam_solver *solver, int64_t index, const char **subject, const char **decision,
+                                         const char **reason, double *cost, double *saving, const char **unit);
 
 /* The committed state as bytes: save, load into a solver of the same scene and options, go on: the rest is bitwise the same.
  * save: *needed receives the size; written when capacity suffices (capacity 0: ask). */

@@ -6,7 +6,6 @@
 
 #include "base/error.hpp"
 #include "interface/contact_levels.hpp"
-#include "reduction/choose.hpp"
 
 namespace delam {
 
@@ -29,7 +28,9 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time) : problem_
         initial_adhesion_.insert(initial_adhesion_.end(), properties.adhesion.begin(), properties.adhesion.end());
     }
     contact_.level = contact_levels(mesh.interfaces());
-    operator_ = choose_operator(problem_, monitor_);
+    ChosenOperator chosen = choose_operator(problem_, monitor_);
+    operator_ = std::move(chosen.op);
+    reduction_ = std::move(chosen.choice);
     lift_ = Lift(*operator_, static_cast<std::size_t>(problem_.jump_count()), problem_.patterns.size());
     double largest = 0.0;
     for (const double c : problem_.prescribed_matrix()) largest = std::max(largest, std::abs(c));

@@ -57,6 +57,7 @@ public:
     std::int64_t stiffness_entries() const { return stiffness_.entries(); }
     std::int64_t transformed_entries() const { return transformed_.entries(); }
     double factor_entries() const { return factor_->factor_entries(); }
+    const SparseMatrix& transformed() const { return transformed_; }
     std::int64_t factorisations() const { return factorisations_; }
     std::int64_t recoveries() const { return recoveries_; }  // of displacements, since condense()
 

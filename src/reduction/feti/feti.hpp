@@ -18,6 +18,9 @@
 
 namespace delam {
 
+// How many subdomains the scene is cut into: what the options ask for, or chosen by size.
+std::int64_t feti_subdomains(const Problem& problem);
+
 class Feti final : public JumpOperator {
 public:
     Feti(const Problem& problem, Monitor& monitor);
