@@ -41,7 +41,7 @@ void add_reduction(std::vector<PlanItem>& items, const Solver& solver) {
         items.push_back({"subdomains", used,
                          text(choice.subdomains, solver.problem().options.subdomains > 0 ? " asked for" : " chosen by size",
                               ", predicted boundary ", std::round(choice.boundary), " DOFs each"),
-                         static_cast<double>(choice.subdomains), 0.0, "-"});
+                         0.0, 0.0, "-"});
     const double longest = choice.condensed ? c.longest : f.longest;
     items.push_back({"longest uninterruptible factorisation", used,
                      text(longest, " operations at a nominal ", nominal_rate * 1e-9, " GF/s; a cancellation waits for it"),

@@ -20,8 +20,8 @@ double square(double x) { return x * x; }
 double cube(double x) { return x * x * x; }
 
 // Fitted constants; what they are fitted to stands in README.md.
-constexpr double dense_copies = 4.5;     // m^2 matrices at the peak of a condensed march: S, its condensations, a release
-constexpr double condensed_step = 0.7;   // of m^3 operations a load step (0.3 to 1.1)
+constexpr double dense_copies = 4.0;     // m^2 matrices at the peak of a condensed march: S, its condensations, a release
+constexpr double condensed_step = 0.4;   // of m^3 operations a load step (0.1 to 1.1)
 constexpr double free_order = 0.65;      // entries of a free order, of those left of the trailing triangle (0.53 to 0.69)
 constexpr double supernodes = 1.25;      // numbers stored per entry of a factor
 constexpr double series_bytes = 76.0;    // per square of a subdomain's jumps: the series preconditioner while it is built
@@ -79,7 +79,7 @@ double predict_monolithic_entries(const Bulk& bulk) {
 }
 
 double predict_monolithic_bytes(const Bulk& bulk) {
-    return 32.0 * number(bulk.transformed_entries()) + 8.0 * supernodes * predict_monolithic_entries(bulk);
+    return 36.0 * number(bulk.transformed_entries()) + 8.0 * supernodes * predict_monolithic_entries(bulk);
 }
 
 ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, double& boundary) {
