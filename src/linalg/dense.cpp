@@ -146,11 +146,19 @@ void solve_lower_transposed(const DenseMatrix& lower, std::span<double> x) {
     if (n > 0) dtrsv_("L", "T", "N", &n, lower.value.data(), &lda, x.data(), &one);
 }
 
-void subtract_gram(DenseMatrix& c, const DenseMatrix& v) {
+namespace {
+
+void accumulate_gram(DenseMatrix& c, const DenseMatrix& v, double sign) {
     const int n = narrow(c.rows), k = narrow(v.rows), ldv = leading(v.rows), ldc = leading(c.rows);
-    const double alpha = -1.0, beta = 1.0;
-    if (n > 0 && k > 0) dsyrk_("L", "T", &n, &k, &alpha, v.value.data(), &ldv, &beta, c.value.data(), &ldc);
+    const double beta = 1.0;
+    if (n > 0 && k > 0) dsyrk_("L", "T", &n, &k, &sign, v.value.data(), &ldv, &beta, c.value.data(), &ldc);
 }
+
+}  // namespace
+
+void subtract_gram(DenseMatrix& c, const DenseMatrix& v) { accumulate_gram(c, v, -1.0); }
+
+void add_gram(DenseMatrix& c, const DenseMatrix& v) { accumulate_gram(c, v, 1.0); }
 
 void subtract_product(DenseMatrix& c, const DenseMatrix& v, const DenseMatrix& w) {
     const int m = narrow(c.rows), n = narrow(c.columns), k = narrow(v.rows);

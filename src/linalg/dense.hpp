@@ -41,8 +41,9 @@ bool factor_definite(DenseMatrix& a);
 void solve_lower(const DenseMatrix& lower, DenseMatrix& b);
 void solve_lower(const DenseMatrix& lower, std::span<double> x);
 void solve_lower_transposed(const DenseMatrix& lower, std::span<double> x);
-// C -= V^T V in the lower triangle of C (BLAS dsyrk).
+// C -= V^T V and C += V^T V in the lower triangle of C (BLAS dsyrk).
 void subtract_gram(DenseMatrix& c, const DenseMatrix& v);
+void add_gram(DenseMatrix& c, const DenseMatrix& v);
 // C -= V^T W (BLAS dgemm)
 void subtract_product(DenseMatrix& c, const DenseMatrix& v, const DenseMatrix& w);
 // A^-1, full symmetric, of a positive definite A (LAPACK dpotrf, dpotri).

@@ -114,6 +114,7 @@ void Bulk::condense(Monitor& monitor) {
     }
     energy_.load = DenseMatrix(trailing, static_cast<std::int64_t>(patterns));
     std::vector<double> nodal(index(dofs())), carried(index(variables_.count()));
+    std::vector<std::vector<double>> bonded;  // displacements of the patterns with t = 0
     for (std::size_t p = 0; p < patterns; ++p) {
         std::vector<double> u = variables_.lift[p];
         multiply(stiffness_, u, nodal);
@@ -125,17 +126,20 @@ void Bulk::condense(Monitor& monitor) {
         for (std::size_t i = 0; i < nodal.size(); ++i) nodal[i] = (force_[p].empty() ? 0.0 : force_[p][i]) - nodal[i];
         multiply_transposed(variables_.transform, nodal, carried);
         std::copy(carried.begin() + leading, carried.end(), energy_.load.value.begin() + static_cast<std::int64_t>(p) * trailing);
+        bonded.push_back(std::move(u));
     }
     resolve_equations();
 
     // A_pq = u_p^T K u_q - f_p^T u_q - f_q^T u_p: no difference of large numbers, whatever the lift was.
     const std::vector<double> closed(index(energy().rows()), 0.0);
-    std::vector<std::vector<double>> bonded, stressed;
+    std::vector<std::vector<double>> stressed;
     for (std::size_t p = 0; p < patterns; ++p) {
-        std::vector<double> unit(patterns, 0.0);
-        unit[p] = 1.0;
-        bonded.push_back(displacement(unit, closed));
-        multiply(stiffness_, bonded.back(), nodal);
+        if (variables_.kept > 0 || !pivot_.empty()) {
+            std::vector<double> unit(patterns, 0.0);
+            unit[p] = 1.0;
+            bonded[p] = displacement(unit, closed);
+        }
+        multiply(stiffness_, bonded[p], nodal);
         stressed.push_back(nodal);
     }
     pattern_stiffness_ = DenseMatrix(static_cast<std::int64_t>(patterns), static_cast<std::int64_t>(patterns));

@@ -250,7 +250,12 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
         now[i] = spring_of(springs, i);
         all_held = all_held && now[i] < 0.0;
     }
-    if (all_held) {
+    // Without a load nothing moves, exactly.
+    std::vector<double> load(now.size());
+    multiply(bulk_->energy().load, theta, load);
+    bool loaded = std::any_of(load.begin(), load.end(), [](double v) { return v != 0.0; });
+    for (const Bulk::Row& row : bulk_->rows()) loaded = loaded || (!row.offset.empty() && dot(row.offset, theta) != 0.0);
+    if (all_held || !loaded) {
         respond(springs, theta, nullptr, response);
         return;
     }

@@ -33,7 +33,7 @@ public:
     Zone& zone(const Springs& springs, std::span<const std::uint8_t> wanted);
     // Jump rows of the zone, in its order.
     const std::vector<std::int64_t>& zone_rows() const { return zone_rows_; }
-    // All rows, forces and energies from a zone solution under these springs; none: every row is held.
+    // All rows, forces and energies from a zone solution under these springs; none: no unknown moves.
     void respond(const Springs& springs, std::span<const double> theta, const Zone::Solution* solution, Response& response) const;
     std::int64_t condensations() const { return condensations_; }
 

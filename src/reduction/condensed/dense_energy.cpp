@@ -27,6 +27,20 @@ DenseMatrix rows_of(const DenseMatrix& a, std::span<const std::int64_t> rows) {
     return b;
 }
 
+// The matrix in the upper left corner of a larger one.
+DenseMatrix enlarged(const DenseMatrix& a, std::int64_t rows, std::int64_t columns) {
+    DenseMatrix b(rows, columns);
+    for (std::int64_t c = 0; c < a.columns; ++c)
+        std::copy(a.value.begin() + c * a.rows, a.value.begin() + (c + 1) * a.rows, b.value.begin() + c * rows);
+    return b;
+}
+
+void append_columns(DenseMatrix& a, const DenseMatrix& more) {
+    a.rows = more.rows;
+    a.columns += more.columns;
+    a.value.insert(a.value.end(), more.value.begin(), more.value.end());
+}
+
 }  // namespace
 
 Condensation::Condensation(const DenseEnergy& parent, std::vector<std::int64_t> kept, std::vector<std::int64_t> eliminated,
@@ -41,17 +55,20 @@ Condensation::Condensation(const DenseEnergy& parent, std::vector<std::int64_t> 
     solve_lower(factor_, coupling_);
     load_ = rows_of(parent.load, eliminated_);
     solve_lower(factor_, load_);
-    base_.stiffness = block(parent.stiffness, kept_, kept_);
-    subtract_gram(base_.stiffness, coupling_);
-    mirror_lower(base_.stiffness);
-    base_.load = rows_of(parent.load, kept_);
-    subtract_product(base_.load, coupling_, load_);
+    energy_.stiffness = block(parent.stiffness, kept_, kept_);
+    subtract_gram(energy_.stiffness, coupling_);
+    mirror_lower(energy_.stiffness);
+    energy_.load = rows_of(parent.load, kept_);
+    subtract_product(energy_.load, coupling_, load_);
+    for (std::size_t k = 0; k < kept_.size(); ++k) original_.push_back(static_cast<std::int64_t>(k));
+    unit_.rows = factor_.rows;
+    image_.columns = static_cast<std::int64_t>(kept_.size());
+    image_load_.columns = parent.load.columns;
 }
 
 double Condensation::release_cost(std::int64_t rows) const {
     const auto e = static_cast<double>(factor_.rows), k = static_cast<double>(kept_.size()), r = static_cast<double>(rows);
-    const double all = r + static_cast<double>(released_.size());
-    return e * e * r + e * k * r + e * all * r + (k + r) * (k + r) * all;
+    return e * e * r + e * k * r + (k + r) * (k + r) * r;
 }
 
 double Condensation::cost() const {
@@ -60,88 +77,133 @@ double Condensation::cost() const {
 }
 
 void Condensation::release(const DenseEnergy& parent, std::span<const std::int64_t> rows, std::span<const double> stiffness) {
-    std::vector<std::int64_t> place(static_cast<std::size_t>(parent.rows()), -1), admitted, fresh;
+    std::vector<std::int64_t> place(static_cast<std::size_t>(parent.rows()), -1), held, places;
     for (std::size_t e = 0; e < eliminated_.size(); ++e) place[static_cast<std::size_t>(eliminated_[e])] = static_cast<std::int64_t>(e);
-    for (const std::int64_t r : rows) (place[static_cast<std::size_t>(r)] < 0 ? admitted : fresh).push_back(r);
-    kept_.resize(kept_.size() - released_.size());
-
-    if (!admitted.empty()) {
-        DenseMatrix column = block(parent.stiffness, eliminated_, admitted);
-        solve_lower(factor_, column);
-        const std::int64_t old = static_cast<std::int64_t>(kept_.size());
-        kept_.insert(kept_.end(), admitted.begin(), admitted.end());
-        DenseMatrix cross = block(parent.stiffness, kept_, admitted);
-        coupling_.value.insert(coupling_.value.end(), column.value.begin(), column.value.end());
-        coupling_.columns += column.columns;
-        subtract_product(cross, coupling_, column);
-        DenseEnergy wider{DenseMatrix(coupling_.columns, coupling_.columns), rows_of(parent.load, kept_)};
-        for (std::int64_t j = 0; j < old; ++j)
-            std::copy_n(base_.stiffness.value.begin() + j * old, old, wider.stiffness.value.begin() + j * wider.rows());
-        for (std::int64_t j = 0; j < cross.columns; ++j)
-            for (std::int64_t i = 0; i < cross.rows; ++i)
-                wider.stiffness(i, old + j) = wider.stiffness(old + j, i) = cross(i, j);
-        subtract_product(wider.load, coupling_, load_);
-        base_ = std::move(wider);
+    for (const std::int64_t r : rows) {
+        const std::int64_t e = place[static_cast<std::size_t>(r)];
+        if (e < 0)
+            held.push_back(r);
+        else
+            places.push_back(e);
     }
-    if (!fresh.empty()) {
-        DenseMatrix unit(factor_.rows, static_cast<std::int64_t>(fresh.size()));
-        for (std::size_t j = 0; j < fresh.size(); ++j) {
-            const std::int64_t e = place[static_cast<std::size_t>(fresh[j])];
-            unit(e, static_cast<std::int64_t>(j)) = 1.0;
-            released_.push_back(e);
-        }
-        solve_lower(factor_, unit);
-        unit_.rows = unit.rows;
-        unit_.value.insert(unit_.value.end(), unit.value.begin(), unit.value.end());
-        unit_.columns += unit.columns;
-    }
-    for (const std::int64_t e : released_) kept_.push_back(eliminated_[static_cast<std::size_t>(e)]);
-    if (!released_.empty()) update(stiffness);
+    if (!held.empty()) admit(parent, held);
+    if (!places.empty()) take_back(places, stiffness);
 }
 
-//   S_kk + P^T P     - P^T C^-1            L_k - P^T p
-//                    C^-T C^-1 - s_R       C^-T p          with  P = C^-1 W = - C^-1 Z^T V,  p = C^-1 w = C^-1 Z^T L^-1 L_e
-void Condensation::update(std::span<const double> stiffness) {
-    const auto r = static_cast<std::int64_t>(released_.size()), k = base_.rows();
-    root_ = multiply_transposed(unit_, unit_);
-    if (!factor_definite(root_)) fail(DELAM_ERROR_NUMERICAL, "the flexibility of ", r, " released jumps is not positive definite");
-    image_ = multiply_transposed(unit_, coupling_);
-    for (double& v : image_.value) v = -v;
-    solve_lower(root_, image_);
-    image_load_ = multiply_transposed(unit_, load_);
-    solve_lower(root_, image_load_);
-    DenseMatrix inverse(r, r);
-    for (std::int64_t i = 0; i < r; ++i) inverse(i, i) = 1.0;
-    solve_lower(root_, inverse);
+// A held row h joins x_k: its column of V is L^-1 S_eh, and the released ones follow it too.
+//   S_kh - V_k^T V_h + P_k^T P_h,    S_Rh = - C^-T P_h,    L_h - V_h^T L^-1 L_e - P_h^T p
+void Condensation::admit(const DenseEnergy& parent, std::span<const std::int64_t> rows) {
+    const auto old = static_cast<std::int64_t>(kept_.size()), fresh = static_cast<std::int64_t>(rows.size());
+    DenseMatrix column = block(parent.stiffness, eliminated_, rows);
+    solve_lower(factor_, column);
+    DenseMatrix follow = multiply_transposed(unit_, column);
+    for (double& v : follow.value) v = -v;
+    solve_lower(root_, follow);
 
-    energy_.stiffness = DenseMatrix(k + r, k + r);
-    energy_.load = DenseMatrix(k + r, base_.load.columns);
-    const DenseMatrix update = multiply_transposed(image_, image_), cross = multiply_transposed(image_, inverse),
-                      corner = multiply_transposed(inverse, inverse), on_kept = multiply_transposed(image_, image_load_),
-                      on_released = multiply_transposed(inverse, image_load_);
-    for (std::int64_t j = 0; j < k; ++j)
-        for (std::int64_t i = 0; i < k; ++i) energy_.stiffness(i, j) = base_.stiffness(i, j) + update(i, j);
-    for (std::int64_t j = 0; j < r; ++j) {
-        for (std::int64_t i = 0; i < k; ++i) energy_.stiffness(i, k + j) = energy_.stiffness(k + j, i) = -cross(i, j);
-        for (std::int64_t i = 0; i < r; ++i) energy_.stiffness(k + i, k + j) = corner(i, j);
-        const std::int64_t parent = eliminated_[static_cast<std::size_t>(released_[static_cast<std::size_t>(j)])];
-        energy_.stiffness(k + j, k + j) -= stiffness[static_cast<std::size_t>(parent)];
+    std::vector<std::int64_t> members;
+    for (const std::int64_t k : original_) members.push_back(kept_[static_cast<std::size_t>(k)]);
+    for (std::int64_t j = 0; j < fresh; ++j) {
+        original_.push_back(old + j);
+        kept_.push_back(rows[static_cast<std::size_t>(j)]);
+        members.push_back(rows[static_cast<std::size_t>(j)]);
     }
-    for (std::int64_t p = 0; p < base_.load.columns; ++p) {
-        for (std::int64_t i = 0; i < k; ++i) energy_.load(i, p) = base_.load(i, p) - on_kept(i, p);
-        for (std::int64_t i = 0; i < r; ++i) energy_.load(k + i, p) = on_released(i, p);
+    append_columns(coupling_, column);
+    append_columns(image_, follow);
+    DenseMatrix among = block(parent.stiffness, members, rows);
+    subtract_product(among, coupling_, column);
+    const DenseMatrix through = multiply_transposed(image_, follow), on_released = multiply_transposed(inverse_, follow);
+    DenseMatrix load = rows_of(parent.load, rows);
+    subtract_product(load, column, load_);
+    subtract_product(load, follow, image_load_);
+
+    energy_.stiffness = enlarged(energy_.stiffness, old + fresh, old + fresh);
+    energy_.load = enlarged(energy_.load, old + fresh, energy_.load.columns);
+    for (std::int64_t j = 0; j < fresh; ++j) {
+        for (std::int64_t i = 0; i < among.rows; ++i) {
+            const std::int64_t k = original_[static_cast<std::size_t>(i)];
+            energy_.stiffness(k, old + j) = energy_.stiffness(old + j, k) = among(i, j) + through(i, j);
+        }
+        for (std::int64_t i = 0; i < on_released.rows; ++i) {
+            const std::int64_t r = released_[static_cast<std::size_t>(i)];
+            energy_.stiffness(r, old + j) = energy_.stiffness(old + j, r) = -on_released(i, j);
+        }
+        for (std::int64_t q = 0; q < load.columns; ++q) energy_.load(old + j, q) = load(j, q);
     }
+}
+
+// With the new rows of C^-1 (x_R - W x_k - w theta) = N x_R - P x_k - p theta the energy grows by half their square:
+//   S += Q^T Q,   L += Q^T p,   Q = [- P | N],   less the springs that S_ee + s_e had.
+void Condensation::take_back(std::span<const std::int64_t> places, std::span<const double> stiffness) {
+    const auto old = static_cast<std::int64_t>(kept_.size()), fresh = static_cast<std::int64_t>(places.size());
+    const std::int64_t before = unit_.columns;
+    DenseMatrix unit(factor_.rows, fresh);
+    for (std::int64_t j = 0; j < fresh; ++j) {
+        unit(places[static_cast<std::size_t>(j)], j) = 1.0;
+        released_.push_back(old + j);
+        kept_.push_back(eliminated_[static_cast<std::size_t>(places[static_cast<std::size_t>(j)])]);
+    }
+    solve_lower(factor_, unit);
+    // [C 0; X^T C'] with X = C^-1 Z^T Z', C' C'^T = Z'^T Z' - X^T X
+    DenseMatrix cross = multiply_transposed(unit_, unit);
+    solve_lower(root_, cross);
+    DenseMatrix corner = multiply_transposed(unit, unit);
+    subtract_gram(corner, cross);
+    if (!factor_definite(corner)) fail(DELAM_ERROR_NUMERICAL, "the flexibility of ", fresh, " released jumps is not positive definite");
+    DenseMatrix image = multiply_transposed(unit, coupling_), image_load = multiply_transposed(unit, load_), own(fresh, fresh);
+    for (double& v : image.value) v = -v;
+    subtract_product(image, cross, image_);
+    solve_lower(corner, image);
+    subtract_product(image_load, cross, image_load_);
+    solve_lower(corner, image_load);
+    for (std::int64_t i = 0; i < fresh; ++i) own(i, i) = 1.0;
+    solve_lower(corner, own);
+    DenseMatrix on_old(fresh, before);
+    subtract_product(on_old, cross, inverse_);
+    solve_lower(corner, on_old);
+
+    DenseMatrix rows(fresh, old + fresh);
+    for (std::int64_t i = 0; i < fresh; ++i) {
+        for (std::int64_t k = 0; k < image.columns; ++k) rows(i, original_[static_cast<std::size_t>(k)]) = -image(i, k);
+        for (std::int64_t k = 0; k < before; ++k) rows(i, released_[static_cast<std::size_t>(k)]) = on_old(i, k);
+        for (std::int64_t k = 0; k < fresh; ++k) rows(i, old + k) = own(i, k);
+    }
+    energy_.stiffness = enlarged(energy_.stiffness, old + fresh, old + fresh);
+    energy_.load = enlarged(energy_.load, old + fresh, energy_.load.columns);
+    add_gram(energy_.stiffness, rows);
+    mirror_lower(energy_.stiffness);
+    for (std::int64_t j = 0; j < fresh; ++j)
+        energy_.stiffness(old + j, old + j) -= stiffness[static_cast<std::size_t>(kept_[static_cast<std::size_t>(old + j)])];
+    const DenseMatrix load = multiply_transposed(rows, image_load);
+    for (std::size_t i = 0; i < load.value.size(); ++i) energy_.load.value[i] += load.value[i];
+
+    root_ = enlarged(root_, before + fresh, before + fresh);
+    inverse_ = enlarged(inverse_, before + fresh, before + fresh);
+    image_ = enlarged(image_, before + fresh, image.columns);
+    image_load_ = enlarged(image_load_, before + fresh, image_load.columns);
+    for (std::int64_t i = 0; i < fresh; ++i) {
+        for (std::int64_t k = 0; k < before; ++k) {
+            root_(before + i, k) = cross(k, i);
+            inverse_(before + i, k) = on_old(i, k);
+        }
+        for (std::int64_t k = 0; k <= i; ++k) {
+            root_(before + i, before + k) = corner(i, k);
+            inverse_(before + i, before + k) = own(i, k);
+        }
+        for (std::int64_t k = 0; k < image.columns; ++k) image_(before + i, k) = image(i, k);
+        for (std::int64_t k = 0; k < image_load.columns; ++k) image_load_(before + i, k) = image_load(i, k);
+    }
+    append_columns(unit_, unit);
 }
 
 // x_e = L^-T (L^-1 L_e theta - V x_k + Z mu),   mu = D^-1 (x_R - x_R*)
 void Condensation::recover(std::span<const double> theta, std::span<const double> kept_values, std::span<double> parent) const {
-    std::vector<double> x(eliminated_.size()), coupled(x.size());
-    const std::span<const double> base = kept_values.first(kept_.size() - released_.size());
+    std::vector<double> x(eliminated_.size()), coupled(x.size()), base(original_.size()), mu(released_.size());
+    for (std::size_t i = 0; i < base.size(); ++i) base[i] = kept_values[static_cast<std::size_t>(original_[i])];
+    for (std::size_t i = 0; i < mu.size(); ++i) mu[i] = kept_values[static_cast<std::size_t>(released_[i])];
     multiply(load_, theta, x);
     multiply(coupling_, base, coupled);
     for (std::size_t i = 0; i < x.size(); ++i) x[i] -= coupled[i];
-    if (!released_.empty()) {
-        std::vector<double> mu(kept_values.begin() + static_cast<std::ptrdiff_t>(base.size()), kept_values.end());
+    if (!mu.empty()) {
         std::vector<double> follow(mu.size()), loaded(mu.size());
         solve_lower(root_, mu);
         multiply(image_, base, follow);

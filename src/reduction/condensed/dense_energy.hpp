@@ -35,26 +35,28 @@ public:
     double release_cost(std::int64_t rows) const;
     double cost() const;
 
-    const DenseEnergy& energy() const { return released_.empty() ? base_ : energy_; }
-    const std::vector<std::int64_t>& kept() const { return kept_; }  // the order of energy()
+    const DenseEnergy& energy() const { return energy_; }
+    const std::vector<std::int64_t>& kept() const { return kept_; }  // in the order of energy()
     // Parent's unknowns from the kept ones.
     void recover(std::span<const double> theta, std::span<const double> kept_values, std::span<double> parent) const;
 
 private:
-    void update(std::span<const double> stiffness);
+    void admit(const DenseEnergy& parent, std::span<const std::int64_t> rows);
+    void take_back(std::span<const std::int64_t> places, std::span<const double> stiffness);
 
-    std::vector<std::int64_t> kept_;        // those that were never minimised out, then the released ones
+    std::vector<std::int64_t> kept_;        // in the order of energy_
     std::vector<std::int64_t> eliminated_;
-    std::vector<std::int64_t> released_;    // places in eliminated_
+    std::vector<std::int64_t> original_;    // places in kept_ of those that were never minimised out: columns of V
+    std::vector<std::int64_t> released_;    // places in kept_ of those that were: columns of Z
     DenseMatrix factor_;                    // L
     DenseMatrix coupling_;                  // V
     DenseMatrix load_;                      // L^-1 L_e
-    DenseEnergy base_;                      // with the released ones minimised out
-    DenseMatrix unit_;                      // Z = L^-1 E_R, so that D = Z^T Z = C C^T
-    DenseMatrix root_;                      // C
-    DenseMatrix image_;                     // C^-1 W
-    DenseMatrix image_load_;                // C^-1 w
     DenseEnergy energy_;
+    DenseMatrix unit_;                      // Z = L^-1 E_R, D = Z^T Z = C C^T
+    DenseMatrix root_;                      // C
+    DenseMatrix inverse_;                   // C^-1
+    DenseMatrix image_;                     // P = C^-1 W = - C^-1 Z^T V
+    DenseMatrix image_load_;                // p = C^-1 Z^T L^-1 L_e
 };
 
 }  // namespace delam
