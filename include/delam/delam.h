@@ -318,6 +318,7 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   bulk_factorisations    sparse factorisations of the bodies since the solver was made: condensed 1, FETI one a subdomain
  *   field_recoveries       how often displacements were recovered from the interfaces since then: by the fields displacement,
  *                          stress and (condensed) reaction and by the kkt_ values; no other value needs them
+ *                          (both count over the solver's life; they are no part of its state, nor of saved bytes)
  *   damage_change          last change of adhesion, max norm
  *   linear_residual        worst relative residual of the linear solves of the step
  *   kkt_gap                deepest penetration of the recovered displacements, over the largest jump (0 = none)

@@ -21,7 +21,8 @@ double cube(double x) { return x * x * x; }
 
 // Fitted constants; what they are fitted to stands in README.md.
 constexpr double dense_copies = 4.0;     // m^2 matrices at the peak of a condensed march: S, its condensations, a release
-constexpr double condensed_step = 0.4;   // of m^3 operations a load step (0.1 to 1.1)
+constexpr double condensed_start = 0.7;  // of m^3 operations until the first zone is there
+constexpr double condensed_step = 0.2;   // and a load step (0.06 to 0.4)
 constexpr double free_order = 0.65;      // entries of a free order, of those left of the trailing triangle (0.53 to 0.69)
 constexpr double supernodes = 1.25;      // numbers stored per entry of a factor
 constexpr double series_bytes = 76.0;    // per square of a subdomain's jumps: the series preconditioner while it is built
@@ -65,7 +66,7 @@ ReductionCost predict_condensed(const Bulk& bulk) {
     const double transformed = 16.0 * number(bulk.transformed_entries()), factor = 8.0 * bulk.factor_entries();
     ReductionCost cost;
     cost.possible = bulk.trailing() <= dense_limit;
-    cost.setup = bulk.size().flops + 2.0 / 3.0 * cube(m) + condensed_step * cube(m);
+    cost.setup = bulk.size().flops + (2.0 / 3.0 + condensed_start) * cube(m);
     cost.longest = std::max(bulk.size().flops, 2.0 / 3.0 * cube(m));
     cost.step = condensed_step * cube(m);
     // While it is factored, T^T K T and CHOLMOD's permuted copy of it; in the march the dense matrices.
@@ -79,7 +80,7 @@ double predict_monolithic_entries(const Bulk& bulk) {
 }
 
 double predict_monolithic_bytes(const Bulk& bulk) {
-    return 36.0 * number(bulk.transformed_entries()) + 8.0 * supernodes * predict_monolithic_entries(bulk);
+    return 40.0 * number(bulk.transformed_entries()) + 8.0 * supernodes * predict_monolithic_entries(bulk);
 }
 
 ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, double& boundary) {

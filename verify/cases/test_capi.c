@@ -415,17 +415,12 @@ END_TEST
 START_TEST(plans) {
     static const char *const exponents[] = {"onset_exponent_1", "onset_exponent_2", "toughness_exponent_1",
                                             "toughness_exponent_2"};
-    const int64_t corners[2] = {0, 2};
-    const double y[2] = {0.0, 1.0};
-    const double x[2] = {1.0, 0.0};
     delam_solver *solver = NULL;
     const char *words;
     int64_t count = -1;
     int64_t i;
     int round;
     double number = -1.0;
-    fine(delam_problem_prescribe_nodes(problem, 2, corners, y, 0, NULL, NULL, 0));
-    fine(delam_problem_prescribe_nodes(problem, 1, corners, x, 0, NULL, NULL, 0));
     for (round = 0; round < 3; ++round) {
         int contact = 0;
         int mixity = 0;
@@ -434,8 +429,8 @@ START_TEST(plans) {
             fine(delam_problem_set_law(problem, 0, law));
         }
         if (round == 2) {
-            fine(delam_problem_option_text(problem, "mixity", "always"));
-            fine(delam_problem_option_text(problem, "contact", "always"));
+            fine(delam_problem_set_text(problem, "mixity", "always"));
+            fine(delam_problem_set_text(problem, "contact", "always"));
         }
         fine(delam_solver_create(problem, 0.0, &solver));
         words = delam_solver_plan(solver);
