@@ -23,29 +23,34 @@ void add_reduction(std::vector<PlanItem>& items, const Solver& solver) {
     const bool both = c.setup > 0.0;
     const double saving = both ? (choice.condensed ? 1.0 : -1.0) * (f.march() - c.march()) : 0.0;
     const std::string words = text(choice.forced ? "forced, " : "chosen by predicted cost and memory, ", choice.reason);
-    const std::string built = text(words, "; ", solver.jump_operator().description(), "; cost of a march of ", nominal_steps, " steps");
-    const std::string other = text("the other realisation is used: ", words, both ? "" : "; its cost was not predicted");
+    const std::string built =
+        text(words, "; ", solver.jump_operator().description(), "; cost of a march of ", nominal_steps, " steps");
+    const std::string other =
+        text("the other realisation is used: ", words, both ? "" : "; its cost was not predicted");
     items.push_back({"condensed operator", choice.condensed ? used : left_out, choice.condensed ? built : other,
                      choice.condensed ? c.march() : 0.0, choice.condensed ? saving : 0.0, "flop"});
     items.push_back({"FETI", choice.condensed ? left_out : used, choice.condensed ? other : built,
                      choice.condensed ? 0.0 : f.march(), choice.condensed ? 0.0 : saving, "flop"});
     const double bytes = choice.condensed ? c.bytes : f.bytes;
     items.push_back({"memory", used,
-                     choice.monolithic > 0.0 ? text("predicted peak of a march, ", std::round(10.0 * bytes / choice.monolithic) / 10.0,
-                                                    " times one monolithic factorisation; saved against the other realisation")
-                                             : std::string("predicted peak of a march"),
+                     choice.monolithic > 0.0
+                         ? text("predicted peak of a march, ", std::round(10.0 * bytes / choice.monolithic) / 10.0,
+                                " times one monolithic factorisation; saved against the other realisation")
+                         : std::string("predicted peak of a march"),
                      bytes, both ? (choice.condensed ? f.bytes - c.bytes : c.bytes - f.bytes) : 0.0, "byte"});
     if (choice.condensed)
         items.push_back({"subdomains", left_out, "the condensed operator factors all bodies at once", 0.0, 0.0, "-"});
     else
-        items.push_back({"subdomains", used,
-                         text(choice.subdomains, solver.problem().options.subdomains > 0 ? " asked for" : " chosen by size",
-                              ", predicted boundary ", std::round(choice.boundary), " DOFs each"),
-                         0.0, 0.0, "-"});
+        items.push_back(
+            {"subdomains", used,
+             text(choice.subdomains, solver.problem().options.subdomains > 0 ? " asked for" : " chosen by size",
+                  ", predicted boundary ", std::round(choice.boundary), " DOFs each"),
+             0.0, 0.0, "-"});
     const double longest = choice.condensed ? c.longest : f.longest;
-    items.push_back({"longest uninterruptible factorisation", used,
-                     text(longest, " operations at a nominal ", nominal_rate * 1e-9, " GF/s; a cancellation waits for it"),
-                     longest / nominal_rate, 0.0, "s"});
+    items.push_back(
+        {"longest uninterruptible factorisation", used,
+         text(longest, " operations at a nominal ", nominal_rate * 1e-9, " GF/s; a cancellation waits for it"),
+         longest / nominal_rate, 0.0, "s"});
 }
 
 // Pairs of an interface whose normal jump the device alone determines.
@@ -67,14 +72,21 @@ PlanItem contact_of(const Solver& solver, std::size_t interface, std::int64_t fi
         return {subject, left_out, "bonded for ever: it neither opens nor closes", 0.0, all, "comparison/solve"};
     const std::int64_t prescribed = prescribed_pairs(solver, first, pairs);
     if (problem.options.contact == "always")
-        return {subject, used, text("option contact = always: all ", pairs, " pairs are tested in every active-set step"), all, 0.0, "comparison/solve"};
+        return {
+            subject, used, text("option contact = always: all ", pairs, " pairs are tested in every active-set step"),
+            all,     0.0,  "comparison/solve"};
     if (prescribed == pairs && pairs > 0)
-        return {subject, left_out, "the device prescribes every normal jump: no pair can close", 0.0, all, "comparison/solve"};
-    return {subject, used,
+        return {subject, left_out, "the device prescribes every normal jump: no pair can close",
+                0.0,     all,      "comparison/solve"};
+    return {subject,
+            used,
             text(pairs - prescribed, " of ", pairs,
-                 " pairs can close, nothing proves beforehand that they do not; the test is one comparison a pair until one closes, "
+                 " pairs can close, nothing proves beforehand that they do not; the test is one comparison a pair "
+                 "until one closes, "
                  "then each change of the contact set is one more solve"),
-            all - static_cast<double>(prescribed), static_cast<double>(prescribed), "comparison/solve"};
+            all - static_cast<double>(prescribed),
+            static_cast<double>(prescribed),
+            "comparison/solve"};
 }
 
 PlanItem mixity_of(const Solver& solver, std::size_t interface) {
@@ -84,10 +96,12 @@ PlanItem mixity_of(const Solver& solver, std::size_t interface) {
     const char* unit = "flop/step";
     if (problem.interfaces[interface].bonded) return {subject, left_out, "bonded for ever: no damage", 0.0, work, unit};
     if (problem.interfaces[interface].law->depends_on_mixity())
-        return {subject, used, "onset and toughness of the law depend on it; frozen at the step before", work, 0.0, unit};
+        return {subject, used, "onset and toughness of the law depend on it; frozen at the step before",
+                work,    0.0,  unit};
     if (problem.options.mixity == "always")
         return {subject, used, "option mixity = always, although the law does not depend on it", work, 0.0, unit};
-    return {subject, left_out, "onset and toughness are the same for both modes with exponents 1, so at every mixity", 0.0, work, unit};
+    return {subject, left_out, "onset and toughness are the same for both modes with exponents 1, so at every mixity",
+            0.0,     work,     unit};
 }
 
 std::string figure(double value, const std::string& unit) {
@@ -110,16 +124,20 @@ std::vector<PlanItem> Solver::plan() const {
     const bool plain = options.minimisation == "alternate";
     items.push_back({"acceleration of the minimisation", plain ? left_out : used,
                      text(plain ? "option minimisation = alternate"
-                          : reduction_.condensed ? "Newton steps and debonding moves in the process zone, each checked by the energy"
-                                                 : "extrapolated alternate minimisation, each leap checked by the energy",
-                          "; same stopping test: delta = ", options.damage_tolerance, ", at most ", options.minimisation_limit,
-                          " alternations a step"),
+                          : reduction_.condensed
+                              ? "Newton steps and debonding moves in the process zone, each checked by the energy"
+                              : "extrapolated alternate minimisation, each leap checked by the energy",
+                          "; same stopping test: delta = ", options.damage_tolerance, ", at most ",
+                          options.minimisation_limit, " alternations a step"),
                      0.0, 0.0, "-"});
     const double dofs = static_cast<double>(problem_.mesh->node_count() * problem_.mesh->dimension());
-    const double recovery = 4.0 * (reduction_.factor_entries > 0.0 ? reduction_.factor_entries : dofs * std::log2(dofs + 2.0));
+    const double recovery =
+        4.0 * (reduction_.factor_entries > 0.0 ? reduction_.factor_entries : dofs * std::log2(dofs + 2.0));
     items.push_back({"displacements and stresses inside the bodies", left_out,
-                     "recovered on request only: the fields displacement and stress and the kkt_ values ask for them", 0.0, recovery, "flop/step"});
-    items.push_back({"backtracking", left_out, "the two-sided energy estimate is reported, not acted on", 0.0, 0.0, "-"});
+                     "recovered on request only: the fields displacement and stress and the kkt_ values ask for them",
+                     0.0, recovery, "flop/step"});
+    items.push_back(
+        {"backtracking", left_out, "the two-sided energy estimate is reported, not acted on", 0.0, 0.0, "-"});
     return items;
 }
 
@@ -128,7 +146,8 @@ std::string plan_in_words(const std::vector<PlanItem>& items) {
     for (const PlanItem& item : items) {
         words += text(item.subject, ": ", item.decision, ", ", item.reason);
         if (item.cost != 0.0) words += " (cost " + figure(item.cost, item.unit) + (item.saving != 0.0 ? "" : ")");
-        if (item.saving != 0.0) words += (item.cost != 0.0 ? ", saves " : " (saves ") + figure(item.saving, item.unit) + ")";
+        if (item.saving != 0.0)
+            words += (item.cost != 0.0 ? ", saves " : " (saves ") + figure(item.saving, item.unit) + ")";
         words += "\n";
     }
     return words;

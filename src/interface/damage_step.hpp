@@ -19,7 +19,9 @@ struct PairLaws {
     std::vector<std::optional<Toughness>> fixed;
 
     bool mixed(std::size_t pair) const { return law[pair] != nullptr && (fixed.empty() || !fixed[pair]); }
-    Toughness toughness(std::size_t pair, double mixity) const { return mixed(pair) ? law[pair]->toughness(mixity) : *fixed[pair]; }
+    Toughness toughness(std::size_t pair, double mixity) const {
+        return mixed(pair) ? law[pair]->toughness(mixity) : *fixed[pair];
+    }
 };
 
 // Y_n and Y_t of a pair from its local jump; contact leaves Y_n = 0.
@@ -30,8 +32,8 @@ struct Driving {
 };
 Driving driving_energy(const PairLaws& pairs, std::size_t pair, std::span<const double> jump);
 
-// B of every pair, [pairs]. A pair whose jump is rounding (below 1e-10 of the onset's or of the largest one) keeps its `known` B,
-// and so does one whose mixity is not computed.
+// B of every pair, [pairs]. A pair whose jump is rounding (below 1e-10 of the onset's or of the largest one) keeps its
+// `known` B, and so does one whose mixity is not computed.
 std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump, std::span<const double> known);
 // Does any pair have a jump that is more than rounding of its onset?
 bool any_jump(const PairLaws& pairs, std::span<const double> jump);

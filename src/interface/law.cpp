@@ -132,7 +132,8 @@ void Law::validate() const {
 }
 
 bool Law::depends_on_mixity() const {
-    const bool linear = onset_exponent_1 == 1.0 && onset_exponent_2 == 1.0 && toughness_exponent_1 == 1.0 && toughness_exponent_2 == 1.0;
+    const bool linear = onset_exponent_1 == 1.0 && onset_exponent_2 == 1.0 && toughness_exponent_1 == 1.0 &&
+                        toughness_exponent_2 == 1.0;
     return !linear || normal_onset != tangential_onset || normal_toughness != tangential_toughness;
 }
 

@@ -20,15 +20,16 @@ double square(double x) { return x * x; }
 double cube(double x) { return x * x * x; }
 
 // Fitted constants; what they are fitted to stands in README.md.
-constexpr double dense_copies = 4.0;     // m^2 matrices at the peak of a condensed march: S, its condensations, a release
+constexpr double dense_copies = 4.0;  // m^2 matrices at the peak of a condensed march: S, its condensations, a release
 constexpr double condensed_start = 0.7;  // of m^3 operations until the first zone is there
 constexpr double condensed_step = 0.2;   // and a load step (0.06 to 0.4)
-constexpr double free_order = 0.65;      // entries of a free order, of those left of the trailing triangle (0.53 to 0.69)
+constexpr double free_order = 0.65;  // entries of a free order, of those left of the trailing triangle (0.53 to 0.69)
 constexpr double supernodes = 1.25;      // numbers stored per entry of a factor
-constexpr double series_bytes = 76.0;    // per square of a subdomain's jumps: the series preconditioner while it is built
+constexpr double series_bytes = 76.0;  // per square of a subdomain's jumps: the series preconditioner while it is built
 constexpr double feti_solves = 16.0;     // displacement solves a load step
 constexpr double feti_iterations = 20.0; // Krylov iterations a solve
-constexpr double from_memory = 5.0;      // a matrix-vector product waits for memory: so many times slower than a factorisation
+constexpr double from_memory =
+    5.0;  // a matrix-vector product waits for memory: so many times slower than a factorisation
 
 std::string mebibytes(double bytes) { return text(std::round(bytes / 1048576.0), " MiB"); }
 std::string seconds(double operations) {
@@ -96,9 +97,11 @@ ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, doub
     for (const Constraint& constraint : problem.constraints)
         for (const std::int64_t dof : constraint.dof)
             if (!touched.contains(dof / dim)) driven.insert(dof);
-    double copies = number(static_cast<std::int64_t>(touched.size())) * dim + number(static_cast<std::int64_t>(driven.size()));
+    double copies =
+        number(static_cast<std::int64_t>(touched.size())) * dim + number(static_cast<std::int64_t>(driven.size()));
     double element_entries = 0.0;
-    for (std::int64_t c = 0; c < mesh.cell_count(); ++c) element_entries += square(number(static_cast<std::int64_t>(mesh.cell(c).size()) * dim));
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c)
+        element_entries += square(number(static_cast<std::int64_t>(mesh.cell(c).size()) * dim));
     for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
         std::array<double, 3> low{}, high{}, side{1.0, 1.0, 1.0};
         const std::vector<std::int64_t> nodes = mesh.body_nodes(body);
@@ -128,7 +131,8 @@ ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, doub
     cost.longest = std::max(sparse, 2.0 * cube(boundary));
     const double product = (schur ? 2.0 : 1.0) * 2.0 * boundary * boundary * from_memory;
     cost.step = feti_solves * parts * (feti_iterations * product + (series ? 2.0 / 3.0 * cube(jumps) : 0.0));
-    cost.bytes = 16.0 * 0.5 * element_entries + parts * 8.0 * (supernodes * entries + (schur ? 3.0 : 2.0) * boundary * boundary);
+    cost.bytes =
+        16.0 * 0.5 * element_entries + parts * 8.0 * (supernodes * entries + (schur ? 3.0 : 2.0) * boundary * boundary);
     if (series) cost.bytes += parts * series_bytes * jumps * jumps;
     return cost;
 }
@@ -140,18 +144,21 @@ void choose(ReductionChoice& choice) {
         choice.reason = std::move(reason);
     };
     if (!c.possible)
-        return decide(false, text("the dense operator would have ", choice.unknowns, " rows, LAPACK addresses ", dense_limit));
+        return decide(false,
+                      text("the dense operator would have ", choice.unknowns, " rows, LAPACK addresses ", dense_limit));
     const double ratio = choice.monolithic > 0.0 ? c.bytes / choice.monolithic : 0.0;
-    const std::string memory = text("needs ", mebibytes(c.bytes), ", ", std::round(10.0 * ratio) / 10.0, " times one monolithic factorisation");
+    const std::string memory = text("needs ", mebibytes(c.bytes), ", ", std::round(10.0 * ratio) / 10.0,
+                                    " times one monolithic factorisation");
     if (c.bytes > memory_floor && ratio > memory_ratio) {
-        if (f.bytes < c.bytes) return decide(false, text("the condensed operator ", memory, ", more than ", memory_ratio));
+        if (f.bytes < c.bytes)
+            return decide(false, text("the condensed operator ", memory, ", more than ", memory_ratio));
         return decide(true, text(memory, ", more than ", memory_ratio, ", but FETI would need ", mebibytes(f.bytes)));
     }
     if (f.possible && f.march() < c.march())
-        return decide(false, text("a march of ", nominal_steps, " steps is predicted to take ", seconds(f.march()), " against ", seconds(c.march()),
-                                  " condensed, at ", nominal_rate * 1e-9, " GF/s"));
-    decide(true, text(memory, "; a march of ", nominal_steps, " steps is predicted to take ", seconds(c.march()), " against ",
-                      seconds(f.march()), " by FETI, at ", nominal_rate * 1e-9, " GF/s"));
+        return decide(false, text("a march of ", nominal_steps, " steps is predicted to take ", seconds(f.march()),
+                                  " against ", seconds(c.march()), " condensed, at ", nominal_rate * 1e-9, " GF/s"));
+    decide(true, text(memory, "; a march of ", nominal_steps, " steps is predicted to take ", seconds(c.march()),
+                      " against ", seconds(f.march()), " by FETI, at ", nominal_rate * 1e-9, " GF/s"));
 }
 
 ChosenOperator choose_operator(const Problem& problem, Monitor& monitor) {
@@ -167,13 +174,14 @@ ChosenOperator choose_operator(const Problem& problem, Monitor& monitor) {
     if (options.reduction == "feti" || (options.reduction == "auto" && options.subdomains > 0)) {
         choice.forced = true;
         choice.condensed = false;
-        choice.reason = options.reduction == "feti" ? "option reduction = feti" : text("option subdomains = ", options.subdomains, " asks for it");
+        choice.reason = options.reduction == "feti" ? "option reduction = feti"
+                                                    : text("option subdomains = ", options.subdomains, " asks for it");
     } else if (!choice.condensation.possible && options.reduction == "auto") {
         choose(choice);
     } else {
         if (!choice.condensation.possible)
-            fail(DELAM_ERROR_PROBLEM, "option 'reduction' = 'condensed': the dense operator would have ", choice.unknowns,
-                 " rows, allowed: up to ", dense_limit, "; feti has no such limit");
+            fail(DELAM_ERROR_PROBLEM, "option 'reduction' = 'condensed': the dense operator would have ",
+                 choice.unknowns, " rows, allowed: up to ", dense_limit, "; feti has no such limit");
         bulk = std::make_unique<Bulk>(problem, monitor);
         choice.unknowns = bulk->trailing();
         choice.condensation = predict_condensed(*bulk);
@@ -182,7 +190,8 @@ ChosenOperator choose_operator(const Problem& problem, Monitor& monitor) {
         choose(choice);
         if (options.reduction == "condensed") {
             choice.forced = true;
-            choice.reason = choice.condensed ? "option reduction = condensed" : "option reduction = condensed, although " + choice.reason;
+            choice.reason = choice.condensed ? "option reduction = condensed"
+                                             : "option reduction = condensed, although " + choice.reason;
             choice.condensed = true;
         }
     }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which realisation of the jump operator a scene gets, by predicted cost and memory.
 //
-// Counted, not timed: floating-point operations (a multiplication and an addition are two) and bytes. The sparse factor's numbers come
-// from its symbolic analysis and are exact; the others are formulae whose constants were fitted to counted marches (verify/unit/test_choose.cpp
-// holds them to a factor of 1.5 in bytes).
+// Counted, not timed: floating-point operations (a multiplication and an addition are two) and bytes. The sparse
+// factor's numbers come from its symbolic analysis and are exact; the others are formulae whose constants were fitted
+// to counted marches (verify/unit/test_choose.cpp holds them to a factor of 1.5 in bytes).
 #pragma once
 
 #include <cstdint>

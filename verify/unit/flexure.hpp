@@ -33,9 +33,11 @@ inline delam::Problem make_flexure(const Flexure& f) {
     const auto axes = static_cast<std::size_t>(f.dimension - 1);
     const std::vector<double> lengths{f.length, f.width}, thickness(f.layers, f.thickness);
     const std::vector<std::int64_t> divisions{f.along, f.across}, through(f.layers, f.through);
-    auto mesh = std::make_shared<Mesh>(make_layers(f.dimension, std::span(lengths).first(axes), std::span(divisions).first(axes), thickness,
-                                                   through, f.dimension == 2 ? CellType::quad4 : CellType::hex8));
-    for (std::size_t i = 0; i + 1 < f.layers; ++i) mesh->add_interface(static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1), 1e-6);
+    auto mesh = std::make_shared<Mesh>(make_layers(f.dimension, std::span(lengths).first(axes),
+                                                   std::span(divisions).first(axes), thickness, through,
+                                                   f.dimension == 2 ? CellType::quad4 : CellType::hex8));
+    for (std::size_t i = 0; i + 1 < f.layers; ++i)
+        mesh->add_interface(static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1), 1e-6);
     Problem problem(mesh);
     for (auto& material : problem.material) material = Elastic{75e9, 0.3};
     for (std::size_t i = 0; i < problem.interfaces.size(); ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The predictions behind the choice of the jump operator, held against marches that are counted: bytes within a factor of 1.5, operations of
-// the sparse factor exactly, the monolithic factor's entries against its own symbolic analysis; and the choice itself.
+// The predictions behind the choice of the jump operator, held against marches that are counted: bytes within a factor
+// of 1.5, operations of the sparse factor exactly, the monolithic factor's entries against its own symbolic analysis;
+// and the choice itself.
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -59,9 +60,10 @@ double counted_march(const Problem& problem, double& predicted, double& unknowns
 }
 
 void expect_within(double predicted, double counted, double factor, const std::string& what) {
-    std::printf("%s: predicted %.4g, counted %.4g, ratio %.2f\n", what.c_str(), predicted, counted, predicted / counted);
-    ck_assert_msg(predicted <= factor * counted && counted <= factor * predicted, "%s: predicted %g, counted %g", what.c_str(), predicted,
-                  counted);
+    std::printf("%s: predicted %.4g, counted %.4g, ratio %.2f\n", what.c_str(), predicted, counted,
+                predicted / counted);
+    ck_assert_msg(predicted <= factor * counted && counted <= factor * predicted, "%s: predicted %g, counted %g",
+                  what.c_str(), predicted, counted);
 }
 
 }  // namespace
@@ -77,12 +79,14 @@ START_TEST(memory_is_what_was_predicted) {
 }
 END_TEST
 
-// Fills of a symbolic analysis by the definition, column counts of a banded matrix: the flops that CHOLMOD reports are sums of squares.
+// Fills of a symbolic analysis by the definition, column counts of a banded matrix: the flops that CHOLMOD reports are
+// sums of squares.
 START_TEST(operations_of_the_sparse_factor_are_exact) {
     constexpr std::int64_t n = 200, band = 7;
     std::vector<Triplet> triplets;
     for (std::int64_t i = 0; i < n; ++i)
-        for (std::int64_t j = std::max<std::int64_t>(0, i - band); j < std::min(n, i + band + 1); ++j) triplets.push_back({i, j, i == j ? 20.0 : -1.0});
+        for (std::int64_t j = std::max<std::int64_t>(0, i - band); j < std::min(n, i + band + 1); ++j)
+            triplets.push_back({i, j, i == j ? 20.0 : -1.0});
     const SparseMatrix matrix = from_triplets(n, n, std::move(triplets));
     const SparseCholesky factor(matrix, n);  // the given order
     double entries = 0.0, flops = 0.0;
@@ -102,11 +106,13 @@ START_TEST(monolithic_factor_is_what_was_predicted) {
     Monitor monitor;
     const Bulk bulk(problem, monitor);
     const SparseCholesky free_order(bulk.transformed());
-    expect_within(predict_monolithic_entries(bulk), free_order.size().entries, 1.5, "entries of the monolithic factor, scene " + std::to_string(_i));
+    expect_within(predict_monolithic_entries(bulk), free_order.size().entries, 1.5,
+                  "entries of the monolithic factor, scene " + std::to_string(_i));
     if (!unit::counting) return;
     SparseMatrix matrix = bulk.transformed();
     for (std::int64_t r = 0; r < matrix.rows; ++r)
-        for (std::int64_t e = matrix.start[static_cast<std::size_t>(r)]; e < matrix.start[static_cast<std::size_t>(r) + 1]; ++e)
+        for (std::int64_t e = matrix.start[static_cast<std::size_t>(r)];
+             e < matrix.start[static_cast<std::size_t>(r) + 1]; ++e)
             if (matrix.column[static_cast<std::size_t>(e)] == r) matrix.value[static_cast<std::size_t>(e)] *= 2.0;
     const long before = unit::live_bytes;
     unit::peak_bytes = before;

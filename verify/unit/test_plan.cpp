@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a march leaves out changes nothing: contact where pairs cannot close, mixity where the law does not see it, displacements that
-// nobody reads. And the bodies are factored once.
+// What a march leaves out changes nothing: contact where pairs cannot close, mixity where the law does not see it,
+// displacements that nobody reads. And the bodies are factored once.
 #include <cstring>
 #include <string>
 
@@ -74,7 +74,8 @@ END_TEST
 START_TEST(mixity_stays_where_the_law_sees_it) {
     Law law = linear_law().law;
     ck_assert(!law.depends_on_mixity());
-    for (double Law::*member : {&Law::normal_onset, &Law::tangential_toughness, &Law::onset_exponent_1, &Law::toughness_exponent_2}) {
+    for (double Law::*member :
+         {&Law::normal_onset, &Law::tangential_toughness, &Law::onset_exponent_1, &Law::toughness_exponent_2}) {
         Law other = law;
         other.*member *= 1.5;
         ck_assert(other.depends_on_mixity());
@@ -99,7 +100,8 @@ START_TEST(contact_left_out_changes_no_digit) {
         problem.patterns[0] = {"lift", {0.0, 1.0}, {0.0, 5e-9}, Pattern::Drives::displacement};
         for (std::int64_t node = 0; node < problem.mesh->node_count(); ++node)
             for (int c = 0; c < 2; ++c)
-                problem.constraints.push_back({{2 * node + c}, {1.0}, {c == 1 && node >= problem.mesh->node_count() / 2 ? 1e4 : 0.0}});
+                problem.constraints.push_back(
+                    {{2 * node + c}, {1.0}, {c == 1 && node >= problem.mesh->node_count() / 2 ? 1e4 : 0.0}});
     }
     const auto without = history(problem);
     problem.options.contact = "always";
