@@ -308,6 +308,8 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   lower, increment, upper, increment_lower   energies, F L (2D: F): cumulative but for the last four, which are of the step
  *   am_iterations, displacement_solves, contact_iterations, linear_iterations   of the step; contact_iterations sums the
  *   active-set steps over the displacement solves, linear_iterations the Krylov ones
+ *   newton_solves, debond_moves   of the step, accelerated minimisation of a condensed scene: dense solves within the process zone,
+ *                          and unstable pairs that were taken straight to their debonded branch
  *   contact_iterations_first, contact_iterations_max   active-set steps of the first displacement solve and of the worst
  *   contact_fallbacks      displacement solves that had to exchange one pair at a time because active sets came back
  *   contact_pairs          pairs in contact
@@ -319,8 +321,8 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   field_recoveries       how often displacements were recovered from the interfaces since then: by the fields displacement,
  *                          stress and (condensed) reaction and by the kkt_ values; no other value needs them
  *                          (both count over the solver's life; they are no part of its state, nor of saved bytes)
- *   damage_change          last change of adhesion, max norm
- *   linear_residual        worst relative residual of the linear solves of the step
+ *   damage_change          what a further damage step would change at this state, max norm: <= damage_tolerance when converged
+ *   linear_residual        worst relative residual of the iterative linear solves of the step; 0 where they are direct
  *   kkt_gap                deepest penetration of the recovered displacements, over the largest jump (0 = none)
  *   kkt_pressure           largest pull of a closed contact, over the largest force of a pair (0 = none)
  *   kkt_complementarity    largest |gap * force| of a closed contact, over (largest jump * largest force)

@@ -39,13 +39,13 @@ bool Minimiser::alternate(State& state, std::span<const double> adhesion_old) co
         const std::vector<double> next = damage_step(pairs, toughness, adhesion_old, state.response.jump);
         double change = 0.0;
         for (std::size_t p = 0; p < next.size(); ++p) change = std::max(change, std::abs(next[p] - state.adhesion[p]));
-        state.adhesion = next;
         state.counts.damage_change = change;
         ++state.counts.am_iterations;
-        const bool fixed_point = change <= tolerance;
-        if (!fixed_point && state.counts.am_iterations < limit) continue;
-        if (change > 0.0) converged = displace(state) && converged;
-        return converged && fixed_point;
+        if (change <= tolerance) return converged;
+        state.adhesion = next;
+        if (state.counts.am_iterations < limit) continue;
+        displace(state);
+        return false;
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One incremental problem by alternate minimisation (slides, "Alternate minimization algorithm"): displacements at frozen damage, damage
-// at frozen displacements, until the damage moves by no more than delta. A last displacement step makes the state consistent.
+// at frozen displacements, until the damage would move by no more than delta. The state that is kept is the one that was tested: displacements that
+// belong to its adhesion, and a damage step from there that changes nothing more than delta.
 #pragma once
 
 #include <span>

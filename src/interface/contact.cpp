@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
 
 #include "base/error.hpp"
 
@@ -52,7 +53,7 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
     const auto prescribed = op.prescribed_rows();
     Springs springs{{stiffness.begin(), stiffness.end()}, std::vector<std::uint8_t>(stiffness.size(), 0)};
     ContactResult result;
-    std::set<std::vector<std::uint8_t>> seen;
+    std::set<std::string> seen;  // contact sets, as bytes
     bool all_closed_tried = false;
     std::uint8_t level = cold && !scene.level.empty() ? *std::max_element(scene.level.begin(), scene.level.end()) : 0;
     if (level > 0) std::fill(closed.begin(), closed.end(), std::uint8_t{0});
@@ -86,7 +87,7 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
             result.converged = false;
             break;
         }
-        if (!seen.insert(closed).second) result.fallback = true;
+        if (!seen.emplace(closed.begin(), closed.end()).second) result.fallback = true;
         for (const std::size_t p : wrong) {
             closed[p] ^= 1;
             if (result.fallback) break;

@@ -207,13 +207,13 @@ std::optional<StepRecord> Baseline::advance(double time, const std::function<boo
             damage_step(old, next);
             double change = 0.0;
             for (std::size_t p = 0; p < next.size(); ++p) change = std::max(change, std::abs(next[p] - adhesion_[p]));
-            adhesion_ = next;
             record.damage_change = change;
             ++record.am_iterations;
-            const bool fixed_point = change <= options_.delta;
-            if (!fixed_point && record.am_iterations < options_.minimisation_limit) continue;
-            if (change > 0.0) converged = displace(theta, record, stop) && converged;
-            converged = converged && fixed_point;
+            if (change <= options_.delta) break;
+            adhesion_ = next;
+            if (record.am_iterations < options_.minimisation_limit) continue;
+            displace(theta, record, stop);
+            converged = false;
             break;
         }
     } catch (const Stopped&) {

@@ -123,15 +123,17 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
         if (age_[i] < forgotten || (now[i] > 0.0 && now[i] < weak * body)) set[i] = 1;
     }
     const std::size_t needed = count(set);
-    set = grown(std::move(set), needed + std::max<std::size_t>(16, needed / 3));
+    set = grown(std::move(set), needed + std::max<std::size_t>(16, needed / 5));
 
-    bool renew = outer_ == nullptr;
+    bool renew = outer_ == nullptr, far = false;
     std::vector<std::int64_t> back;
-    for (std::size_t i = 0; i < unknowns && !renew; ++i) {
-        if (near_[i] != 0 || (set[i] == 0 && spring_[i] == now[i])) continue;
+    for (std::size_t i = 0; i < unknowns && !renew; ++i) far = far || (near_[i] == 0 && (set[i] != 0 || spring_[i] != now[i]));
+    const std::vector<std::uint8_t> ahead = far ? grown(set, count(set) + unknowns / 12) : std::vector<std::uint8_t>();
+    for (std::size_t i = 0; i < unknowns && far; ++i) {
+        if (near_[i] != 0 || (ahead[i] == 0 && spring_[i] == now[i])) continue;
         back.push_back(static_cast<std::int64_t>(i));
         // What a stiff spring hides cannot be got back by subtracting it.
-        renew = outer_spring_[i] > stiff * bulk_->energy().stiffness(static_cast<std::int64_t>(i), static_cast<std::int64_t>(i));
+        renew = renew || outer_spring_[i] > stiff * bulk_->energy().stiffness(static_cast<std::int64_t>(i), static_cast<std::int64_t>(i));
     }
     // Releases, and second steps over what they have piled up, go on until they have cost as much as a new first step.
     if (!renew) renew = spent_ + (back.empty() ? 0.0 : outer_->release_cost(static_cast<std::int64_t>(back.size()))) > outer_->cost();
@@ -220,7 +222,6 @@ void Condensed::condense_inner() {
         floating = orthonormalised(std::move(floating));
     }
     zone_ = std::make_unique<Zone>(inner_->energy(), std::move(rows), std::move(floating));
-    if (getenv("DBG")) fprintf(stderr,"condense %ld: n %zu outer kept %zu zone %zu released %zu cost %g of %g\n",(long)condensations_,unknowns,near.size(),zone_unknowns_.size(),released_.size(),spent_,outer_->cost());
 }
 
 Zone& Condensed::zone(const Springs& springs, std::span<const std::uint8_t> wanted) {
@@ -276,7 +277,6 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
         if (held[z] == 0 && springs.stiffness[r] > 0.0)
             couplings.push_back({static_cast<std::int64_t>(z), static_cast<std::int64_t>(z), springs.stiffness[r]});
     }
-    if (getenv("DBG")) { size_t h=0; for(auto v:held) h+=v; fprintf(stderr,"   solve zone %zu held %zu\n",held.size(),h);}
     if (!zone_->factor(couplings, held))
         fail(DELAM_ERROR_NUMERICAL, "the condensed stiffness of the process zone (", zone_rows_.size(), " rows) is not positive definite");
     const Zone::Solution solution = zone_->solve(theta, {});
