@@ -317,6 +317,10 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   front                  L or L2: advance of the front, sum of weight (1 - zeta) over the pairs that adhered at first
  *   process_zone           L or L2: weight of the pairs with 1e-3 < zeta < 1 - 1e-3
  *   backtracks             returns to an earlier step (none yet: the two-sided estimate is reported, not acted on)
+ *   bulk_factorisations    sparse factorisations of the bodies since the solver was made: condensed 1, FETI one a subdomain
+ *   field_recoveries       how often displacements were recovered from the interfaces since then: by the fields displacement,
+ *                          stress and (condensed) reaction and by the kkt_ values; no other value needs them
+ *                          (both count over the solver's life; they are no part of its state, nor of saved bytes)
  *   damage_change          what a further damage step would change at this state, max norm: <= damage_tolerance when converged
  *   linear_residual        worst relative residual of the iterative linear solves of the step; 0 where they are direct
  *   kkt_gap                deepest penetration of the recovered displacements, over the largest jump (0 = none)
@@ -338,15 +342,25 @@ DELAM_API const char *delam_solver_value_name(const delam_solver *solver, int64_
  *   jump          [pairs][dimension]    L, local: normal (>= 0), tangent(s)
  *   traction      [pairs][dimension]    F/L2, local, on face b's side as pull positive; a pressure of contact is negative
  *   adhesion, mixity, contact  [pairs][1]   -, mixity B = Y_t/Y that the last step used, contact 1 = closed
+ *                          (mixity 0 where the plan left it out because the law does not depend on it: option mixity = always)
  *   reaction      [constraints][1]      F: force of the device, positive along the constraint
  * `part`: an interface index for pair fields, -1 for all interfaces one after another; otherwise -1. */
 DELAM_API int32_t delam_solver_field_shape(const delam_solver *solver, const char *key, int64_t part, int64_t *rows,
                                            int64_t *columns);
 DELAM_API int32_t delam_solver_field(delam_solver *solver, const char *key, int64_t part, int64_t capacity, double *values);
 
-/* What the scene needs and what was left out, in words (lines ended by '\n'), and the realisation that was chosen. Valid until
- * the next call with this solver. Never NULL. */
+/* What the scene needs and what was left out, each with its reason, its predicted cost and what the decision saves. In words, a line
+ * each, "subject: decision, reason (cost ..., saves ...)\n". Valid until the next call with this solver. Never NULL. */
 DELAM_API const char *delam_solver_plan(delam_solver *solver);
+/* The same as data, settled when the solver is made. Subjects: condensed operator, FETI, memory, subdomains, longest uninterruptible
+ * factorisation, contact of interface I, mixity of interface I (each I), gradient term, acceleration of the minimisation,
+ * displacements and stresses inside the bodies, backtracking. */
+DELAM_API int32_t delam_solver_plan_count(const delam_solver *solver, int64_t *count);
+/* decision: "used" or "left out". cost: predicted, of what is used (0 for what is left out); saving: predicted, against the other
+ * decision; both in `unit` ("flop", "flop/step", "comparison/solve", "byte", "s" at a nominal rate that the reason states; "-" for
+ * none). Any output may be NULL; texts live as long as the solver. */
+DELAM_API int32_t delam_solver_plan_item(const delam_solver *solver, int64_t index, const char **subject, const char **decision,
+                                         const char **reason, double *cost, double *saving, const char **unit);
 
 /* The committed state as bytes: save, load into a solver of the same scene and options, go on: the rest is bitwise the same.
  * save: *needed receives the size; written when capacity suffices (capacity 0: ask). */

@@ -19,6 +19,7 @@
 #include "base/monitor.hpp"
 #include "body/model.hpp"
 #include "delam/delam.h"
+#include "evolution/plan.hpp"
 #include "linalg/sparse.hpp"
 
 namespace delam {
@@ -70,7 +71,8 @@ struct delam_problem : delam::Handle<delam::magic_problem, delam::Problem> {
 };
 struct delam_solver : delam::Handle<delam::magic_solver, delam::Solver> {
     std::vector<std::string> value_names;  // texts that delam_solver_value_name and delam_solver_plan hand out
-    std::string plan;
+    std::vector<delam::PlanItem> plan;     // kept likewise for delam_solver_plan_item
+    std::string plan_words;
 };
 
 namespace delam {

@@ -45,6 +45,7 @@ int32_t delam_solver_create(const delam_problem* problem, double time, delam_sol
         handle->context = problem->context;
         handle->core = std::make_shared<Solver>(*problem->core, problem->context->monitor, time);
         handle->value_names = value_names(handle->core->problem());
+        handle->plan = handle->core->plan();
         const Outcome& outcome = handle->core->initial_outcome();
         *out = handle.release();
         return report(*problem->context, outcome);
@@ -117,8 +118,30 @@ int32_t delam_solver_field(delam_solver* solver, const char* key, int64_t part, 
 }
 
 const char* delam_solver_plan(delam_solver* solver) {
-    const std::int32_t status = guard(solver, [&] { solver->plan = solver->core->plan(); });
-    return status == DELAM_OK ? solver->plan.c_str() : "";
+    const std::int32_t status = guard(solver, [&] { solver->plan_words = plan_in_words(solver->plan); });
+    return status == DELAM_OK ? solver->plan_words.c_str() : "";
+}
+
+int32_t delam_solver_plan_count(const delam_solver* solver, int64_t* count) {
+    return guard(solver, [&] {
+        require_pointer(count, "count");
+        *count = static_cast<int64_t>(solver->plan.size());
+    });
+}
+
+int32_t delam_solver_plan_item(const delam_solver* solver, int64_t index, const char** subject, const char** decision,
+                               const char** reason, double* cost, double* saving, const char** unit) {
+    return guard(solver, [&] {
+        const auto count = static_cast<int64_t>(solver->plan.size());
+        if (index < 0 || index >= count) fail(DELAM_ERROR_ARGUMENT, "plan index ", index, ", allowed: 0 to ", count - 1);
+        const PlanItem& item = solver->plan[static_cast<std::size_t>(index)];
+        if (subject != nullptr) *subject = item.subject.c_str();
+        if (decision != nullptr) *decision = item.decision.c_str();
+        if (reason != nullptr) *reason = item.reason.c_str();
+        if (cost != nullptr) *cost = item.cost;
+        if (saving != nullptr) *saving = item.saving;
+        if (unit != nullptr) *unit = item.unit.c_str();
+    });
 }
 
 int32_t delam_solver_save(const delam_solver* solver, int64_t capacity, uint8_t* bytes, int64_t* needed) {

@@ -1,37 +1,156 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the scene needs and what was left out, in words.
-#include <set>
+#include "evolution/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 #include "base/error.hpp"
 #include "evolution/solver.hpp"
 
 namespace delam {
 
-std::string Solver::plan() const {
-    const Mesh& mesh = *problem_.mesh;
-    const std::int64_t dim = mesh.dimension();
-    std::string out;
-    out += text("primal DOFs: ", mesh.node_count() * dim, " (", mesh.node_count(), " nodes, ", mesh.cell_count(), " cells, ",
-                mesh.body_count(), " bodies, ", dim, "D)\n");
-    out += text("dual DOFs: ", problem_.jump_count(), " (", problem_.pair_count(), " node pairs)\n");
-    for (std::size_t i = 0; i < mesh.interfaces().size(); ++i) {
-        const InterfaceGeometry& g = mesh.interfaces()[i];
-        double notch = 0.0, bond = 0.0;
-        for (std::size_t p = 0; p < g.weight.size(); ++p)
-            (problem_.interfaces[i].adhesion[p] > 0.0 ? bond : notch) += g.weight[p];
-        out += text("interface ", i, ": bodies ", mesh.body_label(g.body_a), " and ", mesh.body_label(g.body_b), ", ",
-                    g.pair_count(), " pairs, ");
-        out += problem_.interfaces[i].bonded ? std::string("bonded for ever: no damage, no contact\n")
-                                             : text("adhering over ", bond, ", notch over ", notch,
-                                                    dim == 2 ? " (length)" : " (area)", ": damage and contact\n");
+namespace {
+
+constexpr const char* used = "used";
+constexpr const char* left_out = "left out";
+
+// Operations of Go and Gc at a mixity: two interaction criteria, each a few exponentials and logarithms of about 20.
+constexpr double mixity_operations = 200.0;
+
+void add_reduction(std::vector<PlanItem>& items, const Solver& solver) {
+    const ReductionChoice& choice = solver.reduction();
+    const ReductionCost &c = choice.condensation, &f = choice.feti;
+    const bool both = c.setup > 0.0;
+    const double saving = both ? (choice.condensed ? 1.0 : -1.0) * (f.march() - c.march()) : 0.0;
+    const std::string words = text(choice.forced ? "forced, " : "chosen by predicted cost and memory, ", choice.reason);
+    const std::string built =
+        text(words, "; ", solver.jump_operator().description(), "; cost of a march of ", nominal_steps, " steps");
+    const std::string other =
+        text("the other realisation is used: ", words, both ? "" : "; its cost was not predicted");
+    items.push_back({"condensed operator", choice.condensed ? used : left_out, choice.condensed ? built : other,
+                     choice.condensed ? c.march() : 0.0, choice.condensed ? saving : 0.0, "flop"});
+    items.push_back({"FETI", choice.condensed ? left_out : used, choice.condensed ? other : built,
+                     choice.condensed ? 0.0 : f.march(), choice.condensed ? 0.0 : saving, "flop"});
+    const double bytes = choice.condensed ? c.bytes : f.bytes;
+    items.push_back({"memory", used,
+                     choice.monolithic > 0.0
+                         ? text("predicted peak of a march, ", std::round(10.0 * bytes / choice.monolithic) / 10.0,
+                                " times one monolithic factorisation; saved against the other realisation")
+                         : std::string("predicted peak of a march"),
+                     bytes, both ? (choice.condensed ? f.bytes - c.bytes : c.bytes - f.bytes) : 0.0, "byte"});
+    if (choice.condensed)
+        items.push_back({"subdomains", left_out, "the condensed operator factors all bodies at once", 0.0, 0.0, "-"});
+    else
+        items.push_back(
+            {"subdomains", used,
+             text(choice.subdomains, solver.problem().options.subdomains > 0 ? " asked for" : " chosen by size",
+                  ", predicted boundary ", std::round(choice.boundary), " DOFs each"),
+             0.0, 0.0, "-"});
+    const double longest = choice.condensed ? c.longest : f.longest;
+    items.push_back(
+        {"longest uninterruptible factorisation", used,
+         text(longest, " operations at a nominal ", nominal_rate * 1e-9, " GF/s; a cancellation waits for it"),
+         longest / nominal_rate, 0.0, "s"});
+}
+
+// Pairs of an interface whose normal jump the device alone determines.
+std::int64_t prescribed_pairs(const Solver& solver, std::int64_t first, std::int64_t pairs) {
+    const auto rows = solver.jump_operator().prescribed_rows();
+    const std::int64_t dim = solver.problem().mesh->dimension();
+    std::int64_t found = 0;
+    for (std::int64_t p = first; p < first + pairs; ++p) found += rows[static_cast<std::size_t>(p * dim)] != 0 ? 1 : 0;
+    return found;
+}
+
+// Nothing else proves a priori that a pair stays open: whether it closes depends on the load path and on the damage.
+PlanItem contact_of(const Solver& solver, std::size_t interface, std::int64_t first) {
+    const Problem& problem = solver.problem();
+    const std::int64_t pairs = problem.mesh->interfaces()[interface].pair_count();
+    const auto all = static_cast<double>(pairs);
+    const std::string subject = text("contact of interface ", interface);
+    if (problem.interfaces[interface].bonded)
+        return {subject, left_out, "bonded for ever: it neither opens nor closes", 0.0, all, "comparison/solve"};
+    const std::int64_t prescribed = prescribed_pairs(solver, first, pairs);
+    if (problem.options.contact == "always")
+        return {
+            subject, used, text("option contact = always: all ", pairs, " pairs are tested in every active-set step"),
+            all,     0.0,  "comparison/solve"};
+    if (prescribed == pairs && pairs > 0)
+        return {subject, left_out, "the device prescribes every normal jump: no pair can close",
+                0.0,     all,      "comparison/solve"};
+    return {subject,
+            used,
+            text(pairs - prescribed, " of ", pairs,
+                 " pairs can close, nothing proves beforehand that they do not; the test is one comparison a pair "
+                 "until one closes, "
+                 "then each change of the contact set is one more solve"),
+            all - static_cast<double>(prescribed),
+            static_cast<double>(prescribed),
+            "comparison/solve"};
+}
+
+PlanItem mixity_of(const Solver& solver, std::size_t interface) {
+    const Problem& problem = solver.problem();
+    const double work = mixity_operations * static_cast<double>(problem.mesh->interfaces()[interface].pair_count());
+    const std::string subject = text("mixity of interface ", interface);
+    const char* unit = "flop/step";
+    if (problem.interfaces[interface].bonded) return {subject, left_out, "bonded for ever: no damage", 0.0, work, unit};
+    if (problem.interfaces[interface].law->depends_on_mixity())
+        return {subject, used, "onset and toughness of the law depend on it; frozen at the step before",
+                work,    0.0,  unit};
+    if (problem.options.mixity == "always")
+        return {subject, used, "option mixity = always, although the law does not depend on it", work, 0.0, unit};
+    return {subject, left_out, "onset and toughness are the same for both modes with exponents 1, so at every mixity",
+            0.0,     work,     unit};
+}
+
+std::string figure(double value, const std::string& unit) {
+    return unit == "-" ? text(value) : text(value, " ", unit);
+}
+
+}  // namespace
+
+std::vector<PlanItem> Solver::plan() const {
+    std::vector<PlanItem> items;
+    add_reduction(items, *this);
+    std::int64_t first = 0;
+    for (std::size_t i = 0; i < problem_.interfaces.size(); ++i) {
+        items.push_back(contact_of(*this, i, first));
+        items.push_back(mixity_of(*this, i));
+        first += problem_.mesh->interfaces()[i].pair_count();
     }
-    out += text("constraints: ", problem_.constraints.size(), "; load patterns: ", problem_.patterns.size(), "\n");
-    out += "displacements: " + operator_->description() + "\n";
-    out += text("evolution: local solution, alternate minimisation with frozen mixity, delta = ",
-                problem_.options.damage_tolerance, ", at most ", problem_.options.minimisation_limit, " alternations a step\n");
-    out += "left out: displacements and stresses inside the bodies (recovered when asked for); gradient term (none in the "
-           "laws); backtracking (the two-sided estimate is reported, not acted on)\n";
-    return out;
+    items.push_back({"gradient term", left_out, "no law has one", 0.0, 0.0, "-"});
+    const Options& options = problem_.options;
+    const bool plain = options.minimisation == "alternate";
+    items.push_back({"acceleration of the minimisation", plain ? left_out : used,
+                     text(plain ? "option minimisation = alternate"
+                          : reduction_.condensed
+                              ? "Newton steps and debonding moves in the process zone, each checked by the energy"
+                              : "extrapolated alternate minimisation, each leap checked by the energy",
+                          "; same stopping test: delta = ", options.damage_tolerance, ", at most ",
+                          options.minimisation_limit, " alternations a step"),
+                     0.0, 0.0, "-"});
+    const double dofs = static_cast<double>(problem_.mesh->node_count() * problem_.mesh->dimension());
+    const double recovery =
+        4.0 * (reduction_.factor_entries > 0.0 ? reduction_.factor_entries : dofs * std::log2(dofs + 2.0));
+    items.push_back({"displacements and stresses inside the bodies", left_out,
+                     "recovered on request only: the fields displacement and stress and the kkt_ values ask for them",
+                     0.0, recovery, "flop/step"});
+    items.push_back(
+        {"backtracking", left_out, "the two-sided energy estimate is reported, not acted on", 0.0, 0.0, "-"});
+    return items;
+}
+
+std::string plan_in_words(const std::vector<PlanItem>& items) {
+    std::string words;
+    for (const PlanItem& item : items) {
+        words += text(item.subject, ": ", item.decision, ", ", item.reason);
+        if (item.cost != 0.0) words += " (cost " + figure(item.cost, item.unit) + (item.saving != 0.0 ? "" : ")");
+        if (item.saving != 0.0)
+            words += (item.cost != 0.0 ? ", saves " : " (saves ") + figure(item.saving, item.unit) + ")";
+        words += "\n";
+    }
+    return words;
 }
 
 }  // namespace delam

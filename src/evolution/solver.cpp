@@ -6,7 +6,6 @@
 
 #include "base/error.hpp"
 #include "interface/contact_levels.hpp"
-#include "reduction/choose.hpp"
 
 namespace delam {
 
@@ -15,17 +14,23 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time) : problem_
     const Mesh& mesh = *problem_.mesh;
     pairs_.dimension = contact_.dimension = mesh.dimension();
     contact_.limit = problem_.options.contact_limit;
+    contact_.always = problem_.options.contact == "always";
     for (std::size_t i = 0; i < mesh.interfaces().size(); ++i) {
         const InterfaceProperties& properties = problem_.interfaces[i];
+        std::optional<Toughness> fixed;
+        if (!properties.bonded && problem_.options.mixity == "auto" && !properties.law->depends_on_mixity()) fixed = properties.law->toughness(0.0);
         for (const double weight : mesh.interfaces()[i].weight) {
             pairs_.weight.push_back(weight);
             pairs_.law.push_back(properties.bonded ? nullptr : &*properties.law);
+            pairs_.fixed.push_back(fixed);
             contact_.bonded.push_back(properties.bonded ? 1 : 0);
         }
         initial_adhesion_.insert(initial_adhesion_.end(), properties.adhesion.begin(), properties.adhesion.end());
     }
     contact_.level = contact_levels(mesh.interfaces());
-    operator_ = choose_operator(problem_, monitor_);
+    ChosenOperator chosen = choose_operator(problem_, monitor_);
+    operator_ = std::move(chosen.op);
+    reduction_ = std::move(chosen.choice);
     std::vector<std::uint8_t> bonded_rows;
     for (const std::uint8_t b : contact_.bonded) bonded_rows.insert(bonded_rows.end(), static_cast<std::size_t>(mesh.dimension()), b);
     lift_ = Lift(*operator_, bonded_rows, bound_rows(problem_), problem_.patterns.size());
@@ -173,10 +178,7 @@ void Solver::restore(State restored) {
 }
 
 const std::vector<double>& Solver::displacement() const {
-    if (displacement_.empty()) {
-        displacement_ = operator_->displacement(state().theta, state().response);
-        ++recoveries_;
-    }
+    if (displacement_.empty()) displacement_ = operator_->displacement(state().theta, state().response);
     return displacement_;
 }
 

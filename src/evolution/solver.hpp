@@ -10,6 +10,8 @@
 #include "base/monitor.hpp"
 #include "evolution/bounds.hpp"
 #include "evolution/minimise.hpp"
+#include "evolution/plan.hpp"
+#include "reduction/choose.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {
@@ -48,11 +50,13 @@ public:
     // Forces of the device, [constraints].
     std::vector<double> reaction() const { return operator_->reaction(state().theta, state().response); }
     // How often displacements were recovered.
-    std::int64_t recoveries() const { return recoveries_; }
+    std::int64_t recoveries() const { return operator_->recoveries(); }
     const JumpOperator& jump_operator() const { return *operator_; }
+    const ReductionChoice& reduction() const { return reduction_; }
     // Out-of-balance force over the largest reaction.
     double equilibrium_defect() const;
-    std::string plan() const;
+    // What the scene needs and what was left out (plan.hpp).
+    std::vector<PlanItem> plan() const;
     // Initial adhesion, [pairs].
     const std::vector<double>& initial_adhesion() const { return initial_adhesion_; }
 
@@ -69,12 +73,12 @@ private:
     ContactScene contact_;
     std::vector<double> initial_adhesion_;
     std::unique_ptr<JumpOperator> operator_;
+    ReductionChoice reduction_;
     Lift lift_;
     Outcome initial_outcome_;
     State committed_;
     std::optional<State> pending_;
     mutable std::vector<double> displacement_;  // of state(), empty: not recovered
-    mutable std::int64_t recoveries_ = 0;
 };
 
 }  // namespace delam

@@ -121,6 +121,8 @@ constexpr Entry table[] = {
          return over_bond(s, [](double zeta) { return zeta > debonded_below && zeta < intact_above ? 1.0 : 0.0; });
      }},
     {"backtracks", [](const Solver& s) { return count(s.state().counts.backtracks); }},
+    {"bulk_factorisations", [](const Solver& s) { return count(s.jump_operator().factorisations()); }},
+    {"field_recoveries", [](const Solver& s) { return count(s.recoveries()); }},
     {"damage_change", [](const Solver& s) { return s.state().counts.damage_change; }},
     {"linear_residual", [](const Solver& s) { return s.state().counts.linear_residual; }},
     {"kkt_gap", kkt_gap},

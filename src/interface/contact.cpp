@@ -36,6 +36,15 @@ std::vector<std::size_t> violators(const ContactScene& scene, std::span<const st
     return found;
 }
 
+void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> prescribed, const Response& response) {
+    const auto dim = static_cast<std::size_t>(scene.dimension);
+    const double deepest = -1e-9 * largest(response.jump);
+    for (std::size_t p = 0; p < scene.bonded.size(); ++p)
+        if (prescribed[p * dim] != 0 && scene.bonded[p] == 0 && response.jump[p * dim] < deepest)
+            fail(DELAM_ERROR_PROBLEM, "prescribed displacements press two faces into each other at pair ", p, " (normal jump ",
+                 response.jump[p * dim], " < 0)");
+}
+
 }  // namespace
 
 ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
@@ -67,6 +76,7 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
         result.linear_residual = std::max(result.linear_residual, response.residual);
         result.converged = result.converged && response.converged;
 
+        if (scene.always) refuse_pressed(scene, prescribed, response);
         std::vector<std::size_t> wrong = violators(scene, prescribed, closed, response, level);
         while (wrong.empty() && level > 0) {
             wrong = violators(scene, prescribed, closed, response, --level);
@@ -83,11 +93,7 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
             if (result.fallback) break;
         }
     }
-    const double deepest = -1e-9 * largest(response.jump);
-    for (std::size_t p = 0; p < closed.size(); ++p)
-        if (prescribed[p * dim] != 0 && scene.bonded[p] == 0 && response.jump[p * dim] < deepest)
-            fail(DELAM_ERROR_PROBLEM, "prescribed displacements press two faces into each other at pair ", p, " (normal jump ",
-                 response.jump[p * dim], " < 0)");
+    refuse_pressed(scene, prescribed, response);
     return result;
 }
 

@@ -29,6 +29,7 @@ struct ContactScene {
     std::vector<std::uint8_t> bonded;  // [pairs] held in every direction for ever
     std::vector<std::uint8_t> level;   // [pairs] of contact_levels.hpp
     std::int64_t limit = 200;
+    bool always = false;  // in every step, also test pairs whose normal jump the device prescribes: they cannot close, only be pressed
 };
 
 // spring stiffness: [rows]. closed: [pairs], the warm start in, the contact set out. Throws Error(DELAM_LIMIT) when no contact set balances

@@ -26,11 +26,14 @@ double onset_energy(const Law& law) { return std::min(law.normal_onset, law.tang
 
 std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump, std::span<const double> known) {
     std::vector<double> b(known.begin(), known.end());
+    bool any = false;
+    for (std::size_t p = 0; p < b.size() && !any; ++p) any = pairs.mixed(p);
+    if (!any) return b;
     double largest = 0.0;
     for (std::size_t p = 0; p < b.size(); ++p)
         if (pairs.law[p] != nullptr) largest = std::max(largest, driving_energy(pairs, p, jump).total());
     for (std::size_t p = 0; p < b.size(); ++p) {
-        if (pairs.law[p] == nullptr) continue;
+        if (!pairs.mixed(p)) continue;
         const Driving y = driving_energy(pairs, p, jump);
         if (y.total() > rounding * std::max(largest, onset_energy(*pairs.law[p]))) b[p] = mode_mixity(y.normal, y.tangential);
     }
@@ -58,7 +61,7 @@ std::vector<double> spring_stiffness(const PairLaws& pairs, std::span<const doub
 std::vector<Toughness> toughnesses(const PairLaws& pairs, std::span<const double> mixity) {
     std::vector<Toughness> t(mixity.size(), Toughness{0.0, 0.0});
     for (std::size_t p = 0; p < t.size(); ++p)
-        if (pairs.law[p] != nullptr) t[p] = pairs.law[p]->toughness(mixity[p]);
+        if (pairs.law[p] != nullptr) t[p] = pairs.toughness(p, mixity[p]);
     return t;
 }
 
@@ -82,7 +85,7 @@ double stored_energy(const PairLaws& pairs, std::span<const double> adhesion, st
 double stored_slides(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion) {
     double sum = 0.0;
     for (std::size_t p = 0; p < adhesion.size(); ++p)
-        if (pairs.law[p] != nullptr) sum += pairs.weight[p] * stored_slides(pairs.law[p]->toughness(mixity[p]), adhesion[p]);
+        if (pairs.law[p] != nullptr) sum += pairs.weight[p] * stored_slides(pairs.toughness(p, mixity[p]), adhesion[p]);
     return sum;
 }
 
@@ -91,7 +94,7 @@ double dissipation(const PairLaws& pairs, std::span<const double> mixity, std::s
     double sum = 0.0;
     for (std::size_t p = 0; p < adhesion.size(); ++p) {
         if (pairs.law[p] == nullptr || adhesion[p] == adhesion_old[p]) continue;
-        const Toughness t = pairs.law[p]->toughness(mixity[p]);
+        const Toughness t = pairs.toughness(p, mixity[p]);
         sum += pairs.weight[p] * (dissipated(t, adhesion[p]) - dissipated(t, adhesion_old[p]));
     }
     return sum;
@@ -102,7 +105,7 @@ double dissipation_slides(const PairLaws& pairs, std::span<const double> mixity,
     double sum = 0.0;
     for (std::size_t p = 0; p < adhesion.size(); ++p)
         if (pairs.law[p] != nullptr && adhesion[p] != adhesion_old[p])
-            sum += pairs.weight[p] * pairs.law[p]->toughness(mixity[p]).total * (adhesion_old[p] - adhesion[p]);
+            sum += pairs.weight[p] * pairs.toughness(p, mixity[p]).total * (adhesion_old[p] - adhesion[p]);
     return sum;
 }
 

@@ -2,6 +2,7 @@
 // Pointwise damage over all pairs: driving energies, mixities, the damage step, and interface energies.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,13 @@ struct PairLaws {
     int dimension = 2;
     std::vector<const Law*> law;
     std::vector<double> weight;  // L (2D) or L2 (3D)
+    // Toughness of pairs whose mixity is not computed because their law does not depend on it; empty: all are computed.
+    std::vector<std::optional<Toughness>> fixed;
+
+    bool mixed(std::size_t pair) const { return law[pair] != nullptr && (fixed.empty() || !fixed[pair]); }
+    Toughness toughness(std::size_t pair, double mixity) const {
+        return mixed(pair) ? law[pair]->toughness(mixity) : *fixed[pair];
+    }
 };
 
 // Y_n and Y_t of a pair from its local jump; contact leaves Y_n = 0.
@@ -24,7 +32,8 @@ struct Driving {
 };
 Driving driving_energy(const PairLaws& pairs, std::size_t pair, std::span<const double> jump);
 
-// B of every pair, [pairs]. A pair whose jump is rounding (below 1e-10 of the onset's or of the largest one) keeps its `known` B.
+// B of every pair, [pairs]. A pair whose jump is rounding (below 1e-10 of the onset's or of the largest one) keeps its
+// `known` B, and so does one whose mixity is not computed.
 std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump, std::span<const double> known);
 // Does any pair have a jump that is more than rounding of its onset?
 bool any_jump(const PairLaws& pairs, std::span<const double> jump);

@@ -131,6 +131,12 @@ void Law::validate() const {
          " although the pure modes are fine: Gc(B) >= Go(B) is needed for every B in [0,1]; change the exponents");
 }
 
+bool Law::depends_on_mixity() const {
+    const bool linear = onset_exponent_1 == 1.0 && onset_exponent_2 == 1.0 && toughness_exponent_1 == 1.0 &&
+                        toughness_exponent_2 == 1.0;
+    return !linear || normal_onset != tangential_onset || normal_toughness != tangential_toughness;
+}
+
 Toughness Law::toughness(double mixity) const {
     const double onset = onset_at(*this, mixity);
     return {onset, std::max(onset, total_at(*this, mixity))};

@@ -35,6 +35,9 @@ struct Law {
     bool set(const std::string& key, double value);
     // Throws Error(DELAM_ERROR_PROBLEM) naming the parameter, its value and range, or the mixity where Gc(B) < Go(B).
     void validate() const;
+    // False: Go and Gc are the same at every mixity, which is so for equal pure modes and exponents of 1 (nothing else
+    // keeps (1-B)^p + B^q = 1 for every B).
+    bool depends_on_mixity() const;
     // 0 <= mixity <= 1.
     Toughness toughness(double mixity) const;
 };

@@ -45,6 +45,8 @@ double decay(double rho, double p, double q) {
 }  // namespace
 
 double interaction(double normal_toughness, double tangential_toughness, double p, double q, double mixity) {
+    // Whatever the mixity, to the last digit.
+    if (normal_toughness == tangential_toughness && p == 1.0 && q == 1.0) return normal_toughness;
     // The total G at which one mode alone would reach its toughness; infinite for a mode that takes no part.
     double a = normal_toughness / (1.0 - mixity);
     double c = tangential_toughness / mixity;

@@ -1,17 +1,208 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reduction/choose.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
 #include "reduction/condensed/condensed.hpp"
 #include "reduction/feti/feti.hpp"
 
 namespace delam {
 
-std::unique_ptr<JumpOperator> choose_operator(const Problem& problem, Monitor& monitor) {
-    const std::string& wish = problem.options.reduction;
-    if (wish == "feti" || (wish == "auto" && problem.options.subdomains > 0)) return std::make_unique<Feti>(problem, monitor);
-    auto bulk = std::make_unique<Bulk>(problem, monitor);
+namespace {
+
+double number(std::int64_t n) { return static_cast<double>(n); }
+double square(double x) { return x * x; }
+double cube(double x) { return x * x * x; }
+
+// Fitted constants; what they are fitted to stands in README.md.
+constexpr double dense_copies = 4.0;  // m^2 matrices at the peak of a condensed march: S, its condensations, a release
+constexpr double condensed_start = 0.7;  // of m^3 operations until the first zone is there
+constexpr double condensed_step = 0.2;   // and a load step (0.06 to 0.4)
+constexpr double free_order = 0.65;  // entries of a free order, of those left of the trailing triangle (0.53 to 0.69)
+constexpr double supernodes = 1.25;      // numbers stored per entry of a factor
+constexpr double series_bytes = 76.0;  // per square of a subdomain's jumps: the series preconditioner while it is built
+constexpr double feti_solves = 16.0;     // displacement solves a load step
+constexpr double feti_iterations = 20.0; // Krylov iterations a solve
+constexpr double from_memory =
+    5.0;  // a matrix-vector product waits for memory: so many times slower than a factorisation
+
+std::string mebibytes(double bytes) { return text(std::round(bytes / 1048576.0), " MiB"); }
+std::string seconds(double operations) {
+    const double s = operations / nominal_rate;
+    return text(s < 0.01 ? std::round(s * 1e5) / 1e5 : std::round(s * 100.0) / 100.0, " s");
+}
+
+// Nodes on the cuts through a box of `nodes` nodes in so many parts: the longest side is cut again and again.
+double cut_nodes(const std::array<double, 3>& side, int dimension, double nodes, double parts) {
+    double volume = 1.0;
+    for (int i = 0; i < dimension; ++i) volume *= side[static_cast<std::size_t>(i)];
+    if (!(volume > 0.0) || parts < 1.5) return 0.0;
+    const double spacing = std::pow(volume / nodes, 1.0 / dimension);
+    std::array<double, 3> pieces{1.0, 1.0, 1.0};
+    while (pieces[0] * pieces[1] * pieces[2] < parts) {
+        std::size_t longest = 0;
+        for (std::size_t i = 1; i < static_cast<std::size_t>(dimension); ++i)
+            if (side[i] / pieces[i] > side[longest] / pieces[longest]) longest = i;
+        pieces[longest] += 1.0;
+    }
+    double cut = 0.0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i) {
+        double area = 1.0;  // in nodes
+        for (std::size_t j = 0; j < static_cast<std::size_t>(dimension); ++j)
+            if (j != i) area *= side[j] / spacing + 1.0;
+        cut += (pieces[i] - 1.0) * area;
+    }
+    return cut;
+}
+
+}  // namespace
+
+ReductionCost predict_condensed(const Bulk& bulk) {
+    const double m = number(bulk.trailing()), stiffness = 16.0 * number(bulk.stiffness_entries());
+    const double transformed = 16.0 * number(bulk.transformed_entries()), factor = 8.0 * bulk.factor_entries();
+    ReductionCost cost;
+    cost.possible = bulk.trailing() <= dense_limit;
+    cost.setup = bulk.size().flops + (2.0 / 3.0 + condensed_start) * cube(m);
+    cost.longest = std::max(bulk.size().flops, 2.0 / 3.0 * cube(m));
+    cost.step = condensed_step * cube(m);
+    // While it is factored, T^T K T and CHOLMOD's permuted copy of it; in the march the dense matrices.
+    cost.bytes = stiffness + factor + std::max(2.0 * transformed, 8.0 * dense_copies * m * m);
+    return cost;
+}
+
+double predict_monolithic_entries(const Bulk& bulk) {
+    const double m = number(bulk.trailing());
+    return free_order * (bulk.size().entries - 0.5 * m * (m + 1.0));
+}
+
+double predict_monolithic_bytes(const Bulk& bulk) {
+    return 40.0 * number(bulk.transformed_entries()) + 8.0 * supernodes * predict_monolithic_entries(bulk);
+}
+
+ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, double& boundary) {
+    const Mesh& mesh = *problem.mesh;
+    const int dim = mesh.dimension();
+    const double dofs = number(mesh.node_count() * dim), parts = number(subdomains);
+    std::set<std::int64_t> touched;
+    for (const InterfaceGeometry& face : mesh.interfaces()) {
+        touched.insert(face.node_a.begin(), face.node_a.end());
+        touched.insert(face.node_b.begin(), face.node_b.end());
+    }
+    std::set<std::int64_t> driven;
+    for (const Constraint& constraint : problem.constraints)
+        for (const std::int64_t dof : constraint.dof)
+            if (!touched.contains(dof / dim)) driven.insert(dof);
+    double copies =
+        number(static_cast<std::int64_t>(touched.size())) * dim + number(static_cast<std::int64_t>(driven.size()));
+    double element_entries = 0.0;
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c)
+        element_entries += square(number(static_cast<std::int64_t>(mesh.cell(c).size()) * dim));
+    for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
+        std::array<double, 3> low{}, high{}, side{1.0, 1.0, 1.0};
+        const std::vector<std::int64_t> nodes = mesh.body_nodes(body);
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            for (std::size_t k = 0; k < static_cast<std::size_t>(dim); ++k) {
+                const double x = mesh.node(nodes[i])[k];
+                low[k] = i == 0 ? x : std::min(low[k], x);
+                high[k] = i == 0 ? x : std::max(high[k], x);
+            }
+        for (std::size_t k = 0; k < static_cast<std::size_t>(dim); ++k) side[k] = high[k] - low[k];
+        const double size = number(static_cast<std::int64_t>(nodes.size()));
+        const double share = std::max(1.0, std::round(parts * size / number(mesh.node_count())));
+        copies += 2.0 * dim * cut_nodes(side, dim, size, share);
+    }
+    boundary = std::min(copies, dofs) / parts;
+    const double jumps = 2.0 * number(problem.jump_count()) / parts;
+    const double inside = std::max(dofs / parts, 2.0);
+    // Of a factor of so many unknowns inside, its coupling to the boundary included.
+    const double entries = dim == 2 ? 5.0 * inside * std::log2(inside) : 17.0 * std::pow(inside, 4.0 / 3.0);
+    const double sparse = 3.0 * entries * entries / inside + cube(boundary) / 3.0;
+    const bool series = problem.options.preconditioner == "series";
+    const bool schur = series || problem.options.preconditioner == "dirichlet";
+
+    ReductionCost cost;
+    cost.possible = boundary <= number(dense_limit);
+    cost.setup = parts * (sparse + (2.0 / 3.0 + 2.0) * cube(boundary));
+    cost.longest = std::max(sparse, 2.0 * cube(boundary));
+    const double product = (schur ? 2.0 : 1.0) * 2.0 * boundary * boundary * from_memory;
+    cost.step = feti_solves * parts * (feti_iterations * product + (series ? 2.0 / 3.0 * cube(jumps) : 0.0));
+    cost.bytes =
+        16.0 * 0.5 * element_entries + parts * 8.0 * (supernodes * entries + (schur ? 3.0 : 2.0) * boundary * boundary);
+    if (series) cost.bytes += parts * series_bytes * jumps * jumps;
+    return cost;
+}
+
+void choose(ReductionChoice& choice) {
+    const ReductionCost &c = choice.condensation, &f = choice.feti;
+    const auto decide = [&](bool condensed, std::string reason) {
+        choice.condensed = condensed;
+        choice.reason = std::move(reason);
+    };
+    if (!c.possible)
+        return decide(false,
+                      text("the dense operator would have ", choice.unknowns, " rows, LAPACK addresses ", dense_limit));
+    const double ratio = choice.monolithic > 0.0 ? c.bytes / choice.monolithic : 0.0;
+    const std::string memory = text("needs ", mebibytes(c.bytes), ", ", std::round(10.0 * ratio) / 10.0,
+                                    " times one monolithic factorisation");
+    if (c.bytes > memory_floor && ratio > memory_ratio) {
+        if (f.bytes < c.bytes)
+            return decide(false, text("the condensed operator ", memory, ", more than ", memory_ratio));
+        return decide(true, text(memory, ", more than ", memory_ratio, ", but FETI would need ", mebibytes(f.bytes)));
+    }
+    if (f.possible && f.march() < c.march())
+        return decide(false, text("a march of ", nominal_steps, " steps is predicted to take ", seconds(f.march()),
+                                  " against ", seconds(c.march()), " condensed, at ", nominal_rate * 1e-9, " GF/s"));
+    decide(true, text(memory, "; a march of ", nominal_steps, " steps is predicted to take ", seconds(c.march()),
+                      " against ", seconds(f.march()), " by FETI, at ", nominal_rate * 1e-9, " GF/s"));
+}
+
+ChosenOperator choose_operator(const Problem& problem, Monitor& monitor) {
+    const Options& options = problem.options;
+    ChosenOperator chosen;
+    ReductionChoice& choice = chosen.choice;
+    choice.unknowns = problem.jump_count();
+    choice.subdomains = feti_subdomains(problem);
+    choice.feti = predict_feti(problem, choice.subdomains, choice.boundary);
+    choice.condensation.possible = choice.unknowns <= dense_limit;
+
+    std::unique_ptr<Bulk> bulk;
+    if (options.reduction == "feti" || (options.reduction == "auto" && options.subdomains > 0)) {
+        choice.forced = true;
+        choice.condensed = false;
+        choice.reason = options.reduction == "feti" ? "option reduction = feti"
+                                                    : text("option subdomains = ", options.subdomains, " asks for it");
+    } else if (!choice.condensation.possible && options.reduction == "auto") {
+        choose(choice);
+    } else {
+        if (!choice.condensation.possible)
+            fail(DELAM_ERROR_PROBLEM, "option 'reduction' = 'condensed': the dense operator would have ",
+                 choice.unknowns, " rows, allowed: up to ", dense_limit, "; feti has no such limit");
+        bulk = std::make_unique<Bulk>(problem, monitor);
+        choice.unknowns = bulk->trailing();
+        choice.condensation = predict_condensed(*bulk);
+        choice.factor_entries = bulk->size().entries;
+        choice.monolithic = predict_monolithic_bytes(*bulk);
+        choose(choice);
+        if (options.reduction == "condensed") {
+            choice.forced = true;
+            choice.reason = choice.condensed ? "option reduction = condensed"
+                                             : "option reduction = condensed, although " + choice.reason;
+            choice.condensed = true;
+        }
+    }
+    if (!choice.condensed) {
+        bulk.reset();
+        chosen.op = std::make_unique<Feti>(problem, monitor);
+        return chosen;
+    }
     bulk->condense(monitor);
-    return std::make_unique<Condensed>(std::move(bulk), problem, monitor);
+    chosen.op = std::make_unique<Condensed>(std::move(bulk), problem, monitor);
+    return chosen;
 }
 
 }  // namespace delam

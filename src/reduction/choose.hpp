@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which realisation of the jump operator a scene gets.
+// Which realisation of the jump operator a scene gets, by predicted cost and memory.
+//
+// Counted, not timed: floating-point operations (a multiplication and an addition are two) and bytes. The sparse
+// factor's numbers come from its symbolic analysis and are exact; the others are formulae whose constants were fitted
+// to counted marches (verify/unit/test_choose.cpp holds them to a factor of 1.5 in bytes).
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <string>
 
 #include "base/monitor.hpp"
 #include "reduction/jump_operator.hpp"
@@ -10,6 +16,53 @@
 
 namespace delam {
 
-std::unique_ptr<JumpOperator> choose_operator(const Problem& problem, Monitor& monitor);
+// Seconds are operations over this, and say so wherever they are shown.
+inline constexpr double nominal_rate = 20e9;  // operations/s of one core in a large factorisation
+// A march that nobody has described yet has so many load steps.
+inline constexpr double nominal_steps = 40.0;
+// The condensed march may need so many times the memory of one monolithic factorisation.
+inline constexpr double memory_ratio = 2.5;
+// Memory that every machine has: below it the ratio decides nothing.
+inline constexpr double memory_floor = 256.0 * 1048576.0;
+// Rows of a dense matrix that LAPACK with 32-bit integers can address.
+inline constexpr std::int64_t dense_limit = 46340;
+
+struct ReductionCost {
+    double setup = 0.0;    // operations before the first step
+    double longest = 0.0;  // operations of the longest factorisation, which cannot be interrupted
+    double step = 0.0;     // operations of a load step
+    double bytes = 0.0;    // peak of the march, mesh and scene not counted
+    bool possible = true;
+    double march() const { return setup + nominal_steps * step; }
+};
+
+struct ReductionChoice {
+    bool condensed = true;
+    bool forced = false;         // by the options
+    std::string reason;
+    ReductionCost condensation;  // setup 0: not looked into, since the options or the size had decided
+    ReductionCost feti;
+    double monolithic = 0.0;     // bytes of one monolithic factorisation, 0: not predicted
+    double factor_entries = 0.0; // of the condensed operator's sparse factor, 0: not analysed
+    std::int64_t unknowns = 0;   // dense rows of the condensed operator
+    std::int64_t subdomains = 0; // FETI's
+    double boundary = 0.0;       // DOFs of a subdomain's boundary, mean
+};
+
+class Bulk;
+ReductionCost predict_condensed(const Bulk& bulk);
+// Entries of the factor of the scene's monolithic matrix, in the best order, and peak bytes of making it.
+double predict_monolithic_entries(const Bulk& bulk);
+double predict_monolithic_bytes(const Bulk& bulk);
+// boundary: out, DOFs, mean over the subdomains.
+ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, double& boundary);
+// What the two predictions say. Pure: for tests.
+void choose(ReductionChoice& choice);
+
+struct ChosenOperator {
+    std::unique_ptr<JumpOperator> op;
+    ReductionChoice choice;
+};
+ChosenOperator choose_operator(const Problem& problem, Monitor& monitor);
 
 }  // namespace delam

@@ -49,6 +49,9 @@ public:
     // What of the past the last digits of the next solve depend on (empty: nothing); a recalled memory gives them again.
     virtual std::vector<double> memory() const { return {}; }
     virtual void recall(std::span<const double> /*memory*/) {}
+    // Sparse factorisations of the bodies since the operator was made, and how often displacements were recovered.
+    virtual std::int64_t factorisations() const { return 0; }
+    virtual std::int64_t recoveries() const { return 0; }
     // For people: what was built, at what size.
     virtual std::string description() const = 0;
 };

@@ -95,6 +95,8 @@ void add_options(Fnv& fnv, const Options& options) {
     fnv.add(options.backtracking_tolerance);
     fnv.add(options.minimisation);
     fnv.add(options.reduction);
+    fnv.add(options.contact);
+    fnv.add(options.mixity);
     fnv.add(options.contact_limit);
     fnv.add(options.subdomains);
     fnv.add(options.gluing);

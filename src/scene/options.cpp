@@ -26,8 +26,8 @@ struct Row {
 
 constexpr double most = 9007199254740992.0;  // 2^53: beyond it a double no longer holds every whole number
 
-const std::array<Row, 12>& rows() {
-    static const std::array<Row, 12> table{{
+const std::array<Row, 14>& rows() {
+    static const std::array<Row, 14> table{{
         {{"damage_tolerance", "real", "-", "1e-5", "0 < value < 1",
           "alternate minimisation stops when no adhesion changes by more (delta)"},
          &Options::damage_tolerance,
@@ -51,6 +51,14 @@ const std::array<Row, 12>& rows() {
           "how the bodies are reduced to their interfaces: condensed once into a dense operator, or total FETI; auto: by predicted cost and "
           "memory, feti where subdomains are asked for"},
          &Options::reduction},
+        {{"contact", "text", "-", "auto", "auto | always",
+          "where pairs are tested for contact: auto leaves out those that cannot close (bonded, or their normal jump is prescribed); always "
+          "tests every pair that is not bonded"},
+         &Options::contact},
+        {{"mixity", "text", "-", "auto", "auto | always",
+          "where the mode mixity is computed: auto leaves it out of laws whose onset and toughness do not depend on it (their field mixity "
+          "is 0); always computes it"},
+         &Options::mixity},
         {{"contact_limit", "integer", "-", "200", "1 <= value <= 2^53",
           "active-set steps of a displacement solve at most, least-index exchanges included"},
          &Options::contact_limit,

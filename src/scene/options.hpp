@@ -16,6 +16,9 @@ struct Options {
     std::string minimisation = "auto";          // auto | alternate | accelerated
     // mechanics
     std::string reduction = "auto";             // auto | condensed | feti
+    // what may be left out where it cannot matter
+    std::string contact = "auto";               // auto | always
+    std::string mixity = "auto";                // auto | always
     // contact
     std::int64_t contact_limit = 200;           // primal-dual active-set steps before the fallback
     // FETI

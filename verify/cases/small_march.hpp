@@ -19,6 +19,10 @@ inline constexpr const char* all_fields[] = {"displacement", "stress", "jump",  
 
 inline Bits read_bits(const reference::Solver& solver) {
     Bits bits{solver.values(), {}};
+    for (std::size_t i = 0; i < bits.values.size(); ++i) {  // counts over the solver's life do not belong to its state
+        const std::string name = delam_solver_value_name(solver.get(), static_cast<std::int64_t>(i));
+        if (name == "bulk_factorisations" || name == "field_recoveries") bits.values[i] = 0.0;
+    }
     for (const char* key : all_fields) bits.fields.push_back(solver.field(key));
     return bits;
 }

@@ -411,6 +411,64 @@ START_TEST(exports) {
 }
 END_TEST
 
+/* The plan: words and items say the same, each with a reason; a law of exponents 1 needs no mixity, a bonded interface no contact. */
+START_TEST(plans) {
+    static const char *const exponents[] = {"onset_exponent_1", "onset_exponent_2", "toughness_exponent_1",
+                                            "toughness_exponent_2"};
+    delam_solver *solver = NULL;
+    const char *words;
+    int64_t count = -1;
+    int64_t i;
+    int round;
+    double number = -1.0;
+    for (round = 0; round < 3; ++round) {
+        int contact = 0;
+        int mixity = 0;
+        if (round == 1) {
+            for (i = 0; i < 4; ++i) fine(delam_law_set(law, exponents[i], 1.0));
+            fine(delam_problem_set_law(problem, 0, law));
+        }
+        if (round == 2) {
+            fine(delam_problem_set_text(problem, "mixity", "always"));
+            fine(delam_problem_set_text(problem, "contact", "always"));
+        }
+        fine(delam_solver_create(problem, 0.0, &solver));
+        words = delam_solver_plan(solver);
+        fine(delam_solver_plan_count(solver, &count));
+        ck_assert_int_gt(count, 5);
+        for (i = 0; i < count; ++i) {
+            const char *subject = NULL;
+            const char *decision = NULL;
+            const char *reason = NULL;
+            const char *unit = NULL;
+            double cost = -1.0;
+            double saving = -1.0;
+            int used;
+            fine(delam_solver_plan_item(solver, i, &subject, &decision, &reason, &cost, &saving, &unit));
+            fine(delam_solver_plan_item(solver, i, NULL, NULL, NULL, NULL, NULL, NULL));
+            used = strcmp(decision, "used") == 0;
+            ck_assert(used || strcmp(decision, "left out") == 0);
+            ck_assert(strlen(reason) > 0 && strlen(unit) > 0 && cost >= 0.0 && (used || cost == 0.0));
+            ck_assert(strstr(words, subject) != NULL && strstr(words, reason) != NULL);
+            if (strcmp(subject, "contact of interface 0") == 0) contact += used ? 1 : 100;
+            if (strcmp(subject, "mixity of interface 0") == 0) mixity += used ? 1 : 100;
+        }
+        ck_assert_int_eq(contact, 1);
+        ck_assert_int_eq(mixity, round == 1 ? 100 : 1);
+        expect(delam_solver_plan_item(solver, count, NULL, NULL, NULL, NULL, NULL, NULL), DELAM_ERROR_ARGUMENT, "plan index");
+        expect(delam_solver_plan_item(solver, -1, NULL, NULL, NULL, NULL, NULL, NULL), DELAM_ERROR_ARGUMENT, "plan index -1");
+        expect(delam_solver_plan_count(solver, NULL), DELAM_ERROR_ARGUMENT, "count");
+        fine(delam_solver_value(solver, "bulk_factorisations", &number));
+        ck_assert(number == 1.0);
+        fine(delam_solver_value(solver, "field_recoveries", &number));
+        ck_assert(number == 0.0);
+        delam_solver_destroy(&solver);
+    }
+    ck_assert_int_eq(delam_solver_plan_count(NULL, &count), DELAM_ERROR_HANDLE);
+    ck_assert_int_eq(delam_solver_plan_item(NULL, 0, NULL, NULL, NULL, NULL, NULL, NULL), DELAM_ERROR_HANDLE);
+}
+END_TEST
+
 static void count_lines(int32_t level, const char *text, void *user) {
     if (level == 0 && strstr(text, "young") != NULL) ++*(int *)user;
 }
@@ -443,6 +501,7 @@ int main(void) {
     tcase_add_test(tests, missing_parts);
     tcase_add_test(tests, problem_keeps_its_own_mesh);
     tcase_add_test(tests, exports);
+    tcase_add_test(tests, plans);
     tcase_add_test(tests, log_hears_of_errors);
     suite_add_tcase(suite, tests);
     runner = srunner_create(suite);

@@ -95,6 +95,7 @@ void Bulk::condense(Monitor& monitor) {
         }
     }
     monitor.progress("factor", 0, 0);
+    ++factorisations_;
     if (!factor_->factorise(transformed_))
         fail(DELAM_ERROR_NUMERICAL,
              "the stiffness of the bonded structure is not positive definite: check supports, materials and the shapes of cells");
@@ -153,6 +154,7 @@ void Bulk::condense(Monitor& monitor) {
     rigid_ = DenseMatrix(energy().rows(), motions.columns);
     for (std::int64_t c = 0; c < motions.columns; ++c)
         for (std::int64_t i = 0; i < rigid_.rows; ++i) rigid_(i, c) = motions(row_of_unknown_[index(i)], c);
+    recoveries_ = 0;
 }
 
 // Equations fix some trailing variables by the rest; the displacements among the rest are minimised out.
@@ -254,6 +256,7 @@ void Bulk::add_variables(std::span<const double> variables, std::span<double> di
 }
 
 std::vector<double> Bulk::displacement(std::span<const double> theta, std::span<const double> unknowns) const {
+    ++recoveries_;
     std::vector<double> rest(rest_.size());
     if (base_)
         base_->recover(theta, unknowns, rest);

@@ -52,6 +52,14 @@ public:
 
     std::int64_t dofs() const { return stiffness_.rows; }
     const FactorSize& size() const { return size_; }  // of the factor with the jumps last
+    // Before condense(): unknowns that are eliminated last, entries of K and T^T K T, numbers that the factor will hold.
+    std::int64_t trailing() const { return variables_.trailing(); }
+    std::int64_t stiffness_entries() const { return stiffness_.entries(); }
+    std::int64_t transformed_entries() const { return transformed_.entries(); }
+    double factor_entries() const { return factor_->factor_entries(); }
+    const SparseMatrix& transformed() const { return transformed_; }
+    std::int64_t factorisations() const { return factorisations_; }
+    std::int64_t recoveries() const { return recoveries_; }  // of displacements, since condense()
 
 private:
     void resolve_equations();
@@ -68,6 +76,8 @@ private:
     SparseMatrix transformed_; // T^T K T, until it is factored
     std::unique_ptr<SparseCholesky> factor_;
     FactorSize size_;
+    std::int64_t factorisations_ = 0;
+    mutable std::int64_t recoveries_ = 0;
     std::vector<std::vector<double>> force_;  // [patterns][mesh DOFs], empty: none
 
     // Trailing variables: t = M r + d theta, r = [kept ones that no equation fixes | unknown jumps].

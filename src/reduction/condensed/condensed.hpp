@@ -23,6 +23,8 @@ public:
     std::vector<double> reaction(std::span<const double> theta, const Response& response) const override;
     double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
     std::span<const std::uint8_t> prescribed_rows() const override { return prescribed_; }
+    std::int64_t factorisations() const override { return bulk_->factorisations(); }
+    std::int64_t recoveries() const override { return bulk_->recoveries(); }
     std::string description() const override;
     std::vector<double> memory() const override;
     void recall(std::span<const double> memory) override;

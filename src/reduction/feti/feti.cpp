@@ -19,15 +19,16 @@ constexpr double unbalanced = 1e-8;
 // Residuals below this part of the loads' own energy norm are rounding.
 constexpr double rounding = 1e-14;
 
+}  // namespace
+
 // The dense boundary blocks pay as long as a subdomain stays small: about 20,000 DOFs in the plane, 4,000 in space.
-std::int64_t chosen_subdomains(const Problem& problem) {
-    if (problem.options.subdomains > 0) return problem.options.subdomains;
+std::int64_t feti_subdomains(const Problem& problem) {
+    const std::int64_t bodies = problem.mesh->body_count();
+    if (problem.options.subdomains > 0) return std::max<std::int64_t>(bodies, problem.options.subdomains);
     const std::int64_t dofs = problem.mesh->node_count() * problem.mesh->dimension();
     const std::int64_t size = problem.mesh->dimension() == 2 ? 20000 : 4000;
-    return std::max<std::int64_t>(problem.mesh->body_count(), (dofs + size - 1) / size);
+    return std::max<std::int64_t>(bodies, (dofs + size - 1) / size);
 }
-
-}  // namespace
 
 Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monitor_(monitor) {
     const std::vector<std::vector<std::int64_t>> cells = cut();
@@ -67,7 +68,7 @@ Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monito
 // Cells of each subdomain.
 std::vector<std::vector<std::int64_t>> Feti::cut() {
     const Mesh& mesh = *problem_.mesh;
-    const Partition parts = partition(mesh, chosen_subdomains(problem_));
+    const Partition parts = partition(mesh, feti_subdomains(problem_));
     subdomains_.resize(parts.subdomain_body.size());
     for (std::size_t s = 0; s < subdomains_.size(); ++s) subdomains_[s].body = parts.subdomain_body[s];
     std::vector<std::vector<std::int64_t>> cells(subdomains_.size());
@@ -296,6 +297,7 @@ std::vector<double> Feti::local_displacement(std::size_t subdomain, std::span<co
 }
 
 std::vector<double> Feti::displacement(std::span<const double> theta, const Response& response) const {
+    ++recoveries_;
     const int dim = problem_.mesh->dimension();
     std::vector<double> u(index(problem_.mesh->node_count() * dim), 0.0);
     for (std::size_t s = 0; s < subdomains_.size(); ++s) {

@@ -18,6 +18,9 @@
 
 namespace delam {
 
+// How many subdomains the scene is cut into: what the options ask for, or chosen by size.
+std::int64_t feti_subdomains(const Problem& problem);
+
 class Feti final : public JumpOperator {
 public:
     Feti(const Problem& problem, Monitor& monitor);
@@ -26,6 +29,8 @@ public:
     std::vector<double> displacement(std::span<const double> theta, const Response& response) const override;
     double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
     std::span<const std::uint8_t> prescribed_rows() const override { return scaling_.prescribed; }
+    std::int64_t factorisations() const override { return static_cast<std::int64_t>(subdomains_.size()); }
+    std::int64_t recoveries() const override { return recoveries_; }
     std::string description() const override;
 
 private:
@@ -44,6 +49,8 @@ private:
     std::unique_ptr<FetiPreconditioner> preconditioner_;
     std::unique_ptr<CoarseProblem> coarse_;
     std::vector<double> flexibility_diagonal_;  // of F, per row
+
+    mutable std::int64_t recoveries_ = 0;
 
     // Dead forces, per pattern: on the first copy of their nodes.
     std::vector<double> prescribed_;                     // [constraints][patterns]

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The predictions behind the choice of the jump operator, held against marches that are counted: bytes within a factor
+// of 1.5, operations of the sparse factor exactly, the monolithic factor's entries against its own symbolic analysis;
+// and the choice itself.
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "base/error.hpp"
+#include "counting_allocator.hpp"
+#include "delam/delam.h"
+#include "evolution/solver.hpp"
+#include "flexure.hpp"
+#include "linalg/cholesky.hpp"
+#include "reduction/choose.hpp"
+#include "reduction/condensed/bulk.hpp"
+
+// Last: its macro fail() would break delam::fail().
+#include <check.h>
+
+using namespace delam;
+
+namespace {
+
+// A slender laminate in the plane, six thin layers with much interface, a plate in space.
+unit::Flexure scene(int which) {
+    unit::Flexure f;
+    if (which == 0) {
+        f.along = 480;
+        f.through = 12;
+    } else if (which == 1) {
+        f.along = 120;
+        f.through = 6;
+        f.layers = 6;
+        f.thickness = 1e-3;
+        f.press = 2e-3;
+    } else {
+        f.dimension = 3;
+        f.along = 40;
+        f.across = 4;
+        f.through = 2;
+    }
+    return f;
+}
+
+// Peak of a march of a few steps, solver included, above what was there before.
+double counted_march(const Problem& problem, double& predicted, double& unknowns) {
+    Monitor monitor;
+    const long before = unit::live_bytes;
+    unit::peak_bytes = before;
+    Solver solver(problem, monitor, 0.0);
+    for (int k = 1; k <= (problem.options.reduction == "feti" ? 1 : 8); ++k) {  // FETI has its peak in the set-up
+        ck_assert_int_ge(solver.advance(k / 8.0).status, 0);
+        solver.commit();
+    }
+    const ReductionChoice& choice = solver.reduction();
+    predicted = choice.condensed ? choice.condensation.bytes : choice.feti.bytes;
+    unknowns = choice.condensed ? static_cast<double>(choice.unknowns) : choice.boundary;
+    return static_cast<double>(unit::peak_bytes - before);
+}
+
+void expect_within(double predicted, double counted, double factor, const std::string& what) {
+    std::printf("%s: predicted %.4g, counted %.4g, ratio %.2f\n", what.c_str(), predicted, counted,
+                predicted / counted);
+    ck_assert_msg(predicted <= factor * counted && counted <= factor * predicted, "%s: predicted %g, counted %g",
+                  what.c_str(), predicted, counted);
+}
+
+}  // namespace
+
+// loop: scene and realisation.
+START_TEST(memory_is_what_was_predicted) {
+    if (!unit::counting) return;
+    Problem problem = unit::make_flexure(scene(_i % 3));
+    problem.options.reduction = _i < 3 ? "condensed" : "feti";
+    double predicted = 0.0, unknowns = 0.0;
+    const double counted = counted_march(problem, predicted, unknowns);
+    expect_within(predicted, counted, 1.5, "bytes, scene " + std::to_string(_i % 3) + ", " + problem.options.reduction);
+}
+END_TEST
+
+// Fills of a symbolic analysis by the definition, column counts of a banded matrix: the flops that CHOLMOD reports are
+// sums of squares.
+START_TEST(operations_of_the_sparse_factor_are_exact) {
+    constexpr std::int64_t n = 200, band = 7;
+    std::vector<Triplet> triplets;
+    for (std::int64_t i = 0; i < n; ++i)
+        for (std::int64_t j = std::max<std::int64_t>(0, i - band); j < std::min(n, i + band + 1); ++j)
+            triplets.push_back({i, j, i == j ? 20.0 : -1.0});
+    const SparseMatrix matrix = from_triplets(n, n, std::move(triplets));
+    const SparseCholesky factor(matrix, n);  // the given order
+    double entries = 0.0, flops = 0.0;
+    for (std::int64_t j = 0; j < n; ++j) {
+        const auto count = static_cast<double>(std::min(band, n - 1 - j) + 1);
+        entries += count;
+        flops += count * count;
+    }
+    ck_assert(factor.size().entries == entries);
+    ck_assert(factor.size().flops == flops);
+}
+END_TEST
+
+// The structure under all springs, ordered freely: what a monolithic code would factor.
+START_TEST(monolithic_factor_is_what_was_predicted) {
+    const Problem problem = unit::make_flexure(scene(_i));
+    Monitor monitor;
+    const Bulk bulk(problem, monitor);
+    const SparseCholesky free_order(bulk.transformed());
+    expect_within(predict_monolithic_entries(bulk), free_order.size().entries, 1.5,
+                  "entries of the monolithic factor, scene " + std::to_string(_i));
+    if (!unit::counting) return;
+    SparseMatrix matrix = bulk.transformed();
+    for (std::int64_t r = 0; r < matrix.rows; ++r)
+        for (std::int64_t e = matrix.start[static_cast<std::size_t>(r)];
+             e < matrix.start[static_cast<std::size_t>(r) + 1]; ++e)
+            if (matrix.column[static_cast<std::size_t>(e)] == r) matrix.value[static_cast<std::size_t>(e)] *= 2.0;
+    const long before = unit::live_bytes;
+    unit::peak_bytes = before;
+    SparseCholesky factor(matrix);
+    ck_assert(factor.factorise(matrix));
+    const double own = 16.0 * static_cast<double>(matrix.entries());
+    expect_within(predict_monolithic_bytes(bulk), own + static_cast<double>(unit::peak_bytes - before), 1.5,
+                  "bytes of the monolithic factorisation, scene " + std::to_string(_i));
+}
+END_TEST
+
+START_TEST(options_force_and_say_so) {
+    Monitor monitor;
+    Problem problem = unit::make_flexure({});
+    {
+        const Solver solver(problem, monitor, 0.0);
+        ck_assert(solver.reduction().condensed && !solver.reduction().forced);
+        ck_assert(solver.reduction().condensation.longest >= solver.reduction().condensation.setup * 0.1);
+    }
+    problem.options.subdomains = 4;
+    {
+        const Solver solver(problem, monitor, 0.0);
+        ck_assert(!solver.reduction().condensed && solver.reduction().forced && solver.reduction().subdomains == 4);
+    }
+    problem.options.reduction = "condensed";
+    ck_assert(Solver(problem, monitor, 0.0).reduction().condensed);
+    problem.options.subdomains = 0;
+    problem.options.reduction = "feti";
+    ck_assert(!Solver(problem, monitor, 0.0).reduction().condensed);
+}
+END_TEST
+
+START_TEST(size_memory_and_time_decide) {
+    ReductionChoice c;
+    c.condensation = {1e9, 1e9, 1e8, 1e9, true};
+    c.feti = {1e9, 1e9, 1e9, 5e8, true};
+    c.monolithic = 5e8;
+    choose(c);
+    ck_assert(c.condensed && c.reason.find("2 times") != std::string::npos);
+    c.monolithic = 3e8;  // 3.3 times
+    choose(c);
+    ck_assert(!c.condensed && c.reason.find("more than 2.5") != std::string::npos);
+    c.feti.bytes = 2e9;
+    choose(c);
+    ck_assert(c.condensed && c.reason.find("FETI would need") != std::string::npos);
+    c.condensation.bytes = 1e8;  // three times, but little
+    c.monolithic = 3e7;
+    choose(c);
+    ck_assert(c.condensed);
+    c.feti.step = 1e7;
+    choose(c);
+    ck_assert(!c.condensed && c.reason.find("predicted to take") != std::string::npos);
+    c.unknowns = dense_limit + 1;
+    c.condensation.possible = false;
+    c.feti.step = 1e12;
+    choose(c);
+    ck_assert(!c.condensed && c.reason.find("46340") != std::string::npos);
+}
+END_TEST
+
+int main() {
+    Suite* suite = suite_create("choose");
+    TCase* figures = tcase_create("predictions");
+    tcase_add_loop_test(figures, memory_is_what_was_predicted, 0, 6);
+    tcase_add_test(figures, operations_of_the_sparse_factor_are_exact);
+    tcase_add_loop_test(figures, monolithic_factor_is_what_was_predicted, 0, 3);
+    suite_add_tcase(suite, figures);
+    TCase* choice = tcase_create("choice");
+    tcase_add_test(choice, options_force_and_say_so);
+    tcase_add_test(choice, size_memory_and_time_decide);
+    suite_add_tcase(suite, choice);
+    SRunner* runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? 0 : 1;
+}

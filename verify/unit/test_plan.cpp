@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a march leaves out changes nothing: contact where pairs cannot close, mixity where the law does not see it,
+// displacements that nobody reads. And the bodies are factored once.
+#include <cstring>
+#include <string>
+
+#include "evolution/fields.hpp"
+#include "evolution/solver.hpp"
+#include "evolution/values.hpp"
+#include "flexure.hpp"
+
+// Last: its macro fail() would break delam::fail().
+#include <check.h>
+
+using namespace delam;
+
+namespace {
+
+constexpr int steps = 8;
+
+unit::Flexure linear_law() {
+    unit::Flexure f;
+    f.law.normal_onset = f.law.tangential_onset = 100.0;
+    for (double Law::*exponent :
+         {&Law::onset_exponent_1, &Law::onset_exponent_2, &Law::toughness_exponent_1, &Law::toughness_exponent_2})
+        f.law.*exponent = 1.0;
+    return f;
+}
+
+// All values that do not need displacements, step after step.
+std::vector<double> history(const Problem& problem, Solver** kept = nullptr) {
+    static Monitor monitor;
+    auto solver = std::make_unique<Solver>(problem, monitor, 0.0);
+    std::vector<double> all;
+    for (int k = 1; k <= steps; ++k) {
+        ck_assert_int_eq(solver->advance(static_cast<double>(k) / steps).status, 0);
+        solver->commit();
+        for (const std::string& key : value_names(problem))
+            if (key.rfind("kkt_", 0) != 0) all.push_back(value(*solver, key));
+    }
+    ck_assert(value(*solver, "dissipated") > 0.0);
+    if (kept != nullptr) *kept = solver.release();
+    return all;
+}
+
+void expect_same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+    ck_assert_uint_eq(a.size(), b.size());
+    ck_assert_int_eq(std::memcmp(a.data(), b.data(), a.size() * sizeof(double)), 0);
+}
+
+}  // namespace
+
+START_TEST(mixity_left_out_changes_no_digit) {
+    Problem problem = unit::make_flexure(linear_law());
+    problem.options.reduction = _i == 0 ? "condensed" : "feti";
+    ck_assert(!problem.interfaces[0].law->depends_on_mixity());
+    Solver* left_out = nullptr;
+    Solver* computed = nullptr;
+    const auto without = history(problem, &left_out);
+    problem.options.mixity = "always";
+    const auto with = history(problem, &computed);
+    expect_same_bits(without, with);
+    double seen = 0.0;
+    for (std::size_t p = 0; p < left_out->state().mixity.size(); ++p) {
+        ck_assert(left_out->state().mixity[p] == 0.0);
+        seen = std::max(seen, computed->state().mixity[p]);
+    }
+    ck_assert(seen > 0.5);  // bending shears the interface: there was something to leave out
+    delete left_out;
+    delete computed;
+}
+END_TEST
+
+START_TEST(mixity_stays_where_the_law_sees_it) {
+    Law law = linear_law().law;
+    ck_assert(!law.depends_on_mixity());
+    for (double Law::*member :
+         {&Law::normal_onset, &Law::tangential_toughness, &Law::onset_exponent_1, &Law::toughness_exponent_2}) {
+        Law other = law;
+        other.*member *= 1.5;
+        ck_assert(other.depends_on_mixity());
+    }
+    const Toughness at_one_end = law.toughness(0.0);
+    for (const double b : {1e-12, 0.1, 1.0 / 3.0, 0.7, 1.0}) {
+        ck_assert(law.toughness(b).onset == at_one_end.onset);
+        ck_assert(law.toughness(b).total == at_one_end.total);
+    }
+}
+END_TEST
+
+START_TEST(contact_left_out_changes_no_digit) {
+    Problem problem = unit::make_flexure({});
+    if (_i == 1) {  // one layer drawn off the other by its whole face: nothing can close
+        unit::Flexure f;
+        f.along = 12;
+        f.through = 1;
+        f.notch = 0.0;
+        problem = unit::make_flexure(f);
+        problem.constraints.clear();
+        problem.patterns[0] = {"lift", {0.0, 1.0}, {0.0, 5e-9}, Pattern::Drives::displacement};
+        for (std::int64_t node = 0; node < problem.mesh->node_count(); ++node)
+            for (int c = 0; c < 2; ++c)
+                problem.constraints.push_back(
+                    {{2 * node + c}, {1.0}, {c == 1 && node >= problem.mesh->node_count() / 2 ? 1e4 : 0.0}});
+    }
+    const auto without = history(problem);
+    problem.options.contact = "always";
+    expect_same_bits(without, history(problem));
+}
+END_TEST
+
+START_TEST(bodies_are_factored_once_and_displacements_recovered_on_request) {
+    Problem problem = unit::make_flexure({});
+    problem.options.reduction = _i == 0 ? "condensed" : "feti";
+    problem.options.subdomains = _i == 2 ? 5 : 0;
+    Solver* solver = nullptr;
+    history(problem, &solver);
+    const double factorisations = _i == 0 ? 1.0 : _i == 1 ? 2.0 : 5.0;
+    ck_assert(value(*solver, "bulk_factorisations") == factorisations);
+    ck_assert(value(*solver, "field_recoveries") == 0.0);
+    for (const char* key : {"jump", "traction", "adhesion", "mixity", "contact"}) field(*solver, key, -1);
+    ck_assert(value(*solver, "field_recoveries") == 0.0);
+    field(*solver, "displacement", -1);
+    ck_assert(value(*solver, "field_recoveries") == 1.0);
+    field(*solver, "displacement", -1);
+    field(*solver, "stress", -1);
+    value(*solver, "kkt_gap");
+    ck_assert(value(*solver, "field_recoveries") == 1.0);
+    solver->advance(1.1);
+    field(*solver, "displacement", -1);
+    ck_assert(value(*solver, "field_recoveries") == 2.0);
+    ck_assert(value(*solver, "bulk_factorisations") == factorisations);
+    delete solver;
+}
+END_TEST
+
+int main() {
+    Suite* suite = suite_create("plan");
+    TCase* left_out = tcase_create("left out");
+    tcase_add_loop_test(left_out, mixity_left_out_changes_no_digit, 0, 2);
+    tcase_add_test(left_out, mixity_stays_where_the_law_sees_it);
+    tcase_add_loop_test(left_out, contact_left_out_changes_no_digit, 0, 2);
+    tcase_add_loop_test(left_out, bodies_are_factored_once_and_displacements_recovered_on_request, 0, 3);
+    suite_add_tcase(suite, left_out);
+    SRunner* runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? 0 : 1;
+}
