@@ -71,13 +71,13 @@ DenseMatrix multiply(const DenseMatrix& a, const DenseMatrix& b) {
     return c;
 }
 
-DenseMatrix multiply_transposed(const DenseMatrix& a, const DenseMatrix& b) {
+DenseMatrix multiply_transposed(const DenseMatrix& a, const DenseMatrix& b, std::int64_t first) {
     DenseMatrix c(a.columns, b.columns);
-    const int m = narrow(a.columns), n = narrow(b.columns), k = narrow(a.rows);
+    const int m = narrow(a.columns), n = narrow(b.columns), k = narrow(a.rows - first);
     const int lda = leading(a.rows), ldb = leading(b.rows), ldc = leading(c.rows);
     const double alpha = 1.0, beta = 0.0;
     if (m > 0 && n > 0 && k > 0)
-        dgemm_("T", "N", &m, &n, &k, &alpha, a.value.data(), &lda, b.value.data(), &ldb, &beta, c.value.data(), &ldc);
+        dgemm_("T", "N", &m, &n, &k, &alpha, a.value.data() + first, &lda, b.value.data() + first, &ldb, &beta, c.value.data(), &ldc);
     return c;
 }
 
@@ -130,10 +130,11 @@ bool factor_definite(DenseMatrix& a) {
     return info == 0;
 }
 
-void solve_lower(const DenseMatrix& lower, DenseMatrix& b) {
-    const int m = narrow(b.rows), n = narrow(b.columns), lda = leading(lower.rows), ldb = leading(b.rows);
+void solve_lower(const DenseMatrix& lower, DenseMatrix& b, std::int64_t first) {
+    const int m = narrow(b.rows - first), n = narrow(b.columns), lda = leading(lower.rows), ldb = leading(b.rows);
     const double alpha = 1.0;
-    if (m > 0 && n > 0) dtrsm_("L", "L", "N", "N", &m, &n, &alpha, lower.value.data(), &lda, b.value.data(), &ldb);
+    if (m > 0 && n > 0)
+        dtrsm_("L", "L", "N", "N", &m, &n, &alpha, lower.value.data() + first * (lower.rows + 1), &lda, b.value.data() + first, &ldb);
 }
 
 void solve_lower(const DenseMatrix& lower, std::span<double> x) {

@@ -26,8 +26,8 @@ void add_scaled(double a, std::span<const double> x, std::span<double> y);
 void multiply_symmetric(const DenseMatrix& s, std::span<const double> x, std::span<double> y);
 // C = A B
 DenseMatrix multiply(const DenseMatrix& a, const DenseMatrix& b);
-// C = A^T B
-DenseMatrix multiply_transposed(const DenseMatrix& a, const DenseMatrix& b);
+// C = A^T B; with `first`, of the rows from there on alone.
+DenseMatrix multiply_transposed(const DenseMatrix& a, const DenseMatrix& b, std::int64_t first = 0);
 // L L^T, full symmetric, from a lower triangle (the upper one must be zero): n^3/3 multiplications.
 DenseMatrix lower_times_transpose(const DenseMatrix& lower);
 // y = A x and y = A^T x (BLAS dgemv)
@@ -38,7 +38,8 @@ void mirror_lower(DenseMatrix& a);
 // A = L L^T in its lower triangle (LAPACK dpotrf). False: not positive definite; A is then spoilt.
 bool factor_definite(DenseMatrix& a);
 // L^-1 B, L^-1 x, L^-T x in place (BLAS dtrsm, dtrsv); only the lower triangle is read.
-void solve_lower(const DenseMatrix& lower, DenseMatrix& b);
+// first: the rows of B above it are zero.
+void solve_lower(const DenseMatrix& lower, DenseMatrix& b, std::int64_t first = 0);
 void solve_lower(const DenseMatrix& lower, std::span<double> x);
 void solve_lower_transposed(const DenseMatrix& lower, std::span<double> x);
 // C -= V^T V and C += V^T V in the lower triangle of C (BLAS dsyrk).

@@ -111,6 +111,29 @@ std::vector<std::uint8_t> Condensed::grown(std::vector<std::uint8_t> set, std::s
     return set;
 }
 
+// Rings of neighbours between each unknown and a set; what no ring reaches is farthest.
+std::vector<std::int64_t> Condensed::distance(std::span<const std::uint8_t> set) const {
+    const auto farthest = static_cast<std::int64_t>(set.size());
+    std::vector<std::int64_t> away(set.size(), farthest), ring;
+    for (std::size_t i = 0; i < set.size(); ++i)
+        if (set[i] != 0) {
+            away[i] = 0;
+            ring.push_back(static_cast<std::int64_t>(i));
+        }
+    for (std::int64_t step = 1; !ring.empty(); ++step) {
+        std::vector<std::int64_t> next;
+        for (const std::int64_t i : ring)
+            for (std::int64_t e = neighbour_start_[index(i)]; e < neighbour_start_[index(i) + 1]; ++e) {
+                const std::int64_t j = neighbour_[index(e)];
+                if (away[index(j)] != farthest) continue;
+                away[index(j)] = step;
+                next.push_back(j);
+            }
+        ring = std::move(next);
+    }
+    return away;
+}
+
 // Margins: so that a front may move on for a while before the zone has to follow.
 void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wanted) {
     const std::size_t unknowns = always_.size();
@@ -128,19 +151,22 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
     bool renew = outer_ == nullptr, far = false;
     std::vector<std::int64_t> back;
     for (std::size_t i = 0; i < unknowns && !renew; ++i) far = far || (near_[i] == 0 && (set[i] != 0 || spring_[i] != now[i]));
-    const std::vector<std::uint8_t> ahead = far ? grown(set, count(set) + unknowns / 12) : std::vector<std::uint8_t>();
+    const std::vector<std::uint8_t> ahead = far ? grown(set, count(set) + unknowns / 32) : std::vector<std::uint8_t>();
     for (std::size_t i = 0; i < unknowns && far; ++i) {
         if (near_[i] != 0 || (ahead[i] == 0 && spring_[i] == now[i])) continue;
         back.push_back(static_cast<std::int64_t>(i));
         // What a stiff spring hides cannot be got back by subtracting it.
         renew = renew || outer_spring_[i] > stiff * bulk_->energy().stiffness(static_cast<std::int64_t>(i), static_cast<std::int64_t>(i));
     }
-    // Releases, and second steps over what they have piled up, go on until they have cost as much as a new first step.
-    if (!renew) renew = spent_ + (back.empty() ? 0.0 : outer_->release_cost(static_cast<std::int64_t>(back.size()))) > outer_->cost();
+    // Releases, and second steps over what they have piled up, go on until they have cost as much as a new first step would.
+    const std::vector<std::uint8_t> near = grown(set, count(set) + std::max<std::size_t>(64, unknowns / 10));
+    std::size_t far_ones = 0;
+    for (std::size_t i = 0; i < unknowns; ++i) far_ones += near[i] == 0 && now[i] >= 0.0 ? 1 : 0;
+    if (!renew) renew = spent_ + (back.empty() ? 0.0 : outer_->release_cost(back)) > Condensation::cost(far_ones, count(near));
     spring_ = std::move(now);
     inside_ = std::move(set);
     if (renew)
-        condense_outer(grown(inside_, count(inside_) + std::max<std::size_t>(64, unknowns / 6)));
+        condense_outer(near);
     else if (!back.empty())
         release(std::move(back));
     condense_inner();
@@ -162,6 +188,9 @@ void Condensed::condense_outer(std::span<const std::uint8_t> near) {
             eliminated.push_back(static_cast<std::int64_t>(i));
         stiffness[i] = std::max(0.0, outer_spring_[i]);
     }
+    // Far ones first: what a front reaches next then lies at the end of the factor, where a release is cheap.
+    const std::vector<std::int64_t> away = distance(near_);
+    std::stable_sort(eliminated.begin(), eliminated.end(), [&](std::int64_t a, std::int64_t b) { return away[index(a)] > away[index(b)]; });
     inner_.reset();
     zone_.reset();
     outer_.reset();
@@ -170,7 +199,7 @@ void Condensed::condense_outer(std::span<const std::uint8_t> near) {
 
 void Condensed::release(std::vector<std::int64_t> unknowns) {
     monitor_.progress("zone", condensations_, 0);
-    spent_ += outer_->release_cost(static_cast<std::int64_t>(unknowns.size()));
+    spent_ += outer_->release_cost(unknowns);
     std::vector<double> stiffness(outer_spring_);
     for (double& s : stiffness) s = std::max(0.0, s);
     outer_->release(bulk_->energy(), unknowns, stiffness);
@@ -194,7 +223,7 @@ void Condensed::condense_inner() {
     for (const std::int64_t k : kept) zone_unknowns_.push_back(near[index(k)]);
     zone_.reset();
     inner_ = std::make_unique<Condensation>(outer_->energy(), std::move(kept), std::move(eliminated), stiffness);
-    spent_ += inner_->cost();
+    spent_ += Condensation::cost(near.size() - zone_unknowns_.size(), zone_unknowns_.size());
 
     const std::size_t unknowns = inside_.size();
     std::vector<std::int64_t> place(unknowns, -1);

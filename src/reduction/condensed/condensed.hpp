@@ -44,6 +44,7 @@ private:
     void release(std::vector<std::int64_t> unknowns);
     void condense_inner();
     std::vector<std::uint8_t> grown(std::vector<std::uint8_t> set, std::size_t count) const;
+    std::vector<std::int64_t> distance(std::span<const std::uint8_t> set) const;
     std::vector<double> unknowns_of(const Response& response) const;
     double spring_of(const Springs& springs, std::size_t unknown) const;  // -1: held
 

@@ -27,6 +27,12 @@ DenseMatrix rows_of(const DenseMatrix& a, std::span<const std::int64_t> rows) {
     return b;
 }
 
+std::vector<std::int64_t> sorted(std::span<const std::int64_t> rows) {
+    std::vector<std::int64_t> s(rows.begin(), rows.end());
+    std::sort(s.begin(), s.end());
+    return s;
+}
+
 // The matrix in the upper left corner of a larger one.
 DenseMatrix enlarged(const DenseMatrix& a, std::int64_t rows, std::int64_t columns) {
     DenseMatrix b(rows, columns);
@@ -66,13 +72,21 @@ Condensation::Condensation(const DenseEnergy& parent, std::vector<std::int64_t> 
     image_load_.columns = parent.load.columns;
 }
 
-double Condensation::release_cost(std::int64_t rows) const {
-    const auto e = static_cast<double>(factor_.rows), k = static_cast<double>(kept_.size()), r = static_cast<double>(rows);
-    return e * e * r + e * k * r + (k + r) * (k + r) * r;
+double Condensation::release_cost(std::span<const std::int64_t> rows) const {
+    const std::vector<std::int64_t> wanted = sorted(rows);
+    std::size_t first = eliminated_.size(), held = rows.size();
+    for (std::size_t e = eliminated_.size(); e-- > 0;) {
+        if (!std::binary_search(wanted.begin(), wanted.end(), eliminated_[e])) continue;
+        first = e;
+        --held;
+    }
+    const auto e = static_cast<double>(eliminated_.size()), tail = e - static_cast<double>(first), h = static_cast<double>(held),
+               r = static_cast<double>(rows.size()), k = static_cast<double>(kept_.size());
+    return e * (e + k) * h + tail * (tail + k) * (r - h) + (k + r) * (k + r) * r;
 }
 
-double Condensation::cost() const {
-    const auto e = static_cast<double>(factor_.rows), k = static_cast<double>(kept_.size());
+double Condensation::cost(std::size_t eliminated, std::size_t kept) {
+    const auto e = static_cast<double>(eliminated), k = static_cast<double>(kept);
     return e * e * e / 3.0 + e * e * k + e * k * k;
 }
 
@@ -137,19 +151,20 @@ void Condensation::take_back(std::span<const std::int64_t> places, std::span<con
     const auto old = static_cast<std::int64_t>(kept_.size()), fresh = static_cast<std::int64_t>(places.size());
     const std::int64_t before = unit_.columns;
     DenseMatrix unit(factor_.rows, fresh);
+    const std::int64_t first = *std::min_element(places.begin(), places.end());
     for (std::int64_t j = 0; j < fresh; ++j) {
         unit(places[static_cast<std::size_t>(j)], j) = 1.0;
         released_.push_back(old + j);
         kept_.push_back(eliminated_[static_cast<std::size_t>(places[static_cast<std::size_t>(j)])]);
     }
-    solve_lower(factor_, unit);
+    solve_lower(factor_, unit, first);
     // [C 0; X^T C'] with X = C^-1 Z^T Z', C' C'^T = Z'^T Z' - X^T X
-    DenseMatrix cross = multiply_transposed(unit_, unit);
+    DenseMatrix cross = multiply_transposed(unit_, unit, first);
     solve_lower(root_, cross);
-    DenseMatrix corner = multiply_transposed(unit, unit);
+    DenseMatrix corner = multiply_transposed(unit, unit, first);
     subtract_gram(corner, cross);
     if (!factor_definite(corner)) fail(DELAM_ERROR_NUMERICAL, "the flexibility of ", fresh, " released jumps is not positive definite");
-    DenseMatrix image = multiply_transposed(unit, coupling_), image_load = multiply_transposed(unit, load_), own(fresh, fresh);
+    DenseMatrix image = multiply_transposed(unit, coupling_, first), image_load = multiply_transposed(unit, load_, first), own(fresh, fresh);
     for (double& v : image.value) v = -v;
     subtract_product(image, cross, image_);
     solve_lower(corner, image);

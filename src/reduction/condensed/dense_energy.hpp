@@ -26,14 +26,15 @@ struct DenseEnergy {
 class Condensation {
 public:
     Condensation() = default;
-    // stiffness: [parent rows] springs. Throws Error(DELAM_ERROR_NUMERICAL) when the eliminated rows are not held.
+    // eliminated: in the order in which they go. stiffness: [parent rows] springs. Throws Error(DELAM_ERROR_NUMERICAL) when the eliminated rows are not held.
     Condensation(const DenseEnergy& parent, std::vector<std::int64_t> kept, std::vector<std::int64_t> eliminated,
                  std::span<const double> stiffness);
     // Takes parent rows back among the kept ones; `parent` and `stiffness` as they were given.
     void release(const DenseEnergy& parent, std::span<const std::int64_t> rows, std::span<const double> stiffness);
-    // Multiplications of a release of so many rows, and of doing it all again.
-    double release_cost(std::int64_t rows) const;
-    double cost() const;
+    // Multiplications of a release of these parent rows. Those that were eliminated last are the cheapest.
+    double release_cost(std::span<const std::int64_t> rows) const;
+    // Multiplications of minimising out so many and keeping so many.
+    static double cost(std::size_t eliminated, std::size_t kept);
 
     const DenseEnergy& energy() const { return energy_; }
     const std::vector<std::int64_t>& kept() const { return kept_; }  // in the order of energy()
