@@ -291,7 +291,8 @@ DELAM_API const char *delam_problem_pattern_name(const delam_problem *problem, i
 DELAM_API int32_t delam_solver_create(const delam_problem *problem, double time, delam_solver **out);
 DELAM_API void delam_solver_destroy(delam_solver **solver);
 
-/* One load step to `time` (> the committed time): alternate minimisation from the committed state. The result is pending:
+/* One load step to `time` (> the committed time): alternate minimisation, plain or accelerated
+ * (option minimisation), from the committed state. The result is pending:
  * it can be read, then committed or rolled back (bit for bit the state before). DELAM_NOT_CONVERGED leaves a pending step too;
  * DELAM_LIMIT, DELAM_CANCELLED and errors leave none.
  * A process that has used the library and then forks should use it in one of the two only (threads of the linear algebra). */

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "base/error.hpp"
+#include "delam/delam.h"
 #include "evolution/extrapolation.hpp"
 #include "evolution/zone_newton.hpp"
 
@@ -12,6 +14,7 @@ namespace delam {
 
 namespace {
 
+constexpr std::int64_t leap_steps = 1000;  // steps within the zone before the plain step looks at all pairs again
 constexpr double rounding = 1e-12;  // of an energy of the whole scene, a sum of large terms
 
 }  // namespace
@@ -69,6 +72,7 @@ bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) c
         monitor.progress("minimise", state.counts.am_iterations, 0);
         converged = displace(state);
         const double reached = energy(state, adhesion_old);
+        if (!std::isfinite(reached)) fail(DELAM_ERROR_NUMERICAL, "the energy of a displacement step is not finite");
         if (leapt && reached > level + rounding * std::abs(level)) {
             const Counts counts = state.counts;
             state = std::move(*before);
@@ -106,7 +110,7 @@ bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) c
             leapt = state.adhesion != plain;
             continue;
         }
-        ZoneNewton{*condensed, pairs, contact, monitor, tolerance, limit}.leap(state, toughness, adhesion_old);
+        ZoneNewton{*condensed, pairs, contact, monitor, tolerance, std::min(leap_steps, limit)}.leap(state, toughness, adhesion_old);
         leapt = state.adhesion != before->adhesion;
         if (!leapt) state.adhesion = plain;
     }

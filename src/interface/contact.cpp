@@ -54,7 +54,7 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
     Springs springs{{stiffness.begin(), stiffness.end()}, std::vector<std::uint8_t>(stiffness.size(), 0)};
     ContactResult result;
     std::set<std::string> seen;  // contact sets, as bytes
-    bool all_closed_tried = false;
+    bool all_closed_tried = false, one_at_a_time = false;
     std::uint8_t level = cold && !scene.level.empty() ? *std::max_element(scene.level.begin(), scene.level.end()) : 0;
     if (level > 0) std::fill(closed.begin(), closed.end(), std::uint8_t{0});
     while (true) {
@@ -81,16 +81,17 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
         while (wrong.empty() && level > 0) {
             wrong = violators(scene, prescribed, closed, response, --level);
             seen.clear();
+            one_at_a_time = false;
         }
         if (wrong.empty()) break;
         if (result.solves >= scene.limit) {
             result.converged = false;
             break;
         }
-        if (!seen.emplace(closed.begin(), closed.end()).second) result.fallback = true;
+        if (!seen.emplace(closed.begin(), closed.end()).second) result.fallback = one_at_a_time = true;
         for (const std::size_t p : wrong) {
             closed[p] ^= 1;
-            if (result.fallback) break;
+            if (one_at_a_time) break;
         }
     }
     refuse_pressed(scene, prescribed, response);

@@ -14,9 +14,10 @@
 // Only modules under the LGPL are called by name (Core, Cholesky, Partition/CAMD); the supernodal kernels (GPL) are reached
 // through cholmod_l_factorize where the CHOLMOD at hand has them, and never when DELAM_CHOLMOD_SIMPLICIAL is defined.
 
-// CHOLMOD 3 asks OpenMP for four threads wherever it runs; on fewer cores they wait for each other at every supernode (measured: twice the time
-// of one thread). "Dynamic" is a property of the calling thread and lets the runtime ask for no more than there are. Weak: a CHOLMOD without OpenMP
-// has no such functions.
+// CHOLMOD 3 asks OpenMP for four threads wherever it runs; on fewer cores they wait for each other at every supernode
+// (measured: twice the time of one thread). "Dynamic", a property of the calling thread, lets the runtime give fewer: GNU's gives
+// as many as there are processors, less the load of the last 15 minutes. The threads share out the scatter of blocks, no
+// sums, so that no digit depends on them. Weak: a CHOLMOD without OpenMP has no such functions.
 extern "C" {
 int omp_get_dynamic() __attribute__((weak));
 void omp_set_dynamic(int) __attribute__((weak));
@@ -26,18 +27,18 @@ namespace delam {
 
 namespace {
 
-class NoMoreThreadsThanCores {
+class AsManyThreadsAsIdleCores {
 public:
-    NoMoreThreadsThanCores() {
+    AsManyThreadsAsIdleCores() {
         if (omp_get_dynamic == nullptr || omp_set_dynamic == nullptr) return;
         before_ = omp_get_dynamic();
         omp_set_dynamic(1);
     }
-    ~NoMoreThreadsThanCores() {
+    ~AsManyThreadsAsIdleCores() {
         if (before_ >= 0) omp_set_dynamic(before_);
     }
-    NoMoreThreadsThanCores(const NoMoreThreadsThanCores&) = delete;
-    NoMoreThreadsThanCores& operator=(const NoMoreThreadsThanCores&) = delete;
+    AsManyThreadsAsIdleCores(const AsManyThreadsAsIdleCores&) = delete;
+    AsManyThreadsAsIdleCores& operator=(const AsManyThreadsAsIdleCores&) = delete;
 
 private:
     int before_ = -1;
@@ -152,7 +153,7 @@ SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 bool SparseCholesky::factorise(const SparseMatrix& matrix) {
     Impl& impl = *impl_;
     if (impl.size == 0) return true;
-    const NoMoreThreadsThanCores threads;
+    const AsManyThreadsAsIdleCores threads;
     cholmod_sparse a = view(matrix);
     cholmod_l_factorize(&a, impl.factor, &impl.common);
     impl.check("factorisation");
@@ -162,7 +163,7 @@ bool SparseCholesky::factorise(const SparseMatrix& matrix) {
 void SparseCholesky::solve(std::span<const double> b, std::span<double> x) const {
     const Impl& impl = *impl_;
     if (impl.size == 0) return;
-    const NoMoreThreadsThanCores threads;
+    const AsManyThreadsAsIdleCores threads;
     cholmod_dense rhs = view(b);
     cholmod_l_solve2(CHOLMOD_A, impl.factor, &rhs, nullptr, &impl.x_buffer, nullptr, &impl.y_work, &impl.e_work,
                      &impl.common);
@@ -174,7 +175,7 @@ void SparseCholesky::solve_leading(std::span<const double> b, std::span<double> 
     const Impl& impl = *impl_;
     const auto leading = static_cast<std::size_t>(impl.size - impl.trailing);
     if (leading == 0) return;
-    const NoMoreThreadsThanCores threads;
+    const AsManyThreadsAsIdleCores threads;
     std::vector<double> v(static_cast<std::size_t>(impl.size), 0.0);
     std::copy(b.begin(), b.end(), v.begin());
     for (const int system : {CHOLMOD_P, CHOLMOD_L, CHOLMOD_Lt, CHOLMOD_Pt}) {

@@ -143,6 +143,9 @@ void choose(ReductionChoice& choice) {
         choice.condensed = condensed;
         choice.reason = std::move(reason);
     };
+    if (!c.possible && !f.possible)
+        fail(DELAM_ERROR_MEMORY, "the dense operator would have ", choice.unknowns, " rows and a subdomain's boundary ", choice.boundary,
+             ", LAPACK addresses ", dense_limit, ": set the option subdomains to more");
     if (!c.possible)
         return decide(false,
                       text("the dense operator would have ", choice.unknowns, " rows, LAPACK addresses ", dense_limit));
@@ -150,7 +153,7 @@ void choose(ReductionChoice& choice) {
     const std::string memory = text("needs ", mebibytes(c.bytes), ", ", std::round(10.0 * ratio) / 10.0,
                                     " times one monolithic factorisation");
     if (c.bytes > memory_floor && ratio > memory_ratio) {
-        if (f.bytes < c.bytes)
+        if (f.possible && f.bytes < c.bytes)
             return decide(false, text("the condensed operator ", memory, ", more than ", memory_ratio));
         return decide(true, text(memory, ", more than ", memory_ratio, ", but FETI would need ", mebibytes(f.bytes)));
     }

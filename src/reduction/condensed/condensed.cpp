@@ -202,7 +202,12 @@ void Condensed::release(std::vector<std::int64_t> unknowns) {
     spent_ += outer_->release_cost(unknowns);
     std::vector<double> stiffness(outer_spring_);
     for (double& s : stiffness) s = std::max(0.0, s);
-    outer_->release(bulk_->energy(), unknowns, stiffness);
+    // A release that fails half-way leaves nothing behind that could be used again.
+    std::unique_ptr<Condensation> outer = std::move(outer_);
+    inner_.reset();
+    zone_.reset();
+    outer->release(bulk_->energy(), unknowns, stiffness);
+    outer_ = std::move(outer);
     for (const std::int64_t i : unknowns) near_[index(i)] = 1;
     released_.push_back(std::move(unknowns));
 }
@@ -395,13 +400,19 @@ double Condensed::equilibrium_defect(std::span<const double> theta, const Respon
     return bulk_->defect(theta, u, response.force, bulk_->reaction(theta, u, response.force));
 }
 
+// What was near before any release.
+std::vector<std::uint8_t> Condensed::first_near() const {
+    std::vector<std::uint8_t> near = near_;
+    for (const auto& group : released_)
+        for (const std::int64_t i : group) near[index(i)] = 0;
+    return near;
+}
+
 // Per unknown: springs (outer, now, last) and a code of age, inside and near before any release; then the groups that were released.
 std::vector<double> Condensed::memory() const {
     if (zone_ == nullptr) return {};
     const std::size_t unknowns = always_.size();
-    std::vector<std::uint8_t> near = near_;
-    for (const auto& group : released_)
-        for (const std::int64_t i : group) near[index(i)] = 0;
+    const std::vector<std::uint8_t> near = first_near();
     std::vector<double> m;
     m.reserve(4 * unknowns + 64);
     for (std::size_t i = 0; i < unknowns; ++i) m.push_back(age_[i] + 4 * inside_[i] + 8 * near[i]);
@@ -419,18 +430,21 @@ std::vector<double> Condensed::memory() const {
 
 void Condensed::recall(std::span<const double> memory) {
     const std::size_t unknowns = always_.size();
-    if (std::ranges::equal(memory, this->memory())) return;
     if (memory.empty()) {  // before the first zone was chosen
         age_.assign(unknowns, forgotten);
         near_.assign(unknowns, 1);
         inside_.assign(unknowns, 1);
+        outer_spring_.clear();
+        spring_.clear();
         last_.clear();
         released_.clear();
+        spent_ = 0.0;
         zone_.reset();
         inner_.reset();
         outer_.reset();
         return;
     }
+    if (std::ranges::equal(memory, this->memory())) return;
     const auto damaged = [](bool yes) {
         if (yes) fail(DELAM_ERROR_SNAPSHOT, "the memory of the condensed operator is damaged");
     };
@@ -444,21 +458,27 @@ void Condensed::recall(std::span<const double> memory) {
         near[i] = (code >> 3U) & 1U;
     }
     std::vector<std::vector<std::int64_t>> groups;
+    std::vector<std::uint8_t> reached = near;
     for (std::size_t at = 4 * unknowns + 1; at < memory.size();) {
         const double size = memory[at++];
         damaged(!(size >= 1.0 && size <= static_cast<double>(memory.size() - at)));
         std::vector<std::int64_t> group;
         for (std::size_t k = 0; k < static_cast<std::size_t>(size); ++k, ++at) {
             damaged(!(memory[at] >= 0.0 && memory[at] < static_cast<double>(unknowns)));
-            group.push_back(static_cast<std::int64_t>(memory[at]));
+            const auto i = static_cast<std::int64_t>(memory[at]);
+            damaged(reached[index(i)] != 0);
+            reached[index(i)] = 1;
+            group.push_back(i);
         }
         groups.push_back(std::move(group));
     }
+    for (std::size_t i = 0; i < unknowns; ++i) damaged(inside[i] != 0 && reached[i] == 0);
     const auto part = [&](std::size_t k) { return memory.subspan(k * unknowns, unknowns); };
     age_ = std::move(age);
     inside_ = std::move(inside);
     last_.assign(part(3).begin(), part(3).end());
-    const bool same_outer = outer_ != nullptr && std::ranges::equal(part(1), outer_spring_) && groups == released_;
+    const bool same_outer =
+        outer_ != nullptr && near == first_near() && std::ranges::equal(part(1), outer_spring_) && groups == released_;
     spring_.assign(part(1).begin(), part(1).end());
     if (!same_outer) {
         condense_outer(near);

@@ -43,6 +43,7 @@ private:
     void condense_outer(std::span<const std::uint8_t> near);
     void release(std::vector<std::int64_t> unknowns);
     void condense_inner();
+    std::vector<std::uint8_t> first_near() const;
     std::vector<std::uint8_t> grown(std::vector<std::uint8_t> set, std::size_t count) const;
     std::vector<std::int64_t> distance(std::span<const std::uint8_t> set) const;
     std::vector<double> unknowns_of(const Response& response) const;
