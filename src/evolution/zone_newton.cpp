@@ -132,11 +132,8 @@ Leap::Point Leap::point(std::vector<double> unknowns) const {
     for (std::size_t z = 0; z < spring_.size(); ++z) at.energy += 0.5 * spring_[z] * at.jump[z] * at.jump[z];
     at.unknowns = std::move(unknowns);
     for (const ZonePair& m : members_) {
-        const Law& law = *newton_.pairs.law[m.pair];
-        const double opening = std::max(0.0, at.jump[m.first]);
-        double slip = 0.0;
-        for (std::size_t c = 1; c < dim_; ++c) slip += at.jump[m.first + c] * at.jump[m.first + c];
-        const double driving = 0.5 * (law.normal_stiffness * opening * opening + law.tangential_stiffness * slip);
+        const std::span<const double> local = std::span<const double>(at.jump).subspan(m.first, dim_);
+        const double driving = driving_energy(*newton_.pairs.law[m.pair], local).total();
         const double zeta = damage_minimiser(toughness_[m.pair], driving, old_[m.pair]);
         at.adhesion.push_back(zeta);
         at.energy += newton_.pairs.weight[m.pair] * (zeta * driving + dissipated(toughness_[m.pair], zeta));
@@ -217,11 +214,8 @@ std::array<double, 9> Leap::tangent(const ZonePair& m, const Point& at, double z
     const Law& law = *newton_.pairs.law[m.pair];
     const double weight = newton_.pairs.weight[m.pair];
     double pull[3] = {law.normal_stiffness * std::max(0.0, at.jump[m.first]), 0.0, 0.0};
-    double driving = 0.5 * pull[0] * std::max(0.0, at.jump[m.first]);
-    for (std::size_t c = 1; c < dim_; ++c) {
-        pull[c] = law.tangential_stiffness * at.jump[m.first + c];
-        driving += 0.5 * pull[c] * at.jump[m.first + c];
-    }
+    for (std::size_t c = 1; c < dim_; ++c) pull[c] = law.tangential_stiffness * at.jump[m.first + c];
+    const double driving = driving_energy(law, std::span<const double>(at.jump).subspan(m.first, dim_)).total();
     const double slope = fraction > 0.0 ? fraction * damage_slope(toughness_[m.pair], driving, old_[m.pair]) : 0.0;
     std::array<double, 9> c{};
     for (std::size_t r = 0; r < dim_; ++r) {

@@ -7,13 +7,16 @@
 
 namespace delam {
 
+Driving driving_energy(const Law& law, std::span<const double> local_jump) {
+    const double opening = std::max(0.0, local_jump[0]);
+    double slip = 0.0;
+    for (std::size_t c = 1; c < local_jump.size(); ++c) slip += local_jump[c] * local_jump[c];
+    return {0.5 * law.normal_stiffness * opening * opening, 0.5 * law.tangential_stiffness * slip};
+}
+
 Driving driving_energy(const PairLaws& pairs, std::size_t pair, std::span<const double> jump) {
     const auto dim = static_cast<std::size_t>(pairs.dimension);
-    const Law& law = *pairs.law[pair];
-    const double opening = std::max(0.0, jump[pair * dim]);
-    double slip = 0.0;
-    for (std::size_t c = 1; c < dim; ++c) slip += jump[pair * dim + c] * jump[pair * dim + c];
-    return {0.5 * law.normal_stiffness * opening * opening, 0.5 * law.tangential_stiffness * slip};
+    return driving_energy(*pairs.law[pair], jump.subspan(pair * dim, dim));
 }
 
 namespace {

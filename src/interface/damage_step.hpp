@@ -30,6 +30,7 @@ struct Driving {
     double tangential;
     double total() const { return normal + tangential; }
 };
+Driving driving_energy(const Law& law, std::span<const double> local_jump);  // of one pair: normal, tangent(s)
 Driving driving_energy(const PairLaws& pairs, std::size_t pair, std::span<const double> jump);
 
 // B of every pair, [pairs]. A pair whose jump is rounding (below 1e-10 of the onset's or of the largest one) keeps its
