@@ -276,7 +276,10 @@ void Leap::run() {
             held_ = before;
             extrapolation.forget();
             used = at.adhesion;
-            if (!minimise(at, at.adhesion, 0.0, -1, next) || next.energy > at.energy + 1e-14 * std::abs(at.energy)) break;
+            if (!minimise(at, at.adhesion, 0.0, -1, next) || next.energy > at.energy + 1e-14 * std::abs(at.energy)) {
+                held_ = before;
+                break;
+            }
         }
         double change = 0.0;
         for (std::size_t i = 0; i < members_.size(); ++i) change = std::max(change, std::abs(next.adhesion[i] - at.adhesion[i]));

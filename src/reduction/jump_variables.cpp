@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "linalg/echelon.hpp"
+
 namespace delam {
 
 namespace {
@@ -220,5 +222,39 @@ JumpVariables Builder::build() const {
 }  // namespace
 
 JumpVariables make_jump_variables(const Problem& problem) { return Builder(problem).build(); }
+
+// Only variables that occur in an equation are columns: a few, however many jumps there are.
+std::vector<SolvedEquation> solve_equations(const JumpVariables& variables) {
+    std::vector<SolvedEquation> solved;
+    if (variables.equations.empty()) return solved;
+    std::vector<std::int64_t> column;
+    for (const JumpVariables::Equation& e : variables.equations)
+        for (const auto& [t, c] : e.entries) column.push_back(t);
+    std::sort(column.begin(), column.end());
+    column.erase(std::unique(column.begin(), column.end()), column.end());
+    const auto kept = std::lower_bound(column.begin(), column.end(), variables.kept) - column.begin();
+
+    const auto equations = static_cast<std::int64_t>(variables.equations.size());
+    const std::size_t patterns = variables.equations.front().prescribed.size();
+    DenseMatrix q(equations, static_cast<std::int64_t>(column.size())), value(equations, static_cast<std::int64_t>(patterns));
+    for (std::int64_t i = 0; i < equations; ++i) {
+        const JumpVariables::Equation& e = variables.equations[static_cast<std::size_t>(i)];
+        for (const auto& [t, c] : e.entries) q(i, std::lower_bound(column.begin(), column.end(), t) - column.begin()) += c;
+        for (std::size_t p = 0; p < patterns; ++p) value(i, static_cast<std::int64_t>(p)) = e.prescribed[p];
+    }
+    const Echelon echelon = reduced_echelon(std::move(q), kept, dependent_equation);
+    const DenseMatrix prescribed = multiply(echelon.operations, value);
+    for (std::size_t i = 0; i < echelon.pivot.size(); ++i) {
+        const auto row = static_cast<std::int64_t>(i);
+        SolvedEquation equation{column[static_cast<std::size_t>(echelon.pivot[i])], {}, {}};
+        for (std::size_t j = 0; j < column.size(); ++j) {
+            const double c = echelon.rows(row, static_cast<std::int64_t>(j));
+            if (column[j] != equation.pivot && std::abs(c) > dependent_equation) equation.entries.emplace_back(column[j], -c);
+        }
+        for (std::size_t p = 0; p < patterns; ++p) equation.prescribed.push_back(prescribed(row, static_cast<std::int64_t>(p)));
+        solved.push_back(std::move(equation));
+    }
+    return solved;
+}
 
 }  // namespace delam

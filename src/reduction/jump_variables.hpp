@@ -44,4 +44,14 @@ inline constexpr double dependent_equation = 1e-10;
 
 JumpVariables make_jump_variables(const Problem& problem);
 
+// An equation solved for one trailing variable, displacements before jumps: t_pivot = sum of entries t + prescribed . theta, where no entry is
+// another one's pivot.
+struct SolvedEquation {
+    std::int64_t pivot;
+    SparseVector entries;
+    std::vector<double> prescribed;  // [patterns]
+};
+// Equations that follow from others are gone.
+std::vector<SolvedEquation> solve_equations(const JumpVariables& variables);
+
 }  // namespace delam

@@ -8,7 +8,6 @@
 
 #include "base/error.hpp"
 #include "body/assembly.hpp"
-#include "linalg/echelon.hpp"
 #include "reduction/condensed/rigid_jumps.hpp"
 
 namespace delam {
@@ -161,15 +160,8 @@ void Bulk::condense(Monitor& monitor) {
 void Bulk::resolve_equations() {
     const std::int64_t trailing = variables_.trailing(), kept = variables_.kept;
     const auto patterns = static_cast<std::int64_t>(problem_.patterns.size());
-    const auto equations = static_cast<std::int64_t>(variables_.equations.size());
-    DenseMatrix q(equations, trailing), value(equations, patterns);
-    for (std::int64_t i = 0; i < equations; ++i) {
-        for (const auto& [t, c] : variables_.equations[index(i)].entries) q(i, t) += c;
-        for (std::int64_t p = 0; p < patterns; ++p) value(i, p) = variables_.equations[index(i)].prescribed[index(p)];
-    }
-    const Echelon echelon = reduced_echelon(std::move(q), kept, dependent);
-    pivot_ = echelon.pivot;
-    prescribed_ = equations > 0 ? multiply(echelon.operations, value) : DenseMatrix(0, patterns);
+    const std::vector<SolvedEquation> solved = solve_equations(variables_);
+    for (const SolvedEquation& equation : solved) pivot_.push_back(equation.pivot);
     std::vector<std::int64_t> place(index(trailing), -1);  // in rest, or -2 - place in pivot
     for (std::size_t i = 0; i < pivot_.size(); ++i) place[index(pivot_[i])] = -2 - static_cast<std::int64_t>(i);
     for (std::int64_t t = 0; t < trailing; ++t) {
@@ -180,8 +172,11 @@ void Bulk::resolve_equations() {
     }
     const auto pivots = static_cast<std::int64_t>(pivot_.size()), rest = static_cast<std::int64_t>(rest_.size());
     bound_ = DenseMatrix(pivots, rest);
-    for (std::int64_t j = 0; j < rest; ++j)
-        for (std::int64_t i = 0; i < pivots; ++i) bound_(i, j) = -echelon.rows(i, rest_[index(j)]);
+    prescribed_ = DenseMatrix(pivots, patterns);
+    for (std::int64_t i = 0; i < pivots; ++i) {
+        for (const auto& [t, c] : solved[index(i)].entries) bound_(i, place[index(t)]) = c;
+        for (std::int64_t p = 0; p < patterns; ++p) prescribed_(i, p) = solved[index(i)].prescribed[index(p)];
+    }
 
     if (pivots > 0) {
         const auto pick = [](const DenseMatrix& a, std::span<const std::int64_t> r, std::span<const std::int64_t> c) {

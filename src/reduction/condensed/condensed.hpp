@@ -35,7 +35,6 @@ public:
     const std::vector<std::int64_t>& zone_rows() const { return zone_rows_; }
     // All rows, forces and energies from a zone solution under these springs; none: no unknown moves.
     void respond(const Springs& springs, std::span<const double> theta, const Zone::Solution* solution, Response& response) const;
-    std::int64_t condensations() const { return condensations_; }
 
 private:
     bool covers(const Springs& springs) const;

@@ -42,8 +42,6 @@ public:
     const DenseEnergy& energy() const { return *energy_; }
     // j of all rows.
     std::vector<double> jumps(std::span<const double> theta, std::span<const double> unknowns) const;
-    // The unknown that a row is, -1 where it is more than that.
-    std::int64_t unknown(std::size_t row) const { return plain_[row]; }
     // Forces on all rows: those of rows that are not held are given, those of held rows are added.
     void complete_forces(std::span<const double> theta, const Solution& solution, std::span<double> row_force) const;
     // 1/2 x^T S x - theta^T L^T x
