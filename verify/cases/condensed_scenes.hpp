@@ -277,6 +277,18 @@ inline Scene make_bound_jumps(int d) {
     return scene;
 }
 
+// The same on a slanted face by single nodes: the lower ones are held, the upper ones lifted, but left free across.
+inline Scene make_bound_slip(int d) {
+    Scene scene = two_plies(d, inclined());
+    const auto pairs = scene.pairs(0);
+    const std::vector<std::int64_t> a(pairs.node_a.begin(), pairs.node_a.begin() + 4);
+    const std::vector<std::int64_t> b(pairs.node_b.begin(), pairs.node_b.begin() + 4);
+    for (int k = 0; k < d; ++k) scene.hold(a, unit(d, k));
+    const auto load = scene.pattern("lift", {-1.0, 0.0, 1.0}, {4e-6, 0.0, 4e-6});
+    scene.drive(b, unit(d, 1), load, {1.0, 2.0, 1.0, 1.0});
+    return scene;
+}
+
 // Bonded for ever, and both nodes of some pairs held: supports that follow from each other through the bond.
 inline Scene make_redundant(int d) {
     Scene scene = make_blocks(d, {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {10, 1, 2}}, {{0.0, 0.003, 0.0}, {0.04, 0.006, 0.01}, {10, 1, 2}},

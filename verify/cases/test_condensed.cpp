@@ -76,6 +76,8 @@ const Entry entries[] = {
     {"opened 3D, turned", [] { return cases::make_opened(3, 33.0); }, true, false},
     {"bound jumps", [] { return cases::make_bound_jumps(2); }},
     {"bound jumps 3D", [] { return cases::make_bound_jumps(3); }},
+    {"bound slip", [] { return cases::make_bound_slip(2); }},
+    {"bound slip 3D", [] { return cases::make_bound_slip(3); }},
     {"redundant supports", [] { return cases::make_redundant(2); }, false},
     {"redundant supports 3D", [] { return cases::make_redundant(3); }, false},
     {"dead forces", [] { return cases::make_forces(2); }},
@@ -263,8 +265,8 @@ CASE_TEST(dead_forces_on_a_loose_ply) {
 
 // Nothing is damaged: the energy of a step lies between its two estimates.
 CASE_TEST(estimates_with_bound_jumps) {
-    const int d = loop / 2 == 0 ? 2 : 3;
-    Scene scene = cases::make_bound_jumps(d);
+    const int d = loop / 2 % 2 == 0 ? 2 : 3;
+    Scene scene = loop < 4 ? cases::make_bound_jumps(d) : cases::make_bound_slip(d);
     scene.law(0, {1e14, 1e14, 1e9, 1e9, 1e9, 1e9});
     scene.text("reduction", loop % 2 == 0 ? "condensed" : "feti");
     Solver solver(scene, 0.0);
@@ -374,7 +376,7 @@ int main() {
     tcase_add_loop_test(tests, every_scene, 0, entry_count);
     tcase_add_loop_test(tests, floating, 0, 16);
     tcase_add_loop_test(tests, dead_forces_on_a_loose_ply, 0, 2);
-    tcase_add_loop_test(tests, estimates_with_bound_jumps, 0, 4);
+    tcase_add_loop_test(tests, estimates_with_bound_jumps, 0, 8);
     tcase_add_loop_test(tests, bound_jumps_of_a_bond, 0, 2);
     tcase_add_loop_test(tests, long_walk, 0, walk_count);
     tcase_add_test(tests, rollback_of_the_first_step);
