@@ -291,8 +291,10 @@ DELAM_API const char *delam_problem_pattern_name(const delam_problem *problem, i
 DELAM_API int32_t delam_solver_create(const delam_problem *problem, double time, delam_solver **out);
 DELAM_API void delam_solver_destroy(delam_solver **solver);
 
-/* One load step to `time` (> the committed time): alternate minimisation, plain or accelerated
- * (option minimisation), from the committed state. The result is pending:
+/* One load step to `time` (> the committed time): minimisation (option minimisation) from the committed state, under the concept
+ * of option solution: local, or energetic, where a search for lower states follows. With option backtracking earlier steps
+ * may be replaced (value revised_from; delam_solver_look reads them); with jump_tolerance, step_control or
+ * mixity_step_tolerance the step is walked in parts. The result is pending:
  * it can be read, then committed or rolled back (bit for bit the state before). DELAM_NOT_CONVERGED leaves a pending step too;
  * DELAM_LIMIT, DELAM_CANCELLED and errors leave none.
  * A process that has used the library and then forks should use it in one of the two only (threads of the linear algebra). */
@@ -317,7 +319,16 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   debonded_length        L (2D) or L2 (3D): weight of the pairs that adhered at first and now have zeta <= 1e-3
  *   front                  L or L2: advance of the front, sum of weight (1 - zeta) over the pairs that adhered at first
  *   process_zone           L or L2: weight of the pairs with 1e-3 < zeta < 1 - 1e-3
- *   backtracks             returns to an earlier step (none yet: the two-sided estimate is reported, not acted on)
+ *   backtracks             returns to an earlier step that this step has made (option backtracking)
+ *   revisions              how often this step has been replaced after a return
+ *   revised_from           first step that the returns of this step have replaced; its own number: none
+ *   search_candidates      states that the energetic search compared
+ *   search_margin          F L: the lowest of them less the state kept (>= 0 up to rounding); 0 where none was compared
+ *   search_gap             F L: the state kept less what bounds the candidates that were left out from below; 0: nothing of the kinds
+ *                          that were searched (delam_solver_searched) can be lower
+ *   substeps, refused_steps  parts that the step was walked in, and computed parts that were not kept
+ *   jumps                  instants within the step at which the state jumps (option jump_tolerance)
+ *   released               F L: energy that these set free and nothing stores or dissipates
  *   bulk_factorisations    sparse factorisations of the bodies since the solver was made: condensed 1, FETI one a subdomain
  *   field_recoveries       how often displacements were recovered from the interfaces since then: by the fields displacement,
  *                          stress and (condensed) reaction and by the kkt_ values; no other value needs them
@@ -355,13 +366,35 @@ DELAM_API int32_t delam_solver_field(delam_solver *solver, const char *key, int6
 DELAM_API const char *delam_solver_plan(delam_solver *solver);
 /* The same as data, settled when the solver is made. Subjects: condensed operator, FETI, memory, subdomains, longest uninterruptible
  * factorisation, contact of interface I, mixity of interface I (each I), gradient term, acceleration of the minimisation,
- * displacements and stresses inside the bodies, backtracking. */
+ * displacements and stresses inside the bodies, energetic search, backtracking. */
 DELAM_API int32_t delam_solver_plan_count(const delam_solver *solver, int64_t *count);
 /* decision: "used" or "left out". cost: predicted, of what is used (0 for what is left out); saving: predicted, against the other
  * decision; both in `unit` ("flop", "flop/step", "comparison/solve", "byte", "s" at a nominal rate that the reason states; "-" for
  * none). Any output may be NULL; texts live as long as the solver. */
 DELAM_API int32_t delam_solver_plan_item(const delam_solver *solver, int64_t index, const char **subject, const char **decision,
                                          const char **reason, double *cost, double *saving, const char **unit);
+
+/* Value of an option as text, as the solver took it, e.g. "energetic" of "solution": what a result should be labelled with. Valid until
+ * the next call with this solver; NULL for an unknown key. */
+DELAM_API const char *delam_solver_option(const delam_solver *solver, const char *key);
+/* What the energetic search of the last step looked at, a line for each front and new crack: which states, why no more, the lowest.
+ * Valid until the next call with this solver; "" where nothing was searched. Never NULL. */
+DELAM_API const char *delam_solver_searched(const delam_solver *solver);
+
+/* Values and fields then speak of an earlier step: with option backtracking the last backtracking_depth ones are kept, with those that a
+ * pending step replaces already in place. step -1: back to the pending state, else the committed one; so do advance, equilibrate,
+ * commit, rollback and load. DELAM_ERROR_ARGUMENT names the steps that are kept. */
+DELAM_API int32_t delam_solver_look(delam_solver *solver, int64_t step);
+
+/* Jumps that were located (option jump_tolerance) up to the pending or committed state, in the order of time. */
+DELAM_API int32_t delam_solver_jump_count(const delam_solver *solver, int64_t *count);
+/* One of them; any output may be NULL. It lies within (before, time], in step `step`. Energies, F L: stored: change of stored energy and
+ * load potential; dissipated; released: E(time, state before) - E(time, state after) - dissipated, what neither
+ * holds (a dynamic event would radiate it; 0 for energetic jumps up to the tolerance). debonded: change of sum of weight (1 - zeta), L or L2;
+ * interface_index: the one that has changed most; first_pair, last_pair: of its pairs with changed adhesion (-1: none). */
+DELAM_API int32_t delam_solver_jump(const delam_solver *solver, int64_t index, int64_t *step, double *before, double *time,
+                                    double *stored, double *dissipated, double *released, double *debonded,
+                                    int64_t *interface_index, int64_t *first_pair, int64_t *last_pair);
 
 /* The committed state as bytes: save, load into a solver of the same scene and options, go on: the rest is bitwise the same.
  * save: *needed receives the size; written when capacity suffices (capacity 0: ask). */

@@ -73,6 +73,7 @@ struct delam_solver : delam::Handle<delam::magic_solver, delam::Solver> {
     std::vector<std::string> value_names;  // texts that delam_solver_value_name and delam_solver_plan hand out
     std::vector<delam::PlanItem> plan;     // kept likewise for delam_solver_plan_item
     std::string plan_words;
+    mutable std::string option;            // handed out by delam_solver_option
 };
 
 namespace delam {

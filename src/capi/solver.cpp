@@ -144,6 +144,55 @@ int32_t delam_solver_plan_item(const delam_solver* solver, int64_t index, const 
     });
 }
 
+const char* delam_solver_option(const delam_solver* solver, const char* key) {
+    const char* found = nullptr;
+    guard(solver, [&] {
+        require_pointer(key, "key");
+        solver->option = solver->core->problem().options.value_of(key);
+        found = solver->option.c_str();
+    });
+    return found;
+}
+
+const char* delam_solver_searched(const delam_solver* solver) {
+    const char* words = "";
+    guard(solver, [&] { words = solver->core->searched().c_str(); });
+    return words;
+}
+
+int32_t delam_solver_look(delam_solver* solver, int64_t step) {
+    return guard(solver, [&] { solver->core->look(step); });
+}
+
+int32_t delam_solver_jump_count(const delam_solver* solver, int64_t* count) {
+    return guard(solver, [&] {
+        require_pointer(count, "count");
+        *count = static_cast<int64_t>(solver->core->jumps(true).size());
+    });
+}
+
+int32_t delam_solver_jump(const delam_solver* solver, int64_t index, int64_t* step, double* before, double* time, double* stored,
+                          double* dissipated, double* released, double* debonded, int64_t* interface_index, int64_t* first_pair,
+                          int64_t* last_pair) {
+    return guard(solver, [&] {
+        const std::vector<Jump> jumps = solver->core->jumps(true);
+        const Jump& jump = jumps[static_cast<std::size_t>(require_index(index, static_cast<std::int64_t>(jumps.size()), 0, "index"))];
+        const auto give = [](auto* out, auto value) {
+            if (out != nullptr) *out = value;
+        };
+        give(step, jump.step);
+        give(before, jump.before);
+        give(time, jump.time);
+        give(stored, jump.stored);
+        give(dissipated, jump.dissipated);
+        give(released, jump.released);
+        give(debonded, jump.debonded);
+        give(interface_index, jump.interface);
+        give(first_pair, jump.first_pair);
+        give(last_pair, jump.last_pair);
+    });
+}
+
 int32_t delam_solver_save(const delam_solver* solver, int64_t capacity, uint8_t* bytes, int64_t* needed) {
     return guard(solver, [&] {
         require_pointer(needed, "needed");

@@ -124,7 +124,7 @@ std::vector<PlanItem> Solver::plan() const {
     const bool plain = options.minimisation == "alternate";
     items.push_back({"acceleration of the minimisation", plain ? left_out : used,
                      text(plain ? "option minimisation = alternate"
-                          : reduction_.condensed
+                          : reduction().condensed
                               ? "Newton steps and debonding moves in the process zone, each checked by the energy"
                               : "extrapolated alternate minimisation, each leap checked by the energy",
                           "; same stopping test: delta = ", options.damage_tolerance, ", at most ",
@@ -132,12 +132,20 @@ std::vector<PlanItem> Solver::plan() const {
                      0.0, 0.0, "-"});
     const double dofs = static_cast<double>(problem_.mesh->node_count() * problem_.mesh->dimension());
     const double recovery =
-        4.0 * (reduction_.factor_entries > 0.0 ? reduction_.factor_entries : dofs * std::log2(dofs + 2.0));
+        4.0 * (reduction().factor_entries > 0.0 ? reduction().factor_entries : dofs * std::log2(dofs + 2.0));
     items.push_back({"displacements and stresses inside the bodies", left_out,
                      "recovered on request only: the fields displacement and stress and the kkt_ values ask for them",
                      0.0, recovery, "flop/step"});
-    items.push_back(
-        {"backtracking", left_out, "the two-sided energy estimate is reported, not acted on", 0.0, 0.0, "-"});
+    const bool energetic = options.solution == "energetic";
+    items.push_back({"energetic search", energetic ? used : left_out,
+                     energetic ? text("every front and new cracks, at most ", options.search_limit, " candidates a step")
+                               : std::string("option solution = local: critical points reached from the state before"),
+                     0.0, 0.0, "-"});
+    items.push_back({"backtracking", keeps_past() ? used : left_out,
+                     keeps_past() ? text("option backtracking = ", options.backtracking, ", eta = ", options.backtracking_tolerance, ", at most ",
+                                         options.backtracking_limit, " returns a step")
+                                  : std::string("the two-sided energy estimate is reported, not acted on"),
+                     0.0, 0.0, "-"});
     return items;
 }
 

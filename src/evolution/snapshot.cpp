@@ -13,7 +13,7 @@ namespace delam {
 namespace {
 
 constexpr std::uint64_t magic = 0x31305453'4d4c4544;  // "DELMST01" in memory on a little-endian machine
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 
 std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
     std::uint64_t h = 14695981039346656037ULL;
@@ -120,6 +120,9 @@ std::vector<std::uint8_t> save(const Solver& solver) {
     w.item(version);
     w.item(hash(solver.problem()));
     walk(w, solver.committed());
+    w.item(static_cast<std::uint64_t>(solver.past().size()));
+    for (const State& state : solver.past()) walk(w, state);
+    w.item(solver.jumps(false));
     w.item(checksum(w.bytes));
     return w.bytes;
 }
@@ -141,9 +144,21 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
         fail(DELAM_ERROR_SNAPSHOT, "snapshot belongs to another scene or other options (its hash differs)");
     State state;
     walk(r, state);
+    std::uint64_t kept = 0;
+    r.item(kept);
+    if (kept > r.left()) fail(DELAM_ERROR_SNAPSHOT, "snapshot ends early at byte ", bytes.size());
+    std::vector<State> past(kept);
+    for (State& earlier : past) walk(r, earlier);
+    std::vector<Jump> jumps;
+    r.item(jumps);
     if (r.left() != sizeof(found_sum)) fail(DELAM_ERROR_SNAPSHOT, "snapshot has ", r.left(), " bytes too many");
     check(state, solver.committed());
-    solver.restore(std::move(state));
+    std::int64_t step = state.step - static_cast<std::int64_t>(kept);
+    for (const State& earlier : past) {
+        check(earlier, solver.committed());
+        if (earlier.step != step++) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", earlier.step, " instead of ", step - 1);
+    }
+    solver.restore(std::move(state), std::move(past), std::move(jumps));
 }
 
 }  // namespace delam

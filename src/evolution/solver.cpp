@@ -5,56 +5,16 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "interface/contact_levels.hpp"
+#include "evolution/backtrack.hpp"
+#include "evolution/step_control.hpp"
 
 namespace delam {
 
-Solver::Solver(const Problem& problem, Monitor& monitor, double time) : problem_(problem), monitor_(monitor) {
-    validate(problem_);
-    const Mesh& mesh = *problem_.mesh;
-    pairs_.dimension = contact_.dimension = mesh.dimension();
-    contact_.limit = problem_.options.contact_limit;
-    contact_.always = problem_.options.contact == "always";
-    for (std::size_t i = 0; i < mesh.interfaces().size(); ++i) {
-        const InterfaceProperties& properties = problem_.interfaces[i];
-        std::optional<Toughness> fixed;
-        if (!properties.bonded && problem_.options.mixity == "auto" && !properties.law->depends_on_mixity()) fixed = properties.law->toughness(0.0);
-        for (const double weight : mesh.interfaces()[i].weight) {
-            pairs_.weight.push_back(weight);
-            pairs_.law.push_back(properties.bonded ? nullptr : &*properties.law);
-            pairs_.fixed.push_back(fixed);
-            contact_.bonded.push_back(properties.bonded ? 1 : 0);
-        }
-        initial_adhesion_.insert(initial_adhesion_.end(), properties.adhesion.begin(), properties.adhesion.end());
-    }
-    contact_.level = contact_levels(mesh.interfaces());
-    ChosenOperator chosen = choose_operator(problem_, monitor_);
-    operator_ = std::move(chosen.op);
-    reduction_ = std::move(chosen.choice);
-    std::vector<std::uint8_t> bonded_rows;
-    for (const std::uint8_t b : contact_.bonded) bonded_rows.insert(bonded_rows.end(), static_cast<std::size_t>(mesh.dimension()), b);
-    lift_ = Lift(*operator_, bonded_rows, bound_rows(problem_), problem_.patterns.size());
-    double largest = 0.0;
-    for (const double c : problem_.prescribed_matrix()) largest = std::max(largest, std::abs(c));
-    for (const std::size_t row : lift_.driven_rows(1e-9 * largest)) {
-        const std::size_t pair = row / static_cast<std::size_t>(mesh.dimension());
-        if (contact_.bonded[pair] != 0)
-            fail(DELAM_ERROR_PROBLEM, "prescribed displacements tear pair ", pair, " apart, whose interface is bonded for ever");
-    }
-
-    State& state = committed_;
-    state.time = time;
-    state.theta = problem_.factors(time);
-    state.adhesion = initial_adhesion_;
-    // A notch starts closed: that is where it stays unless something opens it.
-    for (std::size_t p = 0; p < state.adhesion.size(); ++p)
-        state.closed.push_back(contact_.bonded[p] == 0 && state.adhesion[p] == 0.0 && operator_->prescribed_rows()[p * static_cast<std::size_t>(mesh.dimension())] == 0 ? 1 : 0);
-    if (!minimiser().displace(state)) initial_outcome_ = unconverged_displacement(state);
-    state.mixity = mixities(pairs_, state.response.jump, std::vector<double>(state.adhesion.size(), 0.0));
-    state.mixity_before = state.mixity;
-    state.loaded = any_jump(pairs_, state.response.jump) ? 1 : 0;
-    book_energies(state);
-    state.memory = operator_->memory();
+Solver::Solver(const Problem& problem, Monitor& monitor, double time)
+    : problem_(problem), stepper_(problem_, monitor), graph_(problem_.mesh->interfaces()) {
+    Stepper::Result first = stepper_.initial(time);
+    committed_ = std::move(first.state);
+    if (!first.converged) initial_outcome_ = unconverged_displacement(committed_);
 }
 
 Outcome Solver::unconverged_displacement(const State& state) const {
@@ -63,129 +23,132 @@ Outcome Solver::unconverged_displacement(const State& state) const {
                  problem_.options.linear_tolerance, "; ", state.counts.contact_iterations, " active-set steps")};
 }
 
-Minimiser Solver::minimiser() const {
-    return {*operator_,  pairs_, contact_, monitor_, problem_.options.damage_tolerance, problem_.options.minimisation_limit};
-}
-
-void Solver::begin(State& next, double time) const {
+void Solver::require_nothing_pending(double time) const {
     if (pending_) fail(DELAM_ERROR_STATE, "a step is pending: commit it or roll it back first");
     if (!std::isfinite(time)) fail(DELAM_ERROR_ARGUMENT, "time is not finite");
-    next.time = time;
-    next.theta = problem_.factors(time);
-    next.counts = Counts{};
-    operator_->recall(committed_.memory);
 }
 
-// Energies of a state at its own mixity; cumulative columns are not touched.
-void Solver::book_energies(State& state) const {
-    Ledger& ledger = state.ledger;
-    ledger.stored_bulk = state.response.stored_bulk;
-    ledger.load_potential = state.response.load_potential;
-    ledger.stored_interface = stored_energy(pairs_, state.adhesion, state.response.jump);
-    ledger.stored_interface_slides = ledger.stored_interface + stored_slides(pairs_, state.mixity, state.adhesion);
-}
-
-void Solver::book_step(State& next) const {
-    const State& last = committed_;
-    book_energies(next);
-    Ledger& ledger = next.ledger;
-    const double dissipated = dissipation(pairs_, next.mixity, last.adhesion, next.adhesion);
-    const double dissipated_before = dissipation(pairs_, next.mixity_before, last.adhesion, next.adhesion);
-    const double change = ledger.energy() - last.ledger.energy();
-    ledger.increment = change + dissipated;
-    ledger.increment_lower = change + dissipated_before;
-    std::vector<double> d(next.theta.size());
-    for (std::size_t p = 0; p < d.size(); ++p) d[p] = next.theta[p] - last.theta[p];
-    ledger.lower = dot(d, next.response.conjugate) - lift_.half_quadratic(d, spring_stiffness(pairs_, next.adhesion));
-    ledger.upper = dot(d, last.response.conjugate) + lift_.half_quadratic(d, spring_stiffness(pairs_, last.adhesion));
-    ledger.work = last.ledger.work + 0.5 * (ledger.lower + ledger.upper);
-    ledger.dissipated = last.ledger.dissipated + dissipated;
-    ledger.dissipated_slides =
-        last.ledger.dissipated_slides + dissipation_slides(pairs_, next.mixity, last.adhesion, next.adhesion);
+bool Solver::keeps_past() const {
+    const Options& options = problem_.options;
+    return options.backtracking == "on" || (options.backtracking == "auto" && options.solution == "energetic");
 }
 
 Outcome Solver::advance(double time) {
-    State next = committed_;
-    begin(next, time);
+    require_nothing_pending(time);
     if (time <= committed_.time)
         fail(DELAM_ERROR_ARGUMENT, "time ", time, " is not after the committed time ", committed_.time);
-    ++next.step;
-    bool converged = true;
-    if (committed_.loaded == 0) {
-        // Before the first load there is no jump to take the mixity from: the elastic solution of this step gives it.
-        State elastic = next;
-        converged = minimiser().displace(elastic, true);
-        next.counts = elastic.counts;
-        next.mixity = mixities(pairs_, elastic.response.jump, committed_.mixity);
-        next.mixity_before = next.mixity;
-        next.response = std::move(elastic.response);
-        next.closed = std::move(elastic.closed);
-    } else {
-        next.mixity_before = committed_.mixity;
-        next.mixity = mixities(pairs_, committed_.response.jump, committed_.mixity);
+    const Options& options = problem_.options;
+    Chain chain(past_, committed_);
+    Stepper::Result result = keeps_past() ? backtracked_step(stepper_, chain, committed_.step, time, options)
+                                          : stepper_.step(committed_, time);
+    Pending pending;
+    if (controls_steps(options)) {
+        ControlledStep controlled = controlled_step(stepper_, graph_, chain.at(committed_.step), std::move(result), options);
+        result = std::move(controlled.result);
+        pending.jumps = std::move(controlled.jumps);
     }
-    converged = (problem_.options.minimisation == "alternate" ? minimiser().alternate(next, committed_.adhesion)
-                                                             : minimiser().accelerate(next, committed_.adhesion)) && converged;
-    next.loaded = committed_.loaded != 0 || any_jump(pairs_, next.response.jump) ? 1 : 0;
-    book_step(next);
-    next.memory = operator_->memory();
+    pending.state = std::move(result.state);
+    if (pending.state.counts.revised_from == 0) pending.state.counts.revised_from = pending.state.step;
+    for (auto& [step, state] : chain.revised()) pending.revised.push_back(std::move(state));
     Outcome outcome;
-    if (!converged) {
+    if (!result.converged) {
+        const State& next = pending.state;
         outcome.status = DELAM_NOT_CONVERGED;
         outcome.text = text("step ", next.step, " at time ", time, ": not converged after ", next.counts.am_iterations,
                             " alternations (last change of adhesion ", next.counts.damage_change, ", tolerance ",
-                            problem_.options.damage_tolerance, "; worst linear residual ", next.counts.linear_residual,
-                            ", tolerance ", problem_.options.linear_tolerance, ")");
+                            options.damage_tolerance, "; worst linear residual ", next.counts.linear_residual, ", tolerance ",
+                            options.linear_tolerance, ")");
     }
     displacement_.clear();
-    pending_ = std::move(next);
+    looked_ = nullptr;
+    pending_ = std::move(pending);
     return outcome;
 }
 
 Outcome Solver::equilibrate(double time, std::span<const double> adhesion) {
-    State next = committed_;
-    begin(next, time);
-    if (!adhesion.empty()) next.adhesion.assign(adhesion.begin(), adhesion.end());
-    for (std::size_t p = 0; p < next.adhesion.size(); ++p)
-        if (!(next.adhesion[p] >= 0.0 && next.adhesion[p] <= 1.0))
-            fail(DELAM_ERROR_ARGUMENT, "adhesion of pair ", p, " is ", next.adhesion[p], ", allowed: 0 to 1");
+    require_nothing_pending(time);
+    Stepper::Result result = stepper_.equilibrate(committed_, time, adhesion);
     Outcome outcome;
-    if (!minimiser().displace(next)) outcome = unconverged_displacement(next);
-    book_energies(next);
-    next.memory = operator_->memory();
+    if (!result.converged) outcome = unconverged_displacement(result.state);
     displacement_.clear();
-    pending_ = std::move(next);
+    looked_ = nullptr;
+    pending_ = Pending{std::move(result.state), {}, {}};
     return outcome;
 }
 
 void Solver::commit() {
     if (!pending_) fail(DELAM_ERROR_STATE, "nothing to commit: no step is pending");
-    committed_ = std::move(*pending_);
+    looked_ = nullptr;
+    const std::int64_t from = pending_->revised.empty() ? pending_->state.step : pending_->revised.front().step;
+    std::erase_if(jumps_, [&](const Jump& jump) { return jump.step >= from; });
+    jumps_.insert(jumps_.end(), pending_->jumps.begin(), pending_->jumps.end());
+    for (State& state : pending_->revised) {
+        if (state.step == committed_.step)
+            committed_ = std::move(state);
+        else
+            past_[static_cast<std::size_t>(state.step - past_.front().step)] = std::move(state);
+    }
+    if (keeps_past() && pending_->state.step > committed_.step) {
+        past_.push_back(std::move(committed_));
+        if (past_.size() > static_cast<std::size_t>(problem_.options.backtracking_depth)) past_.erase(past_.begin());
+    }
+    committed_ = std::move(pending_->state);
     pending_.reset();
 }
 
 void Solver::rollback() {
     if (!pending_) fail(DELAM_ERROR_STATE, "nothing to roll back: no step is pending");
+    looked_ = nullptr;
     pending_.reset();
     displacement_.clear();
 }
 
-void Solver::restore(State restored) {
-    operator_->recall(restored.memory);
+void Solver::look(std::int64_t step) {
+    const State* found = nullptr;
+    if (step != -1) {
+        const std::int64_t present = pending_ ? pending_->state.step : committed_.step;
+        if (step < first_kept() || step > present)
+            fail(DELAM_ERROR_ARGUMENT, "step ", step, " is not kept; kept are ", first_kept(), " to ", present,
+                 keeps_past() ? "" : " (earlier ones with option backtracking = on)");
+        if (pending_) {
+            if (step == pending_->state.step) found = &pending_->state;
+            for (const State& state : pending_->revised)
+                if (state.step == step) found = &state;
+        }
+        if (found == nullptr) found = step == committed_.step ? &committed_ : &past_[static_cast<std::size_t>(step - past_.front().step)];
+    }
+    looked_ = found;
+    displacement_.clear();
+}
+
+std::vector<Jump> Solver::jumps(bool pending) const {
+    std::vector<Jump> all = jumps_;
+    if (!pending || !pending_) return all;
+    const std::int64_t from = pending_->revised.empty() ? pending_->state.step : pending_->revised.front().step;
+    std::erase_if(all, [&](const Jump& jump) { return jump.step >= from; });
+    all.insert(all.end(), pending_->jumps.begin(), pending_->jumps.end());
+    return all;
+}
+
+void Solver::restore(State restored, std::vector<State> past, std::vector<Jump> jumps) {
+    stepper_.op().recall(restored.memory);
     committed_ = std::move(restored);
+    past_ = std::move(past);
+    jumps_ = std::move(jumps);
     pending_.reset();
+    looked_ = nullptr;
     displacement_.clear();
 }
 
 const std::vector<double>& Solver::displacement() const {
-    if (displacement_.empty()) displacement_ = operator_->displacement(state().theta, state().response);
+    if (displacement_.empty()) displacement_ = stepper_.op().displacement(state().theta, state().response);
     return displacement_;
 }
 
 double Solver::equilibrium_defect() const {
     double reaction = 0.0;
     for (const double r : this->reaction()) reaction = std::max(reaction, std::abs(r));
-    const double defect = operator_->equilibrium_defect(state().theta, state().response);
+    const double defect = stepper_.op().equilibrium_defect(state().theta, state().response);
     return reaction > 0.0 ? defect / reaction : defect;
 }
 

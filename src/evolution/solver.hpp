@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The march: a committed state, perhaps a pending one, and the operator they live on.
+// The march: committed states, perhaps a pending one, and the stepper that makes them.
 #pragma once
 
 #include <memory>
@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "base/monitor.hpp"
-#include "evolution/bounds.hpp"
-#include "evolution/minimise.hpp"
+#include "evolution/jump.hpp"
 #include "evolution/plan.hpp"
-#include "reduction/choose.hpp"
+#include "evolution/stepper.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {
@@ -26,7 +25,7 @@ class Solver {
 public:
     // The monitor must outlive the solver.
     Solver(const Problem& problem, Monitor& monitor, double time);
-    Solver(const Solver&) = delete;  // pairs_ points into problem_
+    Solver(const Solver&) = delete;  // the stepper points into problem_
     Solver& operator=(const Solver&) = delete;
 
     Outcome advance(double time);
@@ -34,50 +33,62 @@ public:
     void commit();
     void rollback();
     bool pending() const { return pending_.has_value(); }
+    // state() is then that of an earlier step which is still kept, of the pending chain or the committed one; -1: the present.
+    void look(std::int64_t step);
+    // Steps that can be looked at and returned to: from this one on.
+    std::int64_t first_kept() const { return past_.empty() ? committed_.step : past_.front().step; }
 
     const Problem& problem() const { return problem_; }
     // How the displacements of the initial state ended.
     const Outcome& initial_outcome() const { return initial_outcome_; }
-    // Pending state, else the committed one.
-    const State& state() const { return pending_ ? *pending_ : committed_; }
+    // The one looked at, else the pending state, else the committed one.
+    const State& state() const { return looked_ != nullptr ? *looked_ : pending_ ? pending_->state : committed_; }
     const State& committed() const { return committed_; }
-    // Replaces the committed state (of the same scene); drops a pending one.
-    void restore(State state);
-    const PairLaws& pairs() const { return pairs_; }
-    const ContactScene& contact() const { return contact_; }
+    // Kept steps before the committed one, oldest first.
+    const std::vector<State>& past() const { return past_; }
+    // Jumps of the march up to the committed state, and with `pending` those of the pending step.
+    std::vector<Jump> jumps(bool pending) const;
+    // Replaces the committed states (of the same scene); drops a pending one.
+    void restore(State state, std::vector<State> past, std::vector<Jump> jumps);
+    bool keeps_past() const;
+    const PairLaws& pairs() const { return stepper_.pairs(); }
+    const ContactScene& contact() const { return stepper_.contact(); }
     // Recovered on request, [mesh DOFs]; kept until the state changes.
     const std::vector<double>& displacement() const;
     // Forces of the device, [constraints].
-    std::vector<double> reaction() const { return operator_->reaction(state().theta, state().response); }
+    std::vector<double> reaction() const { return stepper_.op().reaction(state().theta, state().response); }
     // How often displacements were recovered.
-    std::int64_t recoveries() const { return operator_->recoveries(); }
-    const JumpOperator& jump_operator() const { return *operator_; }
-    const ReductionChoice& reduction() const { return reduction_; }
+    std::int64_t recoveries() const { return stepper_.op().recoveries(); }
+    const JumpOperator& jump_operator() const { return stepper_.op(); }
+    const ReductionChoice& reduction() const { return stepper_.reduction(); }
     // Out-of-balance force over the largest reaction.
     double equilibrium_defect() const;
     // What the scene needs and what was left out (plan.hpp).
     std::vector<PlanItem> plan() const;
     // Initial adhesion, [pairs].
-    const std::vector<double>& initial_adhesion() const { return initial_adhesion_; }
+    const std::vector<double>& initial_adhesion() const { return stepper_.initial_adhesion(); }
+    // What the last search looked at, in words.
+    const std::string& searched() const { return stepper_.searched(); }
 
 private:
-    Minimiser minimiser() const;
+    struct Pending {
+        State state;
+        std::vector<State> revised;  // earlier steps that backtracking has replaced, ascending
+        std::vector<Jump> jumps;
+    };
+
+    void require_nothing_pending(double time) const;
     Outcome unconverged_displacement(const State& state) const;
-    void begin(State& next, double time) const;
-    void book_energies(State& state) const;
-    void book_step(State& next) const;
 
     Problem problem_;
-    Monitor& monitor_;
-    PairLaws pairs_;
-    ContactScene contact_;
-    std::vector<double> initial_adhesion_;
-    std::unique_ptr<JumpOperator> operator_;
-    ReductionChoice reduction_;
-    Lift lift_;
+    Stepper stepper_;
+    PairGraph graph_;
     Outcome initial_outcome_;
     State committed_;
-    std::optional<State> pending_;
+    std::vector<State> past_;
+    std::vector<Jump> jumps_;
+    std::optional<Pending> pending_;
+    const State* looked_ = nullptr;
     mutable std::vector<double> displacement_;  // of state(), empty: not recovered
 };
 

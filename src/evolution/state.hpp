@@ -38,7 +38,17 @@ struct Counts {
     std::int64_t linear_iterations = 0;
     std::int64_t newton_solves = 0;   // dense solves within the process zone
     std::int64_t debond_moves = 0;    // unstable pairs taken to their debonded branch
-    std::int64_t backtracks = 0;
+    std::int64_t backtracks = 0;         // returns to an earlier step
+    std::int64_t revisions = 0;          // how often this step was computed anew after a return
+    std::int64_t revised_from = 0;       // first step that these returns replaced
+    std::int64_t search_candidates = 0;  // states whose energy a search has compared
+    double search_margin = 0.0;          // lowest candidate minus the state kept, F L
+    double search_gap = 0.0;             // state kept minus what bounds the candidates left out, F L; 0: nothing left out can be lower
+    std::int64_t substeps = 1;           // steps that this one was cut into
+    std::int64_t refused_steps = 0;      // that were too long and not kept
+    std::int64_t jumps = 0;              // instants of this step at which the state jumps
+    double released = 0.0;               // energy that these set free and nothing stores or dissipates, F L
+    double mixity_error = 0.0;           // relative error of the toughness that the rule of mixity makes
     double damage_change = 0.0;
     double linear_residual = 0.0;
 };

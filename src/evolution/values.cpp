@@ -11,8 +11,7 @@ namespace delam {
 
 namespace {
 
-// Adhesion below the first counts as debonded, above the second as intact; between them lies the process zone.
-constexpr double debonded_below = 1e-3;
+// Above it adhesion counts as intact; between debonded_below and this lies the process zone.
 constexpr double intact_above = 1.0 - 1e-3;
 
 double count(std::int64_t n) { return static_cast<double>(n); }
@@ -121,6 +120,15 @@ constexpr Entry table[] = {
          return over_bond(s, [](double zeta) { return zeta > debonded_below && zeta < intact_above ? 1.0 : 0.0; });
      }},
     {"backtracks", [](const Solver& s) { return count(s.state().counts.backtracks); }},
+    {"revisions", [](const Solver& s) { return count(s.state().counts.revisions); }},
+    {"revised_from", [](const Solver& s) { return count(s.state().counts.revised_from); }},
+    {"search_candidates", [](const Solver& s) { return count(s.state().counts.search_candidates); }},
+    {"search_margin", [](const Solver& s) { return s.state().counts.search_margin; }},
+    {"search_gap", [](const Solver& s) { return s.state().counts.search_gap; }},
+    {"substeps", [](const Solver& s) { return count(s.state().counts.substeps); }},
+    {"refused_steps", [](const Solver& s) { return count(s.state().counts.refused_steps); }},
+    {"jumps", [](const Solver& s) { return count(s.state().counts.jumps); }},
+    {"released", [](const Solver& s) { return s.state().counts.released; }},
     {"bulk_factorisations", [](const Solver& s) { return count(s.jump_operator().factorisations()); }},
     {"field_recoveries", [](const Solver& s) { return count(s.recoveries()); }},
     {"damage_change", [](const Solver& s) { return s.state().counts.damage_change; }},

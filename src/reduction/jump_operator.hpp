@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,6 +50,8 @@ public:
     // What of the past the last digits of the next solve depend on (empty: nothing); a recalled memory gives them again.
     virtual std::vector<double> memory() const { return {}; }
     virtual void recall(std::span<const double> /*memory*/) {}
+    // Another operator over the same condensed bodies, with a memory of its own; null: there is none that is cheap.
+    virtual std::unique_ptr<JumpOperator> twin() const { return nullptr; }
     // Sparse factorisations of the bodies since the operator was made, and how often displacements were recovered.
     virtual std::int64_t factorisations() const { return 0; }
     virtual std::int64_t recoveries() const { return 0; }

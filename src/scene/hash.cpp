@@ -90,6 +90,19 @@ void add_loads(Fnv& fnv, const Problem& problem) {
 }
 
 void add_options(Fnv& fnv, const Options& options) {
+    fnv.add(options.solution);
+    fnv.add(options.mixity_rule);
+    fnv.add(options.backtracking);
+    fnv.add(options.backtracking_limit);
+    fnv.add(options.backtracking_depth);
+    fnv.add(options.search_limit);
+    fnv.add(options.search_tolerance);
+    fnv.add(options.step_control);
+    fnv.add(options.step_tolerance);
+    fnv.add(options.mixity_step_tolerance);
+    fnv.add(options.smallest_step);
+    fnv.add(options.jump_tolerance);
+    fnv.add(options.jump_size);
     fnv.add(options.damage_tolerance);
     fnv.add(options.minimisation_limit);
     fnv.add(options.backtracking_tolerance);

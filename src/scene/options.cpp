@@ -24,10 +24,11 @@ struct Row {
     double upper = 0.0;
 };
 
+constexpr double below = 1e-300;  // makes an end of an open interval a member
 constexpr double most = 9007199254740992.0;  // 2^53: beyond it a double no longer holds every whole number
 
-const std::array<Row, 14>& rows() {
-    static const std::array<Row, 14> table{{
+const std::array<Row, 27>& rows() {
+    static const std::array<Row, 27> table{{
         {{"damage_tolerance", "real", "-", "1e-5", "0 < value < 1",
           "alternate minimisation stops when no adhesion changes by more (delta)"},
          &Options::damage_tolerance,
@@ -38,8 +39,66 @@ const std::array<Row, 14>& rows() {
          &Options::minimisation_limit,
          1.0,
          most},
+        {{"solution", "text", "-", "local", "local | energetic",
+          "solution concept: local, critical points of the incremental problem reached from the state before; energetic, the lowest state that a "
+          "search over fronts and new cracks and the two-sided estimate have found"},
+         &Options::solution},
+        {{"mixity_rule", "text", "-", "frozen", "frozen | converged | variational",
+          "mode mixity in the damage: that of the step before; that of the step's own solution as a fixed point; or a variable of the "
+          "energy, with the traction that this brings"},
+         &Options::mixity_rule},
+        {{"backtracking", "text", "-", "auto", "auto | off | on",
+          "return to earlier steps when the two-sided estimate shows that they were not minimal; auto: on for energetic solutions"},
+         &Options::backtracking},
+        {{"backtracking_limit", "integer", "-", "100", "0 <= value <= 2^53", "returns to earlier steps within one load step at most"},
+         &Options::backtracking_limit,
+         0.0,
+         most},
+        {{"backtracking_depth", "integer", "-", "1000", "1 <= value <= 2^53",
+          "committed steps that are kept to return to (each needs the memory of its jumps)"},
+         &Options::backtracking_depth,
+         1.0,
+         most},
+        {{"search_limit", "integer", "-", "100000", "0 <= value <= 2^53",
+          "states that the search of an energetic step compares at most; search_gap says what it may have missed"},
+         &Options::search_limit,
+         0.0,
+         most},
+        {{"search_tolerance", "real", "-", "1e-2", "0 < value <= 1",
+          "the search samples front positions until none between two samples can be lower than the best by more, relative to the larger of "
+          "energy and work; a small value compares all"},
+         &Options::search_tolerance,
+         0.0,
+         1.0000000000000002},
+        {{"step_control", "text", "-", "fixed", "fixed | adaptive",
+          "adaptive: a step that does not converge or whose two-sided estimate is wider than step_tolerance is refused and halved within"},
+         &Options::step_control},
+        {{"step_tolerance", "real", "-", "1e-2", "0 < value < 1",
+          "largest width of the two-sided estimate of an adaptive step, relative to the larger of energy and work"},
+         &Options::step_tolerance,
+         0.0,
+         1.0},
+        {{"mixity_step_tolerance", "real", "-", "0", "0 <= value < 1",
+          "a step whose mixity_error is larger is refused and halved within; 0: such steps are only warned of"},
+         &Options::mixity_step_tolerance,
+         -below,
+         1.0},
+        {{"smallest_step", "real", "-", "1e-4", "0 < value <= 1", "shortest step that a refusal may lead to, as a part of the step asked for"},
+         &Options::smallest_step,
+         0.0,
+         1.0000000000000002},
+        {{"jump_tolerance", "real", "-", "0", "0 <= value < 1",
+          "the instant of a jump is located by bisection to this part of the step; 0: jumps fall on the ends of steps"},
+         &Options::jump_tolerance,
+         -below,
+         1.0},
+        {{"jump_size", "real", "pairs", "0.5", "0 < value < 1e9",
+          "least change of the debonded length or area that counts as a jump, in mean weights of a pair"},
+         &Options::jump_size,
+         0.0,
+         1e9},
         {{"backtracking_tolerance", "real", "-", "1e-3", "0 < value < 1",
-          "relative tolerance of the two-sided energy estimate (eta); reported against, not acted on yet"},
+          "relative tolerance of the two-sided energy estimate (eta) beyond which a step counts as violated"},
          &Options::backtracking_tolerance,
          0.0,
          1.0},
@@ -138,6 +197,10 @@ void Options::set_text(const std::string& key, const std::string& value) {
         fail(DELAM_ERROR_ARGUMENT, "option '", key, "' is a number (", row.info.range, "), not a text");
     if (value.find(" | ") != std::string::npos || !allows(row.info.range, value)) refuse(row, "'" + value + "'");
     this->*(*words) = value;
+}
+
+std::string Options::value_of(const std::string& key) const {
+    return std::visit([&](const auto member) { return text(this->*member); }, find(key).member);
 }
 
 std::span<const OptionInfo> option_table() {

@@ -9,6 +9,21 @@
 namespace delam {
 
 struct Options {
+    // solution concept
+    std::string solution = "local";             // local | energetic
+    std::string mixity_rule = "frozen";         // frozen | converged | variational
+    std::string backtracking = "auto";          // auto | off | on
+    std::int64_t backtracking_limit = 100;      // returns to earlier steps in one step
+    std::int64_t backtracking_depth = 1000;     // steps that are kept to return to
+    std::int64_t search_limit = 100000;         // candidates of a search
+    double search_tolerance = 1e-2;             // of what a search may leave between its samples
+    // step control
+    std::string step_control = "fixed";         // fixed | adaptive
+    double step_tolerance = 1e-2;               // of the two-sided estimate's band, adaptive steps
+    double mixity_step_tolerance = 0.0;         // 0: off
+    double smallest_step = 1e-4;                // of the step asked for
+    double jump_tolerance = 0.0;                // 0: jumps are not located
+    double jump_size = 0.5;                     // least jump that is located, in pairs
     // minimisation
     double damage_tolerance = 1e-5;             // delta
     std::int64_t minimisation_limit = 5000;     // alternate minimisation steps
@@ -31,6 +46,8 @@ struct Options {
 
     void set_number(const std::string& key, double value);
     void set_text(const std::string& key, const std::string& value);
+    // As people write it.
+    std::string value_of(const std::string& key) const;
 };
 
 struct OptionInfo {

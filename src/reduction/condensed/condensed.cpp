@@ -26,7 +26,7 @@ std::size_t count(const std::vector<std::uint8_t>& set) {
 
 }  // namespace
 
-Condensed::Condensed(std::unique_ptr<Bulk> bulk, const Problem& problem, Monitor& monitor)
+Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor& monitor)
     : bulk_(std::move(bulk)), problem_(problem), monitor_(monitor) {
     const std::size_t unknowns = index(bulk_->energy().rows());
     rows_of_.resize(unknowns);

@@ -17,7 +17,7 @@ namespace delam {
 
 class Condensed final : public JumpOperator {
 public:
-    Condensed(std::unique_ptr<Bulk> bulk, const Problem& problem, Monitor& monitor);
+    Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor& monitor);
     void solve(const Springs& springs, std::span<const double> theta, Response& response) override;
     std::vector<double> displacement(std::span<const double> theta, const Response& response) const override;
     std::vector<double> reaction(std::span<const double> theta, const Response& response) const override;
@@ -25,6 +25,7 @@ public:
     std::span<const std::uint8_t> prescribed_rows() const override { return prescribed_; }
     std::int64_t factorisations() const override { return bulk_->factorisations(); }
     std::int64_t recoveries() const override { return bulk_->recoveries(); }
+    std::unique_ptr<JumpOperator> twin() const override { return std::make_unique<Condensed>(bulk_, problem_, monitor_); }
     std::string description() const override;
     std::vector<double> memory() const override;
     void recall(std::span<const double> memory) override;
@@ -48,7 +49,7 @@ private:
     std::vector<double> unknowns_of(const Response& response) const;
     double spring_of(const Springs& springs, std::size_t unknown) const;  // -1: held
 
-    std::unique_ptr<Bulk> bulk_;
+    std::shared_ptr<Bulk> bulk_;
     Problem problem_;
     Monitor& monitor_;
     std::vector<std::uint8_t> prescribed_;               // [rows]

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/backtrack.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace delam {
+
+namespace {
+
+constexpr double rounding = 1e-10;  // of the energies: lower by less is not lower
+
+bool lower(const State& a, const State& b) {
+    const double scale = std::max(std::abs(b.ledger.energy()), std::abs(b.ledger.work));
+    return a.ledger.increment < b.ledger.increment - rounding * scale;
+}
+
+}  // namespace
+
+const State& Chain::at(std::int64_t step) const {
+    if (const auto it = revised_.find(step); it != revised_.end()) return it->second;
+    return step == last_.step ? last_ : past_[static_cast<std::size_t>(step - past_.front().step)];
+}
+
+Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t last_step, double time, const Options& options) {
+    const std::int64_t k = last_step + 1;
+    Stepper::Result next;
+    std::int64_t i = k, returns = 0, revised_from = k;
+    bool returning = true, same_before = false;
+    std::vector<double> carried;  // adhesion of the state whose lower bound has failed
+    while (true) {
+        std::vector<std::vector<double>> starts;
+        if (!carried.empty()) starts.push_back(carried);
+        if (i < k) starts.push_back(chain.at(i).adhesion);
+        Stepper::Result found = stepper.step(chain.at(i - 1), i < k ? chain.at(i).time : time, starts);
+        if (i < k && same_before && !lower(found.state, chain.at(i))) {
+            // Nothing lower: step i stands, and so does what was computed from it.
+            returning = false;
+            if (++i == k) break;
+            ++i;
+            same_before = false;
+            continue;
+        }
+        const bool violated = stepper.lower_excess(found.state) > options.backtracking_tolerance;
+        if (i < k) {
+            found.state.counts.revisions = chain.at(i).counts.revisions + 1;
+            revised_from = std::min(revised_from, i);
+            chain.revise(found.state);
+        } else {
+            next = found;
+        }
+        if (returning && violated && i - 1 > chain.first() && returns < options.backtracking_limit) {
+            ++returns;
+            carried = std::move(found.state.adhesion);
+            --i;
+            same_before = true;
+            continue;
+        }
+        if (i == k) break;
+        ++i;
+        same_before = false;
+    }
+    next.state.counts.backtracks = returns;
+    next.state.counts.revised_from = revised_from;
+    return next;
+}
+
+}  // namespace delam

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/search.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+
+namespace delam {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr std::size_t seeds = 2;           // places per interface where a new crack is tried besides the ends of lines
+constexpr std::size_t fine = 64;           // rings that are all sampled; of longer sweeps about as many
+constexpr std::size_t most_entries = 1U << 20U;  // energies kept
+constexpr int rounds = 3;                  // of sweeps with the other fronts where they were best
+constexpr double turned = 1e-13;           // of the load's direction: another one
+
+std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+std::uint64_t key_of(std::span<const double> adhesion) {
+    std::uint64_t h = 14695981039346656037ULL;
+    for (const double z : adhesion) {
+        h ^= std::bit_cast<std::uint64_t>(z);
+        h *= 1099511628211ULL;
+        h ^= h >> 29U;
+    }
+    return h;
+}
+
+}  // namespace
+
+Search::Search(const Problem& problem, const PairLaws& pairs, const ContactScene& contact, Monitor& monitor, JumpOperator& op)
+    : problem_(problem), pairs_(pairs), contact_(contact), monitor_(monitor), op_(op), graph_(problem.mesh->interfaces()),
+      follow_mixity_(problem.options.mixity_rule == "converged") {}
+
+// Energies are kept for one direction of the load.
+void Search::aim(std::span<const double> theta) {
+    size_ = 0.0;
+    for (const double t : theta) size_ = std::max(size_, std::abs(t));
+    std::vector<double> direction(theta.begin(), theta.end());
+    for (double& d : direction) d /= size_ > 0.0 ? size_ : 1.0;
+    bool same = direction.size() == direction_.size() && known_.size() < most_entries;
+    for (std::size_t p = 0; p < direction.size() && same; ++p) same = std::abs(direction[p] - direction_[p]) <= turned;
+    if (same) return;
+    direction_ = std::move(direction);
+    known_.clear();
+}
+
+const Search::Energy& Search::energy(const std::vector<double>& adhesion, std::span<const std::int64_t> next,
+                                     std::span<const double> known) {
+    const std::uint64_t key = key_of(adhesion);
+    if (const auto it = known_.find(key); it != known_.end() && (!follow_mixity_ || it->second.next_mixity.size() >= next.size()))
+        return it->second;
+    monitor_.progress("search", result_->candidates, 0);
+    Energy e{infinite, {}};
+    try {
+        solve_contact(op_, contact_, spring_stiffness(pairs_, adhesion), direction_, closed_, response_, false);
+        e.value = response_.stored_bulk + response_.load_potential + stored_energy(pairs_, adhesion, response_.jump);
+        if (follow_mixity_) {
+            const std::vector<double> own = mixities(pairs_, response_.jump, known);
+            for (const std::int64_t p : next) e.next_mixity.push_back(own[index(p)]);
+        }
+    } catch (const Error& error) {
+        if (error.status() != DELAM_LIMIT) throw;
+    }
+    return known_[key] = std::move(e);
+}
+
+double Search::compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity) {
+    --left_;
+    ++result_->candidates;
+    const Energy& e = energy(candidate.adhesion, next, candidate.mixity);
+    if (next_mixity != nullptr) *next_mixity = e.next_mixity;
+    candidate.incremental = size_ * size_ * e.value - before_->ledger.energy() +
+                            dissipation(pairs_, candidate.mixity, before_->adhesion, candidate.adhesion);
+    result_->lowest = std::min(result_->lowest, candidate.incremental);
+    best_ = std::min(best_, candidate.incremental);
+    return candidate.incremental;
+}
+
+// The growth of one front, or of a new crack, from a base.
+class Search::Sweep {
+public:
+    Sweep(Search& search, const Front& front, const Candidate& base)
+        : search_(search), base_(base), ring_(rings(search.graph_, search.pairs_, base.adhesion, front)), nucleation_(front.nucleation) {
+        mixity_.resize(ring_.size());
+    }
+
+    void run();
+    std::size_t rings_swept() const { return ring_.size(); }
+    std::size_t sampled() const { return value_.size() - 1; }
+    std::size_t best_at() const { return best_at_; }
+    bool stopped() const { return stopped_; }
+    // The lowest minimum beyond the base; none where I only grows.
+    std::optional<Candidate> best() const {
+        if (best_at_ == 0) return std::nullopt;
+        return candidate(best_at_);
+    }
+    // No state between or beyond the samples lies below.
+    double bound() const;
+
+private:
+    Candidate candidate(std::size_t n) const;
+    void sample(std::size_t n);
+    void refine_minimum();
+    void close_gap();
+    // Of what lies strictly between two samples.
+    double between(std::size_t low, std::size_t high) const;
+
+    Search& search_;
+    const Candidate& base_;
+    std::vector<std::vector<std::int64_t>> ring_;
+    bool nucleation_;
+    std::map<std::size_t, Candidate> value_;          // by rings; adhesion is left out: only I and D are needed
+    std::map<std::size_t, double> spent_;             // D
+    std::vector<std::vector<double>> mixity_;         // B of a ring, from the nearest sample before it
+    std::size_t best_at_ = 0;
+    std::size_t end_ = 0;  // the last ring that was worth a look
+    bool stopped_ = false;
+};
+
+Candidate Search::Sweep::candidate(std::size_t n) const {
+    Candidate c = base_;
+    const std::vector<double>* latest = nullptr;
+    for (std::size_t k = 0; k < n; ++k) {
+        if (!mixity_[k].empty()) latest = &mixity_[k];
+        for (std::size_t i = 0; i < ring_[k].size(); ++i) {
+            const auto p = index(ring_[k][i]);
+            if (search_.follow_mixity_ && latest != nullptr) c.mixity[p] = (*latest)[std::min(i, latest->size() - 1)];
+            c.adhesion[p] = 0.0;
+        }
+    }
+    if (const auto it = value_.find(n); it != value_.end()) c.incremental = it->second.incremental;
+    return c;
+}
+
+void Search::Sweep::sample(std::size_t n) {
+    if (value_.contains(n)) return;
+    Candidate c = candidate(n);
+    const std::span<const std::int64_t> next = n < ring_.size() ? std::span<const std::int64_t>(ring_[n]) : std::span<const std::int64_t>();
+    std::vector<double> next_mixity;
+    search_.compare(c, next, &next_mixity);
+    if (n < ring_.size()) mixity_[n] = std::move(next_mixity);
+    spent_[n] = dissipation(search_.pairs_, c.mixity, search_.before_->adhesion, c.adhesion);
+    value_[n] = Candidate{{}, {}, c.incremental};
+}
+
+double Search::Sweep::between(std::size_t low, std::size_t high) const {
+    double first = spent_.at(low);  // of the first ring beyond the lower sample
+    const Candidate c = candidate(low + 1);
+    first = dissipation(search_.pairs_, c.mixity, search_.before_->adhesion, c.adhesion);
+    return value_.at(high).incremental - spent_.at(high) + first;
+}
+
+double Search::Sweep::bound() const {
+    double least = infinite;
+    for (auto low = value_.begin(), high = std::next(low); high != value_.end(); low = high++)
+        if (high->first > low->first + 1) least = std::min(least, between(low->first, high->first));
+    const std::size_t last = value_.rbegin()->first;
+    return last < ring_.size() ? std::min(least, search_.floor_ + spent_.at(last)) : least;
+}
+
+// Halves the intervals on both sides of the lowest sample until its neighbours are sampled.
+void Search::Sweep::refine_minimum() {
+    while (search_.left_ > 0) {
+        auto lowest = std::next(value_.begin());
+        for (auto it = lowest; it != value_.end(); ++it)
+            if (it->second.incremental < lowest->second.incremental) lowest = it;
+        const std::size_t at = lowest->first, left = std::prev(lowest)->first;
+        const std::size_t right = std::next(lowest) == value_.end() ? at : std::next(lowest)->first;
+        best_at_ = lowest->second.incremental < std::prev(lowest)->second.incremental ? at : 0;
+        if (at - left <= 1 && right - at <= 1) return;
+        if (best_at_ == 0 && at == 1) return;
+        if (at - left > 1) sample(left + (at - left) / 2);
+        if (right - at > 1) sample(at + (right - at) / 2);
+    }
+    stopped_ = true;
+}
+
+void Search::Sweep::close_gap() {
+    while (true) {
+        std::size_t low = 0, high = 0;
+        double least = search_.best_ - search_.tolerance_;
+        for (auto a = value_.begin(), b = std::next(a); b != value_.end(); a = b++) {
+            if (b->first <= a->first + 1) continue;
+            if (const double left = between(a->first, b->first); left < least) {
+                least = left;
+                low = a->first;
+                high = b->first;
+            }
+        }
+        if (high == 0) return;
+        if (search_.left_ <= 0) {
+            stopped_ = true;
+            return;
+        }
+        sample(low + (high - low) / 2);
+    }
+}
+
+void Search::Sweep::run() {
+    sample(0);
+    std::size_t stride = 1;
+    while (ring_.size() / stride > fine) stride *= 2;
+    std::size_t geometric = 1;
+    for (std::size_t n = 1; n <= ring_.size(); ++n) {
+        // Places that do not move with the front, so that their energies are known from earlier steps.
+        const std::size_t place = ring_[n - 1].size() == 1 ? index(ring_[n - 1].front()) : n;
+        const bool wanted = nucleation_ ? n == geometric : n <= 2 || place % stride == 0;
+        if (!wanted && n < ring_.size()) continue;
+        if (search_.left_ <= 0) {
+            stopped_ = true;
+            break;
+        }
+        if (nucleation_) geometric *= 2;
+        sample(n);
+        if (search_.floor_ + spent_.at(n) >= search_.best_) break;
+    }
+    if (value_.size() < 2) return;
+    refine_minimum();
+    if (!nucleation_) close_gap();
+    search_.result_->bound = std::min(search_.result_->bound, nucleation_ ? infinite : bound());
+}
+
+SearchResult Search::run(const State& before, const State& from, double level) {
+    SearchResult result;
+    aim(from.theta);
+    if (size_ == 0.0) {
+        result.words = "no load: nothing to search\n";
+        return result;
+    }
+    before_ = &before;
+    result_ = &result;
+    left_ = problem_.options.search_limit;
+    best_ = level;
+    tolerance_ = problem_.options.search_tolerance * std::max(std::abs(from.ledger.energy()), std::abs(from.ledger.work));
+
+    std::vector<double> nothing(before.adhesion);
+    for (std::size_t p = 0; p < nothing.size(); ++p)
+        if (pairs_.law[p] != nullptr) nothing[p] = 0.0;
+    closed_ = from.closed;
+    const double all = energy(nothing, {}, from.mixity).value;
+    floor_ = std::isfinite(all) ? size_ * size_ * all - before.ledger.energy() : -infinite;
+    closed_ = from.closed;
+
+    const Candidate start{before.adhesion, from.mixity, 0.0};
+    const std::vector<Front> fronts =
+        find_fronts(graph_, pairs_, before.adhesion, toughnesses(pairs_, from.mixity), from.response.jump, seeds);
+    std::vector<Candidate> found;
+    const auto lower = [](const Candidate& a, const Candidate& b) { return a.incremental < b.incremental; };
+    const auto look = [&](const Front& front, const Candidate& base, const char* with) {
+        if (left_ <= 0) return;
+        Sweep sweep(*this, front, base);
+        sweep.run();
+        const std::int64_t pair = front.pairs.front() - graph_.first_pair(front.interface);
+        result.words += text(front.nucleation ? "new crack" : "front", " of interface ", front.interface, " at pair ", pair, with, ": ",
+                             sweep.sampled(), " of ", sweep.rings_swept(), " rings compared", sweep.stopped() ? ", stopped by search_limit" : "");
+        if (front.nucleation)
+            result.words += ", sizes 1, 2, 4 ... and around the lowest";
+        else
+            result.words += text(", the others lie at most ", std::max(0.0, best_ - sweep.bound()), " below the best");
+        if (auto best = sweep.best()) {
+            result.words += text("; lowest at ", sweep.best_at(), ", by ", best->incremental - level, " above the step");
+            found.push_back(std::move(*best));
+        }
+        result.words += "\n";
+    };
+    for (const Front& front : fronts) look(front, start, "");
+    if (fronts.size() > 1) {
+        advance_together(start, fronts, found);
+        // Each front again with the others where they were best.
+        for (int round = 0; round < rounds && !found.empty() && left_ > 0; ++round) {
+            const Candidate base = *std::min_element(found.begin(), found.end(), lower);
+            if (base.incremental >= level) break;
+            for (const Front& front : find_fronts(graph_, pairs_, base.adhesion, toughnesses(pairs_, base.mixity), from.response.jump, 0))
+                if (!front.nucleation) look(front, base, " from the lowest so far");
+            if (std::min_element(found.begin(), found.end(), lower)->incremental >= base.incremental) break;
+        }
+    }
+    std::stable_sort(found.begin(), found.end(), lower);
+    result.starts = std::move(found);
+    return result;
+}
+
+// All fronts of debonded regions together, by 1, 2, 4 ... rings.
+void Search::advance_together(const Candidate& start, std::span<const Front> fronts, std::vector<Candidate>& found) {
+    std::vector<std::vector<std::vector<std::int64_t>>> ring;
+    std::size_t longest = 0;
+    for (const Front& front : fronts)
+        if (!front.nucleation) {
+            ring.push_back(rings(graph_, pairs_, start.adhesion, front));
+            longest = std::max(longest, ring.back().size());
+        }
+    if (ring.size() < 2) return;
+    std::optional<Candidate> lowest;
+    Candidate joint = start;
+    std::size_t reached = 0;
+    for (std::size_t n = 1; reached < longest && left_ > 0; n *= 2) {
+        for (const auto& r : ring)
+            for (std::size_t k = reached; k < std::min(n, r.size()); ++k)
+                for (const std::int64_t p : r[k]) joint.adhesion[index(p)] = 0.0;
+        reached = std::min(n, longest);
+        compare(joint, {}, nullptr);
+        if (!lowest || joint.incremental < lowest->incremental) lowest = joint;
+        if (floor_ + dissipation(pairs_, joint.mixity, before_->adhesion, joint.adhesion) >= best_) break;
+    }
+    result_->words += text("all ", ring.size(), " fronts together: advanced by 1, 2, 4 ... ", reached, " rings\n");
+    if (lowest) found.push_back(std::move(*lowest));
+}
+
+}  // namespace delam

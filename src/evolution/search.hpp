@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A search for states of lower energy than the one that the last step continues to.
+//
+// A candidate is the adhesion before the step with a set R of pairs debonded at once:
+//   I(R) = E(t, z_R) + D(z_before, z_R).
+// Sets grow by rings from every front and from places where a crack may begin (fronts.hpp), from all fronts together, and from each
+// front again with the others where they were best. E falls as R grows and D grows with it. So nothing between two sets R1 < R2 of a sweep
+// lies below  E(R2) + D(R1),  nor anything beyond R below  E_all + D(R),  E_all: everything debonded. A sweep samples rings far apart, then
+// around its minima, then wherever these bounds leave room for a state that is lower by more than search_tolerance.
+//
+// Under a proportional load E(theta) = |theta|^2 E(theta/|theta|): contact without friction and springs are homogeneous. So the energy of a set is
+// computed once in a march.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "evolution/fronts.hpp"
+#include "evolution/state.hpp"
+#include "interface/contact.hpp"
+#include "scene/problem.hpp"
+
+namespace delam {
+
+struct Candidate {
+    std::vector<double> adhesion;  // [pairs]
+    std::vector<double> mixity;    // [pairs] with which it was booked
+    double incremental = 0.0;      // I, F L
+};
+
+struct SearchResult {
+    std::vector<Candidate> starts;  // to minimise from, lowest first
+    std::int64_t candidates = 0;
+    // Lowest I of all candidates, and what no candidate that was left out lies below; infinite: none.
+    double lowest = std::numeric_limits<double>::infinity();
+    double bound = std::numeric_limits<double>::infinity();
+    std::string words;
+};
+
+class Search {
+public:
+    // op: any operator of the scene whose memory may be disturbed; it must outlive the search.
+    Search(const Problem& problem, const PairLaws& pairs, const ContactScene& contact, Monitor& monitor, JumpOperator& op);
+    // from: theta and mixity of the step, and a state of it: its I is `level`.
+    SearchResult run(const State& before, const State& from, double level);
+
+private:
+    struct Energy {
+        double value;  // at the unit load; infinite: nothing balances the load
+        std::vector<double> next_mixity;  // of the pairs of the next ring
+    };
+    class Sweep;
+
+    const Energy& energy(const std::vector<double>& adhesion, std::span<const std::int64_t> next, std::span<const double> known);
+    void aim(std::span<const double> theta);
+    // I of a candidate; counts it.
+    double compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity);
+
+    void advance_together(const Candidate& start, std::span<const Front> fronts, std::vector<Candidate>& found);
+
+    const Problem& problem_;
+    const PairLaws& pairs_;
+    const ContactScene& contact_;
+    Monitor& monitor_;
+    JumpOperator& op_;
+    PairGraph graph_;
+    bool follow_mixity_;
+
+    std::vector<double> direction_;  // theta over its largest entry
+    double size_ = 0.0;
+    std::unordered_map<std::uint64_t, Energy> known_;
+    std::vector<std::uint8_t> closed_;
+    Response response_;
+    // of the step at hand
+    const State* before_ = nullptr;
+    double floor_ = 0.0;      // E_all less the energy before
+    double best_ = 0.0;       // lowest I so far, of the step or a candidate
+    double tolerance_ = 0.0;  // of energies
+    std::int64_t left_ = 0;   // candidates until the limit
+    SearchResult* result_ = nullptr;
+};
+
+}  // namespace delam

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/step_control.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace delam {
+
+namespace {
+
+constexpr int smooth_levels = 2;  // halvings in a row that halve the change: the change is continuous
+
+// Sum of w |z - z_before| in mean weights of a pair.
+double change_in_pairs(const PairLaws& pairs, const State& before, const State& after) {
+    double change = 0.0, weight = 0.0, count = 0.0;
+    for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
+        if (pairs.law[p] == nullptr) continue;
+        change += pairs.weight[p] * std::abs(after.adhesion[p] - before.adhesion[p]);
+        weight += pairs.weight[p];
+        count += 1.0;
+    }
+    return weight > 0.0 ? change * count / weight : 0.0;
+}
+
+Jump describe(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after) {
+    const Ledger &a = before.ledger, &b = after.ledger;
+    Jump jump{after.step, before.time, after.time, b.energy() - a.energy(), b.dissipated - a.dissipated, b.upper - b.increment, 0.0, 0, -1, -1};
+    std::vector<double> changed;
+    for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
+        const auto interface = static_cast<std::size_t>(graph.interface_of(p));
+        if (changed.size() <= interface) changed.resize(interface + 1, 0.0);
+        const double c = pairs.weight[p] * (before.adhesion[p] - after.adhesion[p]);
+        changed[interface] += c;
+        jump.debonded += c;
+    }
+    jump.interface = std::max_element(changed.begin(), changed.end()) - changed.begin();
+    for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
+        if (graph.interface_of(p) != jump.interface || before.adhesion[p] - after.adhesion[p] <= debonded_below) continue;
+        const std::int64_t local = static_cast<std::int64_t>(p) - graph.first_pair(jump.interface);
+        if (jump.first_pair < 0) jump.first_pair = local;
+        jump.last_pair = local;
+    }
+    return jump;
+}
+
+void add(Counts& sum, const Counts& more) {
+    sum.am_iterations += more.am_iterations;
+    sum.contact_iterations_first = sum.displacement_solves == 0 ? more.contact_iterations_first : sum.contact_iterations_first;
+    sum.displacement_solves += more.displacement_solves;
+    sum.contact_iterations += more.contact_iterations;
+    sum.contact_iterations_max = std::max(sum.contact_iterations_max, more.contact_iterations_max);
+    sum.contact_fallbacks += more.contact_fallbacks;
+    sum.linear_iterations += more.linear_iterations;
+    sum.newton_solves += more.newton_solves;
+    sum.debond_moves += more.debond_moves;
+    sum.search_candidates += more.search_candidates;
+    sum.linear_residual = std::max(sum.linear_residual, more.linear_residual);
+}
+
+// An instant to be reached; once computed, with the state there.
+struct Goal {
+    double time;
+    std::unique_ptr<Stepper::Result> reached;  // null: not computed
+    double change = 0.0;
+    int smooth = 0;
+};
+
+}  // namespace
+
+bool controls_steps(const Options& options) {
+    return options.jump_tolerance > 0.0 || options.step_control == "adaptive" || options.mixity_step_tolerance > 0.0;
+}
+
+ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const State& before, Stepper::Result whole,
+                               const Options& options) {
+    const double asked = whole.state.time - before.time;
+    const bool locate = options.jump_tolerance > 0.0;
+    const auto too_long = [&](const Stepper::Result& r) {
+        const Ledger& l = r.state.ledger;
+        const double scale = std::max(std::abs(l.energy()), std::abs(l.work));
+        return (options.step_control == "adaptive" && (!r.converged || l.upper - l.lower > options.step_tolerance * scale)) ||
+               (options.mixity_step_tolerance > 0.0 && r.state.counts.mixity_error > options.mixity_step_tolerance);
+    };
+    ControlledStep out;
+    State at = before;
+    at.step = whole.state.step - 1;
+    const Counts first = whole.state.counts;
+    Counts effort;
+    Ledger sum;  // of the parts
+    bool converged = true;
+    std::int64_t parts = 0, refused = 0;
+
+    std::vector<Goal> goals;
+    const double end = whole.state.time;
+    goals.push_back({end, std::make_unique<Stepper::Result>(std::move(whole)), 0.0, 0});
+    add(effort, first);
+    goals.back().change = change_in_pairs(stepper.pairs(), at, goals.back().reached->state);
+    const auto accept = [&](Goal goal) {
+        State& next = goal.reached->state;
+        sum.lower += next.ledger.lower;
+        sum.increment += next.ledger.increment;
+        sum.upper += next.ledger.upper;
+        sum.increment_lower += next.ledger.increment_lower;
+        converged = converged && goal.reached->converged;
+        ++parts;
+        at = std::move(next);
+        --at.step;  // the parts of a step share its number
+    };
+    while (!goals.empty()) {
+        Goal& goal = goals.back();
+        if (!goal.reached) {
+            goal.reached = std::make_unique<Stepper::Result>(stepper.step(at, goal.time));
+            add(effort, goal.reached->state.counts);
+            goal.change = change_in_pairs(stepper.pairs(), at, goal.reached->state);
+            if (goals.size() > 1) {
+                Goal& parent = goals[goals.size() - 2];
+                const double share = parent.change > 0.0 ? goal.change / parent.change : 0.0;
+                goal.smooth = parent.reached && share > 0.25 && share < 0.75 ? parent.smooth + 1 : 0;
+                if (goal.smooth >= smooth_levels && !too_long(*parent.reached)) {
+                    // The parent's interval is continuous: its end is reached in one part.
+                    goals.pop_back();
+                    accept(std::move(goals.back()));
+                    goals.pop_back();
+                    ++refused;
+                    continue;
+                }
+            }
+        }
+        const double length = goal.time - at.time;
+        const bool jumps = locate && goal.change >= options.jump_size;
+        const bool halve = (jumps && length > options.jump_tolerance * asked) ||
+                           (too_long(*goal.reached) && length > options.smallest_step * asked);
+        const double middle = at.time + 0.5 * length;
+        if (halve && middle > at.time && middle < goal.time) {
+            goals.push_back({middle, nullptr, 0.0, 0});
+            continue;
+        }
+        if (jumps) out.jumps.push_back(describe(stepper.pairs(), graph, at, goal.reached->state));
+        if (jumps) out.jumps.back().step = before.step + 1;
+        Goal done = std::move(goal);
+        goals.pop_back();
+        accept(std::move(done));
+        // What was computed from the start of this part does not hold from its end.
+        for (Goal& other : goals)
+            if (other.reached) {
+                other.reached.reset();
+                ++refused;
+            }
+    }
+    ++at.step;
+    out.result = {std::move(at), converged};
+    State& state = out.result.state;
+    state.ledger.lower = sum.lower;
+    state.ledger.increment = sum.increment;
+    state.ledger.upper = sum.upper;
+    state.ledger.increment_lower = sum.increment_lower;
+    effort.damage_change = state.counts.damage_change;
+    effort.search_margin = state.counts.search_margin;
+    effort.search_gap = state.counts.search_gap;
+    effort.mixity_error = state.counts.mixity_error;
+    effort.backtracks = first.backtracks;
+    effort.revisions = first.revisions;
+    effort.revised_from = first.revised_from;
+    effort.substeps = parts;
+    effort.refused_steps = refused;
+    effort.jumps = static_cast<std::int64_t>(out.jumps.size());
+    for (const Jump& jump : out.jumps) effort.released += jump.released;
+    state.counts = effort;
+    return out;
+}
+
+}  // namespace delam

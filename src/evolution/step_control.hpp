@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A load step in parts: steps that are too long are refused and halved, and the instants at which the state jumps are located by bisection.
+//
+// An interval whose end state differs from its start by less than a jump, or in which half of the change happens in half of the time twice in a
+// row, is continuous. Else it is halved until it is shorter than the tolerance: then the state jumps within it. An energetic
+// jump happens where the energies of two states cross; a local one where the state loses its stability.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "evolution/jump.hpp"
+#include "evolution/stepper.hpp"
+
+namespace delam {
+
+struct ControlledStep {
+    Stepper::Result result;  // ledger and counts of the whole step
+    std::vector<Jump> jumps;
+};
+
+bool controls_steps(const Options& options);
+// whole: the step in one part, already computed from `before`.
+ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const State& before, Stepper::Result whole,
+                               const Options& options);
+
+}  // namespace delam

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/stepper.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "interface/contact_levels.hpp"
+
+namespace delam {
+
+namespace {
+
+constexpr double rounding = 1e-10;     // of the larger of energy and work: two states that differ by less are as good
+constexpr std::size_t most_starts = 2; // candidates of a search that a step is minimised from
+constexpr double promising = 0.5;      // of its dissipation: by how much a candidate may lie above the step and still be relaxed
+
+double scale_of(const Ledger& ledger) { return std::max(std::abs(ledger.energy()), std::abs(ledger.work)); }
+
+}  // namespace
+
+Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), monitor_(monitor) {
+    validate(problem_);
+    const Mesh& mesh = *problem_.mesh;
+    pairs_.dimension = contact_.dimension = mesh.dimension();
+    contact_.limit = problem_.options.contact_limit;
+    contact_.always = problem_.options.contact == "always";
+    for (std::size_t i = 0; i < mesh.interfaces().size(); ++i) {
+        const InterfaceProperties& properties = problem_.interfaces[i];
+        std::optional<Toughness> fixed;
+        if (!properties.bonded && problem_.options.mixity == "auto" && !properties.law->depends_on_mixity()) fixed = properties.law->toughness(0.0);
+        for (const double weight : mesh.interfaces()[i].weight) {
+            pairs_.weight.push_back(weight);
+            pairs_.law.push_back(properties.bonded ? nullptr : &*properties.law);
+            pairs_.fixed.push_back(fixed);
+            contact_.bonded.push_back(properties.bonded ? 1 : 0);
+        }
+        initial_adhesion_.insert(initial_adhesion_.end(), properties.adhesion.begin(), properties.adhesion.end());
+    }
+    contact_.level = contact_levels(mesh.interfaces());
+    ChosenOperator chosen = choose_operator(problem_, monitor_);
+    operator_ = std::move(chosen.op);
+    reduction_ = std::move(chosen.choice);
+    std::vector<std::uint8_t> bonded_rows;
+    for (const std::uint8_t b : contact_.bonded) bonded_rows.insert(bonded_rows.end(), static_cast<std::size_t>(mesh.dimension()), b);
+    lift_ = Lift(*operator_, bonded_rows, bound_rows(problem_), problem_.patterns.size());
+    double largest = 0.0;
+    for (const double c : problem_.prescribed_matrix()) largest = std::max(largest, std::abs(c));
+    for (const std::size_t row : lift_.driven_rows(1e-9 * largest)) {
+        const std::size_t pair = row / static_cast<std::size_t>(mesh.dimension());
+        if (contact_.bonded[pair] != 0)
+            fail(DELAM_ERROR_PROBLEM, "prescribed displacements tear pair ", pair, " apart, whose interface is bonded for ever");
+    }
+}
+
+Minimiser Stepper::minimiser() const {
+    return {*operator_, pairs_, contact_, monitor_, problem_.options.damage_tolerance, problem_.options.minimisation_limit};
+}
+
+Stepper::Result Stepper::initial(double time) {
+    Result result;
+    State& state = result.state;
+    state.time = time;
+    state.theta = problem_.factors(time);
+    state.adhesion = initial_adhesion_;
+    const auto dim = static_cast<std::size_t>(problem_.mesh->dimension());
+    // A notch starts closed: that is where it stays unless something opens it.
+    for (std::size_t p = 0; p < state.adhesion.size(); ++p)
+        state.closed.push_back(contact_.bonded[p] == 0 && state.adhesion[p] == 0.0 && operator_->prescribed_rows()[p * dim] == 0 ? 1 : 0);
+    result.converged = minimiser().displace(state);
+    state.mixity = mixities(pairs_, state.response.jump, std::vector<double>(state.adhesion.size(), 0.0));
+    state.mixity_before = state.mixity;
+    state.loaded = any_jump(pairs_, state.response.jump) ? 1 : 0;
+    book_energies(state);
+    state.memory = operator_->memory();
+    return result;
+}
+
+void Stepper::begin(State& next, const State& before, double time) const {
+    next.time = time;
+    next.theta = problem_.factors(time);
+    next.counts = Counts{};
+    operator_->recall(before.memory);
+}
+
+// Energies of a state at its own mixity; cumulative columns are not touched.
+void Stepper::book_energies(State& state) const {
+    Ledger& ledger = state.ledger;
+    ledger.stored_bulk = state.response.stored_bulk;
+    ledger.load_potential = state.response.load_potential;
+    ledger.stored_interface = stored_energy(pairs_, state.adhesion, state.response.jump);
+    ledger.stored_interface_slides = ledger.stored_interface + stored_slides(pairs_, state.mixity, state.adhesion);
+}
+
+void Stepper::book_step(State& next, const State& before) const {
+    book_energies(next);
+    Ledger& ledger = next.ledger;
+    const Ledger& last = before.ledger;
+    const double dissipated = dissipation(pairs_, next.mixity, before.adhesion, next.adhesion);
+    const double dissipated_before = dissipation(pairs_, next.mixity_before, before.adhesion, next.adhesion);
+    const double change = ledger.energy() - last.energy();
+    ledger.increment = change + dissipated;
+    ledger.increment_lower = change + dissipated_before;
+    std::vector<double> d(next.theta.size());
+    for (std::size_t p = 0; p < d.size(); ++p) d[p] = next.theta[p] - before.theta[p];
+    ledger.lower = dot(d, next.response.conjugate) - lift_.half_quadratic(d, spring_stiffness(pairs_, next.adhesion));
+    ledger.upper = dot(d, before.response.conjugate) + lift_.half_quadratic(d, spring_stiffness(pairs_, before.adhesion));
+    ledger.work = last.work + 0.5 * (ledger.lower + ledger.upper);
+    ledger.dissipated = last.dissipated + dissipated;
+    ledger.dissipated_slides = last.dissipated_slides + dissipation_slides(pairs_, next.mixity, before.adhesion, next.adhesion);
+}
+
+bool Stepper::minimise(State& next, const State& before) const {
+    const bool converged = problem_.options.minimisation == "alternate" ? minimiser().alternate(next, before.adhesion)
+                                                                        : minimiser().accelerate(next, before.adhesion);
+    next.loaded = before.loaded != 0 || any_jump(pairs_, next.response.jump) ? 1 : 0;
+    book_step(next, before);
+    next.memory = operator_->memory();
+    return converged;
+}
+
+double Stepper::lower_excess(const State& state) const {
+    const double scale = scale_of(state.ledger);
+    return scale > 0.0 ? (state.ledger.lower - state.ledger.increment_lower) / scale : 0.0;
+}
+
+Stepper::Result Stepper::step(const State& before, double time, std::span<const std::vector<double>> also) {
+    State start = before;
+    begin(start, before, time);
+    ++start.step;
+    bool converged = true;
+    if (before.loaded == 0) {
+        // Before the first load there is no jump to take the mixity from: the elastic solution of this step gives it.
+        State elastic = start;
+        converged = minimiser().displace(elastic, true);
+        start.counts = elastic.counts;
+        start.mixity = mixities(pairs_, elastic.response.jump, before.mixity);
+        start.mixity_before = start.mixity;
+        start.response = std::move(elastic.response);
+        start.closed = std::move(elastic.closed);
+    } else {
+        start.mixity_before = before.mixity;
+        start.mixity = mixities(pairs_, before.response.jump, before.mixity);
+    }
+    Result best{start, true};
+    best.converged = minimise(best.state, before) && converged;
+    for (const std::vector<double>& adhesion : also) {
+        State other = start;
+        other.counts = best.state.counts;
+        for (std::size_t p = 0; p < adhesion.size(); ++p) other.adhesion[p] = std::min(adhesion[p], before.adhesion[p]);
+        keep_lower(best, std::move(other), before);
+    }
+    if (problem_.options.solution == "energetic") search(best, before, start);
+    return best;
+}
+
+// Minimises from another start and keeps what is lower. All effort is counted.
+void Stepper::keep_lower(Result& best, State other, const State& before) const {
+    const bool converged = minimise(other, before);
+    const Counts counts = other.counts;
+    if (other.ledger.increment < best.state.ledger.increment - rounding * scale_of(best.state.ledger)) best = {std::move(other), converged};
+    best.state.counts = counts;
+}
+
+void Stepper::search(Result& best, const State& before, const State& start) {
+    if (!search_) {
+        twin_ = operator_->twin();
+        search_.emplace(problem_, pairs_, contact_, monitor_, twin_ ? *twin_ : *operator_);
+    }
+    const double level = best.state.ledger.increment;
+    State from = start;
+    from.response = best.state.response;
+    from.closed = best.state.closed;
+    SearchResult found = search_->run(before, from, level);
+    if (!twin_) operator_->recall(before.memory);
+    std::size_t minimised = 0;
+    for (const Candidate& candidate : found.starts) {
+        const double spent = dissipation(pairs_, candidate.mixity, before.adhesion, candidate.adhesion);
+        if (minimised == most_starts || candidate.incremental > level + promising * spent) break;
+        State other = start;
+        other.counts = best.state.counts;
+        other.adhesion = candidate.adhesion;
+        other.mixity = candidate.mixity;
+        ++minimised;
+        keep_lower(best, std::move(other), before);
+    }
+    Counts& counts = best.state.counts;
+    const double kept = best.state.ledger.increment;
+    counts.search_candidates += found.candidates;
+    counts.search_margin = std::isfinite(found.lowest) ? found.lowest - kept : 0.0;
+    counts.search_gap = std::isfinite(found.bound) ? std::max(0.0, kept - found.bound) : 0.0;
+    searched_ = text("step ", best.state.step, " at time ", best.state.time, ": ", found.candidates, " candidates, ", minimised,
+                     " of them minimised from; the kept state lies ", counts.search_margin, " below the lowest candidate\n", found.words);
+}
+
+Stepper::Result Stepper::equilibrate(const State& before, double time, std::span<const double> adhesion) {
+    Result result{before, true};
+    State& next = result.state;
+    begin(next, before, time);
+    if (!adhesion.empty()) next.adhesion.assign(adhesion.begin(), adhesion.end());
+    for (std::size_t p = 0; p < next.adhesion.size(); ++p)
+        if (!(next.adhesion[p] >= 0.0 && next.adhesion[p] <= 1.0))
+            fail(DELAM_ERROR_ARGUMENT, "adhesion of pair ", p, " is ", next.adhesion[p], ", allowed: 0 to 1");
+    result.converged = minimiser().displace(next);
+    book_energies(next);
+    next.memory = operator_->memory();
+    return result;
+}
+
+}  // namespace delam
