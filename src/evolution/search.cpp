@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "delam/delam.h"
+#include "interface/mixity.hpp"
 
 namespace delam {
 
@@ -16,8 +17,10 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t seeds = 2;           // places per interface where a new crack is tried besides the ends of lines
-constexpr std::size_t fine = 64;           // rings that are all sampled; of longer sweeps about as many
+constexpr std::size_t fine = 32;           // rings that are all sampled; of longer sweeps about as many
 constexpr std::size_t most_entries = 1U << 20U;  // energies kept
+constexpr std::size_t largest_zone = 1500; // rows in which sweeps of a condensed scene live
+constexpr std::size_t largest_crack = 32;  // rings of a new crack, and of the zone about it
 constexpr int rounds = 3;                  // of sweeps with the other fronts where they were best
 constexpr double turned = 1e-13;           // of the load's direction: another one
 
@@ -37,19 +40,40 @@ std::uint64_t key_of(std::span<const double> adhesion) {
 
 Search::Search(const Problem& problem, const PairLaws& pairs, const ContactScene& contact, Monitor& monitor, JumpOperator& op)
     : problem_(problem), pairs_(pairs), contact_(contact), monitor_(monitor), op_(op), graph_(problem.mesh->interfaces()),
-      follow_mixity_(problem.options.mixity_rule == "converged") {}
+      follow_mixity_(problem.options.mixity_rule == "converged") {
+    if (auto* condensed = dynamic_cast<Condensed*>(&op)) zone_.emplace(*condensed, pairs, contact);
+}
 
 // Energies are kept for one direction of the load.
-void Search::aim(std::span<const double> theta) {
+void Search::aim(const State& from) {
     size_ = 0.0;
-    for (const double t : theta) size_ = std::max(size_, std::abs(t));
-    std::vector<double> direction(theta.begin(), theta.end());
+    for (const double t : from.theta) size_ = std::max(size_, std::abs(t));
+    std::vector<double> direction(from.theta);
     for (double& d : direction) d /= size_ > 0.0 ? size_ : 1.0;
     bool same = direction.size() == direction_.size() && known_.size() < most_entries;
     for (std::size_t p = 0; p < direction.size() && same; ++p) same = std::abs(direction[p] - direction_[p]) <= turned;
     if (same) return;
+    // E_all costs a solve of its own: a load that turns on its way does without, unless dead forces make its energy negative.
+    const bool first = direction_.empty(), dead = from.ledger.load_potential != 0.0;
     direction_ = std::move(direction);
     known_.clear();
+    unit_floor_ = 0.0;
+    if (size_ == 0.0 || !(first || dead)) return;
+    std::vector<double> nothing(from.adhesion);
+    for (std::size_t p = 0; p < nothing.size(); ++p)
+        if (pairs_.law[p] != nullptr) nothing[p] = 0.0;
+    focused_ = false;
+    closed_ = from.closed;
+    unit_floor_ = energy(nothing, {}, from.mixity).value;
+    if (!std::isfinite(unit_floor_)) unit_floor_ = dead ? -infinite : 0.0;
+}
+
+void Search::focus(std::span<const std::uint8_t> wanted) {
+    if (!zone_) return;
+    std::vector<std::uint8_t> pairs(wanted.begin(), wanted.end());
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+        if (from_->adhesion[p] != before_->adhesion[p]) pairs[p] = 1;
+    focused_ = zone_->focus(*from_, pairs);
 }
 
 const Search::Energy& Search::energy(const std::vector<double>& adhesion, std::span<const std::int64_t> next,
@@ -57,8 +81,22 @@ const Search::Energy& Search::energy(const std::vector<double>& adhesion, std::s
     const std::uint64_t key = key_of(adhesion);
     if (const auto it = known_.find(key); it != known_.end() && (!follow_mixity_ || it->second.next_mixity.size() >= next.size()))
         return it->second;
-    monitor_.progress("search", result_->candidates, 0);
+    monitor_.progress("search", result_ != nullptr ? result_->candidates : 0, 0);
     Energy e{infinite, {}};
+    bool within = focused_;
+    for (std::size_t p = 0; within && p < adhesion.size(); ++p) within = adhesion[p] == from_->adhesion[p] || zone_->inside(p);
+    for (std::size_t i = 0; within && follow_mixity_ && i < next.size(); ++i) within = zone_->inside(index(next[i]));
+    if (within) {
+        if (const std::optional<double> value = zone_->energy(adhesion)) {
+            e.value = *value / (size_ * size_);
+            for (std::size_t i = 0; follow_mixity_ && i < next.size(); ++i) {
+                const auto p = index(next[i]);
+                const Driving y = driving_energy(*pairs_.law[p], zone_->jump(p));
+                e.next_mixity.push_back(y.total() > 0.0 ? mode_mixity(y.normal, y.tangential) : known[p]);
+            }
+        }
+        return known_[key] = std::move(e);
+    }
     try {
         solve_contact(op_, contact_, spring_stiffness(pairs_, adhesion), direction_, closed_, response_, false);
         e.value = response_.stored_bulk + response_.load_potential + stored_energy(pairs_, adhesion, response_.jump);
@@ -87,13 +125,10 @@ double Search::compare(Candidate& candidate, std::span<const std::int64_t> next,
 // The growth of one front, or of a new crack, from a base.
 class Search::Sweep {
 public:
-    Sweep(Search& search, const Front& front, const Candidate& base)
-        : search_(search), base_(base), ring_(rings(search.graph_, search.pairs_, base.adhesion, front)), nucleation_(front.nucleation) {
-        mixity_.resize(ring_.size());
-    }
+    Sweep(Search& search, const Front& front, const Candidate& base);
 
     void run();
-    std::size_t rings_swept() const { return ring_.size(); }
+    std::size_t rings_swept() const { return all_; }
     std::size_t sampled() const { return value_.size() - 1; }
     std::size_t best_at() const { return best_at_; }
     bool stopped() const { return stopped_; }
@@ -121,9 +156,37 @@ private:
     std::map<std::size_t, double> spent_;             // D
     std::vector<std::vector<double>> mixity_;         // B of a ring, from the nearest sample before it
     std::size_t best_at_ = 0;
-    std::size_t end_ = 0;  // the last ring that was worth a look
+    std::size_t all_ = 0;  // rings of the front; those kept may matter and fit
     bool stopped_ = false;
 };
+
+// Keeps the rings whose dissipation alone does not yet exceed what could be gained.
+Search::Sweep::Sweep(Search& search, const Front& front, const Candidate& base)
+    : search_(search), base_(base), ring_(rings(search.graph_, search.pairs_, base.adhesion, front)), nucleation_(front.nucleation),
+      all_(ring_.size()) {
+    double spent = dissipation(search.pairs_, base.mixity, search.before_->adhesion, base.adhesion);
+    std::vector<std::uint8_t> wanted(base.adhesion.size(), 0);
+    for (std::size_t p = 0; p < wanted.size(); ++p)
+        if (base.adhesion[p] != search.before_->adhesion[p]) wanted[p] = 1;
+    auto rows = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}));
+    std::size_t keep = 0;
+    while (keep < ring_.size() && (keep < 2 || search.floor_ + spent < search.best_)) {
+        rows += ring_[keep].size();
+        if (keep > 0 && (search.zone_ && rows * static_cast<std::size_t>(search.pairs_.dimension) > largest_zone)) break;
+        if (nucleation_ && keep == largest_crack) break;
+        for (const std::int64_t p : ring_[keep]) {
+            const Toughness t = search.pairs_.toughness(index(p), base.mixity[index(p)]);
+            spent += search.pairs_.weight[index(p)] * (t.total - dissipated(t, base.adhesion[index(p)]));
+            wanted[index(p)] = 1;
+        }
+        ++keep;
+    }
+    if (keep < ring_.size())
+        for (const std::int64_t p : ring_[keep]) wanted[index(p)] = 1;  // whose mixity may be asked for
+    ring_.resize(keep);
+    mixity_.resize(ring_.size());
+    search.focus(wanted);
+}
 
 Candidate Search::Sweep::candidate(std::size_t n) const {
     Candidate c = base_;
@@ -163,7 +226,7 @@ double Search::Sweep::bound() const {
     for (auto low = value_.begin(), high = std::next(low); high != value_.end(); low = high++)
         if (high->first > low->first + 1) least = std::min(least, between(low->first, high->first));
     const std::size_t last = value_.rbegin()->first;
-    return last < ring_.size() ? std::min(least, search_.floor_ + spent_.at(last)) : least;
+    return last < all_ ? std::min(least, search_.floor_ + spent_.at(last)) : least;
 }
 
 // Halves the intervals on both sides of the lowest sample until its neighbours are sampled.
@@ -228,30 +291,27 @@ void Search::Sweep::run() {
     search_.result_->bound = std::min(search_.result_->bound, nucleation_ ? infinite : bound());
 }
 
-SearchResult Search::run(const State& before, const State& from, double level) {
+SearchResult Search::run(const State& before, const State& from, std::span<const double> mixity) {
     SearchResult result;
-    aim(from.theta);
+    before_ = &before;
+    from_ = &from;
+    result_ = nullptr;
+    aim(from);
     if (size_ == 0.0) {
         result.words = "no load: nothing to search\n";
         return result;
     }
-    before_ = &before;
     result_ = &result;
     left_ = problem_.options.search_limit;
+    const double level = from.ledger.increment;
     best_ = level;
     tolerance_ = problem_.options.search_tolerance * std::max(std::abs(from.ledger.energy()), std::abs(from.ledger.work));
-
-    std::vector<double> nothing(before.adhesion);
-    for (std::size_t p = 0; p < nothing.size(); ++p)
-        if (pairs_.law[p] != nullptr) nothing[p] = 0.0;
-    closed_ = from.closed;
-    const double all = energy(nothing, {}, from.mixity).value;
-    floor_ = std::isfinite(all) ? size_ * size_ * all - before.ledger.energy() : -infinite;
+    floor_ = size_ * size_ * unit_floor_ - before.ledger.energy();
     closed_ = from.closed;
 
-    const Candidate start{before.adhesion, from.mixity, 0.0};
+    const Candidate start{before.adhesion, {mixity.begin(), mixity.end()}, 0.0};
     const std::vector<Front> fronts =
-        find_fronts(graph_, pairs_, before.adhesion, toughnesses(pairs_, from.mixity), from.response.jump, seeds);
+        find_fronts(graph_, pairs_, before.adhesion, toughnesses(pairs_, start.mixity), from.response.jump, seeds);
     std::vector<Candidate> found;
     const auto lower = [](const Candidate& a, const Candidate& b) { return a.incremental < b.incremental; };
     const auto look = [&](const Front& front, const Candidate& base, const char* with) {

@@ -9,12 +9,16 @@
 // around its minima, then wherever these bounds leave room for a state that is lower by more than search_tolerance.
 //
 // Under a proportional load E(theta) = |theta|^2 E(theta/|theta|): contact without friction and springs are homogeneous. So the energy of a set is
-// computed once in a march.
+// kept for later steps.
+//
+// Where the operator is condensed the energies come from a zone about each front (zone_energies.hpp), with the contact outside as it is in the
+// step; else from whole displacement solves. They choose what is minimised from; the energy of a result never comes from here.
 #pragma once
 
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -22,6 +26,7 @@
 #include "base/monitor.hpp"
 #include "evolution/fronts.hpp"
 #include "evolution/state.hpp"
+#include "evolution/zone_energies.hpp"
 #include "interface/contact.hpp"
 #include "scene/problem.hpp"
 
@@ -46,8 +51,8 @@ class Search {
 public:
     // op: any operator of the scene whose memory may be disturbed; it must outlive the search.
     Search(const Problem& problem, const PairLaws& pairs, const ContactScene& contact, Monitor& monitor, JumpOperator& op);
-    // from: theta and mixity of the step, and a state of it: its I is `level`.
-    SearchResult run(const State& before, const State& from, double level);
+    // from: the step as far as it is known, booked; mixity: that of its start.
+    SearchResult run(const State& before, const State& from, std::span<const double> mixity);
 
 private:
     struct Energy {
@@ -57,7 +62,9 @@ private:
     class Sweep;
 
     const Energy& energy(const std::vector<double>& adhesion, std::span<const std::int64_t> next, std::span<const double> known);
-    void aim(std::span<const double> theta);
+    void aim(const State& from);
+    // Lets energies of states come from a zone about these pairs.
+    void focus(std::span<const std::uint8_t> wanted);
     // I of a candidate; counts it.
     double compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity);
 
@@ -70,14 +77,18 @@ private:
     JumpOperator& op_;
     PairGraph graph_;
     bool follow_mixity_;
+    std::optional<ZoneEnergies> zone_;  // where the operator is condensed
+    bool focused_ = false;
 
     std::vector<double> direction_;  // theta over its largest entry
     double size_ = 0.0;
     std::unordered_map<std::uint64_t, Energy> known_;
+    double unit_floor_ = 0.0;  // E_all at the unit load; 0 where it was not computed for this direction
     std::vector<std::uint8_t> closed_;
     Response response_;
     // of the step at hand
     const State* before_ = nullptr;
+    const State* from_ = nullptr;
     double floor_ = 0.0;      // E_all less the energy before
     double best_ = 0.0;       // lowest I so far, of the step or a candidate
     double tolerance_ = 0.0;  // of energies

@@ -167,21 +167,18 @@ void Stepper::search(Result& best, const State& before, const State& start) {
         twin_ = operator_->twin();
         search_.emplace(problem_, pairs_, contact_, monitor_, twin_ ? *twin_ : *operator_);
     }
-    const double level = best.state.ledger.increment;
-    State from = start;
-    from.response = best.state.response;
-    from.closed = best.state.closed;
-    SearchResult found = search_->run(before, from, level);
-    if (!twin_) operator_->recall(before.memory);
+    const State from = best.state;
+    const double level = from.ledger.increment;
+    SearchResult found = search_->run(before, from, start.mixity);
+    if (!twin_) operator_->recall(from.memory);
     std::size_t minimised = 0;
     for (const Candidate& candidate : found.starts) {
         const double spent = dissipation(pairs_, candidate.mixity, before.adhesion, candidate.adhesion);
         if (minimised == most_starts || candidate.incremental > level + promising * spent) break;
-        State other = start;
-        other.counts = best.state.counts;
+        ++minimised;
+        State other = best.state;
         other.adhesion = candidate.adhesion;
         other.mixity = candidate.mixity;
-        ++minimised;
         keep_lower(best, std::move(other), before);
     }
     Counts& counts = best.state.counts;

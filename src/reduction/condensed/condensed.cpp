@@ -258,9 +258,14 @@ void Condensed::condense_inner() {
     zone_ = std::make_unique<Zone>(inner_->energy(), std::move(rows), std::move(floating));
 }
 
-Zone& Condensed::zone(const Springs& springs, std::span<const std::uint8_t> wanted) {
+Zone& Condensed::zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) {
     std::vector<std::uint8_t> unknowns(always_.size(), 0);
     bool inside = covers(springs);
+    const auto rows = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}));
+    if (tight && inside && zone_unknowns_.size() > 2 * rows + 128) {
+        age_.assign(age_.size(), forgotten);
+        inside = false;
+    }
     for (std::size_t r = 0; r < wanted.size(); ++r) {
         if (wanted[r] == 0) continue;
         for (const auto& [i, n] : bulk_->rows()[r].unknowns) {

@@ -31,7 +31,8 @@ public:
     void recall(std::span<const double> memory) override;
 
     // For minimisers that work within the zone: makes all rows in `rows` part of it, with the other unknowns at these springs.
-    Zone& zone(const Springs& springs, std::span<const std::uint8_t> wanted);
+    // tight: a zone that is much larger than what is wanted is chosen anew.
+    Zone& zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight = false);
     // Jump rows of the zone, in its order.
     const std::vector<std::int64_t>& zone_rows() const { return zone_rows_; }
     // All rows, forces and energies from a zone solution under these springs; none: no unknown moves.
