@@ -97,7 +97,7 @@ int32_t delam_law_respond(const delam_law* law, int32_t dimension, int64_t count
             const double* u = jump + i * dimension;
             double driving = 0.5 * p.normal_stiffness * u[0] * u[0];
             for (std::int32_t d = 1; d < dimension; ++d) driving += 0.5 * p.tangential_stiffness * u[d] * u[d];
-            const double zeta = damage_minimiser(p.toughness(mixity[i]), driving, adhesion_old[i]);
+            const double zeta = p.minimiser(p.toughness(mixity[i]), driving, adhesion_old[i]);
             adhesion[i] = zeta;
             for (std::int32_t d = 0; d < dimension && traction != nullptr; ++d) {
                 traction[i * dimension + d] = zeta * (d == 0 ? p.normal_stiffness : p.tangential_stiffness) * u[d];

@@ -8,7 +8,6 @@
 
 #include "base/error.hpp"
 #include "delam/delam.h"
-#include "interface/mixity.hpp"
 
 namespace delam {
 
@@ -33,21 +32,14 @@ constexpr Parameter parameters[] = {
 
 constexpr double rounding = 1e-12;  // by how much, relatively, Gc may fall short of Go
 
-double onset_at(const Law& law, double mixity) {
-    return interaction(law.normal_onset, law.tangential_onset, law.onset_exponent_1, law.onset_exponent_2, mixity);
-}
-double total_at(const Law& law, double mixity) {
-    return interaction(law.normal_toughness, law.tangential_toughness, law.toughness_exponent_1,
-                       law.toughness_exponent_2, mixity);
-}
-
 // The natural coordinate of a mixity is x = ln(psi^2), B = 1/(1+exp(-x)): either toughness runs from one asymptote to
 // the other around its own crossing psi^2 = G_t/G_n, over a width of one over the exponents. The range is what
 // doubles can tell.
 double mixity_of(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 double excess(const Law& law, double x) {
     const double b = mixity_of(x);
-    return std::log(total_at(law, b) / onset_at(law, b));
+    const double onset = toughness_at(law.criterion, law.onset_modes(), b);
+    return std::log(toughness_at(law.criterion, law.total_modes(), b) / onset);
 }
 
 // Smallest ln(Gc/Go) over the mixities between the pure modes: where, how much. Sampled evenly in B, and around both
@@ -126,52 +118,65 @@ void Law::validate() const {
     const auto [x, value] = least_excess(*this);
     if (value >= -rounding) return;
     const double b = mixity_of(x);
-    fail(DELAM_ERROR_PROBLEM, "law: toughness ", total_at(*this, b), " < onset ", onset_at(*this, b),
-         " at mixity B = ", b,
+    fail(DELAM_ERROR_PROBLEM, "law: toughness ", toughness_at(criterion, total_modes(), b), " < onset ",
+         toughness_at(criterion, onset_modes(), b), " at mixity B = ", b,
          " although the pure modes are fine: Gc(B) >= Go(B) is needed for every B in [0,1]; change the exponents");
 }
 
 bool Law::depends_on_mixity() const {
-    const bool linear = onset_exponent_1 == 1.0 && onset_exponent_2 == 1.0 && toughness_exponent_1 == 1.0 &&
-                        toughness_exponent_2 == 1.0;
-    return !linear || normal_onset != tangential_onset || normal_toughness != tangential_toughness;
+    return delam::depends_on_mixity(criterion, onset_modes()) || delam::depends_on_mixity(criterion, total_modes());
+}
+
+Modes Law::onset_modes() const { return {normal_onset, tangential_onset, onset_exponent_1, onset_exponent_2}; }
+Modes Law::total_modes() const {
+    return {normal_toughness, tangential_toughness, toughness_exponent_1, toughness_exponent_2};
 }
 
 Toughness Law::toughness(double mixity) const {
-    const double onset = onset_at(*this, mixity);
-    return {onset, std::max(onset, total_at(*this, mixity))};
+    const double onset = toughness_at(criterion, onset_modes(), mixity);
+    return {onset, std::max(onset, toughness_at(criterion, total_modes(), mixity)), mixity};
 }
 
-double dissipated(const Toughness& t, double zeta) {
-    return t.total * ((1.0 - zeta) * (t.onset / (t.onset * (1.0 - zeta) + t.total * zeta)));
+ToughnessSlope Law::toughness_slope(double mixity) const {
+    return {toughness_slope_at(criterion, onset_modes(), mixity), toughness_slope_at(criterion, total_modes(), mixity)};
 }
 
-double stored_slides(const Toughness& t, double zeta) {
-    return -(t.total - t.onset) * (zeta * (1.0 - zeta) * (t.total / (t.onset * (1.0 - zeta) + t.total * zeta)));
+double Law::least_onset() const { return std::min(normal_onset, tangential_onset); }
+
+double Law::dissipated(const Toughness& t, double zeta) const {
+    return std::visit([&](const auto& shape) { return shape.dissipated(t, zeta); }, softening);
 }
 
-// zeta = (Gc sqrt(Go/Y) - Go)/D on the softening branch.
-double damage_slope(const Toughness& t, double driving, double zeta_old) {
-    const double zeta = damage_minimiser(t, driving, zeta_old);
-    if (!(zeta > 0.0 && zeta < zeta_old)) return 0.0;
-    return -0.5 * t.total * std::sqrt(t.onset / driving) / ((t.total - t.onset) * driving);
+double Law::stored_slides(const Toughness& t, double zeta) const {
+    return std::visit([&](const auto& shape) { return shape.stored_slides(t, zeta); }, softening);
 }
 
-// With s = sqrt(Go/Y) the stationary point (Gc s - Go)/D is a difference of close numbers over a small one when D is
-// small beside Go. Multiplied by Gc s + Go it becomes
-//
-//     zeta = (Gc^2/Go - Y) Go^2 / (D Y (Gc s + Go)),     Gc^2/Go - Y = (Gc - Y) + Gc D/Go,
-//
-// in which the only difference, Gc - Y, is exact where it matters. Written in multiples of Go, free of units.
-double damage_minimiser(const Toughness& t, double driving, double zeta_old) {
-    const double d = (t.total - t.onset) / t.onset;
-    if (!(d > 0.0)) return driving < t.total ? zeta_old : 0.0;
-    if (driving <= t.onset) return zeta_old;
-    const double total = t.total / t.onset;
-    const double y = driving / t.onset;
-    const double beyond = (t.total - driving) / t.onset + total * d;
-    if (!(beyond > 0.0)) return 0.0;
-    return std::min(zeta_old, beyond / (d * y * (total / std::sqrt(y) + 1.0)));
+double Law::driving(const Toughness& t, double zeta) const {
+    return std::visit([&](const auto& shape) { return shape.driving(t, zeta); }, softening);
+}
+
+double Law::driving_slope(const Toughness& t, double zeta) const {
+    return std::visit([&](const auto& shape) { return shape.driving_slope(t, zeta); }, softening);
+}
+
+double Law::minimiser(const Toughness& t, double driving, double zeta_old) const {
+    return std::visit([&](const auto& shape) { return shape.minimiser(t, driving, zeta_old); }, softening);
+}
+
+double Law::slope(const Toughness& t, double driving, double zeta_old) const {
+    return std::visit([&](const auto& shape) { return shape.slope(t, driving, zeta_old); }, softening);
+}
+
+// g = Go G(Gc/Go, zeta) has degree one in the toughnesses: with a = dg/dGc, dg/dGo = (g - Gc a)/Go.
+double Law::dissipated_slope_mixity(double mixity, double zeta) const {
+    const Toughness t = toughness(mixity);
+    const ToughnessSlope by_mixity = toughness_slope(mixity);
+    return std::visit(
+        [&](const auto& shape) {
+            const double share = shape.total_share(t, zeta);
+            return share * by_mixity.total + (shape.dissipated(t, zeta) - t.total * share) / t.onset * by_mixity.onset;
+        },
+        softening);
 }
 
 }  // namespace delam

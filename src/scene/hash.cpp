@@ -62,9 +62,11 @@ void add_law(Fnv& fnv, const Law& law) {
     for (const double parameter :
          {law.normal_stiffness, law.tangential_stiffness, law.normal_onset, law.tangential_onset, law.normal_toughness,
           law.tangential_toughness, law.onset_exponent_1, law.onset_exponent_2, law.toughness_exponent_1,
-          law.toughness_exponent_2}) {
+          law.toughness_exponent_2, law.gradient}) {
         fnv.add(parameter);
     }
+    fnv.add(static_cast<std::int64_t>(law.criterion));
+    fnv.add(static_cast<std::int64_t>(law.softening.index()));
 }
 
 void add_loads(Fnv& fnv, const Problem& problem) {
