@@ -16,18 +16,15 @@
 #include <variant>
 
 #include "interface/criterion.hpp"
-#include "interface/linear_softening.hpp"
+#include "interface/softening.hpp"
 #include "interface/toughness.hpp"
 
 namespace delam {
 
-// The shapes; each has the members of LinearSoftening, and their index is the kind of the law.
-using Softening = std::variant<LinearSoftening>;
-
 struct Law {
     double normal_stiffness = 0.0;      // k_n, F/L3
     double tangential_stiffness = 0.0;  // k_t
-    double normal_onset = 0.0;          // G^o_n, F/L
+    double normal_onset = 0.0;          // G^o_n, F/L; none of Griffith's law, nor of one that the host gives
     double tangential_onset = 0.0;
     double normal_toughness = 0.0;  // G^c_n
     double tangential_toughness = 0.0;
@@ -39,13 +36,18 @@ struct Law {
     Criterion criterion = Criterion::valoroso_champaney;
     Softening softening;
 
-    // Sets a parameter by its public name (delam_law_set); false: unknown name.
+    // Sets a number by its public name (delam_law_set), whatever its value; false: the law has no such number.
     bool set(const std::string& key, double value);
-    // Throws Error(DELAM_ERROR_PROBLEM) naming the parameter, its value and range, or the mixity where Gc(B) < Go(B).
+    // Another criterion starts with its own exponents, 2.
+    void set_criterion(Criterion chosen);
+    // Throws Error(DELAM_ERROR_PROBLEM) naming the parameter, its value and range, or the mixity where Gc(B) < Go(B),
+    // or where the callbacks of the host contradict each other.
     void validate() const;
     // False: Go and Gc are the same at every mixity.
     bool depends_on_mixity() const;
-    // Go and Gc as the criterion needs them.
+    const char* kind() const { return softening_names[softening.index()]; }
+    const HostSoftening* host() const { return std::get_if<HostSoftening>(&softening); }
+    // Go and Gc as the criterion needs them; not for laws given by the host.
     Modes onset_modes() const;
     Modes total_modes() const;
 
@@ -58,7 +60,8 @@ struct Law {
     double dissipated(const Toughness& t, double zeta) const;     // g >= 0
     double stored_slides(const Toughness& t, double zeta) const;  // f <= 0
     // Y(zeta) = -dg/dzeta, what it takes to damage further from zeta; nonincreasing in zeta. Its slope is
-    // -g'' <= 0; at a corner of the traction-jump curve that of the more damaged side.
+    // -g'' <= 0; at a corner of the traction-jump curve that of the more damaged side. Both are infinite where no
+    // driving energy suffices (exponential, zeta = 0).
     double driving(const Toughness& t, double zeta) const;
     double driving_slope(const Toughness& t, double zeta) const;
     // argmin of zeta Y + g over 0 <= zeta <= zeta_old, the smallest where there are several, and its derivative by

@@ -65,8 +65,18 @@ void add_law(Fnv& fnv, const Law& law) {
           law.toughness_exponent_2, law.gradient}) {
         fnv.add(parameter);
     }
-    fnv.add(static_cast<std::int64_t>(law.criterion));
-    fnv.add(static_cast<std::int64_t>(law.softening.index()));
+    fnv.add(std::string(name_of(law.criterion)));
+    fnv.add(std::string(law.kind()));
+    const PolylineSoftening* polyline = std::get_if<TrapezoidalSoftening>(&law.softening);
+    if (polyline == nullptr) polyline = std::get_if<TabulatedSoftening>(&law.softening);
+    if (polyline != nullptr) {
+        fnv.add(static_cast<std::int64_t>(polyline->corners().size()));
+        for (const PolylineSoftening::Corner& corner : polyline->corners()) {
+            fnv.add(corner.xi);
+            fnv.add(corner.s);
+        }
+    }
+    if (const HostSoftening* host = law.host()) fnv.add(host->name);
 }
 
 void add_loads(Fnv& fnv, const Problem& problem) {
