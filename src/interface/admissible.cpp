@@ -83,15 +83,15 @@ std::pair<double, double> least_excess(const Law& law) {
 }  // namespace
 
 void require_admissible(const Law& law) {
-    if (law.normal_toughness < law.normal_onset * (1.0 - rounding))
-        fail(DELAM_ERROR_PROBLEM, "law: normal_toughness ", law.normal_toughness, " < normal_onset ", law.normal_onset);
-    if (law.tangential_toughness < law.tangential_onset * (1.0 - rounding))
-        fail(DELAM_ERROR_PROBLEM, "law: tangential_toughness ", law.tangential_toughness, " < tangential_onset ",
-             law.tangential_onset);
+    const Modes onset = law.onset_modes(), total = law.total_modes();
+    if (total.normal < onset.normal * (1.0 - rounding))
+        fail(DELAM_ERROR_PROBLEM, "law: normal_toughness ", total.normal, " < normal_onset ", onset.normal);
+    if (total.tangential < onset.tangential * (1.0 - rounding))
+        fail(DELAM_ERROR_PROBLEM, "law: tangential_toughness ", total.tangential, " < tangential_onset ",
+             onset.tangential);
 
     // G(B) grows with G_n and G_t, so with the same exponents on both sides the pure modes decide. With different ones
     // Gc may dip below Go in between.
-    const Modes onset = law.onset_modes(), total = law.total_modes();
     if (onset.first == total.first && onset.second == total.second) return;
     const auto [x, value] = least_excess(law);
     if (value >= -rounding) return;

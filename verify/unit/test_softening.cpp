@@ -79,21 +79,23 @@ START_TEST(energy) {
         for (int i = 1; i < n; ++i) {
             const double low = (i - 1.0) / n, z = i / static_cast<double>(n), high = (i + 1.0) / n;
             const double y = law.driving(t, z);
-            ck_assert_msg(y <= law.driving(t, low) * (1 + 1e-13) && y >= law.driving(t, high) * (1 - 1e-13), "%s", name);
+            ck_assert_msg(y <= law.driving(t, low) * (1 + 1e-13), "%s", name);
+            ck_assert_msg(y >= law.driving(t, high) * (1 - 1e-13), "%s", name);
             // Convex: the chord's slope lies between those of its ends.
             const double chord = (law.dissipated(t, low) - law.dissipated(t, z)) * n, slack = 1e-11 * t.total;
-            ck_assert_msg(chord >= y - slack && chord <= law.driving(t, low) + slack, "%s, zeta %g: %g, %g", name, z, chord, y);
+            ck_assert_msg(chord >= y - slack && chord <= law.driving(t, low) + slack, "%s, zeta %g: %g, %g", name, z,
+                          chord, y);
             ck_assert(law.stored_slides(t, z) <= 1e-15 * t.total);
-            ck_assert_msg(std::abs(law.stored_slides(t, z) - (law.dissipated(t, z) - t.total * (1.0 - z))) <= 1e-14 * t.total,
-                          "%s", name);
+            const double other_split = law.dissipated(t, z) - t.total * (1.0 - z);
+            ck_assert_msg(std::abs(law.stored_slides(t, z) - other_split) <= 1e-14 * t.total, "%s", name);
             const double h = 1e-5 * z;
             const double left = (y - law.driving(t, z - h)) / h, right = (law.driving(t, z + h) - y) / h;
             const double slope = law.driving_slope(t, z);
             ck_assert(slope <= 0.0);
             if (std::abs(left - right) <= 1e-3 * std::abs(left)) {
                 const double middle = 0.5 * (left + right);
-                ck_assert_msg(std::abs(slope - middle) <= 1e-6 * std::abs(slope) + 1e-9 * t.onset / z, "%s, zeta %g: %.12g, %.12g",
-                              name, z, slope, middle);
+                ck_assert_msg(std::abs(slope - middle) <= 1e-6 * std::abs(slope) + 1e-9 * t.onset / z,
+                              "%s, zeta %g: %.12g, %.12g", name, z, slope, middle);
             }
         }
     });
@@ -123,14 +125,15 @@ START_TEST(inverse) {
 }
 END_TEST
 
-// First loading with stiffness k: peak sqrt(2 k Go) at the onset, area Gc. On x = jump over onset jump the trapezoid rule
-// on 200,000 points errs by 1e-9 where the curve is smooth, by a step's part at a drop.
+// First loading with stiffness k: peak sqrt(2 k Go) at the onset, area Gc. The midpoint rule on 200,000 steps errs by
+// 1e-9 where the curve is smooth, by a step's part at a drop.
 START_TEST(traction) {
     constexpr double k = 125e9;
     everywhere([&](const char* name, const Law& law, const Toughness& t) {
         const double onset_jump = std::sqrt(2.0 * t.onset / k), peak = std::sqrt(2.0 * k * t.onset);
         const double just_before = onset_jump * (1.0 - 1e-9);
-        ck_assert_msg(close(law.minimiser(t, 0.5 * k * just_before * just_before, 1.0) * k * just_before, peak, 1e-8), "%s", name);
+        const double adhesion = law.minimiser(t, 0.5 * k * just_before * just_before, 1.0);
+        ck_assert_msg(close(adhesion * k * just_before, peak, 1e-8), "%s", name);
         const bool endless = std::isinf(law.driving(t, 0.0));
         const double last = std::sqrt(2.0 * law.driving(t, endless ? 1e-15 : 0.0) / k) * 1.0001;
         constexpr int n = 200000;
@@ -162,8 +165,8 @@ START_TEST(towards_griffith) {
                 for (const double z : {0.1, 0.5, 0.9}) {
                     ck_assert_msg(std::abs(law.dissipated(t, z) - (1.0 - z)) <= 2.0 * d, "%s", named.name.c_str());
                     const double y = law.driving(t, z);
-                    ck_assert_msg(y >= 1.0 && y <= 1.0 + 20.0 * d, "%s, D = 2^-%d: Y(%g) = 1 + %g", named.name.c_str(), k, z,
-                                  y - 1.0);
+                    ck_assert_msg(y >= 1.0 && y <= 1.0 + 20.0 * d, "%s, D = 2^-%d: Y(%g) = 1 + %g",
+                                  named.name.c_str(), k, z, y - 1.0);
                 }
             }
             const Toughness griffith{2.0, 2.0, 0.0};
@@ -192,7 +195,8 @@ START_TEST(same_law) {
                 ck_assert(close(other.dissipated(t, z), bilinear.dissipated(t, z), 1e-13));
                 ck_assert(close(other.driving(t, z), y, 1e-14));
                 ck_assert(close(other.driving_slope(t, z), bilinear.driving_slope(t, z), 1e-13));
-                ck_assert(std::abs(other.minimiser(t, y * 1.001, 1.0) - bilinear.minimiser(t, y * 1.001, 1.0)) <= 1e-13);
+                const double least = bilinear.minimiser(t, y * 1.001, 1.0);
+                ck_assert(std::abs(other.minimiser(t, y * 1.001, 1.0) - least) <= 1e-13);
                 ck_assert(close(other.dissipated_slope_mixity(b, z), bilinear.dissipated_slope_mixity(b, z), 1e-12));
             }
         }
@@ -211,7 +215,8 @@ START_TEST(mixity_slopes) {
                                          named.law.dissipated(named.law.toughness(b - h), z);
                         const double slope = named.law.dissipated_slope_mixity(b, z);
                         ck_assert_msg(std::abs(slope - g / (2.0 * h)) <= 1e-6 * named.law.toughness(b).total,
-                                      "%s, B %g, zeta %g: %.12g, %.12g", named.name.c_str(), b, z, slope, g / (2.0 * h));
+                                      "%s, B %g, zeta %g: %.12g, %.12g", named.name.c_str(), b, z, slope,
+                                      g / (2.0 * h));
                     }
 }
 END_TEST
