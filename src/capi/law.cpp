@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "interface/law.hpp"
 
-#include <cmath>
+#include <cstring>
 #include <string>
+#include <utility>
 
 #include "capi/handles.hpp"
+#include "interface/law_parameters.hpp"
 
 namespace {
 
@@ -19,6 +21,30 @@ void require_fraction(const double* values, std::int64_t count, const char* name
     }
 }
 
+void create(const delam_context& context, Softening shape, delam_law** out) {
+    auto law = std::make_unique<delam_law>();
+    law->context = context.context;
+    law->core = std::make_shared<Law>();
+    law->core->softening = std::move(shape);
+    *out = law.release();
+}
+
+// The parameter of this name and type that the law has with its kind and criterion.
+const LawParameter& require_parameter(const Law& law, const std::string& key, const std::string& type) {
+    const LawParameter* found = find_parameter(law, key);
+    if (found != nullptr && found->type == type) return *found;
+    const std::string known = known_parameters(law, type);
+    for (const LawParameter& p : law_parameters()) {
+        if (key != p.key || type != p.type) continue;
+        if (((p.kinds >> law.softening.index()) & 1u) != 0)
+            fail(DELAM_ERROR_ARGUMENT, "law parameter '", key, "' does not belong to criterion ",
+                 name_of(law.criterion), "; known are ", known);
+        fail(DELAM_ERROR_ARGUMENT, "law parameter '", key, "' does not belong to kind ", law.kind(), "; known are ",
+             known.empty() ? "none" : known);
+    }
+    fail(DELAM_ERROR_ARGUMENT, "law parameter '", key, "' is not known; known are ", known.empty() ? "none" : known);
+}
+
 }  // namespace
 
 int32_t delam_law_create(delam_context* context, const char* kind, delam_law** out) {
@@ -26,35 +52,89 @@ int32_t delam_law_create(delam_context* context, const char* kind, delam_law** o
     return guard(context, [&] {
         require_pointer(out, "out");
         require_pointer(kind, "kind");
-        if (std::string(kind) != "piecewise-linear") {
-            fail(DELAM_ERROR_ARGUMENT, "kind = '", kind, "' is not known; known is piecewise-linear");
+        Softening shape;
+        if (!softening_of(kind, shape)) {
+            std::string known;
+            for (const char* name : softening_names) known += (known.empty() ? "" : ", ") + std::string(name);
+            fail(DELAM_ERROR_ARGUMENT, "kind = '", kind, "' is not known; known are ", known);
         }
-        auto law = std::make_unique<delam_law>();
-        law->context = context->context;
-        law->core = std::make_shared<Law>();
-        *out = law.release();
+        if (std::holds_alternative<HostSoftening>(shape))
+            fail(DELAM_ERROR_ARGUMENT, "kind = 'host' needs its callbacks: delam_law_create_host");
+        create(*context, std::move(shape), out);
+    });
+}
+
+int32_t delam_law_create_host(delam_context* context, const char* name, delam_adhesion_callback adhesion,
+                              delam_dissipation_callback dissipation, void* user, delam_law** out) {
+    if (out != nullptr) *out = nullptr;
+    return guard(context, [&] {
+        require_pointer(out, "out");
+        require_pointer(name, "name");
+        if (*name == '\0') fail(DELAM_ERROR_ARGUMENT, "name is empty");
+        if (adhesion == nullptr) fail(DELAM_ERROR_ARGUMENT, "adhesion is NULL");
+        if (dissipation == nullptr) fail(DELAM_ERROR_ARGUMENT, "dissipation is NULL");
+        create(*context, HostSoftening{name, adhesion, dissipation, user}, out);
     });
 }
 
 int32_t delam_law_set(delam_law* law, const char* key, double value) {
     return guard(law, [&] {
         require_pointer(key, "key");
-        if (!(value > 0.0) || !std::isfinite(value)) {
-            // A wrong key is told before a wrong value.
-            if (Law probe; probe.set(key, 1.0)) {
-                fail(DELAM_ERROR_ARGUMENT, "law parameter '", key, "' = ", value, " must be finite and > 0");
-            }
-        }
+        const LawParameter& parameter = require_parameter(*law->core, key, "real");
+        if (!parameter.allows(value))
+            fail(DELAM_ERROR_ARGUMENT, "law parameter '", key, "' = ", value, " must be ", parameter.range);
         Law changed = *law->core;
-        if (!changed.set(key, value)) {
-            fail(DELAM_ERROR_ARGUMENT, "law parameter '", key,
-                 "' is not known; known are normal_stiffness, tangential_stiffness, "
-                 "normal_onset, tangential_onset, normal_toughness, tangential_toughness, onset_exponent_1, "
-                 "onset_exponent_2, "
-                 "toughness_exponent_1, toughness_exponent_2");
-        }
-        *law->core = changed;
+        changed.set(key, value);
+        *law->core = std::move(changed);
     });
+}
+
+int32_t delam_law_set_text(delam_law* law, const char* key, const char* value) {
+    return guard(law, [&] {
+        require_pointer(key, "key");
+        require_pointer(value, "value");
+        const LawParameter& parameter = require_parameter(*law->core, key, "text");
+        Criterion criterion;
+        if (!criterion_of(value, criterion))
+            fail(DELAM_ERROR_ARGUMENT, key, " = '", value, "' is not known; known are ", parameter.range);
+        law->core->set_criterion(criterion);
+    });
+}
+
+int32_t delam_law_set_table(delam_law* law, int64_t count, const double* xi, const double* s) {
+    return guard(law, [&] {
+        require_parameter(*law->core, "softening", "table");
+        require_count(count, "count", 2);
+        require_array(xi, count, "xi");
+        require_array(s, count, "s");
+        const auto size = static_cast<std::size_t>(count);
+        std::get<TabulatedSoftening>(law->core->softening).set_table({xi, size}, {s, size});
+    });
+}
+
+int64_t delam_law_parameter_count(const char* kind) {
+    std::int64_t count = 0;
+    for (std::size_t k = 0; k < std::size(softening_names) && kind != nullptr; ++k)
+        if (std::strcmp(kind, softening_names[k]) == 0)
+            for (const LawParameter& p : law_parameters()) count += (p.kinds >> k) & 1u;
+    return count;
+}
+
+int32_t delam_law_parameter_info(const char* kind, int64_t index, const char** key, const char** type,
+                                 const char** unit, const char** initial, const char** range, const char** meaning) {
+    if (index < 0 || index >= delam_law_parameter_count(kind)) return DELAM_ERROR_ARGUMENT;
+    std::size_t k = 0;
+    while (std::strcmp(kind, softening_names[k]) != 0) ++k;
+    for (const LawParameter& p : law_parameters()) {
+        if (((p.kinds >> k) & 1u) == 0 || index-- != 0) continue;
+        if (key != nullptr) *key = p.key;
+        if (type != nullptr) *type = p.type;
+        if (unit != nullptr) *unit = p.unit;
+        if (initial != nullptr) *initial = p.initial;
+        if (range != nullptr) *range = p.range;
+        if (meaning != nullptr) *meaning = p.meaning;
+    }
+    return DELAM_OK;
 }
 
 int32_t delam_law_check(const delam_law* law) {
@@ -97,7 +177,7 @@ int32_t delam_law_respond(const delam_law* law, int32_t dimension, int64_t count
             const double* u = jump + i * dimension;
             double driving = 0.5 * p.normal_stiffness * u[0] * u[0];
             for (std::int32_t d = 1; d < dimension; ++d) driving += 0.5 * p.tangential_stiffness * u[d] * u[d];
-            const double zeta = damage_minimiser(p.toughness(mixity[i]), driving, adhesion_old[i]);
+            const double zeta = p.minimiser(p.toughness(mixity[i]), driving, adhesion_old[i]);
             adhesion[i] = zeta;
             for (std::int32_t d = 0; d < dimension && traction != nullptr; ++d) {
                 traction[i * dimension + d] = zeta * (d == 0 ? p.normal_stiffness : p.tangential_stiffness) * u[d];

@@ -119,7 +119,7 @@ Zone& Leap::find_zone() {
         for (std::size_t c = 0; c < dim_; ++c) springs_.held[p * dim_ + c] = bonded || (c == 0 && state_.closed[p] != 0) ? 1 : 0;
         if (bonded || newton_.pairs.law[p] == nullptr || old_[p] <= 0.0) continue;
         const double driving = driving_energy(newton_.pairs, p, state_.response.jump).total();
-        if (state_.adhesion[p] < old_[p] || damage_minimiser(toughness_[p], driving / nearly_loaded, old_[p]) < old_[p])
+        if (state_.adhesion[p] < old_[p] || newton_.pairs.law[p]->minimiser(toughness_[p], driving / nearly_loaded, old_[p]) < old_[p])
             for (std::size_t c = 0; c < dim_; ++c) wanted[p * dim_ + c] = 1;
     }
     return newton_.op.zone(springs_, wanted);
@@ -133,10 +133,11 @@ Leap::Point Leap::point(std::vector<double> unknowns) const {
     at.unknowns = std::move(unknowns);
     for (const ZonePair& m : members_) {
         const std::span<const double> local = std::span<const double>(at.jump).subspan(m.first, dim_);
-        const double driving = driving_energy(*newton_.pairs.law[m.pair], local).total();
-        const double zeta = damage_minimiser(toughness_[m.pair], driving, old_[m.pair]);
+        const Law& law = *newton_.pairs.law[m.pair];
+        const double driving = driving_energy(law, local).total();
+        const double zeta = law.minimiser(toughness_[m.pair], driving, old_[m.pair]);
         at.adhesion.push_back(zeta);
-        at.energy += newton_.pairs.weight[m.pair] * (zeta * driving + dissipated(toughness_[m.pair], zeta));
+        at.energy += newton_.pairs.weight[m.pair] * (zeta * driving + law.dissipated(toughness_[m.pair], zeta));
     }
     return at;
 }
@@ -216,7 +217,7 @@ std::array<double, 9> Leap::tangent(const ZonePair& m, const Point& at, double z
     double pull[3] = {law.normal_stiffness * std::max(0.0, at.jump[m.first]), 0.0, 0.0};
     for (std::size_t c = 1; c < dim_; ++c) pull[c] = law.tangential_stiffness * at.jump[m.first + c];
     const double driving = driving_energy(law, std::span<const double>(at.jump).subspan(m.first, dim_)).total();
-    const double slope = fraction > 0.0 ? fraction * damage_slope(toughness_[m.pair], driving, old_[m.pair]) : 0.0;
+    const double slope = fraction > 0.0 ? fraction * law.slope(toughness_[m.pair], driving, old_[m.pair]) : 0.0;
     std::array<double, 9> c{};
     for (std::size_t r = 0; r < dim_; ++r) {
         for (std::size_t q = 0; q < dim_; ++q) c[r * dim_ + q] = weight * slope * pull[r] * pull[q];

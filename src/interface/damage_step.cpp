@@ -23,8 +23,6 @@ namespace {
 
 constexpr double rounding = 1e-20;  // of an energy: the square of 1e-10 of a jump
 
-double onset_energy(const Law& law) { return std::min(law.normal_onset, law.tangential_onset); }
-
 }  // namespace
 
 std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump, std::span<const double> known) {
@@ -38,14 +36,14 @@ std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump
     for (std::size_t p = 0; p < b.size(); ++p) {
         if (!pairs.mixed(p)) continue;
         const Driving y = driving_energy(pairs, p, jump);
-        if (y.total() > rounding * std::max(largest, onset_energy(*pairs.law[p]))) b[p] = mode_mixity(y.normal, y.tangential);
+        if (y.total() > rounding * std::max(largest, pairs.law[p]->least_onset())) b[p] = mode_mixity(y.normal, y.tangential);
     }
     return b;
 }
 
 bool any_jump(const PairLaws& pairs, std::span<const double> jump) {
     for (std::size_t p = 0; p < pairs.law.size(); ++p)
-        if (pairs.law[p] != nullptr && driving_energy(pairs, p, jump).total() > rounding * onset_energy(*pairs.law[p])) return true;
+        if (pairs.law[p] != nullptr && driving_energy(pairs, p, jump).total() > rounding * pairs.law[p]->least_onset()) return true;
     return false;
 }
 
@@ -73,7 +71,7 @@ std::vector<double> damage_step(const PairLaws& pairs, std::span<const Toughness
     std::vector<double> zeta(adhesion_old.begin(), adhesion_old.end());
     for (std::size_t p = 0; p < zeta.size(); ++p)
         if (pairs.law[p] != nullptr && zeta[p] > 0.0)
-            zeta[p] = damage_minimiser(toughness[p], driving_energy(pairs, p, jump).total(), zeta[p]);
+            zeta[p] = pairs.law[p]->minimiser(toughness[p], driving_energy(pairs, p, jump).total(), zeta[p]);
     return zeta;
 }
 
@@ -88,7 +86,7 @@ double stored_energy(const PairLaws& pairs, std::span<const double> adhesion, st
 double stored_slides(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion) {
     double sum = 0.0;
     for (std::size_t p = 0; p < adhesion.size(); ++p)
-        if (pairs.law[p] != nullptr) sum += pairs.weight[p] * stored_slides(pairs.toughness(p, mixity[p]), adhesion[p]);
+        if (pairs.law[p] != nullptr) sum += pairs.weight[p] * pairs.law[p]->stored_slides(pairs.toughness(p, mixity[p]), adhesion[p]);
     return sum;
 }
 
@@ -98,7 +96,7 @@ double dissipation(const PairLaws& pairs, std::span<const double> mixity, std::s
     for (std::size_t p = 0; p < adhesion.size(); ++p) {
         if (pairs.law[p] == nullptr || adhesion[p] == adhesion_old[p]) continue;
         const Toughness t = pairs.toughness(p, mixity[p]);
-        sum += pairs.weight[p] * (dissipated(t, adhesion[p]) - dissipated(t, adhesion_old[p]));
+        sum += pairs.weight[p] * (pairs.law[p]->dissipated(t, adhesion[p]) - pairs.law[p]->dissipated(t, adhesion_old[p]));
     }
     return sum;
 }

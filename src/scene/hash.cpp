@@ -62,9 +62,21 @@ void add_law(Fnv& fnv, const Law& law) {
     for (const double parameter :
          {law.normal_stiffness, law.tangential_stiffness, law.normal_onset, law.tangential_onset, law.normal_toughness,
           law.tangential_toughness, law.onset_exponent_1, law.onset_exponent_2, law.toughness_exponent_1,
-          law.toughness_exponent_2}) {
+          law.toughness_exponent_2, law.gradient}) {
         fnv.add(parameter);
     }
+    fnv.add(std::string(name_of(law.criterion)));
+    fnv.add(std::string(law.kind()));
+    const PolylineSoftening* polyline = std::get_if<TrapezoidalSoftening>(&law.softening);
+    if (polyline == nullptr) polyline = std::get_if<TabulatedSoftening>(&law.softening);
+    if (polyline != nullptr) {
+        fnv.add(static_cast<std::int64_t>(polyline->corners().size()));
+        for (const PolylineSoftening::Corner& corner : polyline->corners()) {
+            fnv.add(corner.xi);
+            fnv.add(corner.s);
+        }
+    }
+    if (const HostSoftening* host = law.host()) fnv.add(host->name);
 }
 
 void add_loads(Fnv& fnv, const Problem& problem) {

@@ -804,14 +804,15 @@ END_TEST
 START_TEST(slopes) {
     Random random(static_cast<unsigned>(_i) + 2500U);
     const double onset = std::pow(10.0, random.real(-3.0, 3.0)), ratio = 1.0 + std::pow(10.0, random.real(-3.0, 4.0));
+    const LinearSoftening shape;
     const Toughness t{onset, onset * ratio};
     const double end = t.total * ratio;  // Gc^2/Go: there the adhesion is gone
     for (int k = 1; k < 60; ++k) {
         const double driving = onset * std::pow(end / onset, k / 60.0), old = random.real(0.3, 1.0);
         const double step = 1e-5 * (driving - onset < end - driving ? driving - onset : end - driving);
-        const double zeta = damage_minimiser(t, driving, old);
-        const double low = damage_minimiser(t, driving - step, old), high = damage_minimiser(t, driving + step, old);
-        const double slope = damage_slope(t, driving, old);
+        const double zeta = shape.minimiser(t, driving, old);
+        const double low = shape.minimiser(t, driving - step, old), high = shape.minimiser(t, driving + step, old);
+        const double slope = shape.slope(t, driving, old);
         if (zeta >= old || zeta <= 0.0) {
             ck_assert(slope == 0.0);
             continue;
@@ -821,10 +822,10 @@ START_TEST(slopes) {
         ck_assert_msg(slope < 0.0 && std::abs(slope - difference) <= 1e-4 * std::abs(slope) + 1e-13 / step, "ratio %.3g, Y/Go %.6g: %.9g, difference %.9g", ratio,
                       driving / onset, slope, difference);
     }
-    ck_assert(damage_slope(t, 0.5 * onset, 1.0) == 0.0);
-    ck_assert(damage_slope(t, 2.0 * end, 1.0) == 0.0);
-    ck_assert(damage_slope({onset, onset}, onset, 1.0) == 0.0);
-    ck_assert(damage_slope({onset, onset}, 3.0 * onset, 1.0) == 0.0);
+    ck_assert(shape.slope(t, 0.5 * onset, 1.0) == 0.0);
+    ck_assert(shape.slope(t, 2.0 * end, 1.0) == 0.0);
+    ck_assert(shape.slope({onset, onset}, onset, 1.0) == 0.0);
+    ck_assert(shape.slope({onset, onset}, 3.0 * onset, 1.0) == 0.0);
 }
 END_TEST
 

@@ -14,6 +14,7 @@
 
 #include "base/error.hpp"
 #include "delam/delam.h"
+#include "interface/criterion.hpp"
 #include "interface/law.hpp"
 #include "interface/mixity.hpp"
 
@@ -35,6 +36,7 @@ Law slides(double stiffness, double onset, double toughness) {
     law.normal_toughness = law.tangential_toughness = toughness;
     return law;
 }
+const delam::LinearSoftening shape;
 const Law ductile = slides(125e9, 100.0, 250.0);
 const Law brittle = slides(125e15, 0.01, 25.0);
 
@@ -85,7 +87,7 @@ START_TEST(bilinear_law) {
             // On the softening branch zeta k u = sigma0 (dc - u)/(dc - d0).
             for (int i = 0; i <= 1000; ++i) {
                 const double u = c.dc * 1.2 * i / 1000.0;
-                const double zeta = delam::damage_minimiser(t, 0.5 * k * u * u, 1.0);
+                const double zeta = shape.minimiser(t, 0.5 * k * u * u, 1.0);
                 double expected = u <= c.d0 ? k * u : c.sigma0 * (c.dc - u) / (c.dc - c.d0);
                 if (u >= c.dc) expected = 0.0;
                 ck_assert(std::abs(zeta * k * u - expected) <= 2e-12 * c.sigma0);
@@ -95,13 +97,13 @@ START_TEST(bilinear_law) {
             double last = 0.0;
             double at_last = 0.0;
             for (const double u : {c.d0, c.dc}) {
-                const double traction = delam::damage_minimiser(t, 0.5 * k * u * u, 1.0) * k * u;
+                const double traction = shape.minimiser(t, 0.5 * k * u * u, 1.0) * k * u;
                 area += 0.5 * (u - at_last) * (traction + last);
                 last = traction;
                 at_last = u;
             }
             ck_assert(close(area, t.total, 1e-12));
-            ck_assert(close(delam::dissipated(t, 0.0), t.total, 1e-15));
+            ck_assert(close(shape.dissipated(t, 0.0), t.total, 1e-15));
         }
     }
 }
@@ -115,10 +117,10 @@ START_TEST(minimiser_against_scan) {
             for (int i = 0; i < 60; ++i) {
                 const double y = 3.0 * std::pow(ratio, 2.4 * i / 59.0 - 0.2);
                 const auto slides_split = [&](double z) {
-                    return z * y + delam::stored_slides(t, z) + t.total * (zeta_old - z);
+                    return z * y + shape.stored_slides(t, z) + t.total * (zeta_old - z);
                 };
                 const auto ledger = [&](double z) {
-                    return z * y + delam::dissipated(t, z) - delam::dissipated(t, zeta_old);
+                    return z * y + shape.dissipated(t, z) - shape.dissipated(t, zeta_old);
                 };
                 double best = 0.0;
                 double best_ledger = 0.0;
@@ -127,7 +129,7 @@ START_TEST(minimiser_against_scan) {
                     if (slides_split(z) < slides_split(best)) best = z;
                     if (ledger(z) < ledger(best_ledger)) best_ledger = z;
                 }
-                const double z = delam::damage_minimiser(t, y, zeta_old);
+                const double z = shape.minimiser(t, y, zeta_old);
                 ck_assert(z >= 0.0 && z <= zeta_old);
                 const double rounding = 1e-13 * (t.total + y);
                 ck_assert(slides_split(z) <= slides_split(best) + rounding);
@@ -146,28 +148,28 @@ START_TEST(derivatives) {
     const Toughness t{1.0, 7.0};
     for (int i = 1; i < 20; ++i) {
         const double z = i / 20.0;
-        ck_assert(close(delam::stored_slides(t, z) + t.total * (1.0 - z), delam::dissipated(t, z), 1e-14));
-        ck_assert(delam::stored_slides(t, z) <= 0.0);
+        ck_assert(close(shape.stored_slides(t, z) + t.total * (1.0 - z), shape.dissipated(t, z), 1e-14));
+        ck_assert(shape.stored_slides(t, z) <= 0.0);
         const double h = 1e-5;
-        const double slope = (delam::dissipated(t, z + h) - delam::dissipated(t, z - h)) / (2.0 * h);
+        const double slope = (shape.dissipated(t, z + h) - shape.dissipated(t, z - h)) / (2.0 * h);
         const double curvature =
-            delam::dissipated(t, z + h) - 2.0 * delam::dissipated(t, z) + delam::dissipated(t, z - h);
+            shape.dissipated(t, z + h) - 2.0 * shape.dissipated(t, z) + shape.dissipated(t, z - h);
         ck_assert(curvature > 0.0);
-        ck_assert(std::abs(delam::damage_minimiser(t, -slope, 1.0) - z) < 1e-8);
+        ck_assert(std::abs(shape.minimiser(t, -slope, 1.0) - z) < 1e-8);
     }
-    ck_assert(delam::dissipated(t, 1.0) == 0.0);
-    ck_assert(delam::stored_slides(t, 0.0) == 0.0);
-    ck_assert(delam::stored_slides(t, 1.0) == 0.0);
+    ck_assert(shape.dissipated(t, 1.0) == 0.0);
+    ck_assert(shape.stored_slides(t, 0.0) == 0.0);
+    ck_assert(shape.stored_slides(t, 1.0) == 0.0);
 }
 END_TEST
 
 START_TEST(griffith_limit) {
     const Toughness griffith{2.0, 2.0};
-    ck_assert(delam::damage_minimiser(griffith, std::nextafter(2.0, 0.0), 0.8) == 0.8);
-    ck_assert(delam::damage_minimiser(griffith, 2.0, 0.8) == 0.0);
-    ck_assert(delam::damage_minimiser(griffith, 0.0, 0.8) == 0.8);
-    ck_assert(close(delam::dissipated(griffith, 0.25), 1.5, 1e-15));
-    ck_assert(delam::stored_slides(griffith, 0.5) == 0.0);
+    ck_assert(shape.minimiser(griffith, std::nextafter(2.0, 0.0), 0.8) == 0.8);
+    ck_assert(shape.minimiser(griffith, 2.0, 0.8) == 0.0);
+    ck_assert(shape.minimiser(griffith, 0.0, 0.8) == 0.8);
+    ck_assert(close(shape.dissipated(griffith, 0.25), 1.5, 1e-15));
+    ck_assert(shape.stored_slides(griffith, 0.5) == 0.0);
     // D/Go = 2^-k down to one unit in the last place: with Y = Go (1 + 2 s D/Go) the minimiser is 1 - s up to O(D/Go)
     // and the rounding of Y itself.
     for (int k = 4; k <= 50; ++k) {
@@ -178,15 +180,15 @@ START_TEST(griffith_limit) {
             const double exact = static_cast<double>(
                 ((1.0L + static_cast<long double>(d)) / std::sqrt(static_cast<long double>(y)) - 1.0L) /
                 static_cast<long double>(d));
-            const double z = delam::damage_minimiser(t, y, 1.0);
+            const double z = shape.minimiser(t, y, 1.0);
             ck_assert_msg(std::abs(z - exact) < 1e-14 + std::ldexp(1.0, k - 62), "D = 2^-%d, s = %g: %.17g, not %.17g",
                           k, s, z, exact);
             ck_assert(std::abs(z - (1.0 - s)) <= 2.0 * d);
         }
     }
-    ck_assert(delam::damage_minimiser({1.0, 2.0}, 0.0, 0.3) == 0.3);
-    ck_assert(delam::damage_minimiser({1.0, 2.0}, std::numeric_limits<double>::max(), 0.3) == 0.0);
-    ck_assert(delam::damage_minimiser({1.0, 2.0}, 4.0, 1.0) == 0.0);
+    ck_assert(shape.minimiser({1.0, 2.0}, 0.0, 0.3) == 0.3);
+    ck_assert(shape.minimiser({1.0, 2.0}, std::numeric_limits<double>::max(), 0.3) == 0.0);
+    ck_assert(shape.minimiser({1.0, 2.0}, 4.0, 1.0) == 0.0);
 }
 END_TEST
 
@@ -260,10 +262,10 @@ START_TEST(units) {
                 ck_assert(o.onset == t.onset * unit);
                 ck_assert(o.total == t.total * unit);
                 for (const double y : {50.0, 150.0, 222.0, 300.0, 450.0, 1000.0}) {
-                    const double z = delam::damage_minimiser(t, y, 1.0);
-                    ck_assert(delam::damage_minimiser(o, y * unit, 1.0) == z);
-                    ck_assert(delam::dissipated(o, z) == delam::dissipated(t, z) * unit);
-                    ck_assert(delam::stored_slides(o, z) == delam::stored_slides(t, z) * unit);
+                    const double z = shape.minimiser(t, y, 1.0);
+                    ck_assert(shape.minimiser(o, y * unit, 1.0) == z);
+                    ck_assert(shape.dissipated(o, z) == shape.dissipated(t, z) * unit);
+                    ck_assert(shape.stored_slides(o, z) == shape.stored_slides(t, z) * unit);
                 }
             }
         }
@@ -337,7 +339,7 @@ START_TEST(area_is_the_toughness) {
     const auto traction = [](double jump, void* data) {
         const Path& path = *static_cast<const Path*>(data);
         const double driving = 0.5 * path.stiffness * jump * jump;
-        return delam::damage_minimiser(path.t, driving, 1.0) * path.stiffness * jump;
+        return shape.minimiser(path.t, driving, 1.0) * path.stiffness * jump;
     };
     gsl_integration_workspace* work = gsl_integration_workspace_alloc(1000);
     for (const Law& law : {ductile, brittle}) {

@@ -96,9 +96,18 @@ void set_interfaces(Model& model, const Scene& scene) {
         const std::int32_t status = delam_law_create(model.context.get(), from.kind.c_str(), &handle);
         const Law law(handle);
         call(context, status, from.place);
+        const auto at = [&](const std::string& key) {
+            return Place{from.place.file, from.place.path + "." + key, from.place.line};
+        };
+        for (const auto& [key, value] : from.texts)
+            call(context, delam_law_set_text(law.get(), key.c_str(), value.c_str()), at(key));
         for (const auto& [key, value] : from.parameters)
-            call(context, delam_law_set(law.get(), key.c_str(), value),
-                 {from.place.file, from.place.path + "." + key, from.place.line});
+            call(context, delam_law_set(law.get(), key.c_str(), value), at(key));
+        if (!from.table_xi.empty())
+            call(context,
+                 delam_law_set_table(law.get(), static_cast<std::int64_t>(from.table_xi.size()), from.table_xi.data(),
+                                     from.table_s.data()),
+                 at("softening"));
         call(context, delam_law_check(law.get()), from.place);
         call(context, delam_problem_set_law(model.problem.get(), index, law.get()), data.place);
         model.adheres.push_back(set_adhesion(model, scene, index, data));

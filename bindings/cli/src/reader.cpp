@@ -194,6 +194,15 @@ std::vector<double> Table::numbers(std::string_view key, const Range& range, std
     });
 }
 
+std::vector<std::vector<double>> Table::points(std::string_view key, const Range& range, std::size_t count) const {
+    return checked_list<std::vector<double>>(
+        need(key), place(key), 0, [&](const toml::node& entry, const Place& at) {
+            return checked_list<double>(entry, at, count, [&range](const toml::node& node, const Place& where) {
+                return checked_number(node, where, range);
+            });
+        });
+}
+
 std::vector<std::int64_t> Table::wholes(std::string_view key, std::int64_t least, std::size_t count) const {
     return checked_list<std::int64_t>(
         need(key), place(key), count,

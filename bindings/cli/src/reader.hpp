@@ -57,6 +57,9 @@ public:
                                      std::string_view otherwise) const;
     // count 0: any number of entries, but at least one.
     [[nodiscard]] std::vector<double> numbers(std::string_view key, const Range& range, std::size_t count = 0) const;
+    // A list of lists of count entries each.
+    [[nodiscard]] std::vector<std::vector<double>> points(std::string_view key, const Range& range,
+                                                          std::size_t count) const;
     [[nodiscard]] std::vector<std::int64_t> wholes(std::string_view key, std::int64_t least, std::size_t count) const;
     [[nodiscard]] std::vector<std::string> texts(std::string_view key) const;
     [[nodiscard]] Table table(std::string_view key) const;

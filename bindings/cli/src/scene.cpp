@@ -18,10 +18,6 @@ namespace cli {
 
 namespace {
 
-const std::vector<std::string> law_parameters{
-    "normal_stiffness",     "tangential_stiffness", "normal_onset",     "tangential_onset",     "normal_toughness",
-    "tangential_toughness", "onset_exponent_1",     "onset_exponent_2", "toughness_exponent_1", "toughness_exponent_2"};
-
 // What geometry.h has to divide: the lengths, and the thicknesses of layers without divisions of their own.
 std::vector<double> divided_lengths(const Table& root) {
     const Table geometry = root.table("geometry");
@@ -119,21 +115,6 @@ void read_layers(const Table& root, Scene& scene) {
         scene.layers.push_back(std::move(layer));
     }
     if (scene.layers.empty()) root.fail("layers", "is missing: at least one [[layers]] is expected");
-}
-
-void read_laws(const Table& root, Scene& scene) {
-    std::vector<std::string> known{"name", "kind"};
-    known.insert(known.end(), law_parameters.begin(), law_parameters.end());
-    for (const Table& table : root.tables("laws")) {
-        table.only(known);
-        LawData law;
-        law.name = new_name(table, scene.laws, "law");
-        law.kind = table.choice("kind", {"piecewise-linear"}, "piecewise-linear");
-        for (const std::string& key : law_parameters)
-            if (table.has(key)) law.parameters.emplace_back(key, table.number(key, positive));
-        law.place = table.place();
-        scene.laws.push_back(std::move(law));
-    }
 }
 
 Region read_region(const Table& table, const Geometry& geometry, bool with_value) {

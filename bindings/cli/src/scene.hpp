@@ -45,7 +45,9 @@ struct Material {
 struct LawData {
     std::string name;
     std::string kind;
+    std::vector<std::pair<std::string, std::string>> texts;  // set first: they decide which parameters there are
     std::vector<std::pair<std::string, double>> parameters;
+    std::vector<double> table_xi, table_s;  // softening of a tabulated law
     Place place;
 };
 

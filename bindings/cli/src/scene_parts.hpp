@@ -7,6 +7,7 @@
 
 namespace cli {
 
+void read_laws(const Table& root, Scene& scene);
 void read_patterns(const Table& root, Scene& scene);
 void read_supports_and_loads(const Table& root, Scene& scene);
 void read_forces(const Table& root, Scene& scene);

@@ -33,6 +33,32 @@ refuse(changed("normal_toughness = 250.0", "normal_toughness = 50.0"), r"laws\[0
 refuse(changed("normal_onset = 100.0\n", ""), r"laws\[0\]", "normal_onset")
 refuse(changed("tangential_toughness = 250.0", "tangential_toughness = 250.0\ntoughness_exponent_1 = 0.3\n"
                "toughness_exponent_2 = 0.3"), r"laws\[0\]")
+LAW = 'name = "ductile"\n'
+for words in ('kind = "exponential"\n', 'kind = "trapezoidal"\nplateau = 0.4\n',
+              'kind = "tabulated"\nsoftening = [[0, 1], [0.3, 0.5], [1, 0]]\n',
+              'criterion = "power"\nonset_exponent = 1.0\n',
+              'criterion = "benzeggagh-kenane"\ntoughness_exponent = 1.7\nonset_exponent = 1.7\n', 'gradient = 0.0\n'):
+    answer = delam("check", write(changed(LAW, LAW + words)))
+    expect(answer[0] == 0, "accepted: " + words.replace("\n", "; ") + answer[2])
+griffith = changed(LAW, LAW + 'kind = "griffith"\n')
+for mode in ("normal", "tangential"):
+    griffith = griffith.replace(mode + "_onset = 100.0\n", "")
+expect(delam("check", write(griffith))[0] == 0, "Griffith's law has no onset")
+refuse(changed(LAW, LAW + 'kind = "griffith"\n'), r"laws\[0\]\.normal_onset")
+refuse(changed(LAW, LAW + 'kind = "cubic"\n'), r"laws\[0\]\.kind", "exponential")
+refuse(changed(LAW, LAW + 'kind = "trapezoidal"\n'), r"laws\[0\]", "plateau")
+refuse(changed(LAW, LAW + 'kind = "trapezoidal"\nplateau = 1.0\n'), r"laws\[0\]\.plateau", ">= 0 and < 1")
+refuse(changed(LAW, LAW + 'plateau = 0.5\n'), r"laws\[0\]\.plateau")
+refuse(changed(LAW, LAW + 'gradient = -1.0\n'), r"laws\[0\]\.gradient", ">= 0")
+refuse(changed(LAW, LAW + 'kind = "tabulated"\n'), r"laws\[0\]", "softening is missing")
+refuse(changed(LAW, LAW + 'kind = "tabulated"\nsoftening = [[0, 1], [0.5, 1.5], [1, 0]]\n'),
+       r"laws\[0\]\.softening\[1\]\[1\]")
+refuse(changed(LAW, LAW + 'kind = "tabulated"\nsoftening = [[0, 1], [0.5], [1, 0]]\n'), r"laws\[0\]\.softening\[1\]")
+refuse(changed(LAW, LAW + 'kind = "tabulated"\nsoftening = [[0, 1], [0.5, 0.2], [0.6, 0.3], [1, 0]]\n'),
+       r"laws\[0\]\.softening", "must not rise")
+refuse(changed(LAW, LAW + 'criterion = "bk"\n'), r"laws\[0\]\.criterion", "benzeggagh-kenane")
+refuse(changed(LAW, LAW + 'criterion = "power"\nonset_exponent_1 = 2.0\n'),
+       r"laws\[0\]\.onset_exponent_1", "criterion power")
 refuse(changed("h = 0.0015", "h = 0.0007"), r"geometry\.h", "evenly", "h = 0.00075 divides all")
 # 0.0024 divides the length, not the thicknesses; what is suggested has to divide both.
 odd = changed("h = 0.0015", "h = 0.0024")

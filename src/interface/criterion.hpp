@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Toughness G(B) in mixed mode, between the pure modes G_n = G(0) and G_t = G(1). B = Y_t/(Y_n + Y_t) in [0,1].
+//
+//   Valoroso, Champaney (2006)  ((1-B) G/G_n)^p + (B G/G_t)^q = 1
+//   power law                   the same with p = q: G = [((1-B)/G_n)^p + (B/G_t)^p]^(-1/p)
+//   Benzeggagh, Kenane (1996)   G = G_n + (G_t - G_n) B^eta
+//
+// All three grow with G_n and with G_t, and are G_n for every B where G_n = G_t and the exponents are 1.
+#pragma once
+
+#include <string>
+
+namespace delam {
+
+enum class Criterion { valoroso_champaney, power, benzeggagh_kenane };
+
+// Known: valoroso-champaney, power, benzeggagh-kenane. false: none of them.
+bool criterion_of(const std::string& name, Criterion& criterion);
+const char* name_of(Criterion criterion);
+
+// One toughness (onset or total) as the criterion needs it; toughness in F/L, exponents > 0.
+struct Modes {
+    double normal;      // G_n
+    double tangential;  // G_t
+    double first;       // p or eta
+    double second;      // q; p = q for the power law, not used by Benzeggagh and Kenane
+};
+double toughness_at(Criterion criterion, const Modes& modes, double mixity);
+// dG/dB. Where it is infinite (an exponent below 1, at the pure mode whose share it is of) it is cut off at what it is
+// one part in a million away.
+double toughness_slope_at(Criterion criterion, const Modes& modes, double mixity);
+// False: G(B) is the same number for every B (nothing else keeps (1-B)^p + B^q = 1).
+bool depends_on_mixity(Criterion criterion, const Modes& modes);
+
+// G solving ((1-B) G/G_n)^p + (B G/G_t)^q = 1. Closed form for p = q, else a bracketed root of this monotone equation.
+double interaction(double normal_toughness, double tangential_toughness, double p, double q, double mixity);
+
+}  // namespace delam
