@@ -54,6 +54,8 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time) : problem_
     state.mixity_before = state.mixity;
     state.loaded = any_jump(pairs_, state.response.jump) ? 1 : 0;
     book_energies(state);
+    state.ledger.initial = state.ledger.energy();
+    state.ledger.initial_slides = state.ledger.energy_slides();
     state.memory = operator_->memory();
 }
 
@@ -64,7 +66,8 @@ Outcome Solver::unconverged_displacement(const State& state) const {
 }
 
 Minimiser Solver::minimiser() const {
-    return {*operator_,  pairs_, contact_, monitor_, problem_.options.damage_tolerance, problem_.options.minimisation_limit};
+    return {*operator_, pairs_, contact_, monitor_, problem_.options.damage_tolerance, problem_.options.minimisation_limit,
+            mixity_rule(pairs_, problem_.options.mixity_rule)};
 }
 
 void Solver::begin(State& next, double time) const {
@@ -100,8 +103,18 @@ void Solver::book_step(State& next) const {
     ledger.upper = dot(d, last.response.conjugate) + lift_.half_quadratic(d, spring_stiffness(pairs_, last.adhesion));
     ledger.work = last.ledger.work + 0.5 * (ledger.lower + ledger.upper);
     ledger.dissipated = last.ledger.dissipated + dissipated;
-    ledger.dissipated_slides =
-        last.ledger.dissipated_slides + dissipation_slides(pairs_, next.mixity, last.adhesion, next.adhesion);
+    ledger.dissipated_slides = last.ledger.dissipated_slides;
+    if (minimiser().rule != MixityRule::variational) {
+        ledger.dissipated_slides += dissipation_slides(pairs_, next.mixity, last.adhesion, next.adhesion);
+        return;
+    }
+    // What was minimised is the slides' split, with the dissipation at the mixity of the state before.
+    const double change_slides = ledger.energy_slides() - last.ledger.energy_slides();
+    const double spent = dissipation_slides(pairs_, next.mixity_before, last.adhesion, next.adhesion);
+    const std::vector<double>& before_last = last.loaded != 0 ? last.mixity_before : next.mixity_before;
+    ledger.dissipated_slides += spent;
+    ledger.increment = change_slides + spent;
+    ledger.increment_lower = change_slides + dissipation_slides(pairs_, before_last, last.adhesion, next.adhesion);
 }
 
 Outcome Solver::advance(double time) {
@@ -122,10 +135,12 @@ Outcome Solver::advance(double time) {
         next.closed = std::move(elastic.closed);
     } else {
         next.mixity_before = committed_.mixity;
-        next.mixity = mixities(pairs_, committed_.response.jump, committed_.mixity);
+        next.mixity = starting_mixity(pairs_, minimiser().rule, committed_);
     }
+    if (minimiser().rule == MixityRule::variational) next.mixity_before = next.mixity;
     converged = (problem_.options.minimisation == "alternate" ? minimiser().alternate(next, committed_.adhesion)
                                                              : minimiser().accelerate(next, committed_.adhesion)) && converged;
+    warn_of_snap(monitor_, minimiser().rule, next);
     next.loaded = committed_.loaded != 0 || any_jump(pairs_, next.response.jump) ? 1 : 0;
     book_step(next);
     next.memory = operator_->memory();
@@ -136,6 +151,8 @@ Outcome Solver::advance(double time) {
                             " alternations (last change of adhesion ", next.counts.damage_change, ", tolerance ",
                             problem_.options.damage_tolerance, "; worst linear residual ", next.counts.linear_residual,
                             ", tolerance ", problem_.options.linear_tolerance, ")");
+        if (next.counts.mixity_held > 0)
+            outcome.text += text("; the mixity of ", next.counts.mixity_held, " pairs would not settle and was held");
     }
     displacement_.clear();
     pending_ = std::move(next);
@@ -151,7 +168,10 @@ Outcome Solver::equilibrate(double time, std::span<const double> adhesion) {
             fail(DELAM_ERROR_ARGUMENT, "adhesion of pair ", p, " is ", next.adhesion[p], ", allowed: 0 to 1");
     Outcome outcome;
     if (!minimiser().displace(next)) outcome = unconverged_displacement(next);
+    if (minimiser().rule == MixityRule::variational) next.mixity = mixities(pairs_, next.response.jump, next.mixity);
     book_energies(next);
+    next.ledger.initial += next.ledger.energy() - committed_.ledger.energy();
+    next.ledger.initial_slides += next.ledger.energy_slides() - committed_.ledger.energy_slides();
     next.memory = operator_->memory();
     displacement_.clear();
     pending_ = std::move(next);

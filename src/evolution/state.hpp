@@ -25,6 +25,15 @@ struct Ledger {
     double upper = 0.0;
     double increment_lower = 0.0;  // increment with the mixity of the step before (the one the lower bound is provable with)
 
+    // Energies of the state from which the cumulative columns count; a state that is set rather than marched to moves them along.
+    double initial = 0.0;
+    double initial_slides = 0.0;
+    double mixity_error = 0.0;  // of the step: by how much the toughness in use misses that of the iterates' own mixities
+
+    double energy_slides() const { return stored_bulk + stored_interface_slides + load_potential; }
+    // What does not close, in either split.
+    double defect() const { return energy() - initial + dissipated - work; }
+    double defect_slides() const { return energy_slides() - initial_slides + dissipated_slides - work; }
     double energy() const { return stored_bulk + stored_interface + load_potential; }
 };
 
@@ -39,6 +48,7 @@ struct Counts {
     std::int64_t newton_solves = 0;   // dense solves within the process zone
     std::int64_t debond_moves = 0;    // unstable pairs taken to their debonded branch
     std::int64_t backtracks = 0;
+    std::int64_t mixity_held = 0;     // pairs whose mixity would not settle and was held
     double damage_change = 0.0;
     double linear_residual = 0.0;
 };

@@ -97,6 +97,7 @@ void add_options(Fnv& fnv, const Options& options) {
     fnv.add(options.reduction);
     fnv.add(options.contact);
     fnv.add(options.mixity);
+    fnv.add(options.mixity_rule);
     fnv.add(options.contact_limit);
     fnv.add(options.subdomains);
     fnv.add(options.gluing);

@@ -26,8 +26,8 @@ struct Row {
 
 constexpr double most = 9007199254740992.0;  // 2^53: beyond it a double no longer holds every whole number
 
-const std::array<Row, 14>& rows() {
-    static const std::array<Row, 14> table{{
+const std::array<Row, 15>& rows() {
+    static const std::array<Row, 15> table{{
         {{"damage_tolerance", "real", "-", "1e-5", "0 < value < 1",
           "alternate minimisation stops when no adhesion changes by more (delta)"},
          &Options::damage_tolerance,
@@ -59,6 +59,10 @@ const std::array<Row, 14>& rows() {
           "where the mode mixity is computed: auto leaves it out of laws whose onset and toughness do not depend on it (their field mixity "
           "is 0); always computes it"},
          &Options::mixity},
+        {{"mixity_rule", "text", "-", "frozen", "frozen | converged | variational",
+          "whose mixity a step's toughness takes: that of the state before (frozen), that of the step's own solution as a fixed point, for a pair "
+          "that breaks that of the iterate in which it broke (converged), or the energy with f(B(u), zeta) and its extra traction (variational)"},
+         &Options::mixity_rule},
         {{"contact_limit", "integer", "-", "200", "1 <= value <= 2^53",
           "active-set steps of a displacement solve at most, least-index exchanges included"},
          &Options::contact_limit,

@@ -19,6 +19,7 @@ struct Options {
     // what may be left out where it cannot matter
     std::string contact = "auto";               // auto | always
     std::string mixity = "auto";                // auto | always
+    std::string mixity_rule = "frozen";         // frozen | converged | variational
     // contact
     std::int64_t contact_limit = 200;           // primal-dual active-set steps before the fallback
     // FETI
