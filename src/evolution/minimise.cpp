@@ -61,7 +61,7 @@ bool Minimiser::alternate(State& state, std::span<const double> adhesion_old) co
         std::vector<double> next = mixity.damage_step(adhesion_old, state.response.jump);
         state.counts.damage_change = largest_change(state.adhesion, next);
         ++state.counts.am_iterations;
-        if (state.counts.damage_change <= tolerance && mixity.settled()) return record(state, adhesion_old, mixity, converged);
+        if (state.counts.damage_change <= tolerance && mixity.settled(state, adhesion_old)) return record(state, adhesion_old, mixity, converged);
         state.adhesion = std::move(next);
         if (state.counts.am_iterations < limit) continue;
         displace(state);
@@ -105,7 +105,7 @@ bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) c
         plain = mixity.damage_step(adhesion_old, state.response.jump);
         state.counts.damage_change = largest_change(state.adhesion, plain);
         ++state.counts.am_iterations;
-        if (state.counts.damage_change <= tolerance && mixity.settled()) return record(state, adhesion_old, mixity, converged);
+        if (state.counts.damage_change <= tolerance && mixity.settled(state, adhesion_old)) return record(state, adhesion_old, mixity, converged);
         if (state.counts.am_iterations >= limit) {
             state.adhesion = plain;
             displace(state);

@@ -55,6 +55,7 @@ StepMixity::StepMixity(const PairLaws& pairs, MixityRule rule, double tolerance,
 bool StepMixity::look(std::span<const double> adhesion, std::span<const double> jump) {
     largest_ = largest_driving(pairs_, jump);
     bool changed = false;
+    for (Swing& s : swing_) s.open = 0.0;  // what a broken pair has kept is settled
     for (std::size_t p = 0; p < adhesion.size(); ++p)
         if (pairs_.mixed(p) && adhesion[p] > 0.0 && look(p, driving_energy(pairs_, p, jump))) changed = true;
     return changed;
@@ -75,6 +76,7 @@ bool StepMixity::look(std::size_t pair, const Driving& y) {
         if (swing.share < least || swing.turns > most_turns) swing.share = 0.0;
     }
     swing.last = asked;
+    swing.open = (1.0 - swing.share) * std::abs(asked);
     if (swing.share <= 0.0) return false;
     if (swing.share >= 1.0) {
         now_.used[pair] = shown;
@@ -86,14 +88,29 @@ bool StepMixity::look(std::size_t pair, const Driving& y) {
     return now_.toughness[pair].onset != from.onset || now_.toughness[pair].total != from.total;
 }
 
-bool StepMixity::settled() const {
-    for (const Swing& s : swing_)
-        if (s.share > 0.0 && s.share < 1.0 && (1.0 - s.share) * std::abs(s.last) > tolerance_) return false;
-    return true;
+bool StepMixity::settled(const State& state, std::span<const double> adhesion_old) {
+    if (std::none_of(swing_.begin(), swing_.end(), [](const Swing& s) { return s.open > 0.0; })) return true;
+    const Memory before = now_;
+    double most = 0.0;
+    for (std::size_t p = 0; p < swing_.size(); ++p) {
+        if (!(swing_[p].open > 0.0)) continue;
+        now_.used[p] = now_.own[p];
+        now_.toughness[p] = pairs_.law[p]->toughness(now_.own[p]);
+        if (swing_[p].share > 0.0) most = std::max(most, swing_[p].open);
+    }
+    const std::vector<double> next = damage_step(adhesion_old, state.response.jump);
+    bool rests = true;
+    for (std::size_t p = 0; p < next.size(); ++p) rests = rests && std::abs(next[p] - state.adhesion[p]) <= tolerance_;
+    if (rests) {
+        for (Swing& s : swing_) s.open = 0.0;
+        return true;
+    }
+    restore(before);
+    return most <= tolerance_;
 }
 
 std::int64_t StepMixity::held() const {
-    return std::count_if(swing_.begin(), swing_.end(), [&](const Swing& s) { return s.share <= 0.0 && std::abs(s.last) > tolerance_; });
+    return std::count_if(swing_.begin(), swing_.end(), [&](const Swing& s) { return s.share <= 0.0 && s.open > tolerance_; });
 }
 
 std::vector<double> StepMixity::damage_step(std::span<const double> adhesion_old, std::span<const double> jump) const {

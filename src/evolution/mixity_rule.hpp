@@ -48,8 +48,8 @@ public:
     bool look(std::span<const double> adhesion, std::span<const double> jump);
     // The same for one adhering pair of it.
     bool look(std::size_t pair, const Driving& y);
-    // Does every toughness in use agree with the iterate that was looked at last?
-    bool settled() const;
+    // Is the iterate that was looked at last, whose damage rests at the B in use, at rest at the B that it shows too? That B is then the one in use.
+    bool settled(const State& state, std::span<const double> adhesion_old);
     // Pairs whose mixity is held because it would not settle.
     std::int64_t held() const;
 
@@ -76,6 +76,7 @@ private:
     struct Swing {
         double last = 0.0;   // relative change of Gc or Go that was asked for last
         double share = 1.0;  // of the way that is gone
+        double open = 0.0;   // what of it is left to go
         std::int64_t turns = 0;
     };
 
