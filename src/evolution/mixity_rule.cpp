@@ -89,14 +89,14 @@ bool StepMixity::look(std::size_t pair, const Driving& y) {
 }
 
 bool StepMixity::settled(const State& state, std::span<const double> adhesion_old) {
-    if (std::none_of(swing_.begin(), swing_.end(), [](const Swing& s) { return s.open > 0.0; })) return true;
+    if (rule_ != MixityRule::converged || now_.used == now_.own) return true;
     const Memory before = now_;
-    double most = 0.0;
+    double open = 0.0;
     for (std::size_t p = 0; p < swing_.size(); ++p) {
-        if (!(swing_[p].open > 0.0)) continue;
+        if (now_.used[p] == now_.own[p]) continue;
         now_.used[p] = now_.own[p];
         now_.toughness[p] = pairs_.law[p]->toughness(now_.own[p]);
-        if (swing_[p].share > 0.0) most = std::max(most, swing_[p].open);
+        if (swing_[p].share > 0.0) open = std::max(open, swing_[p].open);
     }
     const std::vector<double> next = damage_step(adhesion_old, state.response.jump);
     bool rests = true;
@@ -106,7 +106,7 @@ bool StepMixity::settled(const State& state, std::span<const double> adhesion_ol
         return true;
     }
     restore(before);
-    return most <= tolerance_;
+    return open <= tolerance_;
 }
 
 std::int64_t StepMixity::held() const {

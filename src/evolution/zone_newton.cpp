@@ -345,8 +345,7 @@ double Leap::run() {
         for (std::size_t i = 0; i < members_.size(); ++i) change = std::max(change, std::abs(next.adhesion[i] - at.adhesion[i]));
         at = std::move(next);
         // Newton's method squares the error: the next one would be far below delta.
-        const double enough = (renewed ? 0.01 : 1.0) * newton_.tolerance;
-        if (newton && !renewed ? change * change <= 0.01 * newton_.tolerance : change <= enough) break;
+        if (newton && !renewed ? change * change <= 0.01 * newton_.tolerance : change <= newton_.tolerance) break;
     }
     for (std::size_t i = 0; i < members_.size(); ++i) state_.adhesion[members_[i].pair] = at.adhesion[i];
     const std::vector<std::int64_t>& rows = newton_.op.zone_rows();
