@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "evolution/extrapolation.hpp"
+
 namespace delam {
 
 namespace {
 
 constexpr int most_steps = 200;
-constexpr double tolerance = 1e-10;  // of the largest force
+constexpr double tolerance = 1e-10;   // of the largest force
+constexpr double acceptable = 1e-8;   // where rounding or the limit ends the steps
 constexpr double rounding = 1e-13;   // of an energy of the whole scene
 
 double largest(std::span<const double> values) {
@@ -99,31 +102,56 @@ double CurvedDisplacement::mismatch(const std::vector<std::uint8_t>& closed, con
 }
 
 bool CurvedDisplacement::run(const Solve& solve, std::vector<std::uint8_t>& closed, Response& response) const {
+    const auto dim = static_cast<std::size_t>(pairs_.dimension);
+    std::vector<std::size_t> rows;  // that bend
+    for (std::size_t p = 0; p < adhesion_.size(); ++p)
+        if (pairs_.mixed(p) && adhesion_[p] > 0.0 && adhesion_[p] < 1.0)
+            for (std::size_t c = 0; c < dim; ++c) rows.push_back(p * dim + c);
+    const auto gather = [&](std::span<const double> jump) {
+        std::vector<double> z;
+        for (const std::size_t r : rows) z.push_back(jump[r]);
+        return z;
+    };
     bool converged = true;
     {
         const Model m = model(response.jump);
         converged = solve(m.stiffness, m.force, closed, response);
     }
+    std::vector<double> at = response.jump;  // where the next model touches
+    bool ahead = false;                      // further than the answer at hand, by what the last steps have shown
+    Extrapolation extrapolation;
     double left = mismatch(closed, response);
     for (int step = 0; step < most_steps && left > tolerance; ++step) {
-        const Model m = model(response.jump);
+        const Model m = model(at);
         std::vector<std::uint8_t> to_closed = closed;
         Response to = response;
         converged = solve(m.stiffness, m.force, to_closed, to);
+        const std::vector<double> image = gather(to.jump), from = gather(at);
         const Segment segment(response, to);
         const double energy = bulk(response) + interface_energy(response.jump);
         const double slack = rounding * (std::abs(response.stored_bulk) + std::abs(response.load_potential) + std::abs(energy));
         double s = 1.0;
-        while (s > 1e-3 && segment.bulk_energy(s) + interface_energy(segment.jump(s)) > energy + slack) s *= 0.5;
-        if (s <= 1e-3) return left <= 1e3 * tolerance && converged;  // rounding of the energy
-        Response next = s < 1.0 ? segment.at(s) : std::move(to);
-        if (s >= 1.0) closed = std::move(to_closed);
-        else  // between an open and a closed answer a pair is open
+        while (s > 1e-3 && segment.bulk_energy(s) + interface_energy(segment.jump(s)) > energy + slack) s *= ahead ? 0.0 : 0.5;
+        if (s <= 1e-3 && !ahead) return left <= acceptable && converged;  // rounding of the energy
+        if (s >= 1.0) {
+            closed = std::move(to_closed);
+            response = std::move(to);
+        } else if (s > 1e-3) {  // between an open and a closed answer a pair is open
             for (std::size_t p = 0; p < closed.size(); ++p) closed[p] = closed[p] != 0 && to_closed[p] != 0 ? 1 : 0;
-        response = std::move(next);
+            Response between = segment.at(s);
+            response = std::move(between);
+        }
         left = mismatch(closed, response);
+        at = response.jump;
+        ahead = s >= 1.0;
+        if (!ahead) {
+            extrapolation.forget();
+            continue;
+        }
+        const std::vector<double> next = extrapolation.next(from, image);
+        for (std::size_t i = 0; i < rows.size(); ++i) at[rows[i]] = rows[i] % dim == 0 ? std::max(0.0, next[i]) : next[i];
     }
-    return converged && left <= tolerance;
+    return converged && left <= acceptable;
 }
 
 }  // namespace delam
