@@ -58,6 +58,8 @@ Outcome Solver::advance(double time) {
                             " alternations (last change of adhesion ", next.counts.damage_change, ", tolerance ",
                             options.damage_tolerance, "; worst linear residual ", next.counts.linear_residual, ", tolerance ",
                             options.linear_tolerance, ")");
+        if (next.counts.mixity_held > 0)
+            outcome.text += text("; the mixity of ", next.counts.mixity_held, " pairs would not settle and was held");
     }
     displacement_.clear();
     looked_ = nullptr;

@@ -54,6 +54,7 @@ void add(Counts& sum, const Counts& more) {
     sum.linear_iterations += more.linear_iterations;
     sum.newton_solves += more.newton_solves;
     sum.debond_moves += more.debond_moves;
+    sum.mixity_held += more.mixity_held;
     sum.search_candidates += more.search_candidates;
     sum.linear_residual = std::max(sum.linear_residual, more.linear_residual);
 }
@@ -80,7 +81,7 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
         const Ledger& l = r.state.ledger;
         const double scale = std::max(std::abs(l.energy()), std::abs(l.work));
         return (options.step_control == "adaptive" && (!r.converged || l.upper - l.lower > options.step_tolerance * scale)) ||
-               (options.mixity_step_tolerance > 0.0 && r.state.counts.mixity_error > options.mixity_step_tolerance);
+               (options.mixity_step_tolerance > 0.0 && r.state.ledger.mixity_error > options.mixity_step_tolerance);
     };
     ControlledStep out;
     State at = before;
@@ -102,6 +103,7 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
         sum.increment += next.ledger.increment;
         sum.upper += next.ledger.upper;
         sum.increment_lower += next.ledger.increment_lower;
+        sum.mixity_error = std::max(sum.mixity_error, next.ledger.mixity_error);
         converged = converged && goal.reached->converged;
         ++parts;
         at = std::move(next);
@@ -158,7 +160,7 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
     effort.damage_change = state.counts.damage_change;
     effort.search_margin = state.counts.search_margin;
     effort.search_gap = state.counts.search_gap;
-    effort.mixity_error = state.counts.mixity_error;
+    state.ledger.mixity_error = sum.mixity_error;
     effort.backtracks = first.backtracks;
     effort.revisions = first.revisions;
     effort.revised_from = first.revised_from;

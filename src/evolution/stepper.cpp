@@ -38,6 +38,7 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
         initial_adhesion_.insert(initial_adhesion_.end(), properties.adhesion.begin(), properties.adhesion.end());
     }
     contact_.level = contact_levels(mesh.interfaces());
+    rule_ = mixity_rule(pairs_, problem_.options.mixity_rule);
     ChosenOperator chosen = choose_operator(problem_, monitor_);
     operator_ = std::move(chosen.op);
     reduction_ = std::move(chosen.choice);
@@ -54,7 +55,7 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
 }
 
 Minimiser Stepper::minimiser() const {
-    return {*operator_, pairs_, contact_, monitor_, problem_.options.damage_tolerance, problem_.options.minimisation_limit};
+    return {*operator_, pairs_, contact_, monitor_, problem_.options.damage_tolerance, problem_.options.minimisation_limit, rule_};
 }
 
 Stepper::Result Stepper::initial(double time) {
@@ -72,6 +73,8 @@ Stepper::Result Stepper::initial(double time) {
     state.mixity_before = state.mixity;
     state.loaded = any_jump(pairs_, state.response.jump) ? 1 : 0;
     book_energies(state);
+    state.ledger.initial = state.ledger.energy();
+    state.ledger.initial_slides = state.ledger.energy_slides();
     state.memory = operator_->memory();
     return result;
 }
@@ -107,7 +110,18 @@ void Stepper::book_step(State& next, const State& before) const {
     ledger.upper = dot(d, before.response.conjugate) + lift_.half_quadratic(d, spring_stiffness(pairs_, before.adhesion));
     ledger.work = last.work + 0.5 * (ledger.lower + ledger.upper);
     ledger.dissipated = last.dissipated + dissipated;
-    ledger.dissipated_slides = last.dissipated_slides + dissipation_slides(pairs_, next.mixity, before.adhesion, next.adhesion);
+    ledger.dissipated_slides = last.dissipated_slides;
+    if (rule_ != MixityRule::variational) {
+        ledger.dissipated_slides += dissipation_slides(pairs_, next.mixity, before.adhesion, next.adhesion);
+        return;
+    }
+    // What was minimised is the slides' split, with the dissipation at the mixity of the state before.
+    const double change_slides = ledger.energy_slides() - last.energy_slides();
+    const double spent = dissipation_slides(pairs_, next.mixity_before, before.adhesion, next.adhesion);
+    const std::vector<double>& before_last = before.loaded != 0 ? before.mixity_before : next.mixity_before;
+    ledger.dissipated_slides += spent;
+    ledger.increment = change_slides + spent;
+    ledger.increment_lower = change_slides + dissipation_slides(pairs_, before_last, before.adhesion, next.adhesion);
 }
 
 bool Stepper::minimise(State& next, const State& before) const {
@@ -140,8 +154,9 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
         start.closed = std::move(elastic.closed);
     } else {
         start.mixity_before = before.mixity;
-        start.mixity = mixities(pairs_, before.response.jump, before.mixity);
+        start.mixity = starting_mixity(pairs_, rule_, before);
     }
+    if (rule_ == MixityRule::variational) start.mixity_before = start.mixity;
     Result best{start, true};
     best.converged = minimise(best.state, before) && converged;
     for (const std::vector<double>& adhesion : also) {
@@ -151,6 +166,7 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
         keep_lower(best, std::move(other), before);
     }
     if (problem_.options.solution == "energetic") search(best, before, start);
+    warn_of_snap(monitor_, rule_, best.state);
     return best;
 }
 
@@ -199,7 +215,10 @@ Stepper::Result Stepper::equilibrate(const State& before, double time, std::span
         if (!(next.adhesion[p] >= 0.0 && next.adhesion[p] <= 1.0))
             fail(DELAM_ERROR_ARGUMENT, "adhesion of pair ", p, " is ", next.adhesion[p], ", allowed: 0 to 1");
     result.converged = minimiser().displace(next);
+    if (rule_ == MixityRule::variational) next.mixity = mixities(pairs_, next.response.jump, next.mixity);
     book_energies(next);
+    next.ledger.initial += next.ledger.energy() - before.ledger.energy();
+    next.ledger.initial_slides += next.ledger.energy_slides() - before.ledger.energy_slides();
     next.memory = operator_->memory();
     return result;
 }

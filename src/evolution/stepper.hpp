@@ -62,6 +62,7 @@ private:
     Monitor& monitor_;
     PairLaws pairs_;
     ContactScene contact_;
+    MixityRule rule_ = MixityRule::frozen;
     std::vector<double> initial_adhesion_;
     std::unique_ptr<JumpOperator> operator_;
     ReductionChoice reduction_;

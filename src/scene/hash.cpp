@@ -103,7 +103,6 @@ void add_loads(Fnv& fnv, const Problem& problem) {
 
 void add_options(Fnv& fnv, const Options& options) {
     fnv.add(options.solution);
-    fnv.add(options.mixity_rule);
     fnv.add(options.backtracking);
     fnv.add(options.backtracking_limit);
     fnv.add(options.backtracking_depth);
@@ -122,6 +121,7 @@ void add_options(Fnv& fnv, const Options& options) {
     fnv.add(options.reduction);
     fnv.add(options.contact);
     fnv.add(options.mixity);
+    fnv.add(options.mixity_rule);
     fnv.add(options.contact_limit);
     fnv.add(options.subdomains);
     fnv.add(options.gluing);

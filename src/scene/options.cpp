@@ -43,10 +43,6 @@ const std::array<Row, 27>& rows() {
           "solution concept: local, critical points of the incremental problem reached from the state before; energetic, the lowest state that a "
           "search over fronts and new cracks and the two-sided estimate have found"},
          &Options::solution},
-        {{"mixity_rule", "text", "-", "frozen", "frozen | converged | variational",
-          "mode mixity in the damage: that of the step before; that of the step's own solution as a fixed point; or a variable of the "
-          "energy, with the traction that this brings"},
-         &Options::mixity_rule},
         {{"backtracking", "text", "-", "auto", "auto | off | on",
           "return to earlier steps when the two-sided estimate shows that they were not minimal; auto: on for energetic solutions"},
          &Options::backtracking},
@@ -118,6 +114,10 @@ const std::array<Row, 27>& rows() {
           "where the mode mixity is computed: auto leaves it out of laws whose onset and toughness do not depend on it (their field mixity "
           "is 0); always computes it"},
          &Options::mixity},
+        {{"mixity_rule", "text", "-", "frozen", "frozen | converged | variational",
+          "whose mixity a step's toughness takes: that of the state before (frozen), that of the step's own solution as a fixed point, for a pair "
+          "that breaks that of the iterate in which it broke (converged), or the energy with f(B(u), zeta) and its extra traction (variational)"},
+         &Options::mixity_rule},
         {{"contact_limit", "integer", "-", "200", "1 <= value <= 2^53",
           "active-set steps of a displacement solve at most, least-index exchanges included"},
          &Options::contact_limit,

@@ -11,7 +11,6 @@ namespace delam {
 struct Options {
     // solution concept
     std::string solution = "local";             // local | energetic
-    std::string mixity_rule = "frozen";         // frozen | converged | variational
     std::string backtracking = "auto";          // auto | off | on
     std::int64_t backtracking_limit = 100;      // returns to earlier steps in one step
     std::int64_t backtracking_depth = 1000;     // steps that are kept to return to
@@ -34,6 +33,7 @@ struct Options {
     // what may be left out where it cannot matter
     std::string contact = "auto";               // auto | always
     std::string mixity = "auto";                // auto | always
+    std::string mixity_rule = "frozen";         // frozen | converged | variational
     // contact
     std::int64_t contact_limit = 200;           // primal-dual active-set steps before the fallback
     // FETI
