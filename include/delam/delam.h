@@ -184,12 +184,14 @@ DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, co
 
 /* ---- interface law ------------------------------------------------------------------------------------------------ */
 
-/* At the mixity B = Y_t/Y, with the driving energy Y = Y_n + Y_t, Y_c = k_c [u]_c^2 / 2, adhesion zeta minimises zeta Y + g(B, zeta) over
- * 0 <= zeta <= old adhesion. g, the energy spent, is convex and decreasing in zeta, g(B, 1) = 0, g(B, 0) = Gc(B), and its slope at zeta = 1 is
- * minus the onset Go(B). On a first loading at fixed mixity the traction peaks at sqrt(2 k Go), and the area under it is Gc. kind:
- *   piecewise-linear  the bilinear law: traction falls on a straight line (Valoroso and Champaney, Eng. Fract. Mech. 73, 2006)
+/* At the mixity B = Y_t/Y, with the driving energy Y = Y_n + Y_t, Y_c = k_c [u]_c^2 / 2, adhesion zeta minimises
+ * zeta Y + g(B, zeta) over 0 <= zeta <= old adhesion. g, the energy spent, is convex and decreasing in zeta,
+ * g(B, 1) = 0, g(B, 0) = Gc(B), and its slope at zeta = 1 is minus the onset Go(B). On a first loading at fixed mixity
+ * the traction peaks at sqrt(2 k Go), and the area under it is Gc. kind:
+ *   piecewise-linear  the bilinear law: traction falls on a straight line (slides; Valoroso and Champaney 2006)
  *   exponential       it decays, over (Gc/Go - 1)/2 of the jump at the onset; never to nothing
- *   trapezoidal       it stays at its peak on the part `plateau` of the way from onset to end, then falls on a straight line
+ *   trapezoidal       it stays at its peak on the part `plateau` of the way from onset to end, then falls on a straight
+ *                     line
  *   tabulated         it follows the points of delam_law_set_table
  *   griffith          no softening: debonded at once where Y reaches Gc; no onset of its own
  *   host              callbacks of the host: delam_law_create_host (delam_law_create refuses this kind)
@@ -199,36 +201,44 @@ DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, co
  *   normal_toughness, tangential_toughness  G^c       F/L   >= onset
  *   plateau                                 [0, 1)    trapezoidal only
  *   gradient                                kappa >= 0, F L, default 0, of the term kappa/2 |grad zeta|^2
- * and exponents > 0, default 2, of the criterion, a text set with delam_law_set_text (which sets them to 2 where it changes it):
- *   valoroso-champaney (default)  ((1-B) G/G_n)^p + (B G/G_t)^q = 1, p and q: onset_exponent_1, onset_exponent_2 for the onset,
- *                                 toughness_exponent_1, toughness_exponent_2 for the toughness
+ * and exponents > 0, default 2, of the criterion, a text set with delam_law_set_text (which sets them to 2 where it
+ * changes it):
+ *   valoroso-champaney (default)  ((1-B) G/G_n)^p + (B G/G_t)^q = 1 (Eng. Fract. Mech. 73, 2006), p and q:
+ *                                 onset_exponent_1, onset_exponent_2, toughness_exponent_1, toughness_exponent_2
  *   power                         the same with p = q: onset_exponent, toughness_exponent
- *   benzeggagh-kenane             G_n + (G_t - G_n) B^eta (Compos. Sci. Technol. 56, 1996), eta: onset_exponent, toughness_exponent
- * Gc(B) >= Go(B) must hold for every mixity B in [0,1]. */
+ *   benzeggagh-kenane             G_n + (G_t - G_n) B^eta (Compos. Sci. Technol. 56, 1996), eta: onset_exponent,
+ *                                 toughness_exponent
+ * Gc(B) >= Go(B) must hold for every mixity B in [0,1]. A key that does not belong to the kind or to the criterion is
+ * DELAM_ERROR_ARGUMENT. */
 DELAM_API int32_t delam_law_create(delam_context *context, const char *kind, delam_law **out);
 DELAM_API int32_t delam_law_set(delam_law *law, const char *key, double value);
 DELAM_API int32_t delam_law_set_text(delam_law *law, const char *key, const char *value);
-/* Softening of a tabulated law. xi, s: [count], count >= 2, from (0, 1) to (1, 0): the jump beyond that of the onset over its largest, not
- * falling, and the traction over its peak, not rising; straight lines between. xi is scaled so that the area is Gc, at every mixity. */
+/* Softening of a tabulated law. xi, s: [count], count >= 2, from (0, 1) to (1, 0): the jump beyond that of the onset
+ * over its largest, not falling, and the traction over its peak, not rising; straight lines between. xi is scaled so
+ * that the area is Gc, at every mixity. Points out of order: DELAM_ERROR_ARGUMENT, the law is unchanged. */
 DELAM_API int32_t delam_law_set_table(delam_law *law, int64_t count, const double *xi, const double *s);
-/* Parameters of a kind, all its criteria taken together; 0 for an unknown kind. Static texts; any output may be NULL. type: "real", "text" or
- * "table" (delam_law_set, delam_law_set_text, delam_law_set_table); initial: "" where it must be given. */
+/* Parameters of a kind, all its criteria taken together; 0 for an unknown kind. Static texts; any output may be NULL.
+ * type: "real", "text" or "table" (delam_law_set, delam_law_set_text, delam_law_set_table); initial: "" where it must
+ * be given. An unknown kind or index: DELAM_ERROR_ARGUMENT. */
 DELAM_API int64_t delam_law_parameter_count(const char *kind);
-DELAM_API int32_t delam_law_parameter_info(const char *kind, int64_t index, const char **key, const char **type, const char **unit,
-                                           const char **initial, const char **range, const char **meaning);
+DELAM_API int32_t delam_law_parameter_info(const char *kind, int64_t index, const char **key, const char **type,
+                                           const char **unit, const char **initial, const char **range,
+                                           const char **meaning);
 
-/* Callbacks of a law that the host computes; non-zero return: failed, the call of the library ends with DELAM_ERROR_PROBLEM. They run inside
- * calls that check or use the law, on the calling thread, must not call back into the library, and must always give the same answers. */
-/* Adhesion on a first loading at fixed mixity: the minimiser zeta*(B, Y) of zeta Y + g(B, zeta) in [0,1], nonincreasing in driving = Y (F/L);
- * slope: d zeta* / dY, L/F, finite, <= 0 (0 where it is not inside). */
+/* Callbacks of a law that the host computes; non-zero return: failed, the call of the library ends with
+ * DELAM_ERROR_PROBLEM. They run inside calls that check or use the law, on the calling thread, must not call back into
+ * the library, and must always give the same answers. */
+/* Adhesion on a first loading at fixed mixity: the minimiser zeta*(B, Y) of zeta Y + g(B, zeta) in [0,1], nonincreasing
+ * in driving = Y (F/L); slope: d zeta* / dY, L/F, finite, <= 0 (0 where it is not inside). */
 typedef int32_t (*delam_adhesion_callback)(double mixity, double driving, double *adhesion, double *slope, void *user);
-/* g(B, zeta) at 0 <= adhesion <= 1, F/L; slope: dg/dzeta <= 0, may be -INFINITY at adhesion 0; mixity_slope: dg/dB, finite. */
-typedef int32_t (*delam_dissipation_callback)(double mixity, double adhesion, double *dissipated, double *slope, double *mixity_slope,
-                                              void *user);
-/* A law of kind host. Go = -dg/dzeta at adhesion 1, Gc = g at adhesion 0. name, not empty, stands for the callbacks in messages and in
- * delam_problem_hash. Callbacks and user must live as long as problems and solvers that took the law. Keys: normal_stiffness,
- * tangential_stiffness, gradient. delam_law_check samples whether both callbacks belong to one such energy and names the first place where they
- * do not; delam_problem_set_law checks likewise. */
+/* g(B, zeta) at 0 <= adhesion <= 1, F/L; slope: dg/dzeta <= 0, may be -INFINITY at adhesion 0; mixity_slope: dg/dB,
+ * finite. */
+typedef int32_t (*delam_dissipation_callback)(double mixity, double adhesion, double *dissipated, double *slope,
+                                              double *mixity_slope, void *user);
+/* A law of kind host. Go = -dg/dzeta at adhesion 1, Gc = g at adhesion 0. name, not empty, stands for the callbacks in
+ * messages and in delam_problem_hash. Callbacks and user must live as long as problems and solvers that took the law.
+ * Keys: normal_stiffness, tangential_stiffness, gradient. delam_law_check samples whether both callbacks belong to one
+ * such energy and names the first place where they do not; delam_problem_set_law checks likewise. */
 DELAM_API int32_t delam_law_create_host(delam_context *context, const char *name, delam_adhesion_callback adhesion,
                                         delam_dissipation_callback dissipation, void *user, delam_law **out);
 /* All parameters present and admissible? DELAM_ERROR_PROBLEM names the first that is not. */

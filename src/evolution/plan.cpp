@@ -100,7 +100,7 @@ PlanItem mixity_of(const Solver& solver, std::size_t interface) {
                 work,    0.0,  unit};
     if (problem.options.mixity == "always")
         return {subject, used, "option mixity = always, although the law does not depend on it", work, 0.0, unit};
-    return {subject, left_out, "onset and toughness are the same for both modes with exponents 1, so at every mixity",
+    return {subject, left_out, "onset and toughness of the law are the same at every mixity",
             0.0,     work,     unit};
 }
 
