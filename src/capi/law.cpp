@@ -39,10 +39,11 @@ int32_t delam_law_create(delam_context* context, const char* kind, delam_law** o
 int32_t delam_law_set(delam_law* law, const char* key, double value) {
     return guard(law, [&] {
         require_pointer(key, "key");
-        if (!(value > 0.0) || !std::isfinite(value)) {
+        const bool zero = Law::may_be_zero(key);
+        if (!(zero ? value >= 0.0 : value > 0.0) || !std::isfinite(value)) {
             // A wrong key is told before a wrong value.
             if (Law probe; probe.set(key, 1.0)) {
-                fail(DELAM_ERROR_ARGUMENT, "law parameter '", key, "' = ", value, " must be finite and > 0");
+                fail(DELAM_ERROR_ARGUMENT, "law parameter '", key, "' = ", value, " must be finite and ", zero ? ">= 0" : "> 0");
             }
         }
         Law changed = *law->core;
@@ -51,7 +52,7 @@ int32_t delam_law_set(delam_law* law, const char* key, double value) {
                  "' is not known; known are normal_stiffness, tangential_stiffness, "
                  "normal_onset, tangential_onset, normal_toughness, tangential_toughness, onset_exponent_1, "
                  "onset_exponent_2, "
-                 "toughness_exponent_1, toughness_exponent_2");
+                 "toughness_exponent_1, toughness_exponent_2, gradient");
         }
         *law->core = changed;
     });

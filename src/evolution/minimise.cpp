@@ -39,7 +39,7 @@ bool Minimiser::alternate(State& state, std::span<const double> adhesion_old) co
     while (true) {
         monitor.progress("minimise", state.counts.am_iterations, 0);
         converged = displace(state);
-        const std::vector<double> next = damage_step(pairs, toughness, adhesion_old, state.response.jump);
+        const std::vector<double> next = damage_step(pairs, toughness, adhesion_old, state.adhesion, state.response.jump);
         double change = 0.0;
         for (std::size_t p = 0; p < next.size(); ++p) change = std::max(change, std::abs(next[p] - state.adhesion[p]));
         state.counts.damage_change = change;
@@ -62,7 +62,8 @@ double Minimiser::energy(const State& state, std::span<const double> adhesion_ol
 // the energy of the whole is taken back, and the plain step made instead.
 bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) const {
     const std::vector<Toughness> toughness = toughnesses(pairs, state.mixity);
-    auto* condensed = dynamic_cast<Condensed*>(&op);
+    // The leap eliminates the damage pair by pair, which a gradient term forbids.
+    auto* condensed = pairs.gradient.empty() ? dynamic_cast<Condensed*>(&op) : nullptr;
     bool converged = true, leapt = false;
     std::optional<State> before;
     std::vector<double> plain;
@@ -83,7 +84,7 @@ bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) c
             continue;
         }
         level = reached;
-        plain = damage_step(pairs, toughness, adhesion_old, state.response.jump);
+        plain = damage_step(pairs, toughness, adhesion_old, state.adhesion, state.response.jump);
         double change = 0.0;
         for (std::size_t p = 0; p < plain.size(); ++p) change = std::max(change, std::abs(plain[p] - state.adhesion[p]));
         state.counts.damage_change = change;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "interface/coupled_damage.hpp"
 #include "interface/mixity.hpp"
 
 namespace delam {
@@ -69,11 +70,20 @@ std::vector<Toughness> toughnesses(const PairLaws& pairs, std::span<const double
 }
 
 std::vector<double> damage_step(const PairLaws& pairs, std::span<const Toughness> toughness, std::span<const double> adhesion_old,
-                                std::span<const double> jump) {
+                                std::span<const double> adhesion, std::span<const double> jump) {
     std::vector<double> zeta(adhesion_old.begin(), adhesion_old.end());
     for (std::size_t p = 0; p < zeta.size(); ++p)
         if (pairs.law[p] != nullptr && zeta[p] > 0.0)
             zeta[p] = damage_minimiser(toughness[p], driving_energy(pairs, p, jump).total(), zeta[p]);
+    for (const auto& term : pairs.gradient) {
+        const std::size_t first = term->first(), count = term->pairs();
+        std::vector<double> driving(count);
+        for (std::size_t i = 0; i < count; ++i) driving[i] = driving_energy(pairs, first + i, jump).total();
+        const std::span<double> own = std::span(zeta).subspan(first, count);
+        const CoupledDamage coupled = coupled_damage(*term, toughness.subspan(first, count), driving, adhesion_old.subspan(first, count), own,
+                                                     adhesion.subspan(first, count));
+        std::copy(coupled.adhesion.begin(), coupled.adhesion.end(), own.begin());
+    }
     return zeta;
 }
 
@@ -82,6 +92,7 @@ double stored_energy(const PairLaws& pairs, std::span<const double> adhesion, st
     for (std::size_t p = 0; p < adhesion.size(); ++p)
         if (pairs.law[p] != nullptr && adhesion[p] > 0.0)
             sum += pairs.weight[p] * adhesion[p] * driving_energy(pairs, p, jump).total();
+    for (const auto& term : pairs.gradient) sum += term->energy(adhesion.subspan(term->first(), term->pairs()));
     return sum;
 }
 

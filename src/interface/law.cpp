@@ -17,6 +17,7 @@ namespace {
 struct Parameter {
     const char* name;
     double Law::*value;
+    bool may_be_zero = false;
 };
 constexpr Parameter parameters[] = {
     {"normal_stiffness", &Law::normal_stiffness},
@@ -29,7 +30,10 @@ constexpr Parameter parameters[] = {
     {"onset_exponent_2", &Law::onset_exponent_2},
     {"toughness_exponent_1", &Law::toughness_exponent_1},
     {"toughness_exponent_2", &Law::toughness_exponent_2},
+    {"gradient", &Law::gradient, true},
 };
+
+bool admits(const Parameter& p, double value) { return std::isfinite(value) && (p.may_be_zero ? value >= 0.0 : value > 0.0); }
 
 constexpr double rounding = 1e-12;  // by how much, relatively, Gc may fall short of Go
 
@@ -108,11 +112,15 @@ bool Law::set(const std::string& key, double value) {
     return false;
 }
 
+bool Law::may_be_zero(const std::string& key) {
+    return std::any_of(std::begin(parameters), std::end(parameters), [&](const Parameter& p) { return key == p.name && p.may_be_zero; });
+}
+
 void Law::validate() const {
     for (const Parameter& p : parameters) {
         const double value = this->*p.value;
-        if (!(value > 0.0 && std::isfinite(value)))
-            fail(DELAM_ERROR_PROBLEM, "law: ", p.name, " ", value, ": must be finite and > 0");
+        if (!admits(p, value))
+            fail(DELAM_ERROR_PROBLEM, "law: ", p.name, " ", value, ": must be finite and ", p.may_be_zero ? ">= 0" : "> 0");
     }
     if (normal_toughness < normal_onset * (1.0 - rounding))
         fail(DELAM_ERROR_PROBLEM, "law: normal_toughness ", normal_toughness, " < normal_onset ", normal_onset);
@@ -144,6 +152,17 @@ Toughness Law::toughness(double mixity) const {
 
 double dissipated(const Toughness& t, double zeta) {
     return t.total * ((1.0 - zeta) * (t.onset / (t.onset * (1.0 - zeta) + t.total * zeta)));
+}
+
+// -g' = Gc^2 Go / (Go + D zeta)^2 and its slope.
+double driving(const Toughness& t, double zeta) {
+    const double part = t.total / (t.onset * (1.0 - zeta) + t.total * zeta);
+    return t.onset * part * part;
+}
+
+double driving_slope(const Toughness& t, double zeta) {
+    const double sum = t.onset * (1.0 - zeta) + t.total * zeta;
+    return -2.0 * (t.total - t.onset) * (driving(t, zeta) / sum);
 }
 
 double stored_slides(const Toughness& t, double zeta) {

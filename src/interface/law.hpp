@@ -30,9 +30,12 @@ struct Law {
     double onset_exponent_2 = 2.0;
     double toughness_exponent_1 = 2.0;  // b1, b2: total toughness criterion
     double toughness_exponent_2 = 2.0;
+    double gradient = 0.0;  // kappa >= 0 of the stored energy kappa/2 |grad zeta|^2, F L (gradient.hpp)
 
     // Sets a parameter by its public name (delam_law_set); false: unknown name.
     bool set(const std::string& key, double value);
+    // Is 0 an admissible value of the parameter?
+    static bool may_be_zero(const std::string& key);
     // Throws Error(DELAM_ERROR_PROBLEM) naming the parameter, its value and range, or the mixity where Gc(B) < Go(B).
     void validate() const;
     // False: Go and Gc are the same at every mixity, which is so for equal pure modes and exponents of 1 (nothing else
@@ -44,6 +47,8 @@ struct Law {
 
 // Energies per unit area at one point; `t` at the mixity that holds.
 double dissipated(const Toughness& t, double zeta);              // g(zeta), g(1) = 0
+double driving(const Toughness& t, double zeta);                 // Y(zeta) = -dg/dzeta: what it takes to damage from zeta on
+double driving_slope(const Toughness& t, double zeta);           // dY/dzeta <= 0
 double stored_slides(const Toughness& t, double zeta);           // f(zeta) <= 0
 double damage_minimiser(const Toughness& t, double driving, double zeta_old);  // driving = Y
 // d zeta/dY of the minimiser where 0 < zeta < zeta_old, else 0; < 0.

@@ -62,7 +62,7 @@ void add_law(Fnv& fnv, const Law& law) {
     for (const double parameter :
          {law.normal_stiffness, law.tangential_stiffness, law.normal_onset, law.tangential_onset, law.normal_toughness,
           law.tangential_toughness, law.onset_exponent_1, law.onset_exponent_2, law.toughness_exponent_1,
-          law.toughness_exponent_2}) {
+          law.toughness_exponent_2, law.gradient}) {
         fnv.add(parameter);
     }
 }

@@ -20,7 +20,8 @@ namespace {
 
 const std::vector<std::string> law_parameters{
     "normal_stiffness",     "tangential_stiffness", "normal_onset",     "tangential_onset",     "normal_toughness",
-    "tangential_toughness", "onset_exponent_1",     "onset_exponent_2", "toughness_exponent_1", "toughness_exponent_2"};
+    "tangential_toughness", "onset_exponent_1",     "onset_exponent_2", "toughness_exponent_1", "toughness_exponent_2",
+    "gradient"};
 
 // What geometry.h has to divide: the lengths, and the thicknesses of layers without divisions of their own.
 std::vector<double> divided_lengths(const Table& root) {
@@ -130,7 +131,7 @@ void read_laws(const Table& root, Scene& scene) {
         law.name = new_name(table, scene.laws, "law");
         law.kind = table.choice("kind", {"piecewise-linear"}, "piecewise-linear");
         for (const std::string& key : law_parameters)
-            if (table.has(key)) law.parameters.emplace_back(key, table.number(key, positive));
+            if (table.has(key)) law.parameters.emplace_back(key, table.number(key, key == "gradient" ? not_negative : positive));
         law.place = table.place();
         scene.laws.push_back(std::move(law));
     }
