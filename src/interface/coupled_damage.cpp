@@ -9,12 +9,14 @@ namespace delam {
 namespace {
 
 constexpr std::int64_t limit = 300;
+// Steps at a residual of rounding, for kappa so large that rounding hides the law (beyond some 1e10 times its curvature).
+constexpr std::int64_t idle_limit = 8;
 // Newton's method squares the error: after a whole step as small as this the next one would be rounding.
 constexpr double small_step = 1e-9;
 // A pair counts as pressed against a bound within this part of its range, or within the residual where that is less.
 constexpr double near_bound = 1e-6;
 constexpr double sufficient = 1e-4;      // part of the predicted fall that a step has to reach
-constexpr double rounding = 1e-14;       // of the energy of all pairs
+constexpr double rounding = 1e-14;       // of the energy of all pairs, or of an adhesion
 constexpr int halvings = 50;
 constexpr double tiny = 1e-12;           // of a diagonal entry: keeps a part that nothing curves definite
 
@@ -136,12 +138,14 @@ CoupledDamage Problem::solve(std::span<const double> pointwise, std::span<const 
 
     Values curved(n, 0.0), step(n, 0.0), diag(n), right(n);
     std::vector<std::uint8_t> held(n);
+    std::int64_t idle = 0;
     while (true) {
         const Values d = slope(z);
         for (std::size_t i = 0; i < n; ++i) curved[i] = free_[i] != 0 ? curvature(i, z[i], d[i]) : 0.0;
         result.residual = residual(z, d, curved);
         result.converged = result.converged || result.residual == 0.0;
-        if (result.converged || result.iterations == limit) break;
+        if (result.converged || result.iterations == limit || idle == idle_limit) break;
+        if (result.residual <= rounding) ++idle;
 
         for (std::size_t i = 0; i < n; ++i) {
             const double edge = std::min(near_bound * upper_[i], result.residual);
@@ -164,7 +168,14 @@ CoupledDamage Problem::solve(std::span<const double> pointwise, std::span<const 
         }
         double largest = 0.0;
         for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, std::abs(z[i] - before[i]));
-        result.converged = part == 1.0 && largest <= small_step;
+        result.converged = largest <= small_step && (part == 1.0 || result.residual <= rounding);
+    }
+    // What is pressed against a bound and as good as there belongs exactly on it.
+    const Values d = slope(z);
+    for (std::size_t i = 0; i < n; ++i) {
+        if (free_[i] == 0) continue;
+        if (d[i] > 0.0 && z[i] <= small_step * upper_[i]) z[i] = 0.0;
+        if (d[i] < 0.0 && upper_[i] - z[i] <= small_step * upper_[i]) z[i] = upper_[i];
     }
     result.adhesion = std::move(z);
     return result;
