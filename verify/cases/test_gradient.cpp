@@ -196,6 +196,7 @@ CASE_TEST(profile_converges) {
     Peel p;
     p.law = with(loop == 0 ? ductile : griffith, kappa);
     p.delta = 1e-6;
+    if (loop == 1) p.opening = 8e-4;
     const std::string where = loop == 0 ? "bilinear" : "Griffith";
     std::vector<March> level;
     for (const double h : {2e-3, 1e-3, 0.5e-3, 0.25e-3}) {
@@ -203,8 +204,8 @@ CASE_TEST(profile_converges) {
         p.through = static_cast<int>(std::lround(ply / h));
         level.push_back(march(p, 10, where + ", h = " + std::to_string(1e3 * h) + " mm"));
     }
-    std::vector<double> distance;  // in L1 from the finest, mm
-    for (std::size_t l = 0; l + 1 < level.size(); ++l) {
+    std::vector<double> distance, slope;  // in L1 from the finest, mm; 1/mm
+    for (std::size_t l = 0; l < level.size(); ++l) {
         const March &a = level[l], &b = level.back();
         double sum = 0.0;
         for (std::size_t i = 0; i < a.x.size(); ++i) {
@@ -214,14 +215,17 @@ CASE_TEST(profile_converges) {
             sum += std::abs(a.zeta[i] - b.zeta[near]) * length / static_cast<double>(a.x.size() - 1);
         }
         distance.push_back(1e3 * sum);
-        // Nowhere does the adhesion change from cell to cell as it does without the term.
         double steepest = 0.0;
         for (std::size_t i = 1; i < a.x.size(); ++i)
             if (a.x[i - 1] > notch - 1e-7) steepest = std::max(steepest, std::abs(a.zeta[i] - a.zeta[i - 1]) / (a.x[i] - a.x[i - 1]));
-        std::printf("%s, level %zu: %.4g mm from the finest profile, steepest %.4g /mm\n", where.c_str(), l, distance.back(), 1e-3 * steepest);
+        slope.push_back(1e-3 * steepest);
+        std::printf("%s, level %zu: %.4g mm from the finest profile, steepest %.4g /mm\n", where.c_str(), l, distance.back(), slope.back());
     }
-    for (std::size_t l = 1; l < distance.size(); ++l) cases::expect_below(distance[l], 0.6 * distance[l - 1], where + ": distance to the finest");
-    cases::expect_below(distance.back(), 0.1, where + ": distance of the last but one");
+    // First order in h, since half of what the pair at the tip stands for lies in the notch; the Griffith front jumps, and where to depends on it.
+    for (std::size_t l = 1; l < distance.size(); ++l) cases::expect_below(distance[l], 0.8 * distance[l - 1], where + ": distance to the finest");
+    cases::expect_below(distance[2], loop == 0 ? 0.02 : 0.3, where + ": distance of the last but one");
+    // The slope of the zone does not follow the cells, as it does without the term (there it doubles each time).
+    for (std::size_t l = 2; l < slope.size(); ++l) cases::expect_near(slope[l], slope[l - 1], 0.08, slope[l - 1], where + ": steepest");
 }
 
 // ---- limits of kappa ------------------------------------------------------------------------------------------------------
