@@ -154,7 +154,12 @@ START_TEST(derivatives) {
             delam::dissipated(t, z + h) - 2.0 * delam::dissipated(t, z) + delam::dissipated(t, z - h);
         ck_assert(curvature > 0.0);
         ck_assert(std::abs(delam::damage_minimiser(t, -slope, 1.0) - z) < 1e-8);
+        ck_assert(close(delam::driving(t, z), -slope, 1e-7));
+        ck_assert(std::abs(delam::driving_slope(t, z) * h * h + curvature) < 1e-4 * curvature);
+        ck_assert(std::abs(delam::damage_minimiser(t, delam::driving(t, z), 1.0) - z) < 1e-14);
     }
+    ck_assert(close(delam::driving(t, 0.0), 49.0, 1e-15) && delam::driving(t, 1.0) == 1.0);
+    ck_assert(delam::driving({3.0, 3.0}, 0.4) == 3.0 && delam::driving_slope({3.0, 3.0}, 0.4) == 0.0);
     ck_assert(delam::dissipated(t, 1.0) == 0.0);
     ck_assert(delam::stored_slides(t, 0.0) == 0.0);
     ck_assert(delam::stored_slides(t, 1.0) == 0.0);
