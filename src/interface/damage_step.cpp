@@ -87,13 +87,18 @@ std::vector<double> damage_step(const PairLaws& pairs, std::span<const Toughness
     return zeta;
 }
 
+double gradient_energy(const PairLaws& pairs, std::span<const double> adhesion) {
+    double sum = 0.0;
+    for (const auto& term : pairs.gradient) sum += term->energy(adhesion.subspan(term->first(), term->pairs()));
+    return sum;
+}
+
 double stored_energy(const PairLaws& pairs, std::span<const double> adhesion, std::span<const double> jump) {
     double sum = 0.0;
     for (std::size_t p = 0; p < adhesion.size(); ++p)
         if (pairs.law[p] != nullptr && adhesion[p] > 0.0)
             sum += pairs.weight[p] * adhesion[p] * driving_energy(pairs, p, jump).total();
-    for (const auto& term : pairs.gradient) sum += term->energy(adhesion.subspan(term->first(), term->pairs()));
-    return sum;
+    return sum + gradient_energy(pairs, adhesion);
 }
 
 double stored_slides(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion) {

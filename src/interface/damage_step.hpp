@@ -53,6 +53,7 @@ std::vector<double> damage_step(const PairLaws& pairs, std::span<const Toughness
                                 std::span<const double> adhesion, std::span<const double> jump);
 
 double stored_energy(const PairLaws& pairs, std::span<const double> adhesion, std::span<const double> jump);       // sum w zeta Y + gradient
+double gradient_energy(const PairLaws& pairs, std::span<const double> adhesion);  // its second part alone
 double stored_slides(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion);     // sum w f
 // sum w (g(B, zeta) - g(B, zeta_old)), the ledger whose stored part does not depend on the mixity
 double dissipation(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
