@@ -209,7 +209,10 @@ DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, co
  *   benzeggagh-kenane             G_n + (G_t - G_n) B^eta (Compos. Sci. Technol. 56, 1996), eta: onset_exponent,
  *                                 toughness_exponent
  * Gc(B) >= Go(B) must hold for every mixity B in [0,1]. A key that does not belong to the kind or to the criterion is
- * DELAM_ERROR_ARGUMENT. */
+ * DELAM_ERROR_ARGUMENT.
+ * With kappa > 0 the damage of an interface's pairs is one coupled minimisation and spreads over a length of about
+ * sqrt(kappa/G^c), which the faces have to resolve. The term lives on the faces whose pairs all adhered at first: none
+ * that touches a pair of initial adhesion 0. */
 DELAM_API int32_t delam_law_create(delam_context *context, const char *kind, delam_law **out);
 DELAM_API int32_t delam_law_set(delam_law *law, const char *key, double value);
 DELAM_API int32_t delam_law_set_text(delam_law *law, const char *key, const char *value);
@@ -246,7 +249,7 @@ DELAM_API int32_t delam_law_check(const delam_law *law);
 /* Onset and total toughness at count mixities B = Y_t/Y in [0,1]; onset and toughness: [count], F/L; each may be NULL. */
 DELAM_API int32_t delam_law_toughness(const delam_law *law, int64_t count, const double *mixity, double *onset,
                                       double *toughness);
-/* One damage step at given jumps: pointwise minimiser over 0 <= zeta <= old adhesion, at the given (frozen) mixity, and the
+/* One damage step at given jumps, without the gradient term: pointwise minimiser over 0 <= zeta <= old adhesion, at the given (frozen) mixity, and the
  * traction zeta k [u]. jump, traction: [count][dimension], local (normal first; a negative normal jump is an error); mixity,
  * adhesion_old, adhesion: [count]; traction may be NULL. */
 DELAM_API int32_t delam_law_respond(const delam_law *law, int32_t dimension, int64_t count, const double *jump,
@@ -355,7 +358,8 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
 
 /* A scalar of the pending state, else of the committed one. Keys (delam_solver_value_name lists them):
  *   step, time, stored_bulk, stored_interface, dissipated, stored_interface_slides, dissipated_slides, load_potential, work,
- *   lower, increment, upper, increment_lower   energies, F L (2D: F): cumulative but for the last four, which are of the step
+ *   lower, increment, upper, increment_lower   energies, F L (2D: F): cumulative but for the last four, which are of the step;
+ *   stored_interface holds the gradient term, if there is one
  *   am_iterations, displacement_solves, contact_iterations, linear_iterations   of the step; contact_iterations sums the
  *   active-set steps over the displacement solves, linear_iterations the Krylov ones
  *   newton_solves, debond_moves   of the step, accelerated minimisation of a condensed scene: dense solves within the process zone,

@@ -58,7 +58,7 @@ bool Minimiser::alternate(State& state, std::span<const double> adhesion_old) co
         monitor.progress("minimise", state.counts.am_iterations, 0);
         const bool converged = displace(state);
         mixity.look(state.adhesion, state.response.jump);
-        std::vector<double> next = mixity.damage_step(adhesion_old, state.response.jump);
+        std::vector<double> next = mixity.damage_step(adhesion_old, state.adhesion, state.response.jump);
         state.counts.damage_change = largest_change(state.adhesion, next);
         ++state.counts.am_iterations;
         if (state.counts.damage_change <= tolerance && mixity.settled(state, adhesion_old)) return record(state, adhesion_old, mixity, converged);
@@ -79,7 +79,8 @@ double Minimiser::energy(const State& state, std::span<const double> adhesion_ol
 // new B alone adds goes onto the level that is compared with.
 bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) const {
     StepMixity mixity(pairs, rule, tolerance, state.mixity);
-    auto* condensed = dynamic_cast<Condensed*>(&op);
+    // The leap eliminates the damage pair by pair, which a gradient term forbids.
+    auto* condensed = pairs.gradient.empty() ? dynamic_cast<Condensed*>(&op) : nullptr;
     bool leapt = false;
     std::optional<State> before;
     std::optional<StepMixity::Memory> mixity_before;
@@ -102,7 +103,7 @@ bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) c
             continue;
         }
         level = mixity.look(state.adhesion, state.response.jump) ? energy(state, adhesion_old, mixity) : reached;
-        plain = mixity.damage_step(adhesion_old, state.response.jump);
+        plain = mixity.damage_step(adhesion_old, state.adhesion, state.response.jump);
         state.counts.damage_change = largest_change(state.adhesion, plain);
         ++state.counts.am_iterations;
         if (state.counts.damage_change <= tolerance && mixity.settled(state, adhesion_old)) return record(state, adhesion_old, mixity, converged);

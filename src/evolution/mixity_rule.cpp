@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "base/error.hpp"
 #include "interface/mixity.hpp"
@@ -98,7 +99,7 @@ bool StepMixity::settled(const State& state, std::span<const double> adhesion_ol
         now_.toughness[p] = pairs_.law[p]->toughness(now_.own[p]);
         if (swing_[p].share > 0.0) open = std::max(open, swing_[p].open);
     }
-    const std::vector<double> next = damage_step(adhesion_old, state.response.jump);
+    const std::vector<double> next = damage_step(adhesion_old, state.adhesion, state.response.jump);
     bool rests = true;
     for (std::size_t p = 0; p < next.size(); ++p) rests = rests && std::abs(next[p] - state.adhesion[p]) <= tolerance_;
     if (rests) {
@@ -113,13 +114,17 @@ std::int64_t StepMixity::held() const {
     return std::count_if(swing_.begin(), swing_.end(), [&](const Swing& s) { return s.share <= 0.0 && s.open > tolerance_; });
 }
 
-std::vector<double> StepMixity::damage_step(std::span<const double> adhesion_old, std::span<const double> jump) const {
-    std::vector<double> zeta = delam::damage_step(pairs_, now_.toughness, adhesion_old, jump);
-    if (rule_ != MixityRule::variational) return zeta;
+std::vector<double> StepMixity::damage_step(std::span<const double> adhesion_old, std::span<const double> adhesion,
+                                            std::span<const double> jump) const {
+    if (rule_ != MixityRule::variational) return delam::damage_step(pairs_, now_.toughness, adhesion_old, adhesion, jump);
     const auto dim = static_cast<std::size_t>(pairs_.dimension);
-    for (std::size_t p = 0; p < zeta.size(); ++p)
-        if (pairs_.mixed(p) && adhesion_old[p] > 0.0) zeta[p] = variational(p).minimiser(jump.subspan(p * dim, dim), adhesion_old[p]);
-    return zeta;
+    std::vector<Toughness> toughness = now_.toughness;
+    std::vector<double> driving(adhesion.size(), 0.0);
+    for (std::size_t p = 0; p < driving.size(); ++p) {
+        if (pairs_.mixed(p)) std::tie(toughness[p], driving[p]) = variational(p).damaging(jump.subspan(p * dim, dim));
+        else if (pairs_.law[p] != nullptr) driving[p] = driving_energy(pairs_, p, jump).total();
+    }
+    return damage_at(pairs_, toughness, driving, adhesion_old, adhesion);
 }
 
 double StepMixity::energy(std::span<const double> adhesion_old, std::span<const double> adhesion, std::span<const double> jump) const {

@@ -55,8 +55,8 @@ public:
 
     // The pair under the variational rule.
     VariationalPair variational(std::size_t pair) const { return {*pairs_.law[pair], now_.used[pair], now_.toughness[pair].total, largest_}; }
-    // argmin over 0 <= zeta <= adhesion_old at these displacements, [pairs].
-    std::vector<double> damage_step(std::span<const double> adhesion_old, std::span<const double> jump) const;
+    // argmin over 0 <= zeta <= adhesion_old at these displacements, [pairs]; adhesion: where it is now.
+    std::vector<double> damage_step(std::span<const double> adhesion_old, std::span<const double> adhesion, std::span<const double> jump) const;
     // What is minimised of the interfaces, stored and dissipated, at the B in use.
     double energy(std::span<const double> adhesion_old, std::span<const double> adhesion, std::span<const double> jump) const;
     // sum w |dzeta| |Gc(own) - Gc(used)| / sum w |dzeta| Gc(used); 0 when nothing was damaged.

@@ -99,7 +99,8 @@ const Search::Energy& Search::energy(const std::vector<double>& adhesion, std::s
     }
     try {
         solve_contact(op_, contact_, spring_stiffness(pairs_, adhesion), direction_, closed_, response_, false);
-        e.value = response_.stored_bulk + response_.load_potential + stored_energy(pairs_, adhesion, response_.jump);
+        e.value = response_.stored_bulk + response_.load_potential + stored_energy(pairs_, adhesion, response_.jump) -
+                  gradient_energy(pairs_, adhesion);  // which does not grow with the load
         if (follow_mixity_) {
             const std::vector<double> own = mixities(pairs_, response_.jump, known);
             for (const std::int64_t p : next) e.next_mixity.push_back(own[index(p)]);
@@ -115,7 +116,7 @@ double Search::compare(Candidate& candidate, std::span<const std::int64_t> next,
     ++result_->candidates;
     const Energy& e = energy(candidate.adhesion, next, candidate.mixity);
     if (next_mixity != nullptr) *next_mixity = e.next_mixity;
-    candidate.incremental = size_ * size_ * e.value - before_->ledger.energy() +
+    candidate.incremental = size_ * size_ * e.value - before_->ledger.energy() + gradient_energy(pairs_, candidate.adhesion) +
                             dissipation(pairs_, candidate.mixity, before_->adhesion, candidate.adhesion);
     result_->lowest = std::min(result_->lowest, candidate.incremental);
     best_ = std::min(best_, candidate.incremental);
@@ -218,7 +219,9 @@ double Search::Sweep::between(std::size_t low, std::size_t high) const {
     double first = spent_.at(low);  // of the first ring beyond the lower sample
     const Candidate c = candidate(low + 1);
     first = dissipation(search_.pairs_, c.mixity, search_.before_->adhesion, c.adhesion);
-    return value_.at(high).incremental - spent_.at(high) + first;
+    // The gradient energy is not monotone along the front: what is left of it in between is bounded by 0.
+    const double gradient = search_.pairs_.gradient.empty() ? 0.0 : gradient_energy(search_.pairs_, candidate(high).adhesion);
+    return value_.at(high).incremental - gradient - spent_.at(high) + first;
 }
 
 double Search::Sweep::bound() const {

@@ -12,9 +12,9 @@ namespace delam {
 // Energies, F L (2D: F). The booked split has both parts >= 0; the slides' one is reported beside it.
 struct Ledger {
     double stored_bulk = 0.0;
-    double stored_interface = 0.0;         // sum w zeta Y
+    double stored_interface = 0.0;         // sum w zeta Y + kappa/2 zeta^T A zeta
     double load_potential = 0.0;           // -f.u of dead forces
-    double stored_interface_slides = 0.0;  // sum w (zeta Y + f(B, zeta))
+    double stored_interface_slides = 0.0;  // the same + sum w f(B, zeta)
     // cumulative
     double dissipated = 0.0;         // sum w (g(B, zeta) - g(B, zeta_old)) over the steps
     double dissipated_slides = 0.0;  // sum w Gc(B) (zeta_old - zeta)

@@ -29,6 +29,10 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
         const InterfaceProperties& properties = problem_.interfaces[i];
         std::optional<Toughness> fixed;
         if (!properties.bonded && problem_.options.mixity == "auto" && !properties.law->depends_on_mixity()) fixed = properties.law->toughness(0.0);
+        if (!properties.bonded && properties.law->gradient > 0.0)
+            pairs_.gradient.push_back(std::make_shared<const GradientTerm>(properties.law->gradient,
+                                                                           surface_stiffness(mesh, mesh.interfaces()[i], properties.adhesion),
+                                                                           mesh.interfaces()[i].weight, pairs_.weight.size()));
         for (const double weight : mesh.interfaces()[i].weight) {
             pairs_.weight.push_back(weight);
             pairs_.law.push_back(properties.bonded ? nullptr : &*properties.law);

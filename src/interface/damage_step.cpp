@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "interface/coupled_damage.hpp"
 #include "interface/mixity.hpp"
 
 namespace delam {
@@ -76,12 +77,33 @@ std::vector<Toughness> toughnesses(const PairLaws& pairs, std::span<const double
 }
 
 std::vector<double> damage_step(const PairLaws& pairs, std::span<const Toughness> toughness, std::span<const double> adhesion_old,
-                                std::span<const double> jump) {
+                                std::span<const double> adhesion, std::span<const double> jump) {
+    std::vector<double> driving(adhesion.size(), 0.0);
+    for (std::size_t p = 0; p < driving.size(); ++p)
+        if (pairs.law[p] != nullptr) driving[p] = driving_energy(pairs, p, jump).total();
+    return damage_at(pairs, toughness, driving, adhesion_old, adhesion);
+}
+
+std::vector<double> damage_at(const PairLaws& pairs, std::span<const Toughness> toughness, std::span<const double> driving,
+                              std::span<const double> adhesion_old, std::span<const double> adhesion) {
     std::vector<double> zeta(adhesion_old.begin(), adhesion_old.end());
     for (std::size_t p = 0; p < zeta.size(); ++p)
-        if (pairs.law[p] != nullptr && zeta[p] > 0.0)
-            zeta[p] = pairs.law[p]->minimiser(toughness[p], driving_energy(pairs, p, jump).total(), zeta[p]);
+        if (pairs.law[p] != nullptr && zeta[p] > 0.0) zeta[p] = pairs.law[p]->minimiser(toughness[p], driving[p], zeta[p]);
+    for (const auto& term : pairs.gradient) {
+        const std::size_t first = term->first(), count = term->pairs();
+        const std::span<double> own = std::span(zeta).subspan(first, count);
+        const CoupledDamage coupled =
+            coupled_damage(*term, *pairs.law[first], toughness.subspan(first, count), driving.subspan(first, count),
+                           adhesion_old.subspan(first, count), own, adhesion.subspan(first, count));
+        std::copy(coupled.adhesion.begin(), coupled.adhesion.end(), own.begin());
+    }
     return zeta;
+}
+
+double gradient_energy(const PairLaws& pairs, std::span<const double> adhesion) {
+    double sum = 0.0;
+    for (const auto& term : pairs.gradient) sum += term->energy(adhesion.subspan(term->first(), term->pairs()));
+    return sum;
 }
 
 double stored_energy(const PairLaws& pairs, std::span<const double> adhesion, std::span<const double> jump) {
@@ -89,7 +111,7 @@ double stored_energy(const PairLaws& pairs, std::span<const double> adhesion, st
     for (std::size_t p = 0; p < adhesion.size(); ++p)
         if (pairs.law[p] != nullptr && adhesion[p] > 0.0)
             sum += pairs.weight[p] * adhesion[p] * driving_energy(pairs, p, jump).total();
-    return sum;
+    return sum + gradient_energy(pairs, adhesion);
 }
 
 double stored_slides(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion) {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pointwise damage over all pairs: driving energies, mixities, the damage step, and interface energies.
+// Damage over all pairs: driving energies, mixities, the damage step (pointwise, or coupled on interfaces with a gradient term), and interface
+// energies.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "interface/gradient.hpp"
 #include "interface/law.hpp"
 
 namespace delam {
@@ -17,6 +20,8 @@ struct PairLaws {
     std::vector<double> weight;  // L (2D) or L2 (3D)
     // Toughness of pairs whose mixity is not computed because their law does not depend on it; empty: all are computed.
     std::vector<std::optional<Toughness>> fixed;
+    // Of interfaces whose law has kappa > 0; empty: the damage step is pointwise everywhere.
+    std::vector<std::shared_ptr<const GradientTerm>> gradient;
 
     bool mixed(std::size_t pair) const { return law[pair] != nullptr && (fixed.empty() || !fixed[pair]); }
     Toughness toughness(std::size_t pair, double mixity) const {
@@ -46,11 +51,16 @@ bool any_jump(const PairLaws& pairs, std::span<const double> jump);
 std::vector<double> spring_stiffness(const PairLaws& pairs, std::span<const double> adhesion);
 // Go and Gc at the mixities, [pairs]; zero where there is no law.
 std::vector<Toughness> toughnesses(const PairLaws& pairs, std::span<const double> mixity);
-// zeta = argmin over 0 <= zeta <= adhesion_old at the frozen mixity of `toughness`; returns [pairs].
+// zeta = argmin over 0 <= zeta <= adhesion_old at the frozen mixity of `toughness`; returns [pairs]. adhesion: [pairs] where coupled interfaces
+// start their search (coupled_damage.hpp); the problem is convex, so it decides no more than the last digits.
 std::vector<double> damage_step(const PairLaws& pairs, std::span<const Toughness> toughness, std::span<const double> adhesion_old,
-                                std::span<const double> jump);
+                                std::span<const double> adhesion, std::span<const double> jump);
+// The same at given driving energies, [pairs].
+std::vector<double> damage_at(const PairLaws& pairs, std::span<const Toughness> toughness, std::span<const double> driving,
+                              std::span<const double> adhesion_old, std::span<const double> adhesion);
 
-double stored_energy(const PairLaws& pairs, std::span<const double> adhesion, std::span<const double> jump);       // sum w zeta Y
+double stored_energy(const PairLaws& pairs, std::span<const double> adhesion, std::span<const double> jump);       // sum w zeta Y + gradient
+double gradient_energy(const PairLaws& pairs, std::span<const double> adhesion);  // its second part alone
 double stored_slides(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion);     // sum w f
 // sum w (g(B, zeta) - g(B, zeta_old)), the ledger whose stored part does not depend on the mixity
 double dissipation(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,

@@ -208,6 +208,10 @@ START_TEST(laws) {
     expect(delam_law_set(law, "normal_onset", -1.0), DELAM_ERROR_ARGUMENT,
            "'normal_onset' = -1 must be finite and > 0");
     expect(delam_law_set(law, "normal_onset", NAN), DELAM_ERROR_ARGUMENT, "'normal_onset' = nan");
+    expect(delam_law_set(law, "gradient", -1.0), DELAM_ERROR_ARGUMENT, "'gradient' = -1 must be finite and >= 0");
+    expect(delam_law_set(law, "gradient", INFINITY), DELAM_ERROR_ARGUMENT, "'gradient' = inf");
+    fine(delam_law_set(law, "gradient", 1e-3));
+    fine(delam_law_set(law, "gradient", 0.0));
     expect(delam_law_set(law, NULL, 1.0), DELAM_ERROR_ARGUMENT, "key is NULL");
     fine(delam_law_check(law));
 

@@ -41,6 +41,7 @@ struct LawData {
     double normal_onset, tangential_onset;
     double normal_toughness, tangential_toughness;
     double exponent = 2.0;
+    double gradient = 0.0;
 };
 
 // What a displacement step needs to know of an interface.

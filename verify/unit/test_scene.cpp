@@ -361,6 +361,7 @@ START_TEST(hash_changes_with_every_datum) {
         [](Problem& p) { p.interfaces[0].law->onset_exponent_2 = 1.0; },
         [](Problem& p) { p.interfaces[0].law->toughness_exponent_1 = 1.0; },
         [](Problem& p) { p.interfaces[0].law->toughness_exponent_2 = 1.0; },
+        [](Problem& p) { p.interfaces[0].law->gradient = 1e-3; },
         [](Problem& p) { p.patterns[0].name = "pull"; },
         [](Problem& p) { p.patterns[0].times[1] = 2.0; },
         [](Problem& p) { p.patterns[0].values[1] = 2.0; },
