@@ -7,6 +7,7 @@
 #include <span>
 
 #include "base/monitor.hpp"
+#include "evolution/mixity_rule.hpp"
 #include "evolution/state.hpp"
 #include "interface/contact.hpp"
 #include "interface/damage_step.hpp"
@@ -20,16 +21,18 @@ struct Minimiser {
     Monitor& monitor;
     double tolerance;    // delta
     std::int64_t limit;  // alternations
+    MixityRule rule = MixityRule::frozen;
 
     // Displacements and contact at the state's adhesion and theta; counts are added up.
     // False: a limit of the linear or contact iteration was met.
     // cold: the contact set at hand says nothing.
     bool displace(State& state, bool cold = false) const;
-    double energy(const State& state, std::span<const double> adhesion_old) const;
+    double energy(const State& state, std::span<const double> adhesion_old, const StepMixity& mixity) const;
     // The faster way to the same stopping test, safeguarded by the energy; zone leaps where the operator is condensed.
     bool accelerate(State& state, std::span<const double> adhesion_old) const;
-    // Both unknowns; adhesion starts at the state's and stays below `adhesion_old`; B is the state's mixity. False: limit.
+    // Both unknowns; adhesion starts at the state's and stays below `adhesion_old`; B starts as the state's mixity and follows the rule. False: limit.
     bool alternate(State& state, std::span<const double> adhesion_old) const;
+    bool record(State& state, std::span<const double> adhesion_old, const StepMixity& mixity, bool converged) const;
 };
 
 }  // namespace delam

@@ -176,7 +176,7 @@ Search::Sweep::Sweep(Search& search, const Front& front, const Candidate& base)
         if (nucleation_ && keep == largest_crack) break;
         for (const std::int64_t p : ring_[keep]) {
             const Toughness t = search.pairs_.toughness(index(p), base.mixity[index(p)]);
-            spent += search.pairs_.weight[index(p)] * (t.total - dissipated(t, base.adhesion[index(p)]));
+            spent += search.pairs_.weight[index(p)] * (t.total - search.pairs_.law[index(p)]->dissipated(t, base.adhesion[index(p)]));
             wanted[index(p)] = 1;
         }
         ++keep;

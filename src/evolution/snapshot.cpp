@@ -13,7 +13,7 @@ namespace delam {
 namespace {
 
 constexpr std::uint64_t magic = 0x31305453'4d4c4544;  // "DELMST01" in memory on a little-endian machine
-constexpr std::uint32_t version = 3;
+constexpr std::uint32_t version = 4;
 
 std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
     std::uint64_t h = 14695981039346656037ULL;
@@ -130,7 +130,7 @@ std::vector<std::uint8_t> save(const Solver& solver) {
 void load(Solver& solver, std::span<const std::uint8_t> bytes) {
     Reader r(bytes);
     std::uint64_t found_magic = 0, found_hash = 0, found_sum = 0;
-    std::uint32_t found_version = 0;
+    std::uint32_t found_version = 4;
     r.item(found_magic);
     if (found_magic != magic) fail(DELAM_ERROR_SNAPSHOT, "not a snapshot of a libdelam solver");
     r.item(found_version);

@@ -48,6 +48,7 @@ Outcome Solver::advance(double time) {
         pending.jumps = std::move(controlled.jumps);
     }
     pending.state = std::move(result.state);
+    stepper_.warn(pending.state);
     if (pending.state.counts.revised_from == 0) pending.state.counts.revised_from = pending.state.step;
     for (auto& [step, state] : chain.revised()) pending.revised.push_back(std::move(state));
     Outcome outcome;
@@ -58,6 +59,8 @@ Outcome Solver::advance(double time) {
                             " alternations (last change of adhesion ", next.counts.damage_change, ", tolerance ",
                             options.damage_tolerance, "; worst linear residual ", next.counts.linear_residual, ", tolerance ",
                             options.linear_tolerance, ")");
+        if (next.counts.mixity_held > 0)
+            outcome.text += text("; the mixity of ", next.counts.mixity_held, " pairs would not settle and was held");
     }
     displacement_.clear();
     looked_ = nullptr;

@@ -25,6 +25,15 @@ struct Ledger {
     double upper = 0.0;
     double increment_lower = 0.0;  // increment with the mixity of the step before (the one the lower bound is provable with)
 
+    // Energies of the state from which the cumulative columns count; a state that is set rather than marched to moves them along.
+    double initial = 0.0;
+    double initial_slides = 0.0;
+    double mixity_error = 0.0;  // of the step: by how much the toughness in use misses that of the iterates' own mixities
+
+    double energy_slides() const { return stored_bulk + stored_interface_slides + load_potential; }
+    // What does not close, in either split.
+    double defect() const { return energy() - initial + dissipated - work; }
+    double defect_slides() const { return energy_slides() - initial_slides + dissipated_slides - work; }
     double energy() const { return stored_bulk + stored_interface + load_potential; }
 };
 
@@ -48,7 +57,7 @@ struct Counts {
     std::int64_t refused_steps = 0;      // that were too long and not kept
     std::int64_t jumps = 0;              // instants of this step at which the state jumps
     double released = 0.0;               // energy that these set free and nothing stores or dissipates, F L
-    double mixity_error = 0.0;           // relative error of the toughness that the rule of mixity makes
+    std::int64_t mixity_held = 0;        // pairs whose mixity would not settle and was held
     double damage_change = 0.0;
     double linear_residual = 0.0;
 };

@@ -80,7 +80,7 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
         const Ledger& l = r.state.ledger;
         const double scale = std::max(std::abs(l.energy()), std::abs(l.work));
         return (options.step_control == "adaptive" && (!r.converged || l.upper - l.lower > options.step_tolerance * scale)) ||
-               (options.mixity_step_tolerance > 0.0 && r.state.counts.mixity_error > options.mixity_step_tolerance);
+               (options.mixity_step_tolerance > 0.0 && r.state.ledger.mixity_error > options.mixity_step_tolerance);
     };
     ControlledStep out;
     State at = before;
@@ -158,7 +158,7 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
     effort.damage_change = state.counts.damage_change;
     effort.search_margin = state.counts.search_margin;
     effort.search_gap = state.counts.search_gap;
-    effort.mixity_error = state.counts.mixity_error;
+    effort.mixity_held = state.counts.mixity_held;
     effort.backtracks = first.backtracks;
     effort.revisions = first.revisions;
     effort.revised_from = first.revised_from;

@@ -54,7 +54,8 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
 }
 
 Minimiser Stepper::minimiser() const {
-    return {*operator_, pairs_, contact_, monitor_, problem_.options.damage_tolerance, problem_.options.minimisation_limit};
+    return {*operator_, pairs_, contact_, monitor_, problem_.options.damage_tolerance, problem_.options.minimisation_limit,
+            mixity_rule(pairs_, problem_.options.mixity_rule)};
 }
 
 Stepper::Result Stepper::initial(double time) {
@@ -72,6 +73,8 @@ Stepper::Result Stepper::initial(double time) {
     state.mixity_before = state.mixity;
     state.loaded = any_jump(pairs_, state.response.jump) ? 1 : 0;
     book_energies(state);
+    state.ledger.initial = state.ledger.energy();
+    state.ledger.initial_slides = state.ledger.energy_slides();
     state.memory = operator_->memory();
     return result;
 }
@@ -107,7 +110,17 @@ void Stepper::book_step(State& next, const State& before) const {
     ledger.upper = dot(d, before.response.conjugate) + lift_.half_quadratic(d, spring_stiffness(pairs_, before.adhesion));
     ledger.work = last.work + 0.5 * (ledger.lower + ledger.upper);
     ledger.dissipated = last.dissipated + dissipated;
-    ledger.dissipated_slides = last.dissipated_slides + dissipation_slides(pairs_, next.mixity, before.adhesion, next.adhesion);
+    if (minimiser().rule != MixityRule::variational) {
+        ledger.dissipated_slides = last.dissipated_slides + dissipation_slides(pairs_, next.mixity, before.adhesion, next.adhesion);
+        return;
+    }
+    // What was minimised is the slides' split, with the dissipation at the mixity of the state before.
+    const double change_slides = ledger.energy_slides() - last.energy_slides();
+    const double spent = dissipation_slides(pairs_, next.mixity_before, before.adhesion, next.adhesion);
+    const std::vector<double>& before_last = before.loaded != 0 ? before.mixity_before : next.mixity_before;
+    ledger.dissipated_slides = last.dissipated_slides + spent;
+    ledger.increment = change_slides + spent;
+    ledger.increment_lower = change_slides + dissipation_slides(pairs_, before_last, before.adhesion, next.adhesion);
 }
 
 bool Stepper::minimise(State& next, const State& before) const {
@@ -140,8 +153,9 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
         start.closed = std::move(elastic.closed);
     } else {
         start.mixity_before = before.mixity;
-        start.mixity = mixities(pairs_, before.response.jump, before.mixity);
+        start.mixity = starting_mixity(pairs_, minimiser().rule, before);
     }
+    if (minimiser().rule == MixityRule::variational) start.mixity_before = start.mixity;
     Result best{start, true};
     best.converged = minimise(best.state, before) && converged;
     for (const std::vector<double>& adhesion : also) {
@@ -157,7 +171,9 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
 // Minimises from another start and keeps what is lower. All effort is counted.
 void Stepper::keep_lower(Result& best, State other, const State& before) const {
     const bool converged = minimise(other, before);
-    const Counts counts = other.counts;
+    Counts counts = other.counts;
+    counts.mixity_held = best.state.counts.mixity_held;
+    if (other.ledger.increment < best.state.ledger.increment - rounding * scale_of(best.state.ledger)) counts.mixity_held = other.counts.mixity_held;
     if (other.ledger.increment < best.state.ledger.increment - rounding * scale_of(best.state.ledger)) best = {std::move(other), converged};
     best.state.counts = counts;
 }
@@ -199,7 +215,10 @@ Stepper::Result Stepper::equilibrate(const State& before, double time, std::span
         if (!(next.adhesion[p] >= 0.0 && next.adhesion[p] <= 1.0))
             fail(DELAM_ERROR_ARGUMENT, "adhesion of pair ", p, " is ", next.adhesion[p], ", allowed: 0 to 1");
     result.converged = minimiser().displace(next);
+    if (minimiser().rule == MixityRule::variational) next.mixity = mixities(pairs_, next.response.jump, next.mixity);
     book_energies(next);
+    next.ledger.initial += next.ledger.energy() - before.ledger.energy();
+    next.ledger.initial_slides += next.ledger.energy_slides() - before.ledger.energy_slides();
     next.memory = operator_->memory();
     return result;
 }

@@ -50,8 +50,8 @@ private:
 
 class Leap {
 public:
-    Leap(const ZoneNewton& newton, State& state, std::span<const Toughness> toughness, std::span<const double> adhesion_old)
-        : newton_(newton), state_(state), toughness_(toughness), old_(adhesion_old), dim_(static_cast<std::size_t>(newton.pairs.dimension)),
+    Leap(const ZoneNewton& newton, State& state, StepMixity& mixity, std::span<const double> adhesion_old)
+        : newton_(newton), state_(state), mixity_(mixity), toughness_(mixity.toughness()), old_(adhesion_old), dim_(static_cast<std::size_t>(newton.pairs.dimension)),
           zone_(find_zone()) {
         const std::vector<std::int64_t>& rows = newton_.op.zone_rows();
         held_.resize(rows.size());
@@ -73,7 +73,8 @@ public:
         }
     }
 
-    void run();
+    // Returns the energy that new mixities alone have added.
+    double run();
 
 private:
     // Where an iterate stands: jumps of all zone rows, energy, adhesion of the members.
@@ -93,11 +94,17 @@ private:
     // The point between `at` and `to` on which the energy falls; false: none.
     bool descend(const Point& at, Point& to) const;
     std::int64_t weakest(const Point& at) const;
+    // The point shows its mixities: those of members that took part in its displacements, adhesion `carried` > 0. True: the toughness in use, and with it
+    // energy and adhesions of the point, have changed.
+    bool look(Point& at, std::span<const double> carried);
+    bool curved(const ZonePair& m) const { return mixity_.rule() == MixityRule::variational && newton_.pairs.mixed(m.pair); }
     std::array<double, 9> tangent(const ZonePair& m, const Point& at, double zeta, double fraction) const;
 
     const ZoneNewton& newton_;
     State& state_;
+    StepMixity& mixity_;
     std::span<const Toughness> toughness_;
+    double added_ = 0.0;
     std::span<const double> old_;
     std::size_t dim_;
     Springs springs_;
@@ -119,7 +126,8 @@ Zone& Leap::find_zone() {
         for (std::size_t c = 0; c < dim_; ++c) springs_.held[p * dim_ + c] = bonded || (c == 0 && state_.closed[p] != 0) ? 1 : 0;
         if (bonded || newton_.pairs.law[p] == nullptr || old_[p] <= 0.0) continue;
         const double driving = driving_energy(newton_.pairs, p, state_.response.jump).total();
-        if (state_.adhesion[p] < old_[p] || newton_.pairs.law[p]->minimiser(toughness_[p], driving / nearly_loaded, old_[p]) < old_[p])
+        const bool partly = mixity_.rule() == MixityRule::variational && old_[p] < 1.0;
+        if (partly || state_.adhesion[p] < old_[p] || newton_.pairs.law[p]->minimiser(toughness_[p], driving / nearly_loaded, old_[p]) < old_[p])
             for (std::size_t c = 0; c < dim_; ++c) wanted[p * dim_ + c] = 1;
     }
     return newton_.op.zone(springs_, wanted);
@@ -133,6 +141,12 @@ Leap::Point Leap::point(std::vector<double> unknowns) const {
     at.unknowns = std::move(unknowns);
     for (const ZonePair& m : members_) {
         const std::span<const double> local = std::span<const double>(at.jump).subspan(m.first, dim_);
+        if (curved(m)) {
+            const VariationalPair pair = mixity_.variational(m.pair);
+            at.adhesion.push_back(pair.minimiser(local, old_[m.pair]));
+            at.energy += newton_.pairs.weight[m.pair] * pair.energy(local, at.adhesion.back());
+            continue;
+        }
         const Law& law = *newton_.pairs.law[m.pair];
         const double driving = driving_energy(law, local).total();
         const double zeta = law.minimiser(toughness_[m.pair], driving, old_[m.pair]);
@@ -154,6 +168,30 @@ bool Leap::model(const Point& at, std::span<const double> adhesion, double fract
     for (std::size_t i = 0; i < members_.size(); ++i) {
         if (static_cast<std::int64_t>(i) == debonded) continue;
         const ZonePair& m = members_[i];
+        if (curved(m)) {
+            // The force of the model is C j - h, that of the pair at its own jump j.
+            const std::span<const double> local = std::span<const double>(at.jump).subspan(m.first, dim_);
+            const VariationalPair pair = mixity_.variational(m.pair);
+            const double weight = newton_.pairs.weight[m.pair];
+            std::array<double, 9> c{};
+            if (fraction > 0.0) {
+                c = pair.tangent(local, old_[m.pair]);
+            } else {
+                const Law& law = *newton_.pairs.law[m.pair];
+                const double scale = adhesion[i] + pair.proximal(local, adhesion[i]);
+                for (std::size_t r = 0; r < dim_; ++r) c[r * dim_ + r] = scale * (r == 0 ? law.normal_stiffness : law.tangential_stiffness);
+            }
+            const std::array<double, 3> force = pair.force(local, adhesion[i]);
+            for (std::size_t r = 0; r < dim_; ++r) {
+                row_force_[m.first + r] -= weight * force[r];
+                for (std::size_t q = 0; q < dim_; ++q) {
+                    if (c[r * dim_ + q] == 0.0) continue;
+                    add(m.first + r, m.first + q, weight * c[r * dim_ + q]);
+                    row_force_[m.first + r] += weight * c[r * dim_ + q] * local[q];
+                }
+            }
+            continue;
+        }
         const std::array<double, 9> full = tangent(m, at, adhesion[i], fraction), secant = tangent(m, at, adhesion[i], 0.0);
         for (std::size_t r = 0; r < dim_; ++r)
             for (std::size_t q = 0; q < dim_; ++q) {
@@ -239,8 +277,25 @@ std::int64_t Leap::weakest(const Point& at) const {
     return found;
 }
 
-void Leap::run() {
-    if (members_.empty()) return;
+bool Leap::look(Point& at, std::span<const double> carried) {
+    bool changed = false;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        const ZonePair& m = members_[i];
+        if (!(carried[i] > 0.0) || !newton_.pairs.mixed(m.pair)) continue;
+        const Law& law = *newton_.pairs.law[m.pair];
+        const Driving y = driving_energy(law, std::span<const double>(at.jump).subspan(m.first, dim_));
+        const Toughness before = toughness_[m.pair];
+        if (!mixity_.look(m.pair, y)) continue;
+        changed = true;
+        const auto spent = [&](const Toughness& t) { return law.dissipated(t, at.adhesion[i]) - law.dissipated(t, old_[m.pair]); };
+        added_ += newton_.pairs.weight[m.pair] * (spent(toughness_[m.pair]) - spent(before));
+    }
+    if (changed) at = point(std::move(at.unknowns));
+    return changed;
+}
+
+double Leap::run() {
+    if (members_.empty()) return 0.0;
     Point at = point([&] {
         std::vector<double> x(static_cast<std::size_t>(zone_.energy().rows()), 0.0);
         const std::vector<std::int64_t>& rows = newton_.op.zone_rows();
@@ -254,6 +309,7 @@ void Leap::run() {
     Patience newton_patience, move_patience;
     for (std::int64_t step = 0; step < newton_.limit; ++step) {
         Point next;
+        std::vector<double> carried = at.adhesion;
         const std::vector<std::uint8_t> before = held_;
         const bool newton = newton_patience.try_now() && newton_patience.report(minimise(at, at.adhesion, 1.0, -1, next) && descend(at, next));
         bool taken = newton;
@@ -261,7 +317,10 @@ void Leap::run() {
             held_ = before;
             const std::int64_t pair = weakest(at);
             taken = move_patience.report(pair >= 0 && minimise(at, at.adhesion, 0.0, pair, next) && next.energy < at.energy);
-            if (taken) ++state_.counts.debond_moves;
+            if (taken) {
+                ++state_.counts.debond_moves;
+                carried[static_cast<std::size_t>(pair)] = 0.0;
+            }
         }
         if (taken) {
             extrapolation.forget();
@@ -271,6 +330,7 @@ void Leap::run() {
             std::vector<double> ahead = extrapolation.next(used, at.adhesion);
             for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] = std::clamp(ahead[i], 0.0, old_[members_[i].pair]);
             taken = minimise(at, ahead, 0.0, -1, next) && next.energy < at.energy;
+            if (taken) carried = ahead;
             used = std::move(ahead);
         }
         if (!taken) {
@@ -282,22 +342,26 @@ void Leap::run() {
                 break;
             }
         }
+        const bool renewed = look(next, carried);
         double change = 0.0;
         for (std::size_t i = 0; i < members_.size(); ++i) change = std::max(change, std::abs(next.adhesion[i] - at.adhesion[i]));
         at = std::move(next);
         // Newton's method squares the error: the next one would be far below delta.
-        if (newton ? change * change <= 0.01 * newton_.tolerance : change <= newton_.tolerance) break;
+        if (newton && !renewed ? change * change <= 0.01 * newton_.tolerance : change <= newton_.tolerance) break;
     }
     for (std::size_t i = 0; i < members_.size(); ++i) state_.adhesion[members_[i].pair] = at.adhesion[i];
     const std::vector<std::int64_t>& rows = newton_.op.zone_rows();
     for (std::size_t z = 0; z < rows.size(); ++z)
         if (normal_[z] != 0) state_.closed[static_cast<std::size_t>(rows[z]) / dim_] = held_[z];
+    if (mixity_.rule() == MixityRule::variational)
+        for (std::size_t z = 0; z < rows.size(); ++z) state_.response.jump[static_cast<std::size_t>(rows[z])] = held_[z] != 0 ? 0.0 : at.jump[z];
+    return added_;
 }
 
 }  // namespace
 
-void ZoneNewton::leap(State& state, std::span<const Toughness> toughness, std::span<const double> adhesion_old) const {
-    Leap(*this, state, toughness, adhesion_old).run();
+double ZoneNewton::leap(State& state, StepMixity& mixity, std::span<const double> adhesion_old) const {
+    return Leap(*this, state, mixity, adhesion_old).run();
 }
 
 }  // namespace delam

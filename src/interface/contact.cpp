@@ -48,10 +48,12 @@ void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> pre
 }  // namespace
 
 ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
-                            std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response, bool cold) {
+                            std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response, bool cold,
+                            std::span<const double> row_force) {
     const auto dim = static_cast<std::size_t>(scene.dimension);
     const auto prescribed = op.prescribed_rows();
-    Springs springs{{stiffness.begin(), stiffness.end()}, std::vector<std::uint8_t>(stiffness.size(), 0)};
+    Springs springs{{stiffness.begin(), stiffness.end()}, std::vector<std::uint8_t>(stiffness.size(), 0),
+                    {row_force.begin(), row_force.end()}};
     ContactResult result;
     std::set<std::string> seen;  // contact sets, as bytes
     bool all_closed_tried = false, one_at_a_time = false;

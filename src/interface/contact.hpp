@@ -34,8 +34,9 @@ struct ContactScene {
 
 // spring stiffness: [rows]. closed: [pairs], the warm start in, the contact set out. Throws Error(DELAM_LIMIT) when no contact set balances
 // the loads, Error(DELAM_ERROR_PROBLEM) when prescribed displacements press faces into each other. cold: the set is searched from coarse to
-// fine, with all pairs open at first.
+// fine, with all pairs open at first. row_force: Springs::force.
 ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
-                            std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response, bool cold);
+                            std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response, bool cold,
+                            std::span<const double> row_force = {});
 
 }  // namespace delam

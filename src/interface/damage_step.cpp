@@ -25,18 +25,27 @@ constexpr double rounding = 1e-20;  // of an energy: the square of 1e-10 of a ju
 
 }  // namespace
 
+double largest_driving(const PairLaws& pairs, std::span<const double> jump) {
+    double largest = 0.0;
+    for (std::size_t p = 0; p < pairs.law.size(); ++p)
+        if (pairs.law[p] != nullptr) largest = std::max(largest, driving_energy(pairs, p, jump).total());
+    return largest;
+}
+
+bool tells_mixity(const Law& law, const Driving& y, double largest) {
+    return y.total() > rounding * std::max(largest, law.least_onset());
+}
+
 std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump, std::span<const double> known) {
     std::vector<double> b(known.begin(), known.end());
     bool any = false;
     for (std::size_t p = 0; p < b.size() && !any; ++p) any = pairs.mixed(p);
     if (!any) return b;
-    double largest = 0.0;
-    for (std::size_t p = 0; p < b.size(); ++p)
-        if (pairs.law[p] != nullptr) largest = std::max(largest, driving_energy(pairs, p, jump).total());
+    const double largest = largest_driving(pairs, jump);
     for (std::size_t p = 0; p < b.size(); ++p) {
         if (!pairs.mixed(p)) continue;
         const Driving y = driving_energy(pairs, p, jump);
-        if (y.total() > rounding * std::max(largest, pairs.law[p]->least_onset())) b[p] = mode_mixity(y.normal, y.tangential);
+        if (tells_mixity(*pairs.law[p], y, largest)) b[p] = mode_mixity(y.normal, y.tangential);
     }
     return b;
 }

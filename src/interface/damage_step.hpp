@@ -33,6 +33,10 @@ struct Driving {
 Driving driving_energy(const Law& law, std::span<const double> local_jump);  // of one pair: normal, tangent(s)
 Driving driving_energy(const PairLaws& pairs, std::size_t pair, std::span<const double> jump);
 
+// Largest Y of all pairs.
+double largest_driving(const PairLaws& pairs, std::span<const double> jump);
+// Is the jump of a pair with this Y more than rounding, so that it has a mixity? largest: of all pairs.
+bool tells_mixity(const Law& law, const Driving& y, double largest);
 // B of every pair, [pairs]. A pair whose jump is rounding (below 1e-10 of the onset's or of the largest one) keeps its
 // `known` B, and so does one whose mixity is not computed.
 std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump, std::span<const double> known);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The one question that the evolution asks of the mechanics: which jump minimises the energy of bodies and springs at given
-// loads?  E(theta, u) = 1/2 u^T K u - f(theta)^T u + 1/2 sum_i s_i j_i^2  over u with B_e u = j, j_i = 0 on held rows, B_d u = c(theta).
+// loads?  E(theta, u) = 1/2 u^T K u - f(theta)^T u + sum_i (1/2 s_i j_i^2 - h_i j_i)  over u with B_e u = j, j_i = 0 on held rows, B_d u = c(theta).
 //
 // Rows of the jump: interface after interface, pair after pair, normal first (Problem::jump_count of them). Nothing here
 // knows about damage or contact.
@@ -18,6 +18,7 @@ namespace delam {
 struct Springs {
     std::vector<double> stiffness;    // [rows] s = weight k zeta >= 0, F/L; 0: debonded (no force)
     std::vector<std::uint8_t> held;   // [rows] 1: jump held at zero (perfect bond, closed contact); stiffness is then ignored
+    std::vector<double> force{};      // [rows] h, F: the spring pulls with s j - h; only where s > 0 or the row is held. Empty: none
 };
 
 struct Response {

@@ -376,6 +376,8 @@ START_TEST(hash_changes_with_every_datum) {
         [](Problem& p) { p.options.minimisation_limit = 7; },
         [](Problem& p) { p.options.backtracking_tolerance = 1e-4; },
         [](Problem& p) { p.options.contact_limit = 7; },
+        [](Problem& p) { p.options.mixity_rule = "converged"; },
+        [](Problem& p) { p.options.mixity_rule = "variational"; },
         [](Problem& p) { p.options.subdomains = 7; },
         [](Problem& p) { p.options.gluing = "redundant"; },
         [](Problem& p) { p.options.preconditioner = "lumped"; },

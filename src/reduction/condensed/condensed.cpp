@@ -294,6 +294,7 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
     std::vector<double> load(now.size());
     multiply(bulk_->energy().load, theta, load);
     bool loaded = std::any_of(load.begin(), load.end(), [](double v) { return v != 0.0; });
+    for (std::size_t r = 0; r < springs.force.size(); ++r) loaded = loaded || (springs.force[r] != 0.0 && springs.held[r] == 0);
     for (const Bulk::Row& row : bulk_->rows()) loaded = loaded || (!row.offset.empty() && dot(row.offset, theta) != 0.0);
     if (all_held || !loaded) {
         respond(springs, theta, nullptr, response);
@@ -306,6 +307,11 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
         age_[i] = 0;
     }
     if (!covers(springs)) choose(springs, wanted);
+    if (!springs.force.empty()) {
+        std::vector<std::uint8_t> pulled(springs.force.size());
+        for (std::size_t r = 0; r < pulled.size(); ++r) pulled[r] = springs.force[r] != 0.0 ? 1 : 0;
+        zone(springs, pulled);
+    }
     last_ = std::move(now);
 
     std::vector<Zone::Coupling> couplings;
@@ -318,7 +324,9 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
     }
     if (!zone_->factor(couplings, held))
         fail(DELAM_ERROR_NUMERICAL, "the condensed stiffness of the process zone (", zone_rows_.size(), " rows) is not positive definite");
-    const Zone::Solution solution = zone_->solve(theta, {});
+    std::vector<double> force(springs.force.empty() ? 0 : zone_rows_.size());
+    for (std::size_t z = 0; z < force.size(); ++z) force[z] = springs.force[index(zone_rows_[z])];
+    const Zone::Solution solution = zone_->solve(theta, force);
     respond(springs, theta, &solution, response);
 }
 
@@ -350,6 +358,7 @@ void Condensed::respond(const Springs& springs, std::span<const double> theta, c
             response.jump[r] = offset[r];
             for (const auto& [i, n] : row.unknowns) response.jump[r] += n * x[index(i)];
             response.force[r] = springs.stiffness[r] * response.jump[r];
+            if (!springs.force.empty()) response.force[r] -= springs.force[r];
         }
         const bool own = row.unknowns.size() == 1 && bulk_->row_of_unknown()[index(row.unknowns.front().first)] == static_cast<std::int64_t>(r);
         if (!own)

@@ -143,6 +143,7 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
 
     // Rows whose jump the device prescribes have a known force s j: the system is solved without them, and that force is shared out
     // between spring and device afterwards (B_i = sum_k y_k B_k).
+    const auto pulled = [&springs](std::size_t row) { return springs.force.empty() || springs.held[row] != 0 ? 0.0 : springs.force[row]; };
     Springs unknown = springs;
     for (const Scaling::Prescribed& p : scaling_.prescribed_jumps) {
         unknown.stiffness[index(p.jump_row)] = 0.0;
@@ -152,6 +153,8 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     std::vector<std::uint8_t> active(rows, 1);
     for (std::size_t i = 0; i < jumps; ++i) {
         if (unknown.held[i] != 0) continue;
+        if (pulled(i) != 0.0 && !(springs.stiffness[i] > 0.0))
+            fail(DELAM_ERROR_NUMERICAL, "interface row ", i, " carries a force of its own but has no spring");
         if (unknown.stiffness[i] > 0.0)
             compliance[i] = 1.0 / unknown.stiffness[i];
         else
@@ -175,12 +178,15 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
             if (active[i] == 0) x[i] = 0.0;
     };
     std::vector<double> rhs = b;
+    // A spring with a force of its own has the rest jump C h.
+    for (std::size_t i = 0; i < jumps; ++i) rhs[i] -= compliance[i] * pulled(i);
     mask(rhs);
 
     double resultant = 0.0;
     for (const double v : e) resultant = std::max(resultant, std::abs(v));
     // Without a load nothing moves, exactly; a warm start would leave its rounding behind.
-    const bool loaded = resultant > 0.0 || std::any_of(b.begin(), b.end(), [](double v) { return v != 0.0; });
+    const bool loaded = resultant > 0.0 || std::any_of(b.begin(), b.end(), [](double v) { return v != 0.0; }) ||
+                        std::any_of(rhs.begin(), rhs.end(), [](double v) { return v != 0.0; });
     std::vector<double> lambda = loaded ? response.multipliers : std::vector<double>();
     lambda.resize(rows, 0.0);
     for (const Scaling::Prescribed& p : scaling_.prescribed_jumps)
@@ -223,7 +229,7 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     std::vector<double> f_lambda(rows), residual(rows);
     apply_flexibility(lambda, f_lambda);
     for (std::size_t i = 0; i < rows; ++i)
-        residual[i] = active[i] != 0 ? f_lambda[i] + compliance[i] * lambda[i] - b[i] : 0.0;
+        residual[i] = active[i] != 0 ? f_lambda[i] + compliance[i] * lambda[i] - rhs[i] : 0.0;
     response.rigid = coarse_->rigid_coefficients(residual);
     const std::vector<double> rigid_jump = coarse_->apply_transposed(response.rigid);
 
@@ -233,14 +239,14 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
         if (active[i] == 0 || compliance[i] > flexibility_diagonal_[i])
             response.jump[i] = b[i] - f_lambda[i] + rigid_jump[i];
         else
-            response.jump[i] = compliance[i] * lambda[i];
+            response.jump[i] = compliance[i] * (lambda[i] + pulled(i));
     }
     for (const Scaling::Prescribed& p : scaling_.prescribed_jumps) {
         const auto row = index(p.jump_row);
         double jump = 0.0;
         for (std::size_t i = 0; i < p.row.size(); ++i)
             if (index(p.row[i]) >= first_constraint) jump += p.y[i] * prescribed[index(p.row[i]) - first_constraint];
-        if (springs.held[row] == 0) lambda[row] = springs.stiffness[row] * jump;
+        if (springs.held[row] == 0) lambda[row] = springs.stiffness[row] * jump - pulled(row);
         for (std::size_t i = 0; i < p.row.size(); ++i) lambda[index(p.row[i])] -= p.y[i] * lambda[row];
         response.jump[row] = springs.held[row] == 0 ? jump : 0.0;
     }

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Mixity rules in many steps: which lower bounds a frozen march truly misses, that fine ones do not snap, and the limits of both ledgers.
+#include "mmf.hpp"
+#include "support.hpp"
+#include "turning_pair.hpp"
+
+namespace {
+
+// The lower bound with the mixity of the step before last is the provable one; at 320 steps the frozen march truly jumps too early once.
+CASE_TEST(provable_bounds) {
+    const int steps[] = {160, 320, 640}, below[] = {0, 1, 0};
+    const cases::MmfMarch m = cases::march_mmf(1e-3, cases::mmf_ductile, "frozen", steps[loop]);
+    cases::expect(m.below == below[loop] && m.above == 0, std::to_string(m.below) + " lower and " + std::to_string(m.above) + " upper bounds missed");
+    if (steps[loop] == 640) cases::expect(m.warnings.empty(), "a fine march warns: " + (m.warnings.empty() ? "" : m.warnings.front()));
+}
+
+// Booked defects shrink with the step; the slides' ones stay, unless the mixity is variational.
+CASE_TEST(defects_side_by_side) {
+    const int steps[] = {40, 160, 640};
+    for (const char* rule : {"frozen", "converged", "variational"}) {
+        std::vector<cases::MmfMarch> m;
+        for (const int n : steps) m.push_back(cases::march_mmf(1e-3, cases::mmf_ductile, rule, n));
+        for (const cases::MmfMarch& march : m) cases::expect(march.unfinished == 0, std::string(rule) + ": unfinished steps");
+        if (std::string(rule) == "converged")
+            for (std::size_t i = 1; i < m.size(); ++i) cases::expect_below(std::abs(m[i].defect), 0.6 * std::abs(m[i - 1].defect), "converged: booked defect");
+    }
+}
+
+CASE_TEST(turning_pair_in_the_limit) {
+    const double limit = cases::turning_integral();
+    for (const char* rule : {"frozen", "converged", "variational"}) {
+        const cases::TurningDefect d = cases::turning_defect(rule, 12800);
+        if (std::string(rule) == "variational") {
+            cases::expect_below(std::abs(d.slides), 1e-4 * d.work, "variational: slides' ledger");
+            continue;
+        }
+        cases::expect_below(std::abs(d.booked), 1e-4 * d.work, std::string(rule) + ": booked ledger");
+        cases::expect_near(d.slides, limit, 0.01, std::abs(limit), std::string(rule) + ": slides' ledger");
+    }
+}
+
+}  // namespace
+
+int main() {
+    Suite* suite = suite_create("mixity, many steps");
+    TCase* tests = tcase_create("limits");
+    tcase_add_loop_test(tests, provable_bounds, 0, 3);
+    tcase_add_test(tests, defects_side_by_side);
+    tcase_add_test(tests, turning_pair_in_the_limit);
+    suite_add_tcase(suite, tests);
+    return cases::run_suite(suite);
+}
