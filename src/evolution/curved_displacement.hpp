@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The displacement step of the variational rule: at frozen damage, f(B(u), zeta) is no quadratic form of u.
 //
-// Around the last jumps it is replaced by its linear part and a spring that bounds its curvature from above (variational.hpp), which leaves an
-// ordinary step with springs w k (zeta + mu) and forces of their own. Each solution is a search direction: along the segment between two
+// Around the last jumps it is replaced by its linear part and a spring that bounds its curvature from above
+// (variational.hpp), which leaves an
+// ordinary step with springs w k (zeta + mu) and forces of their own. Each solution is a search direction: along the
+// segment between two
 // admissible answers of the operator the bulk energy is exactly quadratic,
 //
 //   E(s) = (1-s) E_0 + s E_1 - s (1-s)/2 Q,     Q = (u_1-u_0)^T K (u_1-u_0) = -(j_1-j_0).(lambda_1-lambda_0),
 //
-// so the energy of every point on it is known without a solve, and none that raises it is taken. The end is where the traction of the law is that of
+// so the energy of every point on it is known without a solve, and none that raises it is taken. The end is where the
+// traction of the law is that of
 // the bodies.
 #pragma once
 

@@ -74,8 +74,10 @@ double Minimiser::energy(const State& state, std::span<const double> adhesion_ol
     return state.response.stored_bulk + state.response.load_potential + mixity.energy(adhesion_old, state.adhesion, state.response.jump);
 }
 
-// Each round is a step of alternate minimisation, which is also the stopping test; between rounds the adhesion leaps ahead. A leap that raised
-// the energy of the whole is taken back, and the plain step made instead. Where the mixity follows the iterate, energies are compared at equal B: what a
+// Each round is a step of alternate minimisation, which is also the stopping test; between rounds the adhesion leaps
+// ahead. A leap that raised
+// the energy of the whole is taken back, and the plain step made instead. Where the mixity follows the iterate,
+// energies are compared at equal B: what a
 // new B alone adds goes onto the level that is compared with.
 bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) const {
     StepMixity mixity(pairs, rule, tolerance, state.mixity);

@@ -11,7 +11,8 @@ namespace delam {
 
 namespace {
 
-// A mixity that swings to and fro goes half as far with each swing that does not shrink to half, and rests once it is down to `least` of the way, or
+// A mixity that swings to and fro goes half as far with each swing that does not shrink to half, and rests once it is
+// down to `least` of the way, or
 // after so many turns: a step ends.
 constexpr double least = 1.0 / 64.0;
 constexpr std::int64_t most_turns = 100;
@@ -40,7 +41,8 @@ std::vector<double> starting_mixity(const PairLaws& pairs, MixityRule rule, cons
 
 void warn_of_snap(const Monitor& monitor, MixityRule rule, const State& next) {
     if (rule != MixityRule::frozen || !(next.ledger.mixity_error > snapped)) return;
-    monitor.log(1, text("step ", next.step, " at time ", next.time, ": the mode mixity changed so much within the step that the frozen one misses the toughness by ",
+    monitor.log(1, text("step ", next.step, " at time ", next.time, ": the mode mixity changed so much within the step that the frozen one misses "
+                        "the toughness by ",
                         100.0 * next.ledger.mixity_error, " %; smaller steps or mixity_rule = converged cure it"));
 }
 

@@ -87,14 +87,16 @@ private:
 
     Zone& find_zone();
     Point point(std::vector<double> unknowns) const;
-    // Model about a point: tangents of the members scaled between secant (0) and full (1), with one of them debonded (or none: -1).
+    // Model about a point: tangents of the members scaled between secant (0) and full (1), with one of them debonded
+    // (or none: -1).
     bool model(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded);
     // Minimiser of the model under contact; false: indefinite, or the contact set did not settle.
     bool minimise(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded, Point& out);
     // The point between `at` and `to` on which the energy falls; false: none.
     bool descend(const Point& at, Point& to) const;
     std::int64_t weakest(const Point& at) const;
-    // The point shows its mixities: those of members that took part in its displacements, adhesion `carried` > 0. True: the toughness in use, and with it
+    // The point shows its mixities: those of members that took part in its displacements, adhesion `carried` > 0. True:
+    // the toughness in use, and with it
     // energy and adhesions of the point, have changed.
     bool look(Point& at, std::span<const double> carried);
     bool curved(const ZonePair& m) const { return mixity_.rule() == MixityRule::variational && newton_.pairs.mixed(m.pair); }
