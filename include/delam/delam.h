@@ -359,7 +359,12 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
 /* A scalar of the pending state, else of the committed one. Keys (delam_solver_value_name lists them):
  *   step, time, stored_bulk, stored_interface, dissipated, stored_interface_slides, dissipated_slides, load_potential, work,
  *   lower, increment, upper, increment_lower   energies, F L (2D: F): cumulative but for the last four, which are of the step;
- *   stored_interface holds the gradient term, if there is one
+ *                          stored_interface holds the gradient term, if there is one
+ *                          mixity_rule = variational: increment, its bounds and increment_lower are those of the slides' split
+ *   defect, defect_slides  F L: what does not close since the start, stored + load_potential + dissipated - work - energy of the first state, in the
+ *                          booked and in the slides' split; a state that is set (equilibrate) leaves them as they are
+ *   mixity_error           of the step: sum w |dzeta| |Gc(B shown) - Gc(B used)| / sum w |dzeta| Gc(B used), where B shown is that of the last iterate in
+ *                          which a pair adhered; 0 when nothing was damaged. A frozen step above 0.1 has snapped: a warning (level 1) says so
  *   am_iterations, displacement_solves, contact_iterations, linear_iterations   of the step; contact_iterations sums the
  *   active-set steps over the displacement solves, linear_iterations the Krylov ones
  *   newton_solves, debond_moves   of the step, accelerated minimisation of a condensed scene: dense solves within the process zone,
@@ -404,7 +409,8 @@ DELAM_API const char *delam_solver_value_name(const delam_solver *solver, int64_
  *   stress        [cells][4 or 6]       F/L2 at the cell's centre: xx, yy, zz, xy (2D) or xx, yy, zz, xy, yz, zx
  *   jump          [pairs][dimension]    L, local: normal (>= 0), tangent(s)
  *   traction      [pairs][dimension]    F/L2, local, on face b's side as pull positive; a pressure of contact is negative
- *   adhesion, mixity, contact  [pairs][1]   -, mixity B = Y_t/Y that the last step used, contact 1 = closed
+ *   adhesion, mixity, contact  [pairs][1]   -, mixity B = Y_t/Y that the last step used (mixity_rule = converged: of its own solution, and of a pair that
+ *                          broke that of the iterate in which it broke; variational: of its own displacements), contact 1 = closed
  *                          (mixity 0 where the plan left it out because the law does not depend on it: option mixity = always)
  *   reaction      [constraints][1]      F: force of the device, positive along the constraint
  * `part`: an interface index for pair fields, -1 for all interfaces one after another; otherwise -1. */

@@ -68,7 +68,7 @@ bool StepMixity::look(std::size_t pair, const Driving& y) {
     now_.own[pair] = shown;
     if (rule_ != MixityRule::converged || shown == now_.used[pair]) return false;
     const Toughness from = now_.toughness[pair], to = pairs_.law[pair]->toughness(shown);
-    const double onset = to.onset / from.onset - 1.0, total = to.total / from.total - 1.0;
+    const double onset = from.onset > 0.0 ? to.onset / from.onset - 1.0 : 0.0, total = to.total / from.total - 1.0;
     const double asked = std::abs(onset) > std::abs(total) ? onset : total;
     Swing& swing = swing_[pair];
     if (asked * swing.last < 0.0 && std::abs(asked) > tolerance_) {

@@ -13,7 +13,7 @@ namespace delam {
 namespace {
 
 constexpr std::uint64_t magic = 0x31305453'4d4c4544;  // "DELMST01" in memory on a little-endian machine
-constexpr std::uint32_t version = 3;
+constexpr std::uint32_t version = 4;
 
 std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
     std::uint64_t h = 14695981039346656037ULL;

@@ -48,6 +48,7 @@ Outcome Solver::advance(double time) {
         pending.jumps = std::move(controlled.jumps);
     }
     pending.state = std::move(result.state);
+    stepper_.warn(pending.state);
     if (pending.state.counts.revised_from == 0) pending.state.counts.revised_from = pending.state.step;
     for (auto& [step, state] : chain.revised()) pending.revised.push_back(std::move(state));
     Outcome outcome;

@@ -170,7 +170,6 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
         keep_lower(best, std::move(other), before);
     }
     if (problem_.options.solution == "energetic") search(best, before, start);
-    warn_of_snap(monitor_, rule_, best.state);
     return best;
 }
 

@@ -46,6 +46,8 @@ public:
     JumpOperator& op() const { return *operator_; }
     const ReductionChoice& reduction() const { return reduction_; }
     const std::vector<double>& initial_adhesion() const { return initial_adhesion_; }
+    // To the host: what it should know about the mixity of a step that is kept.
+    void warn(const State& state) const { warn_of_snap(monitor_, rule_, state); }
     // What the last search looked at, in words; empty: none.
     const std::string& searched() const { return searched_; }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mixed-mode flexure test (single-leg bending): the two arms of the ENF, but the notched end is held at the upper arm's interface corner and the
+// The mixed-mode flexure test (single-leg bending): the two arms of the ENF, but the notched end is held at the upper
+// arm's interface corner and the
 // lower arm is free there. Beam theory: G_I/G_II = 4/3, so B = 3/7.
 #pragma once
 

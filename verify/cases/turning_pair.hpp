@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One ductile interface between two rigidly moved blocks whose mode changes while it softens, and the exact answer to what the slides' ledger
+// One ductile interface between two rigidly moved blocks whose mode changes while it softens, and the exact answer to
+// what the slides' ledger
 // cannot close with frozen mixity.
 #pragma once
 
@@ -61,7 +62,8 @@ inline TurningDefect turning_defect(const char* rule, int steps) {
     return d;
 }
 
-// int f_B dB in the limit of small steps, by the closed forms of the law: exponents 2 and equal modes scale Go and Gc by s = 1/sqrt((1-B)^2 + B^2).
+// int f_B dB in the limit of small steps, by the closed forms of the law: exponents 2 and equal modes scale Go and Gc
+// by s = 1/sqrt((1-B)^2 + B^2).
 inline double turning_integral() {
     constexpr int n = 400000;
     const auto scale = [](double b) { return 1.0 / std::sqrt((1.0 - b) * (1.0 - b) + b * b); };

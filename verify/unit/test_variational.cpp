@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One pair under the variational rule, and mixities that follow an iterate: slopes by differences, the spring that bounds the curvature, the
+// One pair under the variational rule, and mixities that follow an iterate: slopes by differences, the spring that
+// bounds the curvature, the
 // damage against brute force, an end to swings.
 #include <algorithm>
 #include <array>
