@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "call.hpp"
+#include "concept.hpp"
 #include "file.hpp"
 #include "h5.hpp"
 #include "step_file.hpp"
@@ -128,6 +129,11 @@ std::string Fields::step_path(std::size_t step) const { return fmt::format("{}/s
 void Fields::write_step(const Model& model, delam_solver* solver, const Scene& scene, std::size_t step) {
     const std::string bytes = step_bytes(model, solver, scene, static_cast<std::int64_t>(step), scene.times[step]);
     const std::string path = step_path(step);
+    if (std::filesystem::exists(path)) {
+        // A saved state may count on the file that is there.
+        write_atomic(path, bytes);
+        return;
+    }
     Appender(path, 0).append(bytes);
     unsynchronised_.push_back(path);
 }
@@ -153,6 +159,7 @@ void Fields::assemble(const Model& model, const Scene& scene, std::size_t last, 
         h5::attribute(file.get(), "commit", std::string(delam_commit()));
         h5::attribute(file.get(), "scene_hash", problem_hash);
         h5::attribute(file.get(), "scene_file_hash", scene.file_hash);
+        for (const auto& [key, value] : concept_of(scene)) h5::attribute(file.get(), key, value);
         h5::attribute(file.get(), "dimension", static_cast<std::int64_t>(scene.geometry.dimension));
         blocks = write_mesh(model, scene, file.get());
         const h5::Group group(h5::new_group(file.get(), "steps"), path);
