@@ -40,6 +40,21 @@ names() {
     done
 }
 
+# The same for people, a line for each scene; the braces are the shell's.
+listing() {
+    local scene family
+    for scene in examples/*/; do
+        family=$(basename "$scene")
+        if [[ ${sizes[$family]:-} == *" "* ]]; then
+            printf '    %s, %s-h{%s}\n' "$family" "$family" "${sizes[$family]// /,}"
+        elif [[ -n ${sizes[$family]:-} ]]; then
+            printf '    %s, %s-h%s\n' "$family" "$family" "${sizes[$family]}"
+        elif [[ -f $scene$family.toml ]]; then
+            printf '    %s\n' "$family"
+        fi
+    done
+}
+
 not_converged=no
 dry=no
 
@@ -81,6 +96,9 @@ run() {
             sized "$name" "$h"
             folders+=("out/$name-h$h")
         done
+        if ((${#folders[@]} == 1)); then
+            return
+        fi
         step /usr/bin/python3 bindings/cli/plot/plot_family.py --out "out/$name" "${folders[@]}"
         printf 'results: out/%s\n' "$name"
         return
@@ -114,7 +132,7 @@ fi
 mapfile -t known < <(names)
 for name in "${wanted[@]}"; do
     if [[ " ${known[*]} " != *" $name "* ]]; then
-        printf 'unknown scene "%s"; known are: %s\n' "$name" "${known[*]}" >&2
+        printf 'unknown scene "%s"; known are\n%s\n' "$name" "$(listing)" >&2
         exit 2
     fi
 done

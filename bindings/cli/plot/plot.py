@@ -4,106 +4,48 @@
 
 Reads DIR/history.csv, fields.h5 and result.json. Needs Debian's python3-numpy, python3-matplotlib and python3-h5py.
 """
-import csv
-import json
 import os
 import sys
 
 import h5py
 import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-BLUE, RED, GREEN, ORANGE, GREY = "#1f5a99", "#b3312c", "#2f7d4f", "#d18b1f", "#7a7f87"
+from result import BLUE, GREEN, GREY, ORANGE, RED, Result, axis, drop_end, plt, zoom
+
 ZETA = matplotlib.colors.LinearSegmentedColormap.from_list(
     "zeta", ["#b3122a", "#f2a541", "#f5e9b8", "#2b6cb0", "#0b2e59"])
-plt.rcParams.update({
-    "font.size": 10, "axes.titlesize": 11, "axes.spines.top": False, "axes.spines.right": False,
-    "axes.grid": True, "grid.color": "#e4e6ea", "grid.linewidth": 0.8, "axes.axisbelow": True,
-    "axes.edgecolor": "#50555c", "lines.linewidth": 1.6, "legend.frameon": False, "figure.dpi": 110, "savefig.dpi": 150,
-})
-
-
-class Result:
-    """What a folder holds."""
-
-    def __init__(self, folder):
-        self.folder = folder
-        with open(os.path.join(folder, "result.json"), encoding="utf-8") as file:
-            self.about = json.load(file)
-        with open(os.path.join(folder, "history.csv"), newline="", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
-        self.history = {name: np.array([float(row[i]) for row in rows[1:]]) for i, name in enumerate(rows[0])}
-        units = self.about["units"]
-        flat = self.about["scene"]["dimension"] == 2
-        self.length, self.time = units["length"], units["time"]
-        self.force = f"{units['force']}/{units['length']}" if flat else units["force"]
-        work = "J" if (units["force"], units["length"]) == ("N", "m") else f"{units['force']} {units['length']}"
-        self.energy = f"{work}/{units['length']}" if flat else work
-
-    def patterns(self):
-        """(label, load column, reaction column) of each pattern."""
-        names = self.about["patterns"]
-        if len(names) <= 1:
-            first = names[0] if names else {"name": "", "drives": "displacement"}
-            return [(first["name"], first["drives"], "load", "reaction")]
-        return [(p["name"], p["drives"], "load_" + p["name"], "reaction_" + p["name"]) for p in names]
-
-    def title(self, what):
-        about = self.about
-        name = about["scene"]["title"] or os.path.basename(about["scene"]["file"])
-        state = "" if about["status"] == "complete" else f"   INCOMPLETE ({about['steps_done']}/{about['steps']} steps)"
-        return f"{name} – {what}{state}"
-
-    def stamp(self, figure, caption=""):
-        about = self.about
-        height = figure.get_size_inches()[1]
-        foot = (0.4 if caption else 0.22) / height
-        figure.text(0.995, 0.004 + 0.17 / height, caption, ha="right", va="bottom", fontsize=7, color=GREY)
-        figure.get_layout_engine().set(rect=(0, foot, 1, 1 - foot))
-        figure.text(0.995, 0.004, f"delam {about['version']} · commit {about['commit'][:13]} · "
-                    f"scene {about['scene_hash']} · {about['concept']} solution",
-                    ha="right", va="bottom", fontsize=7, color=GREY)
-
-    def save(self, figure, name):
-        # Beside and renamed, like every other file of a result.
-        path = os.path.join(self.folder, name)
-        figure.savefig(path + ".new", format="png")
-        os.replace(path + ".new", path)
-        plt.close(figure)
 
 
 def text_of(attribute):
     return attribute.decode() if isinstance(attribute, bytes) else str(attribute)
 
 
-def axis(label, unit):
-    return f"{label} [{unit}]" if unit else label
-
-
 def plot_load(result):
+    """A picture for each pattern; of a single one also the neighbourhood of an early drop."""
     patterns = result.patterns()
-    figure, axes = plt.subplots(1, len(patterns), figsize=(6.8 * len(patterns), 4.4), squeeze=False,
+    number = len(patterns)
+    closer = [drop_end(*result.load_curve(p)) for p in range(number)]
+    columns = 2 if number == 1 and any(closer) else number
+    figure, axes = plt.subplots(1, columns, figsize=((6.8 if columns == 1 else 6.0) * columns, 4.4), squeeze=False,
                                 layout="constrained")
     failed = set(result.about.get("not_converged", []))
-    for ax, (name, drives, load, reaction) in zip(axes[0], patterns):
-        x, y = result.history[load], result.history[reaction]
-        # Of a dead force the factor is the load and (minus) the reaction the displacement of its points.
-        if drives == "force":
-            x, y = -y, x
-        ax.plot(x, y, color=BLUE, marker="o", markersize=3)
-        bad = [i for i, step in enumerate(result.history["step"]) if int(step) in failed]
-        if bad:
-            ax.plot(x[bad], y[bad], "x", color=RED, label="not converged")
-            ax.legend()
-        ax.set_xlabel(axis("conjugate displacement" if drives == "force" else "prescribed displacement", result.length))
-        ax.set_ylabel("load factor" if drives == "force" else axis("reaction", result.force))
-        if len(patterns) > 1:
-            ax.set_title(name, fontsize=10)
+    bad = [i for i, step in enumerate(result.history["step"]) if int(step) in failed]
+    for p, (name, _, _, _) in enumerate(patterns):
+        x, y = result.load_curve(p)
+        drawn = axes[0] if number == 1 else axes[0][p:p + 1]
+        for ax in drawn:
+            ax.plot(x, y, color=BLUE, marker="o", markersize=3)
+            if bad:
+                ax.plot(x[bad], y[bad], "x", color=RED, label="not converged")
+                ax.legend()
+        result.label_load(drawn, p)
+        if number > 1:
+            drawn[0].set_title(name, fontsize=10)
+        elif columns == 2:
+            zoom(drawn[1], closer[0], [(x, y)])
     figure.suptitle(result.title("load and displacement"), fontsize=11)
     result.stamp(figure)
     result.save(figure, "load-displacement.png")
