@@ -13,7 +13,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-from result import BLUE, GREEN, GREY, ORANGE, RED, Result, axis, drop_end, plt, zoom
+from result import BLUE, GREEN, GREY, ORANGE, RED, Result, axis, early_end, plt, zoom
 
 ZETA = matplotlib.colors.LinearSegmentedColormap.from_list(
     "zeta", ["#b3122a", "#f2a541", "#f5e9b8", "#2b6cb0", "#0b2e59"])
@@ -24,11 +24,11 @@ def text_of(attribute):
 
 
 def plot_load(result):
-    """A picture for each pattern; of a single one also the neighbourhood of an early drop."""
+    """A picture for each pattern; of a single one also the beginning where that is where things happen."""
     patterns = result.patterns()
     number = len(patterns)
-    closer = [drop_end(*result.load_curve(p)) for p in range(number)]
-    columns = 2 if number == 1 and any(closer) else number
+    closer = early_end(result) if number == 1 else None
+    columns = number if closer is None else 2
     figure, axes = plt.subplots(1, columns, figsize=((6.8 if columns == 1 else 6.0) * columns, 4.4), squeeze=False,
                                 layout="constrained")
     failed = set(result.about.get("not_converged", []))
@@ -44,26 +44,48 @@ def plot_load(result):
         result.label_load(drawn, p)
         if number > 1:
             drawn[0].set_title(name, fontsize=10)
-        elif columns == 2:
-            zoom(drawn[1], closer[0], [(x, y)])
+        elif closer is not None:
+            zoom(drawn[1], x[closer], [(x, y)])
+            drawn[1].set_title("the beginning", fontsize=10, loc="left")
     figure.suptitle(result.title("load and displacement"), fontsize=11)
     result.stamp(figure)
     result.save(figure, "load-displacement.png")
 
 
+def draw_energies(ax, result):
+    """The curves of the slides' energetics."""
+    h = result.history
+    stored = h["stored_bulk"] + h["stored_interface"] + h.get("load_potential", 0)
+    curves = [("stored, bodies", h["stored_bulk"], {"color": BLUE}),
+              ("stored, interfaces", h["stored_interface"], {"color": GREEN})]
+    if "load_potential" in h:
+        curves.append(("potential of the dead loads", h["load_potential"], {"color": GREY}))
+    curves += [("dissipated", h["dissipated"], {"color": RED}), ("total", stored + h["dissipated"], {"color": "black"}),
+               ("work", h["work"] + stored[0], {"color": ORANGE, "linestyle": "--"})]
+    for label, y, style in curves:
+        ax.plot(h["time"], y, label=label, **style)
+    for i, instant in enumerate(result.jump_times()):
+        ax.axvline(instant, color=GREY, linestyle=":", linewidth=1.0, label="located jump" if i == 0 else None)
+    return [(h["time"], y) for _, y, _ in curves]
+
+
 def plot_energies(result):
     h = result.history
     t = h["time"]
-    figure, (top, bottom) = plt.subplots(2, 1, figsize=(7.2, 7.4), sharex=True, height_ratios=[3, 2],
-                                          layout="constrained")
-    stored = h["stored_bulk"] + h["stored_interface"] + h.get("load_potential", 0)
-    top.plot(t, h["stored_bulk"], color=BLUE, label="stored, bodies")
-    top.plot(t, h["stored_interface"], color=GREEN, label="stored, interfaces")
-    if "load_potential" in h:
-        top.plot(t, h["load_potential"], color=GREY, label="potential of the dead loads")
-    top.plot(t, h["dissipated"], color=RED, label="dissipated")
-    top.plot(t, stored + h["dissipated"], color="black", label="total")
-    top.plot(t, h["work"] + stored[0], color=ORANGE, linestyle="--", label="work")
+    closer = early_end(result)
+    if closer is None:
+        figure, (top, bottom) = plt.subplots(2, 1, figsize=(7.2, 7.4), sharex=True, height_ratios=[3, 2],
+                                              layout="constrained")
+    else:
+        figure = plt.figure(figsize=(12.4, 7.4), layout="constrained")
+        grid = figure.add_gridspec(2, 2, height_ratios=[3, 2])
+        top, bottom = figure.add_subplot(grid[0, 0]), figure.add_subplot(grid[1, :])
+        beginning = figure.add_subplot(grid[0, 1])
+        zoom(beginning, t[closer], draw_energies(beginning, result))
+        beginning.set_title("the beginning", fontsize=10, loc="left")
+        beginning.set_xlabel(axis("time", result.time))
+        top.set_xlabel(axis("time", result.time))
+    draw_energies(top, result)
     top.set_ylabel(axis("energy", result.energy))
     # Above the axes: nowhere inside is free of curves in every result.
     top.legend(ncols=3, loc="lower left", bbox_to_anchor=(0, 1.0), fontsize=8)
@@ -84,6 +106,9 @@ def plot_energies(result):
     bottom.set_title(("two-sided estimate: met in every step" if broken == 0 else
                       f"two-sided estimate: violated in {broken} of {len(t) - 1} steps") + f" (tolerance {eta:g})",
                      fontsize=9, loc="left")
+    returns = int(np.sum(h["backtracks"]))
+    if returns:
+        bottom.set_title(f"returns to earlier steps: {returns}", fontsize=9, loc="right")
     room = max(np.max(np.abs(upper - middle), initial=0), np.max(np.abs(increment - middle), initial=0))
     if room > 0:
         bottom.set_ylim(-1.15 * room, 1.15 * room)

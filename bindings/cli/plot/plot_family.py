@@ -12,11 +12,11 @@ import sys
 
 import numpy as np
 
-from result import GREY, Result, axis, drop_end, plt, save, zoom
+from result import GREY, Result, axis, early_end, plt, save, zoom
 
 # Okabe and Ito's colours, told apart by all; the last one, yellow, is too light for a line.
 DISTINCT = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"]
-DASHES = ["-", "--", "-.", ":"]
+DASHES = ["-", "-.", ":"]
 
 
 def differences(results):
@@ -45,8 +45,13 @@ class Curves:
             # what lies below stays visible where curves coincide.
             part = i / max(1, number - 1)
             colour = plt.cm.viridis(0.9 * (1 - part)) if sizes_only else DISTINCT[i % len(DISTINCT)]
-            dash = "-" if sizes_only else DASHES[i // len(DISTINCT) % len(DASHES)]
-            self.styles.append({"color": colour, "linestyle": dash, "linewidth": 3.2 - 2.2 * part})
+            dash = "--" if self.own[i].get("solution", "").startswith("local") else DASHES[i // len(DISTINCT) % len(DASHES)]
+            self.styles.append({"color": colour, "linestyle": dash, "linewidth": 3.2 - (2.2 if sizes_only else 1.6) * part})
+
+    def early(self):
+        """Pairs of a result and the step up to which it is worth a closer look."""
+        pairs = [(result, early_end(result)) for result in self.results]
+        return [pair for pair in pairs if pair[1] is not None]
 
     def each(self):
         return zip(self.results, self.labels, self.styles)
@@ -78,8 +83,8 @@ def notes(result):
 
 
 def plot_load(curves, out):
-    close = max(drop_end(*result.load_curve()) for result in curves.results)
-    figure, axes = plt.subplots(1, 2 if close else 1, figsize=(12.4 if close else 7.4, 5.2), squeeze=False,
+    closer = curves.early()
+    figure, axes = plt.subplots(1, 2 if closer else 1, figsize=(12.4 if closer else 7.4, 5.2), squeeze=False,
                                 layout="constrained")
     for result, label, style in curves.each():
         x, y = result.load_curve()
@@ -90,28 +95,39 @@ def plot_load(curves, out):
             if bad.any():
                 ax.plot(x[bad], y[bad], "x", color=style["color"], label=label + ", not converged")
     curves.results[0].label_load(axes[0])
-    if close:
-        zoom(axes[0, 1], close, [result.load_curve() for result in curves.results])
+    if closer:
+        end = max(result.load_curve()[0][step] for result, step in closer)
+        zoom(axes[0, 1], end, [result.load_curve() for result in curves.results])
+        axes[0, 1].set_title("the beginning", fontsize=10, loc="left")
     figure.suptitle(curves.title("load and displacement"), fontsize=11)
     curves.finish(figure, axes[0, 0], os.path.join(out, "load-displacement.png"))
 
 
 def plot_energies(curves, out):
-    figure, axes = plt.subplots(1, 3, figsize=(13.2, 4.9), layout="constrained")
+    closer = curves.early()
+    rows = 2 if closer else 1
+    figure, axes = plt.subplots(rows, 3, figsize=(13.2, 1.1 + 3.8 * rows), squeeze=False, layout="constrained")
+    drawn = [[], [], []]
     for result, label, style in curves.each():
         h = result.history
         stored = h["stored_bulk"] + h["stored_interface"] + h.get("load_potential", 0)
-        axes[0].plot(h["time"], stored, label=label + notes(result), **style)
-        axes[1].plot(h["time"], h["dissipated"], **style)
-        axes[2].plot(h["time"], stored + h["dissipated"], **style)
-        axes[2].plot(h["time"], h["work"] + stored[0], **{**style, "linestyle": (0, (1, 2)), "linewidth": 1.2})
+        for column, y in enumerate((stored, h["dissipated"], stored + h["dissipated"])):
+            drawn[column].append((h["time"], y))
+            for ax in axes[:, column]:
+                ax.plot(h["time"], y, label=label + notes(result), **style)
+        for ax in axes[:, 2]:
+            ax.plot(h["time"], h["work"] + stored[0], **{**style, "linestyle": (0, (1, 2)), "linewidth": 1.2})
     first = curves.results[0]
-    for ax, title in zip(axes, ("stored (bodies and interfaces)", "dissipated", "total; dotted: work of the loads")):
-        ax.set_title(title, fontsize=10, loc="left")
-        ax.set_xlabel(axis("time", first.time))
-    axes[0].set_ylabel(axis("energy", first.energy))
+    for column, title in enumerate(("stored (bodies and interfaces)", "dissipated", "total; dotted: work of the loads")):
+        axes[0, column].set_title(title, fontsize=10, loc="left")
+        axes[-1, column].set_xlabel(axis("time", first.time))
+        if closer:
+            zoom(axes[1, column], max(result.history["time"][step] for result, step in closer), drawn[column])
+            axes[1, column].set_title("the beginning", fontsize=10, loc="left")
+    for row in axes:
+        row[0].set_ylabel(axis("energy", first.energy))
     figure.suptitle(curves.title("energetics"), fontsize=11)
-    curves.finish(figure, axes[0], os.path.join(out, "energies.png"))
+    curves.finish(figure, axes[0, 0], os.path.join(out, "energies.png"))
 
 
 def main():

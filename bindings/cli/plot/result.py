@@ -29,19 +29,25 @@ def save(figure, path):
     plt.close(figure)
 
 
-def drop_end(x, y):
-    """Where the last drop of a curve ends, if that is early enough to be looked at more closely; else 0."""
-    drops = np.flatnonzero(np.diff(y) < -2e-3 * np.max(np.abs(y), initial=0))
-    end = x[drops[-1] + 1] if len(drops) else 0
-    return end if 0 < end < 0.25 * np.max(x) else 0
+def early_end(result):
+    """Step up to which to look more closely: where half of what dissipates has done so in the first sixth of the march, twice
+    that far. None where there is no such haste."""
+    dissipated = result.history["dissipated"]
+    time = result.history["time"]
+    half = int(np.argmax(dissipated >= 0.5 * dissipated[-1]))
+    if dissipated[-1] <= 0 or time[half] - time[0] > (time[-1] - time[0]) / 6:
+        return None
+    return min(2 * half + 1, len(time) - 1)
 
 
-def zoom(ax, end, curves):
-    """The part of the axes with the drops that end at `end`; curves: pairs of x and y."""
-    ax.set_xlim(0, 2 * end)
-    highest = max(np.max(y[x <= 2 * end]) for x, y in curves)
-    ax.set_ylim(-0.03 * highest, 1.06 * highest)
-    ax.set_title("the same, until after the drop", fontsize=10, loc="left")
+def zoom(ax, x, curves):
+    """Limits of the axes to what lies before x; curves: pairs of x and y."""
+    seen = np.concatenate([np.asarray(y)[np.asarray(at) <= x] for at, y in curves])
+    room = 0.05 * (seen.max() - seen.min())
+    first = min(at[0] for at, _ in curves)
+    ax.set_xlim(first - 0.02 * (x - first), x)
+    if room > 0:
+        ax.set_ylim(seen.min() - room, seen.max() + room)
 
 
 class Result:
@@ -62,6 +68,17 @@ class Result:
         self.force = f"{units['force']}/{units['length']}" if flat else units["force"]
         work = "J" if (units["force"], units["length"]) == ("N", "m") else f"{units['force']} {units['length']}"
         self.energy = f"{work}/{units['length']}" if flat else work
+
+    def jump_times(self):
+        """Instants of the larger jumps that were located; none where that was not asked for."""
+        path = os.path.join(self.folder, "jumps.csv")
+        if not os.path.exists(path):
+            return []
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = [(float(row["time"]), float(row["debonded"])) for row in csv.DictReader(file)]
+        # On a coarse mesh every pair that breaks is one.
+        largest = max((debonded for _, debonded in rows), default=0)
+        return [time for time, debonded in rows if debonded > 0.2 * largest]
 
     def patterns(self):
         """(label, load column, reaction column) of each pattern."""

@@ -83,7 +83,7 @@ for cell, nodes, topology in (("tri6", 6, "Triangle_6"), ("quad8", 8, "Quadrilat
 def violated(out_folder, eta):
     """The rule, from the rows."""
     lines = read(os.path.join(out_folder, "history.csv")).decode().splitlines()
-    table = [dict(zip(lines[0].split(","), map(float, line.split(",")))) for line in lines[2:]]
+    table = [dict(zip(lines[0].split(",")[:19], map(float, line.split(",")[:19]))) for line in lines[2:]]
     return [int(r["step"]) for r in table
             if max(r["lower"] - r["increment_lower"], r["increment"] - r["upper"]) >
             eta * max(abs(r["stored_bulk"] + r["stored_interface"]), abs(r["work"]))]

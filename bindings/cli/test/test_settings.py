@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import resource
 
 from support import SCENE, changed, delam, expect, expect_error, finish, folder, read, write
 
@@ -76,7 +77,7 @@ expect_error(delam("run", scene, "--out", out, "--set", "time.steps=7", "--resum
 
 # What a person is told to type brings the settings along.
 narrow = folder()
-limits = {"preexec_fn": lambda: __import__("resource").setrlimit(__import__("resource").RLIMIT_FSIZE, (1000, 1000))}
+limits = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))}
 _, _, error = delam("run", scene, "--out", narrow, "--set", "title=it's one", **limits)
-expect(re.search(r"delam run \S+ --out \S+ --set 'title=it'\\''s one'", error), f"the hint is whole: {error.strip()}")
+expect(re.search(r"delam run \S+ --out \S+ --set 'title=it'\\''s one'", error), f"the hint is whole: {error.splitlines()}")
 finish()
