@@ -27,9 +27,7 @@ int check(const std::string& scene_file, const std::vector<std::string>& setting
          std::string("numbers of unknowns"));
     say("{}: correct\n", scene_file);
     if (!scene.title.empty()) say("title       {}\n", scene.title);
-    std::string named;
-    for (const auto& [key, value] : concept_of(scene)) named += fmt::format("{}{} = {}", named.empty() ? "" : ", ", key, value);
-    if (!named.empty()) say("concept     {}\n", named);
+    say("concept     {}\n", concept_text(concept_of(solver.get())));
     say("scene hash  {}\n", hash_of(model));
     say("unknowns    {} primal, {} dual\n", primal, dual);
     for (const Layer& layer : scene.layers)

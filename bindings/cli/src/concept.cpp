@@ -1,40 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "concept.hpp"
 
-#include <algorithm>
 #include <cstdlib>
-
-#include <fmt/format.h>
-
-#include "delam/delam.h"
+#include <string_view>
 
 namespace cli {
 
-std::vector<OptionValue> options_used(const Scene& scene) {
-    std::vector<OptionValue> out;
-    for (std::int64_t i = 0; i < delam_option_count(); ++i) {
-        const char* key = "";
-        const char* type = "";
-        const char* initial = "";
-        delam_option_info(i, &key, &type, nullptr, &initial, nullptr, nullptr);
-        OptionValue option{key, std::string(initial)};
-        if (std::string_view(type) != "text") option.second = std::strtod(initial, nullptr);
-        for (const SolverOption& given : scene.options)
-            if (given.key == key) option.second = given.value;
-        out.push_back(std::move(option));
-    }
+Concept concept_of(const delam_solver* solver) {
+    Concept out;
+    for (const char* key : {"solution", "mixity_rule", "backtracking", "backtracking_tolerance", "jump_tolerance",
+                            "step_control", "mixity_step_tolerance"})
+        if (const char* value = delam_solver_option(solver, key)) out.emplace_back(key, value);
     return out;
 }
 
-std::vector<std::pair<std::string, std::string>> concept_of(const Scene& scene) {
-    const std::vector<OptionValue> options = options_used(scene);
-    std::vector<std::pair<std::string, std::string>> out;
-    for (const char* key : {"solution", "mixity_rule", "backtracking", "backtracking_tolerance", "jump_tolerance",
-                            "step_control", "mixity_step_tolerance"}) {
-        const auto at = std::find_if(options.begin(), options.end(), [key](const auto& o) { return o.first == key; });
-        if (at == options.end()) continue;
-        const auto* number = std::get_if<double>(&at->second);
-        out.emplace_back(key, number != nullptr ? fmt::format("{:g}", *number) : std::get<std::string>(at->second));
+std::string concept_text(const Concept& named) {
+    std::string out;
+    for (const auto& [key, value] : named) out.append(out.empty() ? "" : ", ").append(key).append(" = ").append(value);
+    return out;
+}
+
+std::vector<std::pair<std::string, std::variant<double, std::string>>> options_of(const delam_solver* solver) {
+    std::vector<std::pair<std::string, std::variant<double, std::string>>> out;
+    for (std::int64_t i = 0; i < delam_option_count(); ++i) {
+        const char* key = "";
+        const char* type = "";
+        delam_option_info(i, &key, &type, nullptr, nullptr, nullptr, nullptr);
+        const char* value = delam_solver_option(solver, key);
+        if (value == nullptr) continue;
+        if (std::string_view(type) == "text")
+            out.emplace_back(key, std::string(value));
+        else
+            out.emplace_back(key, std::strtod(value, nullptr));
     }
     return out;
 }

@@ -8,15 +8,18 @@
 #include <variant>
 #include <vector>
 
-#include "scene.hpp"
+#include "delam/delam.h"
 
 namespace cli {
 
-using OptionValue = std::pair<std::string, std::variant<double, std::string>>;
+using Concept = std::vector<std::pair<std::string, std::string>>;  // option, value
 
-// Every option of the library with the value that is used: the scene's, else the default.
-std::vector<OptionValue> options_used(const Scene& scene);
-// Those that decide which solution is computed, as texts, `solution` and `mixity_rule` first; of the library's options.
-std::vector<std::pair<std::string, std::string>> concept_of(const Scene& scene);
+// The options that decide which solution is computed, as the solver took them; `solution` and `mixity_rule` come first.
+Concept concept_of(const delam_solver* solver);
+// "solution = local, mixity_rule = frozen, ..."
+std::string concept_text(const Concept& named);
+
+// Every option of the library as the solver took it.
+std::vector<std::pair<std::string, std::variant<double, std::string>>> options_of(const delam_solver* solver);
 
 }  // namespace cli

@@ -67,7 +67,7 @@ History::History(const Model& model, const delam_solver* solver, const Scene& sc
         if (std::none_of(columns_.begin(), columns_.end(), same_key)) add(key, key);
     }
     // Words behind the numbers: a row that is copied elsewhere still says which solution it belongs to.
-    for (const auto& [key, value] : concept_of(scene))
+    for (const auto& [key, value] : concept_of(solver))
         if (key == "solution" || key == "mixity_rule") add(key, "", value);
 }
 

@@ -14,9 +14,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json options(const Scene& scene) {
+Json options(const delam_solver* solver) {
     Json out = Json::object();
-    for (const auto& [key, value] : options_used(scene))
+    for (const auto& [key, value] : options_of(solver))
         std::visit([&out, &key = key](const auto& v) { out[key] = v; }, value);
     return out;
 }
@@ -38,7 +38,7 @@ std::string hash_of(const Model& model) {
     return text;
 }
 
-std::string result_text(const Model& model, const Scene& scene, const Outcome& outcome) {
+std::string result_text(const Model& model, delam_solver* solver, const Scene& scene, const Outcome& outcome) {
     std::int64_t primal = 0;
     std::int64_t dual = 0;
     call(model.context.get(), delam_problem_dofs(model.problem.get(), &primal, &dual),
@@ -52,7 +52,7 @@ std::string result_text(const Model& model, const Scene& scene, const Outcome& o
     Json layers = Json::array();
     for (const Layer& layer : scene.layers) layers.push_back(layer.name);
     Json named = Json::object();
-    for (const auto& [key, value] : concept_of(scene)) named[key] = value;
+    for (const auto& [key, value] : concept_of(solver)) named[key] = value;
     const Json out{
         {"program", "delam"},
         {"version", delam_version()},
@@ -75,7 +75,7 @@ std::string result_text(const Model& model, const Scene& scene, const Outcome& o
         {"scene_hash", outcome.problem_hash},
         {"scene_file_hash", scene.file_hash},
         {"scene_content_hash", scene.content_hash},
-        {"options", options(scene)},
+        {"options", options(solver)},
         {"unknowns", {{"primal", primal}, {"dual", dual}}},
         {"layers", layers},
         {"patterns", patterns},
@@ -88,7 +88,8 @@ std::string result_text(const Model& model, const Scene& scene, const Outcome& o
         {"started", outcome.started},
         {"ended", now_text()},
         {"resumed", outcome.resumed},
-        {"plan", outcome.plan},
+        {"plan", delam_solver_plan(solver)},
+        {"searched", delam_solver_searched(solver)},
     };
     return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

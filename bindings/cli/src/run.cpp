@@ -11,11 +11,13 @@
 
 #include "call.hpp"
 #include "commands.hpp"
+#include "concept.hpp"
 #include "estimate.hpp"
 #include "fields.hpp"
 #include "file.hpp"
 #include "history.hpp"
 #include "interrupt.hpp"
+#include "jumps.hpp"
 #include "notes.hpp"
 #include "output_folder.hpp"
 #include "progress.hpp"
@@ -109,9 +111,11 @@ public:
         outcome.resumed = state_.resumed;
         outcome.started = state_.started;
         outcome.problem_hash = state_.problem_hash;
-        outcome.plan = delam_solver_plan(solver_.get());
-        fields_.assemble(model_, scene_, static_cast<std::size_t>(state_.step), state_.problem_hash);
-        write_atomic(folder_.running() + "/result.json", result_text(model_, scene_, outcome));
+        fields_.assemble(model_, scene_, static_cast<std::size_t>(state_.step), state_.problem_hash,
+                         concept_of(solver_.get()));
+        if (locates_jumps(solver_.get()))
+            write_atomic(folder_.running() + "/jumps.csv", jumps_text(model_, solver_.get()));
+        write_atomic(folder_.running() + "/result.json", result_text(model_, solver_.get(), scene_, outcome));
         folder_.publish();
         if (outcome.complete) folder_.end();
     }
