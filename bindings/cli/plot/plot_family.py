@@ -41,12 +41,14 @@ class Curves:
         sizes_only = all(set(own) <= {"h"} for own in self.own)
         self.styles = []
         for i in range(number):
-            # An ordered thing gets ordered colours: light and broad for coarse cells, dark and thin for fine ones, so that
-            # what lies below stays visible where curves coincide.
+            # An ordered thing gets ordered colours: light and broad for coarse cells, dark and thin for fine ones, so
+            # that what lies below stays visible where curves coincide.
             part = i / max(1, number - 1)
             colour = plt.cm.viridis(0.9 * (1 - part)) if sizes_only else DISTINCT[i % len(DISTINCT)]
-            dash = "--" if self.own[i].get("solution", "").startswith("local") else DASHES[i // len(DISTINCT) % len(DASHES)]
-            self.styles.append({"color": colour, "linestyle": dash, "linewidth": 3.2 - (2.2 if sizes_only else 1.6) * part})
+            local = self.own[i].get("solution", "").startswith("local")
+            dash = "--" if local else DASHES[i // len(DISTINCT) % len(DASHES)]
+            width = 3.2 - (2.2 if sizes_only else 1.6) * part
+            self.styles.append({"color": colour, "linestyle": dash, "linewidth": width})
 
     def early(self):
         """Pairs of a result and the step up to which it is worth a closer look."""
@@ -66,7 +68,7 @@ class Curves:
         """Legend and stamp below everything else."""
         handles, labels = axes.get_legend_handles_labels()
         widest = max(map(len, labels))
-        columns = min(len(labels), max(1, int(figure.get_size_inches()[0] / (0.75 + 0.075 * widest))))
+        columns = min(len(labels), max(1, int(figure.get_size_inches()[0] / (0.7 + 0.068 * widest))))
         rows = -(-len(labels) // columns)
         height = figure.get_size_inches()[1]
         foot = (0.35 + 0.22 * rows) / height
@@ -84,7 +86,7 @@ def notes(result):
 
 def plot_load(curves, out):
     closer = curves.early()
-    figure, axes = plt.subplots(1, 2 if closer else 1, figsize=(12.4 if closer else 7.4, 5.2), squeeze=False,
+    figure, axes = plt.subplots(1, 2 if closer else 1, figsize=(12.4 if closer else 8.2, 5.4), squeeze=False,
                                 layout="constrained")
     for result, label, style in curves.each():
         x, y = result.load_curve()
@@ -118,7 +120,8 @@ def plot_energies(curves, out):
         for ax in axes[:, 2]:
             ax.plot(h["time"], h["work"] + stored[0], **{**style, "linestyle": (0, (1, 2)), "linewidth": 1.2})
     first = curves.results[0]
-    for column, title in enumerate(("stored (bodies and interfaces)", "dissipated", "total; dotted: work of the loads")):
+    titles = ("stored (bodies and interfaces)", "dissipated", "total; dotted: work of the loads")
+    for column, title in enumerate(titles):
         axes[0, column].set_title(title, fontsize=10, loc="left")
         axes[-1, column].set_xlabel(axis("time", first.time))
         if closer:
@@ -144,7 +147,8 @@ def main():
             return 2
     units = {(result.length, result.force, result.time, result.patterns()[0][1]) for result in results}
     if len(units) > 1:
-        print("plot_family.py: the results have different units or kinds of loads, so they share no axes", file=sys.stderr)
+        print("plot_family.py: the results have different units or kinds of loads, so they share no axes",
+              file=sys.stderr)
         return 2
     out = words.out or os.path.commonpath([os.path.dirname(os.path.abspath(folder)) for folder in words.folders])
     os.makedirs(out, exist_ok=True)

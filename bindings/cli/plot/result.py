@@ -30,8 +30,8 @@ def save(figure, path):
 
 
 def early_end(result):
-    """Step up to which to look more closely: where half of what dissipates has done so in the first sixth of the march, twice
-    that far. None where there is no such haste."""
+    """Step up to which to look more closely: twice as far as where half of what dissipates has done so, if that is in the
+    first sixth of the march; else None."""
     dissipated = result.history["dissipated"]
     time = result.history["time"]
     half = int(np.argmax(dissipated >= 0.5 * dissipated[-1]))
@@ -89,7 +89,8 @@ class Result:
         return [(p["name"], p["drives"], "load_" + p["name"], "reaction_" + p["name"]) for p in names]
 
     def load_curve(self, pattern=0):
-        """Displacement and load. Of a dead force the factor is the load and minus the reaction the displacement of its points."""
+        """Displacement and load. Of a dead force the factor is the load and minus the reaction the displacement of its
+        points."""
         _, drives, load, reaction = self.patterns()[pattern]
         if drives == "force":
             return -self.history[reaction], self.history[load]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which solution concept a result has, in the words of the library's options: solution = local, mixity_rule = frozen, ...
-// Part of every file of a result, since the numbers mean little without it.
+// Which solution concept a result has, in the words of the library's options: solution = local, mixity_rule = frozen,
+// ... Part of every file of a result, since the numbers mean little without it.
 #pragma once
 
 #include <string>

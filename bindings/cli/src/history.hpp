@@ -15,7 +15,8 @@ public:
     History(const Model& model, const delam_solver* solver, const Scene& scene);
 
     [[nodiscard]] std::string header() const;
-    // Of the committed state, or of the step that is looked at. Numbers keep 17 significant digits: reading them back gives the same bits.
+    // Of the committed state, or of the step that is looked at. Numbers keep 17 significant digits: reading them back
+    // gives the same bits.
     [[nodiscard]] std::string row(delam_solver* solver) const;
     // Value of the solver for people's lines: the factor of the first pattern.
     [[nodiscard]] double load(delam_solver* solver) const;

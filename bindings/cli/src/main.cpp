@@ -48,8 +48,8 @@ int guarded(int argc, char** argv) {
     const auto with_settings = [&settings](CLI::App* command) {
         command
             ->add_option("--set", settings,
-                         "KEY=VALUE: a value instead of the scene file's, e.g. geometry.h=0.001, laws[0].normal_onset=10 "
-                         "or solver.minimisation=alternate; may be given several times")
+                         "KEY=VALUE: a value instead of the scene file's, e.g. geometry.h=0.001, "
+                         "laws[0].normal_onset=10 or solver.minimisation=alternate; may be given several times")
             ->type_name("KEY=VALUE")
             ->allow_extra_args(false);
     };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A table on the disk that grows by rows and whose last rows can be replaced: a march with backtracking revises steps
-// that were written long ago. Growing appends; replacing writes the whole file beside and renames it, so at any time the
-// file is a whole table, the old one or the new one.
+// that were written long ago. Growing appends; replacing writes the whole file beside and renames it, so at any time
+// the file is a whole table, the old one or the new one.
 #pragma once
 
 #include <cstddef>

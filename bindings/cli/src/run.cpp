@@ -189,7 +189,8 @@ std::optional<State> find_state(const OutputFolder& folder, const Scene& scene, 
     State state = unpack(path, read_bytes(path));
     if (state.content_hash != scene.content_hash || state.problem_hash != hash_of(model))
         throw Failure(exit_scene,
-                      fmt::format("{}: the scene, with its --set, is not the one that {} was started with; run again without --resume",
+                      fmt::format("{}: the scene, with its --set, is not the one that {} was started with; "
+                                  "run again without --resume",
                                   scene.file, folder.path()));
     return state;
 }
@@ -219,7 +220,8 @@ int already_complete(const OutputFolder& folder, const Scene& scene) {
         return -1;
     if (content != scene.content_hash)
         throw Failure(exit_scene,
-                      fmt::format("{}: the scene, with its --set, is not the one of the result in {}; run again without --resume",
+                      fmt::format("{}: the scene, with its --set, is not the one of the result in {}; "
+                                  "run again without --resume",
                                   scene.file, folder.path()));
     say("{}: complete already\n", folder.path());
     const double eta = estimate_tolerance(scene);

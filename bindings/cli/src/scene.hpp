@@ -161,7 +161,8 @@ struct Scene {
     [[nodiscard]] std::size_t step_count() const { return times.size() - 1; }
 };
 
-// settings: KEY=VALUE, applied in turn (setting.hpp). Throws SceneFailure with file, line, key, value and allowed range.
+// settings: KEY=VALUE, applied in turn (setting.hpp). Throws SceneFailure with file, line, key, value and allowed
+// range.
 Scene read_scene(const std::string& file, const std::vector<std::string>& settings);
 
 }  // namespace cli

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Settings of the command line, `--set KEY=VALUE`: they change a scene after it was read and before it is checked, so that a
-// wrong one gets the same message as a wrong line of the file, with "--set" as its place.
+// Settings of the command line, `--set KEY=VALUE`: they change a scene after it was read and before it is checked, so
+// that a wrong one gets the same message as a wrong line of the file, with "--set" as its place.
 #pragma once
 
 #include <string>

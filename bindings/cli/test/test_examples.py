@@ -12,7 +12,8 @@ FAMILIES = ("enf-ductile", "enf-brittle-local", "enf-brittle-energetic", "mmf-du
 
 
 def script(*words):
-    done = subprocess.run(["bash", os.path.join(EXAMPLES, "run.sh"), *words], capture_output=True, text=True, check=False)
+    done = subprocess.run(["bash", os.path.join(EXAMPLES, "run.sh"), *words], capture_output=True, text=True,
+                          check=False)
     return done.returncode, done.stdout, done.stderr
 
 

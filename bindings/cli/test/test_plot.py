@@ -40,7 +40,8 @@ draws(changed("steps = 20", "steps = 4", solid), "3D")
 
 def compare(out, *results):
     script = os.path.join(os.path.dirname(os.environ["DELAM_PLOT"]), "plot_family.py")
-    done = subprocess.run(["/usr/bin/python3", script, "--out", out, *results], capture_output=True, text=True, check=False)
+    done = subprocess.run(["/usr/bin/python3", script, "--out", out, *results], capture_output=True, text=True,
+                          check=False)
     return done.returncode, done.stderr
 
 

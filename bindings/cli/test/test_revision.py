@@ -40,7 +40,8 @@ delam("run", scene, "--out", off)
 before = table(off)
 expect(any(a["front"] != b["front"] for a, b in zip(before, rows)), "without backtracking they are others")
 about = json.loads(read(os.path.join(whole, "result.json")))
-expect(about["concept"]["backtracking"] == "on" and about["estimate_violated"] == [], "the estimate is met in every step")
+expect(about["concept"]["backtracking"] == "on" and about["estimate_violated"] == [],
+       "the estimate is met in every step")
 
 # Interrupted before and after the return; the steps to go back to are part of the state.
 for number in (signal.SIGINT, signal.SIGKILL):

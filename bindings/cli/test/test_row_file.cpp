@@ -25,7 +25,8 @@ bool throws_missing_rows(const std::string& path, std::size_t rows) {
     try {
         const cli::RowFile file(path, rows);
     } catch (const cli::Failure& failure) {
-        return failure.code() == cli::exit_scene && std::string(failure.what()).find("rows are missing") != std::string::npos;
+        return failure.code() == cli::exit_scene &&
+               std::string(failure.what()).find("rows are missing") != std::string::npos;
     }
     return false;
 }

@@ -79,5 +79,6 @@ expect_error(delam("run", scene, "--out", out, "--set", "time.steps=7", "--resum
 narrow = folder()
 limits = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))}
 _, _, error = delam("run", scene, "--out", narrow, "--set", "title=it's one", **limits)
-expect(re.search(r"delam run \S+ --out \S+ --set 'title=it'\\''s one'", error), f"the hint is whole: {error.splitlines()}")
+expect(re.search(r"delam run \S+ --out \S+ --set 'title=it'\\''s one'", error),
+       f"the hint is whole: {error.splitlines()}")
 finish()
