@@ -4,124 +4,88 @@
 
 Reads DIR/history.csv, fields.h5 and result.json. Needs Debian's python3-numpy, python3-matplotlib and python3-h5py.
 """
-import csv
-import json
 import os
 import sys
 
 import h5py
 import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-BLUE, RED, GREEN, ORANGE, GREY = "#1f5a99", "#b3312c", "#2f7d4f", "#d18b1f", "#7a7f87"
+from result import BLUE, GREEN, GREY, ORANGE, RED, Result, axis, early_end, plt, zoom
+
 ZETA = matplotlib.colors.LinearSegmentedColormap.from_list(
     "zeta", ["#b3122a", "#f2a541", "#f5e9b8", "#2b6cb0", "#0b2e59"])
-plt.rcParams.update({
-    "font.size": 10, "axes.titlesize": 11, "axes.spines.top": False, "axes.spines.right": False,
-    "axes.grid": True, "grid.color": "#e4e6ea", "grid.linewidth": 0.8, "axes.axisbelow": True,
-    "axes.edgecolor": "#50555c", "lines.linewidth": 1.6, "legend.frameon": False, "figure.dpi": 110, "savefig.dpi": 150,
-})
-
-
-class Result:
-    """What a folder holds."""
-
-    def __init__(self, folder):
-        self.folder = folder
-        with open(os.path.join(folder, "result.json"), encoding="utf-8") as file:
-            self.about = json.load(file)
-        with open(os.path.join(folder, "history.csv"), newline="", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
-        self.history = {name: np.array([float(row[i]) for row in rows[1:]]) for i, name in enumerate(rows[0])}
-        units = self.about["units"]
-        flat = self.about["scene"]["dimension"] == 2
-        self.length, self.time = units["length"], units["time"]
-        self.force = f"{units['force']}/{units['length']}" if flat else units["force"]
-        work = "J" if (units["force"], units["length"]) == ("N", "m") else f"{units['force']} {units['length']}"
-        self.energy = f"{work}/{units['length']}" if flat else work
-
-    def patterns(self):
-        """(label, load column, reaction column) of each pattern."""
-        names = self.about["patterns"]
-        if len(names) <= 1:
-            first = names[0] if names else {"name": "", "drives": "displacement"}
-            return [(first["name"], first["drives"], "load", "reaction")]
-        return [(p["name"], p["drives"], "load_" + p["name"], "reaction_" + p["name"]) for p in names]
-
-    def title(self, what):
-        about = self.about
-        name = about["scene"]["title"] or os.path.basename(about["scene"]["file"])
-        state = "" if about["status"] == "complete" else f"   INCOMPLETE ({about['steps_done']}/{about['steps']} steps)"
-        return f"{name} – {what}{state}"
-
-    def stamp(self, figure, caption=""):
-        about = self.about
-        height = figure.get_size_inches()[1]
-        foot = (0.4 if caption else 0.22) / height
-        figure.text(0.995, 0.004 + 0.17 / height, caption, ha="right", va="bottom", fontsize=7, color=GREY)
-        figure.get_layout_engine().set(rect=(0, foot, 1, 1 - foot))
-        figure.text(0.995, 0.004, f"delam {about['version']} · commit {about['commit'][:13]} · "
-                    f"scene {about['scene_hash']} · {about['concept']} solution",
-                    ha="right", va="bottom", fontsize=7, color=GREY)
-
-    def save(self, figure, name):
-        # Beside and renamed, like every other file of a result.
-        path = os.path.join(self.folder, name)
-        figure.savefig(path + ".new", format="png")
-        os.replace(path + ".new", path)
-        plt.close(figure)
 
 
 def text_of(attribute):
     return attribute.decode() if isinstance(attribute, bytes) else str(attribute)
 
 
-def axis(label, unit):
-    return f"{label} [{unit}]" if unit else label
-
-
 def plot_load(result):
+    """A picture for each pattern; of a single one also the beginning where that is where things happen."""
     patterns = result.patterns()
-    figure, axes = plt.subplots(1, len(patterns), figsize=(6.8 * len(patterns), 4.4), squeeze=False,
+    number = len(patterns)
+    closer = early_end(result) if number == 1 else None
+    columns = number if closer is None else 2
+    figure, axes = plt.subplots(1, columns, figsize=((6.8 if columns == 1 else 6.0) * columns, 4.4), squeeze=False,
                                 layout="constrained")
     failed = set(result.about.get("not_converged", []))
-    for ax, (name, drives, load, reaction) in zip(axes[0], patterns):
-        x, y = result.history[load], result.history[reaction]
-        # Of a dead force the factor is the load and (minus) the reaction the displacement of its points.
-        if drives == "force":
-            x, y = -y, x
-        ax.plot(x, y, color=BLUE, marker="o", markersize=3)
-        bad = [i for i, step in enumerate(result.history["step"]) if int(step) in failed]
-        if bad:
-            ax.plot(x[bad], y[bad], "x", color=RED, label="not converged")
-            ax.legend()
-        ax.set_xlabel(axis("conjugate displacement" if drives == "force" else "prescribed displacement", result.length))
-        ax.set_ylabel("load factor" if drives == "force" else axis("reaction", result.force))
-        if len(patterns) > 1:
-            ax.set_title(name, fontsize=10)
+    bad = [i for i, step in enumerate(result.history["step"]) if int(step) in failed]
+    for p, (name, _, _, _) in enumerate(patterns):
+        x, y = result.load_curve(p)
+        drawn = axes[0] if number == 1 else axes[0][p:p + 1]
+        for ax in drawn:
+            ax.plot(x, y, color=BLUE, marker="o", markersize=3)
+            if bad:
+                ax.plot(x[bad], y[bad], "x", color=RED, label="not converged")
+                ax.legend()
+        result.label_load(drawn, p)
+        if number > 1:
+            drawn[0].set_title(name, fontsize=10)
+        elif closer is not None:
+            zoom(drawn[1], x[closer], [(x, y)])
+            drawn[1].set_title("the beginning", fontsize=10, loc="left")
     figure.suptitle(result.title("load and displacement"), fontsize=11)
     result.stamp(figure)
     result.save(figure, "load-displacement.png")
 
 
+def draw_energies(ax, result):
+    """The curves of the slides' energetics."""
+    h = result.history
+    stored = h["stored_bulk"] + h["stored_interface"] + h.get("load_potential", 0)
+    curves = [("stored, bodies", h["stored_bulk"], {"color": BLUE}),
+              ("stored, interfaces", h["stored_interface"], {"color": GREEN})]
+    if "load_potential" in h:
+        curves.append(("potential of the dead loads", h["load_potential"], {"color": GREY}))
+    curves += [("dissipated", h["dissipated"], {"color": RED}), ("total", stored + h["dissipated"], {"color": "black"}),
+               ("work", h["work"] + stored[0], {"color": ORANGE, "linestyle": "--"})]
+    for label, y, style in curves:
+        ax.plot(h["time"], y, label=label, **style)
+    for i, instant in enumerate(result.jump_times()):
+        ax.axvline(instant, color=GREY, linestyle=":", linewidth=1.0, label="located jump" if i == 0 else None)
+    return [(h["time"], y) for _, y, _ in curves]
+
+
 def plot_energies(result):
     h = result.history
     t = h["time"]
-    figure, (top, bottom) = plt.subplots(2, 1, figsize=(7.2, 7.4), sharex=True, height_ratios=[3, 2],
-                                          layout="constrained")
-    stored = h["stored_bulk"] + h["stored_interface"] + h.get("load_potential", 0)
-    top.plot(t, h["stored_bulk"], color=BLUE, label="stored, bodies")
-    top.plot(t, h["stored_interface"], color=GREEN, label="stored, interfaces")
-    if "load_potential" in h:
-        top.plot(t, h["load_potential"], color=GREY, label="potential of the dead loads")
-    top.plot(t, h["dissipated"], color=RED, label="dissipated")
-    top.plot(t, stored + h["dissipated"], color="black", label="total")
-    top.plot(t, h["work"] + stored[0], color=ORANGE, linestyle="--", label="work")
+    closer = early_end(result)
+    if closer is None:
+        figure, (top, bottom) = plt.subplots(2, 1, figsize=(7.2, 7.4), sharex=True, height_ratios=[3, 2],
+                                              layout="constrained")
+    else:
+        figure = plt.figure(figsize=(12.4, 7.4), layout="constrained")
+        grid = figure.add_gridspec(2, 2, height_ratios=[3, 2])
+        top, bottom = figure.add_subplot(grid[0, 0]), figure.add_subplot(grid[1, :])
+        beginning = figure.add_subplot(grid[0, 1])
+        zoom(beginning, t[closer], draw_energies(beginning, result))
+        beginning.set_title("the beginning", fontsize=10, loc="left")
+        beginning.set_xlabel(axis("time", result.time))
+        top.set_xlabel(axis("time", result.time))
+    draw_energies(top, result)
     top.set_ylabel(axis("energy", result.energy))
     # Above the axes: nowhere inside is free of curves in every result.
     top.legend(ncols=3, loc="lower left", bbox_to_anchor=(0, 1.0), fontsize=8)
@@ -142,6 +106,9 @@ def plot_energies(result):
     bottom.set_title(("two-sided estimate: met in every step" if broken == 0 else
                       f"two-sided estimate: violated in {broken} of {len(t) - 1} steps") + f" (tolerance {eta:g})",
                      fontsize=9, loc="left")
+    returns = int(np.sum(h["backtracks"]))
+    if returns:
+        bottom.set_title(f"returns to earlier steps: {returns}", fontsize=9, loc="right")
     room = max(np.max(np.abs(upper - middle), initial=0), np.max(np.abs(increment - middle), initial=0))
     if room > 0:
         bottom.set_ylim(-1.15 * room, 1.15 * room)

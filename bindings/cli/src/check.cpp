@@ -3,6 +3,7 @@
 
 #include "call.hpp"
 #include "commands.hpp"
+#include "concept.hpp"
 #include "history.hpp"
 #include "interrupt.hpp"
 #include "notes.hpp"
@@ -11,8 +12,8 @@
 
 namespace cli {
 
-int check(const std::string& scene_file) {
-    const Scene scene = read_scene(scene_file);
+int check(const std::string& scene_file, const std::vector<std::string>& settings) {
+    const Scene scene = read_scene(scene_file, settings);
     Context context = new_context();
     const Interrupt interrupt(context.get());
     const Model model = build(std::move(context), scene);
@@ -26,6 +27,7 @@ int check(const std::string& scene_file) {
          std::string("numbers of unknowns"));
     say("{}: correct\n", scene_file);
     if (!scene.title.empty()) say("title       {}\n", scene.title);
+    say("concept     {}\n", concept_text(concept_of(solver.get())));
     say("scene hash  {}\n", hash_of(model));
     say("unknowns    {} primal, {} dual\n", primal, dual);
     for (const Layer& layer : scene.layers)

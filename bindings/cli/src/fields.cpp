@@ -128,6 +128,11 @@ std::string Fields::step_path(std::size_t step) const { return fmt::format("{}/s
 void Fields::write_step(const Model& model, delam_solver* solver, const Scene& scene, std::size_t step) {
     const std::string bytes = step_bytes(model, solver, scene, static_cast<std::int64_t>(step), scene.times[step]);
     const std::string path = step_path(step);
+    if (std::filesystem::exists(path)) {
+        // A saved state may count on the file that is there.
+        write_atomic(path, bytes);
+        return;
+    }
     Appender(path, 0).append(bytes);
     unsynchronised_.push_back(path);
 }
@@ -137,7 +142,8 @@ void Fields::synchronise_steps() {
     unsynchronised_.clear();
 }
 
-void Fields::assemble(const Model& model, const Scene& scene, std::size_t last, const std::string& problem_hash) const {
+void Fields::assemble(const Model& model, const Scene& scene, std::size_t last, const std::string& problem_hash,
+                      const Concept& named) const {
     const std::string path = folder_ + "/fields.h5";
     std::int64_t bytes = std::int64_t{1} << 20;
     for (const std::size_t step : chosen_)
@@ -153,6 +159,7 @@ void Fields::assemble(const Model& model, const Scene& scene, std::size_t last, 
         h5::attribute(file.get(), "commit", std::string(delam_commit()));
         h5::attribute(file.get(), "scene_hash", problem_hash);
         h5::attribute(file.get(), "scene_file_hash", scene.file_hash);
+        for (const auto& [key, value] : named) h5::attribute(file.get(), key, value);
         h5::attribute(file.get(), "dimension", static_cast<std::int64_t>(scene.geometry.dimension));
         blocks = write_mesh(model, scene, file.get());
         const h5::Group group(h5::new_group(file.get(), "steps"), path);

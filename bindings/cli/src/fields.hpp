@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "build.hpp"
+#include "concept.hpp"
 
 namespace cli {
 
@@ -22,7 +23,8 @@ public:
     // Step files so far to the disk, before a state that counts on them is written.
     void synchronise_steps();
     // Puts steps 0 .. last together as folder/fields.h5 and folder/fields.xdmf.
-    void assemble(const Model& model, const Scene& scene, std::size_t last, const std::string& problem_hash) const;
+    void assemble(const Model& model, const Scene& scene, std::size_t last, const std::string& problem_hash,
+                  const Concept& named) const;
     void remove_steps() const;
 
 private:

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "build.hpp"
@@ -16,7 +15,8 @@ public:
     History(const Model& model, const delam_solver* solver, const Scene& scene);
 
     [[nodiscard]] std::string header() const;
-    // Of the committed state. Numbers keep 17 significant digits: reading them back gives the same bits.
+    // Of the committed state, or of the step that is looked at. Numbers keep 17 significant digits: reading them back
+    // gives the same bits.
     [[nodiscard]] std::string row(delam_solver* solver) const;
     // Value of the solver for people's lines: the factor of the first pattern.
     [[nodiscard]] double load(delam_solver* solver) const;
@@ -24,7 +24,14 @@ public:
 
 private:
     const delam_context* context_;
-    std::vector<std::pair<std::string, std::string>> columns_;  // title, key ("": always 0)
+    struct Column {
+        std::string title;
+        std::string key;   // of the solver's value; "": none
+        std::string text;  // what stands there without a key
+    };
+    void add(const std::string& title, const std::string& key, const std::string& text = "");
+
+    std::vector<Column> columns_;
     std::string first_load_;
 };
 

@@ -6,6 +6,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -42,21 +43,34 @@ int guarded(int argc, char** argv) {
     std::string scene;
     std::string folder;
     bool resume = false;
+    std::vector<std::string> settings;
+    // One word each, so that the scene file may stand behind it.
+    const auto with_settings = [&settings](CLI::App* command) {
+        command
+            ->add_option("--set", settings,
+                         "KEY=VALUE: a value instead of the scene file's, e.g. geometry.h=0.001, "
+                         "laws[0].normal_onset=10 or solver.minimisation=alternate; may be given several times")
+            ->type_name("KEY=VALUE")
+            ->allow_extra_args(false);
+    };
     CLI::App* run = app.add_subcommand("run", "march through the load steps of a scene and write the results");
     run->add_option("scene", scene, "scene file (TOML, see SCENE.md)")->required();
     run->add_option("--out,-o", folder,
                     "folder for the results; a result that is there is replaced when the new one is whole")
         ->required();
     run->add_flag("--resume", resume, "go on after an interruption, from the last saved step");
+    with_settings(run);
     run->footer(footer);
     CLI::App* check = app.add_subcommand("check", "validate a scene and print what would be computed, and how");
     check->add_option("scene", scene, "scene file (TOML, see SCENE.md)")->required();
+    with_settings(check);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? cli::exit_done : cli::exit_scene;
     }
-    return run->parsed() ? cli::run(scene, folder, resume, joined(argc, argv)) : cli::check(scene);
+    return run->parsed() ? cli::run(scene, settings, folder, resume, joined(argc, argv))
+                         : cli::check(scene, settings);
 }
 
 int reported(int argc, char** argv) {

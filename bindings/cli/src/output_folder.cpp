@@ -65,6 +65,11 @@ void OutputFolder::publish() {
     for (const char* name : {"history.csv", "state.bin"})
         rename_file(running_ + "/published_" + name, path_ + "/" + name);
     for (const char* name : {"fields.h5", "fields.xdmf"}) rename_file(running_ + "/" + name, path_ + "/" + name);
+    // Not every result has one, and that of an earlier result must not stay.
+    if (fs::exists(running_ + "/jumps.csv"))
+        rename_file(running_ + "/jumps.csv", path_ + "/jumps.csv");
+    else
+        remove_file(path_ + "/jumps.csv");
     synchronise(path_);
     rename_file(running_ + "/result.json", path_ + "/result.json");
     synchronise(path_);

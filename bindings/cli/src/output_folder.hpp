@@ -22,7 +22,8 @@ public:
     [[nodiscard]] const std::string& running() const { return running_; }
     // An empty `running`.
     void begin();
-    // Moves fields.h5, fields.xdmf and result.json, and copies of history.csv and state.bin, from `running` to DIR.
+    // Moves fields.h5, fields.xdmf, result.json and, where there is one, jumps.csv, and copies of history.csv and
+    // state.bin, from `running` to DIR.
     void publish();
     // Removes `running`.
     void end();

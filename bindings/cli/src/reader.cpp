@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "setting.hpp"
+
 namespace cli {
 
 namespace {
@@ -45,7 +47,12 @@ std::string joined(const std::string& path, std::string_view key) {
     return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
 }
 
-int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
+// Where a node stands: in the file, or in a setting of the command line.
+Place place_of(const toml::node& node, const std::string& file, const std::string& path) {
+    const toml::source_path_ptr& source = node.source().path;
+    if (source != nullptr && *source == setting_source) return {*source, path, 0};
+    return {file, path, static_cast<int>(node.source().begin.line)};
+}
 
 double checked_number(const toml::node& node, const Place& where, const Range& range) {
     if (!node.is_number())
@@ -88,7 +95,7 @@ std::vector<Value> checked_list(const toml::node& node, const Place& where, std:
     std::vector<Value> out;
     for (std::size_t i = 0; i < list->size(); ++i) {
         const toml::node& entry = *list->get(i);
-        out.push_back(check(entry, Place{where.file, fmt::format("{}[{}]", where.path, i), line_of(entry)}));
+        out.push_back(check(entry, place_of(entry, where.file, fmt::format("{}[{}]", where.path, i))));
     }
     return out;
 }
@@ -134,7 +141,8 @@ void Table::only(const std::vector<std::string>& known) const {
 
 Place Table::place(std::string_view key) const {
     const toml::node* node = table_->get(key);
-    return {place_.file, joined(place_.path, key), node != nullptr ? line_of(*node) : place_.line};
+    const std::string path = joined(place_.path, key);
+    return node != nullptr ? place_of(*node, place_.file, path) : Place{place_.file, path, place_.line};
 }
 
 void Table::fail(std::string_view key, const std::string& text) const { throw SceneFailure(place(key), text); }
@@ -226,7 +234,7 @@ std::vector<Table> Table::tables(std::string_view key) const {
     std::vector<Table> out;
     for (std::size_t i = 0; i < list->size(); ++i) {
         const toml::node& entry = *list->get(i);
-        const Place where{place_.file, fmt::format("{}[{}]", joined(place_.path, key), i), line_of(entry)};
+        const Place where = place_of(entry, place_.file, fmt::format("{}[{}]", joined(place_.path, key), i));
         if (!entry.is_table()) throw SceneFailure(where, fmt::format("{}: a table is expected", shown(entry)));
         out.emplace_back(*entry.as_table(), where);
     }

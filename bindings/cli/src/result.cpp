@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "result.hpp"
 
-#include <cstdlib>
 #include <ctime>
 
 #include <nlohmann/json.hpp>
 
 #include "call.hpp"
+#include "concept.hpp"
 
 namespace cli {
 
@@ -14,22 +14,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Every option with the value that was used, set or not.
-Json options(const Scene& scene) {
+Json options(const delam_solver* solver) {
     Json out = Json::object();
-    for (std::int64_t i = 0; i < delam_option_count(); ++i) {
-        const char* key = "";
-        const char* type = "";
-        const char* initial = "";
-        delam_option_info(i, &key, &type, nullptr, &initial, nullptr, nullptr);
-        if (std::string(type) == "text") {
-            out[key] = initial;
-        } else {
-            out[key] = std::strtod(initial, nullptr);
-        }
-    }
-    for (const SolverOption& option : scene.options)
-        std::visit([&](const auto& value) { out[option.key] = value; }, option.value);
+    for (const auto& [key, value] : options_of(solver))
+        std::visit([&out, &key = key](const auto& v) { out[key] = v; }, value);
     return out;
 }
 
@@ -50,7 +38,7 @@ std::string hash_of(const Model& model) {
     return text;
 }
 
-std::string result_text(const Model& model, const Scene& scene, const Outcome& outcome) {
+std::string result_text(const Model& model, delam_solver* solver, const Scene& scene, const Outcome& outcome) {
     std::int64_t primal = 0;
     std::int64_t dual = 0;
     call(model.context.get(), delam_problem_dofs(model.problem.get(), &primal, &dual),
@@ -63,6 +51,8 @@ std::string result_text(const Model& model, const Scene& scene, const Outcome& o
     }
     Json layers = Json::array();
     for (const Layer& layer : scene.layers) layers.push_back(layer.name);
+    Json named = Json::object();
+    for (const auto& [key, value] : concept_of(solver)) named[key] = value;
     const Json out{
         {"program", "delam"},
         {"version", delam_version()},
@@ -70,17 +60,22 @@ std::string result_text(const Model& model, const Scene& scene, const Outcome& o
         {"abi", delam_abi()},
         {"status", outcome.complete ? "complete" : "incomplete"},
         {"reason", outcome.reason},
-        {"concept", "local"},
+        {"concept", named},
         {"steps_done", outcome.steps_done},
         {"steps", scene.step_count()},
         {"not_converged", outcome.not_converged},
         {"estimate_violated", outcome.estimate_violated},
         {"scene",
-         {{"file", scene.file}, {"title", scene.title}, {"schema", 1}, {"dimension", scene.geometry.dimension}}},
+         {{"file", scene.file},
+          {"title", scene.title},
+          {"schema", 1},
+          {"dimension", scene.geometry.dimension},
+          {"shortest_edge", scene.geometry.smallest_edge},
+          {"settings", scene.settings}}},
         {"scene_hash", outcome.problem_hash},
         {"scene_file_hash", scene.file_hash},
         {"scene_content_hash", scene.content_hash},
-        {"options", options(scene)},
+        {"options", options(solver)},
         {"unknowns", {{"primal", primal}, {"dual", dual}}},
         {"layers", layers},
         {"patterns", patterns},
@@ -93,7 +88,8 @@ std::string result_text(const Model& model, const Scene& scene, const Outcome& o
         {"started", outcome.started},
         {"ended", now_text()},
         {"resumed", outcome.resumed},
-        {"plan", outcome.plan},
+        {"plan", delam_solver_plan(solver)},
+        {"searched", delam_solver_searched(solver)},
     };
     return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

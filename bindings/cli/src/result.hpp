@@ -20,12 +20,11 @@ struct Outcome {
     std::string started;
     std::string command;
     std::string problem_hash;
-    std::string plan;
 };
 
 // UTC, e.g. 2026-01-31T12:00:00Z.
 std::string now_text();
 std::string hash_of(const Model& model);
-std::string result_text(const Model& model, const Scene& scene, const Outcome& outcome);
+std::string result_text(const Model& model, delam_solver* solver, const Scene& scene, const Outcome& outcome);
 
 }  // namespace cli

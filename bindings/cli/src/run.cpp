@@ -1,22 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "call.hpp"
 #include "commands.hpp"
+#include "concept.hpp"
 #include "estimate.hpp"
 #include "fields.hpp"
 #include "file.hpp"
 #include "history.hpp"
 #include "interrupt.hpp"
+#include "jumps.hpp"
 #include "notes.hpp"
 #include "output_folder.hpp"
 #include "progress.hpp"
 #include "result.hpp"
+#include "revision.hpp"
+#include "row_file.hpp"
 #include "say.hpp"
 #include "state.hpp"
 
@@ -53,8 +60,7 @@ public:
 
     void begin() {
         folder_.begin();
-        file_.emplace(running_history_, 0);
-        file_->append(history_.header());
+        rows_.emplace(running_history_, history_.header());
         record();
         save();
     }
@@ -67,12 +73,8 @@ public:
              delam_solver_load(solver_.get(), static_cast<std::int64_t>(state.bytes.size()),
                                reinterpret_cast<const std::uint8_t*>(state.bytes.data())),
              running_state_);
-        // Rows of steps after the state was saved are computed again.
-        std::error_code code;
-        const auto length = std::filesystem::file_size(running_history_, code);
-        if (code || static_cast<std::int64_t>(length) < state.history_length)
-            throw Failure(exit_scene, running_history_ + ": rows are missing; run again without --resume");
-        file_.emplace(running_history_, state.history_length);
+        // Rows of steps after the state was saved are computed again, and with them the earlier ones that they revise.
+        rows_.emplace(running_history_, static_cast<std::size_t>(state.step) + 1);
     }
 
     // Returns the exit code of the march; outcome.reason says why it stopped early.
@@ -91,11 +93,11 @@ public:
             call(model_.context.get(), delam_solver_commit(solver_.get()), std::string("commit"));
             state_.step += 1;
             if (status == DELAM_NOT_CONVERGED) state_.not_converged.push_back(state_.step);
-            record();
+            const bool revised = record();
             progress.step(state_.step, time, history_.load(solver_.get()),
                           static_cast<std::int64_t>(history_.value(solver_.get(), "am_iterations")),
                           status == DELAM_OK);
-            if (std::chrono::steady_clock::now() - saved_ > std::chrono::seconds(1)) save();
+            if (revised || std::chrono::steady_clock::now() - saved_ > std::chrono::seconds(1)) save();
         }
         return state_.not_converged.empty() ? exit_done : exit_not_converged;
     }
@@ -105,15 +107,15 @@ public:
         outcome.complete = state_.step == static_cast<std::int64_t>(scene_.step_count());
         outcome.steps_done = state_.step;
         outcome.not_converged = state_.not_converged;
-        outcome.estimate_violated = violated_steps(
-            read_bytes(running_history_).substr(0, static_cast<std::size_t>(state_.history_length)),
-            estimate_tolerance(scene_));
+        outcome.estimate_violated = violated_steps(rows_->text(), estimate_tolerance(scene_));
         outcome.resumed = state_.resumed;
         outcome.started = state_.started;
         outcome.problem_hash = state_.problem_hash;
-        outcome.plan = delam_solver_plan(solver_.get());
-        fields_.assemble(model_, scene_, static_cast<std::size_t>(state_.step), state_.problem_hash);
-        write_atomic(folder_.running() + "/result.json", result_text(model_, scene_, outcome));
+        fields_.assemble(model_, scene_, static_cast<std::size_t>(state_.step), state_.problem_hash,
+                         concept_of(solver_.get()));
+        if (locates_jumps(solver_.get()))
+            write_atomic(folder_.running() + "/jumps.csv", jumps_text(model_, solver_.get()));
+        write_atomic(folder_.running() + "/result.json", result_text(model_, solver_.get(), scene_, outcome));
         folder_.publish();
         if (outcome.complete) folder_.end();
     }
@@ -128,12 +130,28 @@ private:
         return exit_interrupted;
     }
 
-    // Fields, then the row: a step whose row is there is whole.
-    void record() {
-        const auto step = static_cast<std::size_t>(state_.step);
-        if (fields_.chosen(step)) fields_.write_step(model_, solver_.get(), scene_, step);
-        file_->append(history_.row(solver_.get()));
-        state_.history_length = file_->length();
+    // Fields, then the row: a step whose row is there is whole. Steps that this one revised are written once more; true
+    // when there were any.
+    bool record() {
+        const std::int64_t first = state_.step > 0 ? revised_from(model_, solver_.get(), state_.step) : state_.step;
+        std::vector<std::string> rows;
+        for (std::int64_t step = first; step < state_.step; ++step) {
+            const Look look(model_, solver_.get(), step);
+            rows.push_back(step_row(step));
+        }
+        rows.push_back(step_row(state_.step));
+        if (rows.size() == 1)
+            rows_->append(rows.front());
+        else
+            rows_->replace_from(static_cast<std::size_t>(first), rows);
+        return rows.size() > 1;
+    }
+
+    // Writes the fields, returns the row.
+    std::string step_row(std::int64_t step) {
+        const auto number = static_cast<std::size_t>(step);
+        if (fields_.chosen(number)) fields_.write_step(model_, solver_.get(), scene_, number);
+        return history_.row(solver_.get());
     }
 
     void save() {
@@ -158,7 +176,7 @@ private:
     Fields fields_;
     std::string running_history_;
     std::string running_state_;
-    std::optional<Appender> file_;
+    std::optional<RowFile> rows_;
     State state_;
     std::int64_t saved_step_ = 0;
     std::chrono::steady_clock::time_point saved_;
@@ -171,9 +189,28 @@ std::optional<State> find_state(const OutputFolder& folder, const Scene& scene, 
     State state = unpack(path, read_bytes(path));
     if (state.content_hash != scene.content_hash || state.problem_hash != hash_of(model))
         throw Failure(exit_scene,
-                      fmt::format("{}: the scene is not the one that {} was started with; run again without --resume",
+                      fmt::format("{}: the scene, with its --set, is not the one that {} was started with; "
+                                  "run again without --resume",
                                   scene.file, folder.path()));
     return state;
+}
+
+// A word as one would type it in a shell.
+std::string shell_word(const std::string& word) {
+    const auto plain = [](unsigned char c) {
+        return std::isalnum(c) != 0 || std::string_view("_-+=.,:/@%").find(static_cast<char>(c)) != std::string::npos;
+    };
+    if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+    std::string out = "'";
+    for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + "'";
+}
+
+// The command that computes this result.
+std::string command_again(const Scene& scene, const std::string& folder_path) {
+    std::string out = fmt::format("delam run {} --out {}", shell_word(scene.file), shell_word(folder_path));
+    for (const std::string& setting : scene.settings) out += " --set " + shell_word(setting);
+    return out;
 }
 
 int already_complete(const OutputFolder& folder, const Scene& scene) {
@@ -183,7 +220,8 @@ int already_complete(const OutputFolder& folder, const Scene& scene) {
         return -1;
     if (content != scene.content_hash)
         throw Failure(exit_scene,
-                      fmt::format("{}: the scene is not the one of the result in {}; run again without --resume",
+                      fmt::format("{}: the scene, with its --set, is not the one of the result in {}; "
+                                  "run again without --resume",
                                   scene.file, folder.path()));
     say("{}: complete already\n", folder.path());
     const double eta = estimate_tolerance(scene);
@@ -193,9 +231,11 @@ int already_complete(const OutputFolder& folder, const Scene& scene) {
 
 }  // namespace
 
-int run(const std::string& scene_file, const std::string& folder_path, bool resume, const std::string& command) {
+int run(const std::string& scene_file, const std::vector<std::string>& settings, const std::string& folder_path,
+        bool resume, const std::string& command) {
     if (folder_path.empty()) throw Failure(exit_scene, "--out: the name of the folder is empty");
-    const Scene scene = read_scene(scene_file);
+    const Scene scene = read_scene(scene_file, settings);
+    const std::string again = command_again(scene, folder_path);
     Context context = new_context();
     const Interrupt interrupt(context.get());
     const Model model = build(std::move(context), scene);
@@ -231,7 +271,6 @@ int run(const std::string& scene_file, const std::string& folder_path, bool resu
         work.publish(outcome);
     } catch (const OutputFailure& failure) {
         progress.finish();
-        const std::string again = fmt::format("delam run {} --out {}", scene_file, folder_path);
         const std::string hint =
             work.saved_step() > 0
                 ? fmt::format("finished steps are kept in {}; go on with: {} --resume", folder.running(), again)
@@ -251,8 +290,8 @@ int run(const std::string& scene_file, const std::string& folder_path, bool resu
             complain("delam: {} before any of {} was finished; {} holds the initial state, marked incomplete\n", how,
                      counted(total, "step"), folder_path);
         if (code == exit_interrupted)
-            complain("delam: {} with: delam run {} --out {}{}\n", done > 0 ? "go on" : "start again", scene_file,
-                     folder_path, done > 0 ? " --resume" : "");
+            complain("delam: {} with: {}{}\n", done > 0 ? "go on" : "start again", again,
+                     done > 0 ? " --resume" : "");
         else
             complain("delam: {}\n", outcome.reason);
         return code;

@@ -13,6 +13,7 @@
 #include "file.hpp"
 #include "hash.hpp"
 #include "scene_parts.hpp"
+#include "setting.hpp"
 
 namespace cli {
 
@@ -258,9 +259,10 @@ void read_units(const Table& root, Scene& scene) {
 
 }  // namespace
 
-Scene read_scene(const std::string& file) {
+Scene read_scene(const std::string& file, const std::vector<std::string>& settings) {
     Scene scene;
     scene.file = file;
+    scene.settings = settings;
     std::string bytes;
     try {
         bytes = read_bytes(file);
@@ -274,6 +276,7 @@ Scene read_scene(const std::string& file) {
         throw SceneFailure({file, "", static_cast<int>(e.source().begin.line)},
                            "not TOML: " + std::string(e.description()));
     }
+    for (const std::string& setting : settings) apply_setting(parsed, setting);
     std::ostringstream content;
     content << parsed;
     scene.content_hash = hash_text(content.str());

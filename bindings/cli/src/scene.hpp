@@ -143,7 +143,8 @@ struct Scene {
     std::string file;
     std::string title;
     std::string file_hash;     // of the bytes
-    std::string content_hash;  // of the content: comments, order and layout do not matter
+    std::string content_hash;  // of the content, settings included: comments, order and layout do not matter
+    std::vector<std::string> settings;  // KEY=VALUE of the command line
     Geometry geometry;
     std::vector<Layer> layers;
     std::vector<Material> materials;
@@ -160,7 +161,8 @@ struct Scene {
     [[nodiscard]] std::size_t step_count() const { return times.size() - 1; }
 };
 
-// Throws SceneFailure with file, line, key, value and allowed range.
-Scene read_scene(const std::string& file);
+// settings: KEY=VALUE, applied in turn (setting.hpp). Throws SceneFailure with file, line, key, value and allowed
+// range.
+Scene read_scene(const std::string& file, const std::vector<std::string>& settings);
 
 }  // namespace cli

@@ -9,7 +9,7 @@
 namespace cli {
 
 namespace {
-constexpr const char* kind = "delam state 1";
+constexpr const char* kind = "delam state 2";
 }
 
 std::string pack(const State& state) {
@@ -17,7 +17,6 @@ std::string pack(const State& state) {
                                       {"content_hash", state.content_hash},
                                       {"problem_hash", state.problem_hash},
                                       {"step", state.step},
-                                      {"history_length", state.history_length},
                                       {"not_converged", state.not_converged},
                                       {"started", state.started},
                                       {"resumed", state.resumed},
@@ -37,7 +36,6 @@ State unpack(const std::string& path, const std::string& file) {
         state.content_hash = head.at("content_hash");
         state.problem_hash = head.at("problem_hash");
         state.step = head.at("step");
-        state.history_length = head.at("history_length");
         state.not_converged = head.at("not_converged").get<std::vector<std::int64_t>>();
         state.started = head.at("started");
         state.resumed = head.at("resumed");

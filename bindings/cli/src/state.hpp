@@ -12,7 +12,6 @@ struct State {
     std::string content_hash;  // of the scene
     std::string problem_hash;
     std::int64_t step = 0;
-    std::int64_t history_length = 0;  // bytes of history.csv up to this step
     std::vector<std::int64_t> not_converged;
     std::string started;
     std::int64_t resumed = 0;  // times

@@ -2,8 +2,9 @@
 """The plot script makes its pictures, in 2D and 3D, from whole and partial results."""
 import os
 import subprocess
+import sys
 
-from support import SCENE, changed, delam, expect, finish, folder, read, write
+from support import SCENE, brittle, changed, delam, expect, finish, folder, read, write
 
 PICTURES = ("load-displacement.png", "energies.png", "snapshots.png")
 
@@ -35,6 +36,44 @@ solid = changed('fix = ["y"]', 'fix = ["y", "z"]', solid)
 solid = changed("point = [0.060, 0.006]\ndirection = [0.0, -1.0]",
                 "box = { lower = [0.06, 0, 0.006], upper = [0.06, 0.006, 0.006] }\ndirection = [0, 0, -1]", solid)
 draws(changed("steps = 20", "steps = 4", solid), "3D")
+
+
+def compare(out, *results):
+    script = os.path.join(os.path.dirname(os.environ["DELAM_PLOT"]), "plot_family.py")
+    done = subprocess.run(["/usr/bin/python3", script, "--out", out, *results], capture_output=True, text=True,
+                          check=False)
+    return done.returncode, done.stderr
+
+
+both = folder()
+results = []
+for size in ("0.003", "0.0015"):
+    results.append(os.path.join(both, "h" + size))
+    code, _, error = delam("run", write(brittle()), "--set", "geometry.h=" + size, "--out", results[-1])
+    expect(code == 0, f"a result to compare {error}")
+code, error = compare(os.path.join(both, "family"), *results)
+expect(code == 0, f"plot_family.py {error.strip()[-300:]}")
+expect(sorted(os.listdir(os.path.join(both, "family"))) == ["energies.png", "load-displacement.png"] and
+       all(read(os.path.join(both, "family", name)).startswith(b"\x89PNG") for name in PICTURES[:2]), "two pictures")
+other = os.path.join(both, "other")
+code, _, error = delam("run", write(SCENE), "--set", "time.steps=10", "--set", "title=other", "--out", other)
+expect(code == 0 and compare(both, *results, other)[0] == 0, "results that differ in several ways")
+feet = os.path.join(both, "feet")
+delam("run", write(changed("[time]", '[units]\nlength = "ft"\n[time]')), "--out", feet)
+code, error = compare(both, results[0], feet)
+expect(code == 2 and "different units" in error, "different units are refused")
+code, error = compare(both, results[0], folder())
+expect(code == 2 and "holds no result" in error, "so is a folder without a result")
+# What the legend and the title say.
+sys.path.insert(0, os.path.dirname(os.environ["DELAM_PLOT"]))
+from plot_family import Curves  # noqa: E402
+from result import Result  # noqa: E402
+curves = Curves([Result(path) for path in results])
+expect(curves.labels == ["h = 3 mm", "h = 1.5 mm"], f"the legend: {curves.labels}")
+expect("20 steps" in curves.title("x") and "local solution, frozen mixity" in curves.title("x") and
+       "h =" not in curves.title("x"), f"the title: {curves.title('x')!r}")
+curves = Curves([Result(path) for path in (*results, other)])
+expect(len(set(curves.labels)) == 3 and "other, 10 steps, h = 1.5 mm" in curves.labels, f"the legend: {curves.labels}")
 done = plot(folder())
 expect(done.returncode == 2 and "holds no result" in done.stderr, "an empty folder is refused")
 finish()

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the plot scripts share: a result of `delam run` as it lies in its folder, and how pictures look."""
+import csv
+import json
+import os
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+BLUE, RED, GREEN, ORANGE, GREY = "#1f5a99", "#b3312c", "#2f7d4f", "#d18b1f", "#7a7f87"
+plt.rcParams.update({
+    "font.size": 10, "axes.titlesize": 11, "axes.spines.top": False, "axes.spines.right": False,
+    "axes.grid": True, "grid.color": "#e4e6ea", "grid.linewidth": 0.8, "axes.axisbelow": True,
+    "axes.edgecolor": "#50555c", "lines.linewidth": 1.6, "legend.frameon": False, "figure.dpi": 110, "savefig.dpi": 150,
+})
+
+
+def axis(label, unit):
+    return f"{label} [{unit}]" if unit else label
+
+
+def save(figure, path):
+    """Beside and renamed, like every other file of a result."""
+    figure.savefig(path + ".new", format="png")
+    os.replace(path + ".new", path)
+    plt.close(figure)
+
+
+def early_end(result):
+    """Step up to which to look more closely: twice as far as where half of what dissipates has done so, if that is in the
+    first sixth of the march; else None."""
+    dissipated = result.history["dissipated"]
+    time = result.history["time"]
+    half = int(np.argmax(dissipated >= 0.5 * dissipated[-1]))
+    if dissipated[-1] <= 0 or time[half] - time[0] > (time[-1] - time[0]) / 6:
+        return None
+    return min(2 * half + 1, len(time) - 1)
+
+
+def zoom(ax, x, curves):
+    """Limits of the axes to what lies before x; curves: pairs of x and y."""
+    seen = np.concatenate([np.asarray(y)[np.asarray(at) <= x] for at, y in curves])
+    room = 0.05 * (seen.max() - seen.min())
+    first = min(at[0] for at, _ in curves)
+    ax.set_xlim(first - 0.02 * (x - first), x)
+    if room > 0:
+        ax.set_ylim(seen.min() - room, seen.max() + room)
+
+
+class Result:
+    """What a folder holds."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        with open(os.path.join(folder, "result.json"), encoding="utf-8") as file:
+            self.about = json.load(file)
+        with open(os.path.join(folder, "history.csv"), newline="", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+        # The last columns are words: which solution the row belongs to.
+        self.history = {name: np.array([float(row[i]) for row in rows[1:]]) for i, name in enumerate(rows[0])
+                        if name not in ("solution", "mixity_rule")}
+        units = self.about["units"]
+        flat = self.about["scene"]["dimension"] == 2
+        self.length, self.time = units["length"], units["time"]
+        self.force = f"{units['force']}/{units['length']}" if flat else units["force"]
+        work = "J" if (units["force"], units["length"]) == ("N", "m") else f"{units['force']} {units['length']}"
+        self.energy = f"{work}/{units['length']}" if flat else work
+
+    def jump_times(self):
+        """Instants of the larger jumps that were located; none where that was not asked for."""
+        path = os.path.join(self.folder, "jumps.csv")
+        if not os.path.exists(path):
+            return []
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = [(float(row["time"]), float(row["debonded"])) for row in csv.DictReader(file)]
+        # On a coarse mesh every pair that breaks is one.
+        largest = max((debonded for _, debonded in rows), default=0)
+        return [time for time, debonded in rows if debonded > 0.2 * largest]
+
+    def patterns(self):
+        """(label, load column, reaction column) of each pattern."""
+        names = self.about["patterns"]
+        if len(names) <= 1:
+            first = names[0] if names else {"name": "", "drives": "displacement"}
+            return [(first["name"], first["drives"], "load", "reaction")]
+        return [(p["name"], p["drives"], "load_" + p["name"], "reaction_" + p["name"]) for p in names]
+
+    def load_curve(self, pattern=0):
+        """Displacement and load. Of a dead force the factor is the load and minus the reaction the displacement of its
+        points."""
+        _, drives, load, reaction = self.patterns()[pattern]
+        if drives == "force":
+            return -self.history[reaction], self.history[load]
+        return self.history[load], self.history[reaction]
+
+    def label_load(self, axes, pattern=0):
+        force = self.patterns()[pattern][1] == "force"
+        for ax in axes:
+            ax.set_xlabel(axis("conjugate displacement" if force else "prescribed displacement", self.length))
+        axes[0].set_ylabel("load factor" if force else axis("reaction", self.force))
+
+    def name(self):
+        scene = self.about["scene"]
+        return scene["title"] or os.path.basename(scene["file"])
+
+    def concept(self):
+        """What decides which solution this is, in words; a dictionary from what to which."""
+        named = self.about["concept"]
+        out = {}
+        if "solution" in named:
+            out["solution"] = f"{named['solution']} solution"
+        if "mixity_rule" in named:
+            out["mixity_rule"] = f"{named['mixity_rule']} mixity"
+        if named.get("backtracking", "auto") != "auto":
+            out["backtracking"] = f"backtracking {named['backtracking']}"
+        if float(named.get("jump_tolerance", 0)) > 0:
+            out["jump_tolerance"] = f"jumps located to {named['jump_tolerance']} of a step"
+        if float(named.get("mixity_step_tolerance", 0)) > 0:
+            out["mixity_step_tolerance"] = f"mixity error of a step ≤ {named['mixity_step_tolerance']}"
+        steps = f"{self.about['steps']} steps"
+        out["steps"] = "adaptive steps in " + steps if named.get("step_control") == "adaptive" else steps
+        edge = self.about["scene"]["shortest_edge"]
+        out["h"] = f"h = {1e3 * edge:.4g} mm" if self.length == "m" else f"h = {edge:.4g} {self.length}"
+        return out
+
+    def title(self, what):
+        about = self.about
+        state = "" if about["status"] == "complete" else f"   INCOMPLETE ({about['steps_done']}/{about['steps']} steps)"
+        return f"{self.name()} – {what}{state}\n{', '.join(self.concept().values())}"
+
+    def stamp(self, figure, caption=""):
+        about = self.about
+        height = figure.get_size_inches()[1]
+        foot = (0.4 if caption else 0.22) / height
+        figure.text(0.995, 0.004 + 0.17 / height, caption, ha="right", va="bottom", fontsize=7, color=GREY)
+        figure.get_layout_engine().set(rect=(0, foot, 1, 1 - foot))
+        figure.text(0.995, 0.004, f"delam {about['version']} · commit {about['commit'][:13]} · "
+                    f"scene {about['scene_hash']}",
+                    ha="right", va="bottom", fontsize=7, color=GREY)
+
+    def save(self, figure, name):
+        save(figure, os.path.join(self.folder, name))

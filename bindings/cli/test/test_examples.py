@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""examples/run.sh: which names it knows, what it would run for each, and that every scene it knows is correct."""
+import os
+import subprocess
+
+from support import delam, expect, finish
+
+EXAMPLES = os.environ["DELAM_EXAMPLES"]
+SIZES = ("1.0", "0.75", "0.5", "0.25", "0.1")
+FAMILIES = ("enf-ductile", "enf-brittle-local", "enf-brittle-energetic", "mmf-ductile", "mmf-ductile-640",
+            "mmf-ductile-converged", "mmf-brittle-energetic")
+
+
+def script(*words):
+    done = subprocess.run(["bash", os.path.join(EXAMPLES, "run.sh"), *words], capture_output=True, text=True,
+                          check=False)
+    return done.returncode, done.stdout, done.stderr
+
+
+code, out, _ = script("--list")
+names = out.split()
+expected = {"enf", "enf-modified", "enf-modified-h0.1", *FAMILIES, *(f"{f}-h{h}" for f in FAMILIES for h in SIZES)}
+expect(code == 0 and len(names) == len(set(names)) and set(names) == expected, "--list names all scenes, each once")
+
+code, out, _ = script("--dry-run")
+expect(code == 0 and "examples/enf/enf.toml --out out/enf\n" in out, "enf without a name")
+code, out, _ = script("--dry-run", "mmf-ductile-640-h0.75")
+runs = [line for line in out.splitlines() if " run " in line]
+expect(code == 0 and len(runs) == 1 and
+       runs[0].endswith("run examples/mmf-ductile-640/mmf-ductile-640.toml --out out/mmf-ductile-640-h0.75 "
+                        "--set geometry.h=0.75e-3"), f"a size of a family: {runs}")
+expect("plot.py out/mmf-ductile-640-h0.75" in out and "plot_family" not in out, "its pictures")
+code, out, _ = script("--dry-run", "mmf-ductile")
+expect(code == 0 and [f"out/mmf-ductile-h{h} " in out for h in SIZES] == [True] * 5, "a family runs all of its sizes")
+expect("plot_family.py --out out/mmf-ductile " + " ".join(f"out/mmf-ductile-h{h}" for h in SIZES) in out,
+       "and compares them")
+code, out, _ = script("--dry-run", "enf", "enf-modified")
+expect(code == 0 and "out/enf\n" in out and "out/enf-modified-h0.1 " in out and "plot_family" not in out,
+       "several names; one size is not compared")
+for name in ("fly", "enf-h1.0", "enf-ductile-h1", "enf-ductile-h2.0", "enf-modified-h1.0", "enf ", "*", ""):
+    code, out, error = script("--dry-run", "enf", name)
+    expect(code == 2 and out == "" and f'unknown scene "{name}"' in error and
+           "enf-ductile-h{1.0,0.75,0.5,0.25,0.1}" in error, f'"{name}" is refused, and the known ones are listed')
+expect(script("--fast")[0] == 2, "an unknown option is refused")
+
+for family in (*FAMILIES, "enf-modified", "enf"):
+    path = os.path.join(EXAMPLES, family, family + ".toml")
+    for h in SIZES[:3] if family != "enf" else SIZES[:1]:
+        code, out, error = delam("check", path, "--set", f"geometry.h={h}e-3")
+        dofs = {"1.0": "1936 primal, 242 dual", "0.75": "3220 primal, 322 dual", "0.5": "6748 primal, 482 dual"}[h]
+        expect(code == 0 and dofs in out, f"{family}, h = {h} mm: the slides' unknowns {error.strip()}")
+        if family != "enf":
+            concept = "energetic" if "energetic" in family or "modified" in family else "local"
+            rule = "converged" if "converged" in family or family == "mmf-brittle-energetic" else "frozen"
+            expect(f"solution = {concept}, mixity_rule = {rule}" in out, f"{family}: {concept}, {rule}")
+finish()
