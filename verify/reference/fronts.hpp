@@ -66,6 +66,8 @@ public:
     double position(std::size_t front) const { return flexure_.data.notch + fronts_[front].advance; }
     // Dissipated by the move of the front from one position on to another.
     double dissipated(std::size_t from, std::size_t to, MixityRule rule) const;
+    // Energy of breaking a pair at its mixity in the state of a front.
+    double cost(std::size_t front, std::size_t pair) const { return cost_[front][pair]; }
     // The scan itself, with its own history, over the given loads.
     std::vector<ScanStep> scan(const std::vector<double>& loads, MixityRule rule) const;
     // First load at which another front has as little energy as the initial one. only_next: only the next pair may break, which is

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "march.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace harness {
+namespace {
+
+double optional_value(const reference::Solver& solver, const char* key) {
+    double value = 0.0;
+    return delam_solver_value(solver.get(), key, &value) == DELAM_OK ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+double Record::lower_violation() const {
+    return (lower - increment_lower) / std::max(std::abs(stored_bulk + stored_interface), std::abs(work));
+}
+
+double Record::upper_violation() const {
+    return (increment - upper) / std::max(std::abs(stored_bulk + stored_interface), std::abs(work));
+}
+
+double March::sum(double Record::* member) const {
+    double total = 0.0;
+    for (const Record& r : steps) total += r.*member;
+    return total;
+}
+
+double March::defect() const {
+    double worst = 0.0;
+    for (const Record& r : steps) worst = std::max(worst, std::abs(r.total() - r.work));
+    return worst;
+}
+
+double March::defect_slides() const {
+    double worst = 0.0;
+    for (const Record& r : steps) worst = std::max(worst, std::abs(r.total_slides() - r.work));
+    return worst;
+}
+
+March run(const reference::Flexure& data, int steps, const Choice& choice, bool keep_adhesion) {
+    March march;
+    const reference::FlexureScene flexure = reference::make_flexure(data);
+    const reference::Scene& scene = flexure.scene;
+    for (const auto& [key, value] : choice.texts) {
+        if (delam_problem_set_text(scene.problem(), key.c_str(), value.c_str()) == DELAM_OK) continue;
+        march.refused = delam_context_message(scene.context());
+        return march;
+    }
+    for (const auto& [key, value] : choice.numbers) {
+        if (delam_problem_set_number(scene.problem(), key.c_str(), value) == DELAM_OK) continue;
+        march.refused = delam_context_message(scene.context());
+        return march;
+    }
+    reference::Solver solver(scene, 0.0);
+    for (int k = 1; k <= steps; ++k) {
+        const double time = data.end_time * k / steps;
+        const std::int32_t status = solver.advance(time);
+        if (status < 0) scene.require(status, "delam_solver_advance");
+        solver.commit();
+        Record r;
+        r.load = data.load(time);
+        r.reaction = solver.value("reaction:press");
+        r.stored_bulk = solver.value("stored_bulk");
+        r.stored_interface = solver.value("stored_interface");
+        r.dissipated = solver.value("dissipated");
+        r.work = solver.value("work");
+        r.stored_interface_slides = solver.value("stored_interface_slides");
+        r.dissipated_slides = solver.value("dissipated_slides");
+        r.lower = solver.value("lower");
+        r.upper = solver.value("upper");
+        r.increment = solver.value("increment");
+        r.increment_lower = solver.value("increment_lower");
+        r.front = solver.value("front");
+        r.am_iterations = solver.value("am_iterations");
+        r.newton_solves = solver.value("newton_solves");
+        r.displacement_solves = solver.value("displacement_solves");
+        r.candidates = optional_value(solver, "search_candidates");
+        r.backtracks = solver.value("backtracks");
+        r.jumps = optional_value(solver, "jumps");
+        r.released = optional_value(solver, "released");
+        r.converged = status == DELAM_OK;
+        if (keep_adhesion) r.adhesion = solver.field("adhesion");
+        march.steps.push_back(std::move(r));
+    }
+    return march;
+}
+
+std::string skipped(const std::string& refused) { return std::string("skipped: ").append(refused, 0, refused.find(';')); }
+
+double at(const std::vector<double>& values, double part) {
+    const double place = part * static_cast<double>(values.size());
+    const auto left = std::min(values.size() - 1, static_cast<std::size_t>(place));
+    const double first = left == 0 ? 0.0 : values[left - 1];
+    const double share = place - static_cast<double>(left);
+    return first + share * (values[left] - first);
+}
+
+}  // namespace harness
