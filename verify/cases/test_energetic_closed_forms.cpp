@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Closed forms of local and of energetic solutions (model.md, section 6): when a spring in series with an interface lets go, and how far a
-// bar peels off a rigid base. What the library does not have yet is skipped, in its own words.
+// Closed forms of local and of energetic solutions (model.md, section 6): when a spring in series with an interface
+// lets go, and how far a bar peels off a rigid base. What the library does not have yet is skipped, in its own words.
 #include <algorithm>
 #include <cstdio>
 
@@ -24,7 +24,8 @@ bool number_option(const Scene& scene, const char* key, double value) {
     return false;
 }
 
-// ---- spring K in series with a bilinear law ---------------------------------------------------------------------------
+// ---- spring K in series with a bilinear law
+// ---------------------------------------------------------------------------
 
 constexpr double k = 125e9;
 constexpr double onset = 100.0;
@@ -34,8 +35,8 @@ const double peak = std::sqrt(2.0 * k * onset);
 const double dc = peak / k * toughness / onset;
 const double slope = peak * peak / (2.0 * (toughness - onset));
 
-// K per unit area, shared equally by two slim blocks without lateral contraction, so that both pairs open alike; the end moves
-// linearly in time to `end` at time 1.
+// K per unit area, shared equally by two slim blocks without lateral contraction, so that both pairs open alike; the
+// end moves linearly in time to `end` at time 1.
 Scene spring_scene(double spring, double end) {
     Scene scene(2, {area}, {1}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
     scene.interface(0, 1);
@@ -58,7 +59,8 @@ double energetic_load(double spring) { return std::sqrt(2.0 * toughness * series
 double largest(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
 double least(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
 
-// Load at which one step from the unloaded state lets the interface go, by halving `halvings` times; every trial is rolled back.
+// Load at which one step from the unloaded state lets the interface go, by halving `halvings` times; every trial is
+// rolled back.
 double jump_by_halving(Solver& solver, double end, int halvings) {
     double low = 0.0;
     double high = 1.0;
@@ -88,7 +90,8 @@ CASE_TEST(soft_spring_energetic_jump) {
     const Scene scene = spring_scene(spring, end);
     if (!text_option(scene, "solution", "energetic")) return;
     Solver solver(scene, 0.0);
-    cases::expect_near(jump_by_halving(solver, end, 16), energetic_load(spring), 1e-3, energetic_load(spring), "energetic jump");
+    cases::expect_near(jump_by_halving(solver, end, 16), energetic_load(spring), 1e-3, energetic_load(spring),
+                       "energetic jump");
 }
 
 // Above the softening slope the solution is unique, and the search must not find anything else.
@@ -103,14 +106,18 @@ CASE_TEST(stiff_spring_energetic_is_continuous) {
         solver.step(static_cast<double>(i) / steps);
         solver.commit();
         const double w = end * i / steps;
-        const double exact = w <= local_load(spring) ? w / series(spring) : w >= dc ? 0.0 : slope * (dc - (w - slope * dc / spring) / (1.0 - slope / spring));
-        cases::expect_near(solver.value("reaction:pull"), exact * area, 1e-5, peak * area, "step " + std::to_string(i) + ": force");
+        const double exact = w <= local_load(spring) ? w / series(spring)
+                             : w >= dc               ? 0.0
+                                       : slope * (dc - (w - slope * dc / spring) / (1.0 - slope / spring));
+        cases::expect_near(solver.value("reaction:pull"), exact * area, 1e-5, peak * area,
+                           "step " + std::to_string(i) + ": force");
     }
     cases::expect_near(solver.value("dissipated"), toughness * area, 1e-9, toughness * area, "the toughness is spent");
 }
 
-// With the instant located, the ledger knows the load of the jump: work is done up to it, w^2/2 (1/K + 1/k)^-1, and none after it. What is not
-// dissipated was released: nothing when the two energies cross, sigma0^2/2 (1/K + 1/k) - Gc at the local load.
+// With the instant located, the ledger knows the load of the jump: work is done up to it, w^2/2 (1/K + 1/k)^-1, and
+// none after it. What is not dissipated was released: nothing when the two energies cross, sigma0^2/2 (1/K + 1/k) - Gc
+// at the local load.
 CASE_TEST(soft_spring_jump_is_located) {
     const bool energetic = loop >= 3;
     const double spring = soft[loop % 3] * slope;
@@ -128,13 +135,15 @@ CASE_TEST(soft_spring_jump_is_located) {
     cases::expect(largest(solver.field("adhesion")) == 0.0, "no jump");
     cases::expect(solver.value("jumps") == 1.0, "one jump");
     const double work = solver.value("work") / area;
-    cases::expect_near(std::sqrt(2.0 * work * series(spring)), exact, 1e-3, exact, "load of the jump, from the work done");
+    cases::expect_near(std::sqrt(2.0 * work * series(spring)), exact, 1e-3, exact,
+                       "load of the jump, from the work done");
     cases::expect_near(solver.value("dissipated"), toughness * area, 1e-9, toughness * area, "the toughness is spent");
     const double released = energetic ? 0.0 : (0.5 * exact * exact / series(spring) - toughness) * area;
     cases::expect_near(solver.value("released"), released, 1e-3, toughness * area, "energy released");
 }
 
-// ---- bar bonded to a rigid base ---------------------------------------------------------------------------------------------
+// ---- bar bonded to a rigid base
+// ---------------------------------------------------------------------------------------------
 
 // Energies of all fronts at time 1, the debonded bar included: an exhaustive scan as in reference/fronts.
 class BarScan {
@@ -206,8 +215,8 @@ void expect_first_order(const Errors* errors, const char* what) {
     }
 }
 
-// Least energy of all fronts, 8 loads per cell: the front hops from pair to pair, so it is never further off than one cell, and the
-// force is a saw blade around the plateau; both are of first order in h.
+// Least energy of all fronts, 8 loads per cell: the front hops from pair to pair, so it is never further off than one
+// cell, and the force is a saw blade around the plateau; both are of first order in h.
 CASE_TEST(bar_scan_follows_the_plateau) {
     Errors errors[3];
     for (int m = 0; m < 3; ++m) {
@@ -226,8 +235,8 @@ CASE_TEST(bar_scan_follows_the_plateau) {
     expect_first_order(errors, "scan");
 }
 
-// The same bar by the local march: the pair at the tip has to reach its strength, which it does late by h over the length lam of the bond. First
-// order too, with a larger constant: energetic = local in the limit.
+// The same bar by the local march: the pair at the tip has to reach its strength, which it does late by h over the
+// length lam of the bond. First order too, with a larger constant: energetic = local in the limit.
 CASE_TEST(bar_local_converges_to_the_plateau) {
     Errors errors[3];
     for (int m = 0; m < 3; ++m) {
@@ -238,8 +247,8 @@ CASE_TEST(bar_local_converges_to_the_plateau) {
         for (std::int64_t i = 1; i <= steps; ++i) {
             solver.step(static_cast<double>(i) / static_cast<double>(steps));
             solver.commit();
-            compare(errors[m], bar, bar.final_load * static_cast<double>(i) / static_cast<double>(steps), solver.value("reaction:pull"),
-                    bar.start + solver.value("front"));
+            compare(errors[m], bar, bar.final_load * static_cast<double>(i) / static_cast<double>(steps),
+                    solver.value("reaction:pull"), bar.start + solver.value("front"));
         }
         cases::expect_below(errors[m].force, 0.7 * bar.h() / bar.bond_length, "force over the plateau, h over lam");
         cases::expect_below(errors[m].front, 10.0 * bar.h(), "front, in cells");
@@ -262,16 +271,21 @@ CASE_TEST(bar_energetic_follows_the_plateau) {
         solver.step(time);
         solver.commit();
         at = scan.best(time, at);
-        const double energy = solver.value("stored_bulk") + solver.value("stored_interface") + solver.value("dissipated");
-        cases::expect_below(energy, scan.total(at, time) * (1.0 + 1e-6), "step " + std::to_string(i) + ": energy over the scan's");
+        const double energy =
+            solver.value("stored_bulk") + solver.value("stored_interface") + solver.value("dissipated");
+        cases::expect_below(energy, scan.total(at, time) * (1.0 + 1e-6),
+                            "step " + std::to_string(i) + ": energy over the scan's");
         compare(errors, bar, time * bar.final_load, solver.value("reaction:pull"), bar.start + solver.value("front"));
     }
     cases::expect_below(errors.front, 1.02 * bar.h(), "front");
     cases::expect_below(errors.force, 2.2 * bar.h() / bar.length, "force over the plateau");
 }
 
-// Free far end, a0 < L/2: full debonding costs as little as the front at (a + lam) = (L + lam)/2 does, and the energetic solution jumps to it.
-double full_debonding_load(const cases::Bar& bar) { return 0.5 * (bar.length + bar.bond_length) * bar.plateau() / bar.membrane; }
+// Free far end, a0 < L/2: full debonding costs as little as the front at (a + lam) = (L + lam)/2 does, and the
+// energetic solution jumps to it.
+double full_debonding_load(const cases::Bar& bar) {
+    return 0.5 * (bar.length + bar.bond_length) * bar.plateau() / bar.membrane;
+}
 
 CASE_TEST(free_bar_scan_jumps_halfway) {
     double errors[3];
@@ -288,7 +302,8 @@ CASE_TEST(free_bar_scan_jumps_halfway) {
         const double exact = full_debonding_load(bar);
         errors[m] = high * bar.final_load / exact - 1.0;
         cases::expect_below(std::abs(errors[m]), 1e-3 + 0.2 * bar.h() / bar.length, "load of the jump");
-        cases::expect_near(scan.front(scan.best(low, 0)), exact * bar.membrane / bar.plateau() - bar.bond_length, 1.0, 1.02 * bar.h(), "front before it");
+        cases::expect_near(scan.front(scan.best(low, 0)), exact * bar.membrane / bar.plateau() - bar.bond_length, 1.0,
+                           1.02 * bar.h(), "front before it");
     }
     cases::expect_below(std::abs(errors[2]), 1e-3, "load of the jump, finest mesh");
 }
@@ -308,12 +323,15 @@ CASE_TEST(free_bar_energetic_jumps_halfway) {
         before = solver.value("work");
     }
     cases::expect(largest(solver.field("adhesion")) == 0.0, "the bar never comes off");
-    // Along the plateau the work is F (w - w0/2), w0 the load at which the front starts: the ledger knows the load of the jump.
+    // Along the plateau the work is F (w - w0/2), w0 the load at which the front starts: the ledger knows the load of
+    // the jump.
     const double start = bar.load(bar.start);
     const double load = solver.value("work") / bar.plateau() + 0.5 * start;
     cases::expect(solver.value("work") >= before, "work is done up to the jump");
-    cases::expect_near(load, full_debonding_load(bar), 5e-3, full_debonding_load(bar), "load of the jump, from the work done");
-    cases::expect_near(solver.value("dissipated"), bar.toughness * (bar.length - bar.start), 1e-9, bar.toughness * bar.length, "all is dissipated");
+    cases::expect_near(load, full_debonding_load(bar), 5e-3, full_debonding_load(bar),
+                       "load of the jump, from the work done");
+    cases::expect_near(solver.value("dissipated"), bar.toughness * (bar.length - bar.start), 1e-9,
+                       bar.toughness * bar.length, "all is dissipated");
 }
 
 }  // namespace

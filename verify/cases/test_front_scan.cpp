@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The exhaustive scan of fronts itself: energies are quadratic in the load and mixities do not depend on it, fronts agree with the direct
-// solver, and a scan that solves for every front at every load step finds the same states.
+// The exhaustive scan of fronts itself: energies are quadratic in the load and mixities do not depend on it, fronts
+// agree with the direct solver, and a scan that solves for every front at every load step finds the same states.
 #include <algorithm>
 #include <limits>
 
@@ -26,7 +26,9 @@ std::vector<double> broken_up_to(const reference::FlexureScene& s, std::size_t f
     return adhesion;
 }
 
-double stored(const reference::Solver& solver) { return solver.value("stored_bulk") + solver.value("stored_interface"); }
+double stored(const reference::Solver& solver) {
+    return solver.value("stored_bulk") + solver.value("stored_interface");
+}
 
 CASE_TEST(energy_is_quadratic_in_the_load) {
     const Fronts fronts(specimen(loop));
@@ -44,7 +46,8 @@ CASE_TEST(energy_is_quadratic_in_the_load) {
             const std::size_t p = front.first_intact;
             const double normal = s.data.law.normal_stiffness * jump[2 * p] * jump[2 * p];
             const double tangential = s.data.law.tangential_stiffness * jump[2 * p + 1] * jump[2 * p + 1];
-            cases::expect_near(tangential / (normal + tangential), front.mixity[p], 1e-7, 1.0, where + "mixity at the front");
+            cases::expect_near(tangential / (normal + tangential), front.mixity[p], 1e-7, 1.0,
+                               where + "mixity at the front");
         }
     }
 }
@@ -64,7 +67,8 @@ CASE_TEST(fronts_agree_with_the_direct_solver) {
 CASE_TEST(energy_falls_with_the_front) {
     const Fronts fronts(specimen(loop));
     for (std::size_t f = 1; f < fronts.list().size(); ++f)
-        cases::expect_below(fronts.stored(f, 1e-3), fronts.stored(f - 1, 1e-3) * (1.0 + 1e-9), "front " + std::to_string(f));
+        cases::expect_below(fronts.stored(f, 1e-3), fronts.stored(f - 1, 1e-3) * (1.0 + 1e-9),
+                            "front " + std::to_string(f));
 }
 
 // No reuse: every front at every load, each by a displacement step of its own.
@@ -103,26 +107,32 @@ CASE_TEST(crossing_of_the_energies) {
         const auto crossing = fronts.crossing(rule);
         const std::string name = reference::rule_name(rule);
         cases::expect(crossing.front > 0, name + ": no crossing");
-        cases::expect(fronts.scan({crossing.load * (1.0 - 1e-9)}, rule)[0].front == 0, name + ": a jump below its load");
-        cases::expect(fronts.scan({crossing.load * (1.0 + 1e-9)}, rule)[0].front == crossing.front, name + ": no jump above its load");
-        cases::expect(fronts.crossing(rule, true).load >= crossing.load, name + ": Griffith's local load is below the energetic one");
+        cases::expect(fronts.scan({crossing.load * (1.0 - 1e-9)}, rule)[0].front == 0,
+                      name + ": a jump below its load");
+        cases::expect(fronts.scan({crossing.load * (1.0 + 1e-9)}, rule)[0].front == crossing.front,
+                      name + ": no jump above its load");
+        cases::expect(fronts.crossing(rule, true).load >= crossing.load,
+                      name + ": Griffith's local load is below the energetic one");
     }
 }
 
-// Mode II alone in the ENF: the criterion's exponents cost less than 0.1 % of the toughness; the MMF has beam theory's psi^2 = 3/4 at
-// the front, 35 J/m2, while pairs far ahead have the mixity that they had before the front came.
+// Mode II alone in the ENF: the criterion's exponents cost less than 0.1 % of the toughness; the MMF has beam theory's
+// psi^2 = 3/4 at the front, 35 J/m2, while pairs far ahead have the mixity that they had before the front came.
 CASE_TEST(mixity_rules_differ_in_the_mixed_mode_only) {
     const Fronts enf(specimen(0));
     const auto middle = enf.list().size() / 2;
     const double pure = enf.dissipated(0, middle, MixityRule::pure);
     for (const MixityRule rule : {MixityRule::frozen, MixityRule::converged})
-        cases::expect_near(enf.dissipated(0, middle, rule), pure, 1e-3, pure, std::string("ENF, ") + reference::rule_name(rule));
+        cases::expect_near(enf.dissipated(0, middle, rule), pure, 1e-3, pure,
+                           std::string("ENF, ") + reference::rule_name(rule));
     const Fronts mmf(specimen(1));
     const auto crossing = mmf.crossing(MixityRule::converged);
     const double advance = mmf.list()[crossing.front].advance;
-    cases::expect_near(crossing.dissipated / advance, 35.0, 0.01, 35.0, "MMF, mean toughness along the way of the front");
+    cases::expect_near(crossing.dissipated / advance, 35.0, 0.01, 35.0,
+                       "MMF, mean toughness along the way of the front");
     const auto frozen = mmf.crossing(MixityRule::frozen);
-    cases::expect_below(frozen.dissipated / mmf.list()[frozen.front].advance, 28.0, "MMF, frozen mixity of pairs far ahead");
+    cases::expect_below(frozen.dissipated / mmf.list()[frozen.front].advance, 28.0,
+                        "MMF, frozen mixity of pairs far ahead");
 }
 
 }  // namespace

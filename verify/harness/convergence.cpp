@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mesh and step refined together: ductile ENF and MMF with supports and load spread over 2 mm, h and tau in a fixed ratio.
+// Mesh and step refined together: ductile ENF and MMF with supports and load spread over 2 mm, h and tau in a fixed
+// ratio.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -55,7 +56,8 @@ std::vector<double> sample_adhesion(const Level& level, double notch, double len
     std::vector<std::vector<double>> rows;
     for (const Record& r : level.march.steps) {
         std::vector<double> row;
-        for (int i = 0; i < places; ++i) row.push_back(interpolate(level.position, r.adhesion, notch + (length - notch) * (i + 0.5) / places));
+        for (int i = 0; i < places; ++i)
+            row.push_back(interpolate(level.position, r.adhesion, notch + (length - notch) * (i + 0.5) / places));
         rows.push_back(std::move(row));
     }
     const std::vector<double> intact(places, 1.0);
@@ -88,8 +90,9 @@ constexpr Quantity quantities[] = {
     {"reaction", [](const Record& r) { return r.reaction; }},
 };
 
-void add_rows(Table& table, const std::string& specimen, const std::string& element, const std::string& rule, const char* quantity,
-              const std::vector<Level>& levels, const std::vector<double>& errors, const std::vector<double>& changes, const std::vector<double>& finals) {
+void add_rows(Table& table, const std::string& specimen, const std::string& element, const std::string& rule,
+              const char* quantity, const std::vector<Level>& levels, const std::vector<double>& errors,
+              const std::vector<double>& changes, const std::vector<double>& finals) {
     std::vector<double> sizes, so_far, steps_between, values;
     for (std::size_t i = 0; i < levels.size(); ++i) {
         sizes.push_back(levels[i].h);
@@ -97,11 +100,14 @@ void add_rows(Table& table, const std::string& specimen, const std::string& elem
         values.push_back(finals[i]);
         const bool last = i + 1 == levels.size();
         if (i > 0) steps_between.push_back(changes[i]);
-        // Differences of successive levels fall like the errors; for a constant ratio of sizes their order is that of the method.
-        const double order_change = i > 1 ? std::log(steps_between[i - 2] / steps_between[i - 1]) / std::log(sizes[i - 2] / sizes[i - 1]) : nan;
+        // Differences of successive levels fall like the errors; for a constant ratio of sizes their order is that of
+        // the method.
+        const double order_change =
+            i > 1 ? std::log(steps_between[i - 2] / steps_between[i - 1]) / std::log(sizes[i - 2] / sizes[i - 1]) : nan;
         const double order_final = order_of_values(sizes, values);
-        table.rows.push_back({specimen, element, rule, quantity, levels[i].h * 1e3, levels[i].steps, last ? Cell("finest") : Cell(errors[i]),
-                              last ? nan : order_of_errors(sizes, so_far), i > 0 ? changes[i] : nan, order_change, finals[i], order_final,
+        table.rows.push_back({specimen, element, rule, quantity, levels[i].h * 1e3, levels[i].steps,
+                              last ? Cell("finest") : Cell(errors[i]), last ? nan : order_of_errors(sizes, so_far),
+                              i > 0 ? changes[i] : nan, order_change, finals[i], order_final,
                               std::isfinite(order_final) ? richardson(sizes, values, order_final) : nan});
     }
 }
@@ -112,12 +118,18 @@ Table convergence(const Options& options) {
     Table table;
     table.name = "convergence";
     table.note =
-        "Ductile specimens, 2 mm patch supports and load, 6 mm, local solution; h and tau halved together. error: distance to the finest level, over "
-        "that level's own size: L1 in time (adhesion: mean over time and bonded run of the difference, absolute); its order from the row before "
-        "flatters near the finest level. change: the same distance to the row before; order_change: from two changes, not flattered. final: value at the "
-        "end of the loading (adhesion: mean); order_final and richardson: from three of them. Rows that are not asymptotic are kept.";
-    table.columns = {"specimen", "element", "mixity", "quantity", "h_mm", "steps", "error", "order_error", "change", "order_change", "final", "order_final", "richardson"};
-    std::vector<std::pair<double, int>> levels_asked = {{3e-3, 20}, {1.5e-3, 40}, {0.75e-3, 80}, {0.375e-3, 160}, {0.1875e-3, 320}};
+        "Ductile specimens, 2 mm patch supports and load, 6 mm, local solution; h and tau halved together. error: "
+        "distance to the finest level, over "
+        "that level's own size: L1 in time (adhesion: mean over time and bonded run of the difference, absolute); its "
+        "order from the row before "
+        "flatters near the finest level. change: the same distance to the row before; order_change: from two changes, "
+        "not flattered. final: value at the "
+        "end of the loading (adhesion: mean); order_final and richardson: from three of them. Rows that are not "
+        "asymptotic are kept.";
+    table.columns = {"specimen",    "element", "mixity",       "quantity", "h_mm",        "steps",     "error",
+                     "order_error", "change",  "order_change", "final",    "order_final", "richardson"};
+    std::vector<std::pair<double, int>> levels_asked = {
+        {3e-3, 20}, {1.5e-3, 40}, {0.75e-3, 80}, {0.375e-3, 160}, {0.1875e-3, 320}};
     for (const char* specimen : {"enf-ductile", "mmf-ductile"}) {
         for (const char* element : {"quad4", "quad4-incompatible"}) {
             for (const char* rule : {"frozen", "converged"}) {
@@ -126,7 +138,8 @@ Table convergence(const Options& options) {
                 std::string refused;
                 for (const auto& [h, steps] : levels_asked) {
                     if ((options.quick && h < 0.7e-3) || h < options.finest || !refused.empty()) continue;
-                    progress(std::string("convergence: ") + specimen + ", " + element + ", " + rule + ", h " + std::to_string(h));
+                    progress(std::string("convergence: ") + specimen + ", " + element + ", " + rule + ", h " +
+                             std::to_string(h));
                     reference::Flexure data = reference::find_flexure(specimen);
                     data.h = h;
                     data.patch = 2e-3;
@@ -162,7 +175,8 @@ Table convergence(const Options& options) {
                     errors.push_back(mean_difference(fields[i], fields[n - 1]));
                     changes.push_back(i > 0 ? mean_difference(fields[i - 1], fields[i]) : nan);
                     double sum = 0.0;
-                    for (std::size_t j = fields[i].size() - places; j < fields[i].size(); ++j) sum += fields[i][j] / places;
+                    for (std::size_t j = fields[i].size() - places; j < fields[i].size(); ++j)
+                        sum += fields[i][j] / places;
                     finals.push_back(sum);
                 }
                 add_rows(table, specimen, element, rule, "adhesion", levels, errors, changes, finals);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two-sided energy estimate and the balance against the number of steps, T/20 ... T/640: violated steps, width of the band, defect in
-// both ledgers, for every specimen and every rule of the mixity.
+// The two-sided energy estimate and the balance against the number of steps, T/20 ... T/640: violated steps, width of
+// the band, defect in both ledgers, for every specimen and every rule of the mixity.
 #include <algorithm>
 #include <cmath>
 
@@ -21,11 +21,13 @@ Choice choose(const std::string& solution, const std::string& rule) {
     return choice;
 }
 
-void series(Table& table, const Options& options, const std::string& name, double h, const std::string& solution, const std::string& rule) {
+void series(Table& table, const Options& options, const std::string& name, double h, const std::string& solution,
+            const std::string& rule) {
     std::vector<double> sizes, defects, slides, bands;
     for (const int steps : {20, 40, 80, 160, 320, 640}) {
         if (options.quick && steps > 80) continue;
-        progress("estimate: " + name + ", h " + std::to_string(h) + ", " + solution + ", " + rule + ", " + std::to_string(steps) + " steps");
+        progress("estimate: " + name + ", h " + std::to_string(h) + ", " + solution + ", " + rule + ", " +
+                 std::to_string(steps) + " steps");
         reference::Flexure data = reference::find_flexure(name);
         data.h = h;
         const std::vector<Cell> who{name, h * 1e3, solution, rule, steps};
@@ -70,9 +72,10 @@ void series(Table& table, const Options& options, const std::string& name, doubl
         defects.push_back(march.defect() / work);
         slides.push_back(march.defect_slides() / work);
         bands.push_back(band);
-        for (const Cell& cell : std::vector<Cell>{low_eta, high_eta, low, high, worst, band, order_of_errors(sizes, bands), defects.back(),
-                                                  order_of_errors(sizes, defects), slides.back(), order_of_errors(sizes, slides), drop,
-                                                  march.sum(&Record::backtracks), refused, where})
+        for (const Cell& cell :
+             std::vector<Cell>{low_eta, high_eta, low, high, worst, band, order_of_errors(sizes, bands), defects.back(),
+                               order_of_errors(sizes, defects), slides.back(), order_of_errors(sizes, slides), drop,
+                               march.sum(&Record::backtracks), refused, where})
             row.push_back(cell);
     }
 }
@@ -83,17 +86,23 @@ Table estimate(const Options& options) {
     Table table;
     table.name = "estimate";
     table.note =
-        "Two-sided estimate, per metre of width, point supports, 6 mm. low, high: steps that violate the lower and the upper bound by more than "
-        "eta = 1e-3 of max(|E|, work), then those by more than 1e-9; worst: largest violation on that scale. band: sum of upper - lower; defect, "
-        "defect_slides: largest |stored + dissipated - work| over the final work in the booked and in the slides' ledger; order_: observed in "
+        "Two-sided estimate, per metre of width, point supports, 6 mm. low, high: steps that violate the lower and the "
+        "upper bound by more than "
+        "eta = 1e-3 of max(|E|, work), then those by more than 1e-9; worst: largest violation on that scale. band: sum "
+        "of upper - lower; defect, "
+        "defect_slides: largest |stored + dissipated - work| over the final work in the booked and in the slides' "
+        "ledger; order_: observed in "
         "the step, from the row before. drop: largest energy that one step released. note: steps that violate eta.";
-    table.columns = {"specimen", "h_mm",   "solution",   "mixity", "steps",        "low_eta",       "high_eta",     "low",  "high",       "worst",
-                     "band",     "order_band", "defect", "order_defect", "defect_slides", "order_slides", "drop", "backtracks", "not_converged", "note"};
+    table.columns = {"specimen",     "h_mm",       "solution",   "mixity",        "steps",
+                     "low_eta",      "high_eta",   "low",        "high",          "worst",
+                     "band",         "order_band", "defect",     "order_defect",  "defect_slides",
+                     "order_slides", "drop",       "backtracks", "not_converged", "note"};
     for (const char* name : {"enf-ductile", "enf-brittle", "mmf-ductile", "mmf-brittle"}) {
         for (const double h : {1e-3, 0.5e-3}) {
             if ((options.quick && h < 1e-3) || h < options.finest) continue;
             for (const char* solution : {"local", "energetic"}) {
-                for (const char* rule : {"frozen", "converged", "variational"}) series(table, options, name, h, solution, rule);
+                for (const char* rule : {"frozen", "converged", "variational"})
+                    series(table, options, name, h, solution, rule);
             }
         }
     }

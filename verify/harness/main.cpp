@@ -47,7 +47,8 @@ int main(int argc, char** argv) {
             return 1;
         }
     }
-    std::fprintf(stderr, "usage: delam_harness [--json] [--quick] [--finest MM] TABLE\n"
-                         "tables: pcg, contact, balance, feti-direct, energetic, jump-instant, estimate, convergence, sets\n");
+    std::fprintf(stderr,
+                 "usage: delam_harness [--json] [--quick] [--finest MM] TABLE\n"
+                 "tables: pcg, contact, balance, feti-direct, energetic, jump-instant, estimate, convergence, sets\n");
     return 1;
 }

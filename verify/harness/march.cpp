@@ -23,7 +23,7 @@ double Record::upper_violation() const {
     return (increment - upper) / std::max(std::abs(stored_bulk + stored_interface), std::abs(work));
 }
 
-double March::sum(double Record::* member) const {
+double March::sum(double Record::*member) const {
     double total = 0.0;
     for (const Record& r : steps) total += r.*member;
     return total;
@@ -89,7 +89,9 @@ March run(const reference::Flexure& data, int steps, const Choice& choice, bool 
     return march;
 }
 
-std::string skipped(const std::string& refused) { return std::string("skipped: ").append(refused, 0, refused.find(';')); }
+std::string skipped(const std::string& refused) {
+    return std::string("skipped: ").append(refused, 0, refused.find(';'));
+}
 
 double at(const std::vector<double>& values, double part) {
     const double place = part * static_cast<double>(values.size());

@@ -30,7 +30,8 @@ struct Record {
 
     double total() const { return stored_bulk + stored_interface + dissipated; }
     double total_slides() const { return stored_bulk + stored_interface_slides + dissipated_slides; }
-    // Energy between the state that was, carried on to the end of the step, and the state that is: what a jump in this step released.
+    // Energy between the state that was, carried on to the end of the step, and the state that is: what a jump in this
+    // step released.
     double drop() const { return upper - increment; }
     // Violation of the two bounds, > 0 where violated, over the tolerance's scale max(|E|, work).
     double lower_violation() const;
@@ -40,7 +41,7 @@ struct Record {
 struct March {
     std::vector<Record> steps;
     std::string refused;  // the library's own words where it does not know an option; no steps then
-    double sum(double Record::* member) const;
+    double sum(double Record::*member) const;
     // Largest |stored + dissipated - work|, in either ledger.
     double defect() const;
     double defect_slides() const;

@@ -22,7 +22,9 @@ double order_of_values(const std::vector<double>& sizes, const std::vector<doubl
     const double ratio = (values[n - 3] - values[n - 2]) / (values[n - 2] - values[n - 1]);
     const double first = sizes[n - 3] / sizes[n - 1];
     const double second = sizes[n - 2] / sizes[n - 1];
-    const auto predicted = [&](double p) { return (std::pow(first, p) - std::pow(second, p)) / (std::pow(second, p) - 1.0); };
+    const auto predicted = [&](double p) {
+        return (std::pow(first, p) - std::pow(second, p)) / (std::pow(second, p) - 1.0);
+    };
     double low = 0.05;
     double high = 8.0;
     if (!(ratio >= predicted(low) && ratio <= predicted(high))) return nan;

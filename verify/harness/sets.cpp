@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An experiment: search over all sets of broken pairs, not fronts alone. With a Griffith-type law the least elastic energy E(Z) is nearly
-// submodular in the set Z of broken pairs, since a broken neighbour makes a pair easier to break, and the dissipation at frozen mixity is
-// modular; the minimum-norm point then searches all sets with a dual bound. How nearly, and what the bound is worth, is measured here.
+// An experiment: search over all sets of broken pairs, not fronts alone. With a Griffith-type law the least elastic
+// energy E(Z) is nearly submodular in the set Z of broken pairs, since a broken neighbour makes a pair easier to break,
+// and the dissipation at frozen mixity is modular; the minimum-norm point then searches all sets with a dual bound. How
+// nearly, and what the bound is worth, is measured here.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -16,10 +17,15 @@
 namespace harness {
 namespace {
 
+using reference::dual_bound;
+using reference::Set;
+using reference::SetFunction;
+
 constexpr double unit_load = 1e-3;
 constexpr double ruled_out = 1e300;
 
-// E(Z) at the unit load, every set solved for once. The last pair of the interface never breaks, so that nothing floats.
+// E(Z) at the unit load, every set solved for once. The last pair of the interface never breaks, so that nothing
+// floats.
 class Energy {
 public:
     explicit Energy(const reference::FlexureScene& flexure) : flexure_(flexure), solver_(flexure.scene, 0.0) {
@@ -61,8 +67,8 @@ struct Violations {
     double share() const { return tests > 0 ? static_cast<double>(violated) / static_cast<double>(tests) : 0.0; }
 };
 
-// A within B, i outside: breaking i must free no less energy from B than from A. Three families: any sets; a front and a longer one, i
-// anywhere; a front and the same with some pairs ahead of it, i close to the front.
+// A within B, i outside: breaking i must free no less energy from B than from A. Three families: any sets; a front and
+// a longer one, i anywhere; a front and the same with some pairs ahead of it, i close to the front.
 Violations measure(Energy& energy, int tests, int family, std::mt19937& random) {
     const std::size_t n = energy.size();
     std::uniform_int_distribution<std::size_t> element(0, n - 1);
@@ -127,12 +133,14 @@ std::string describe(const Energy& energy, const reference::FlexureScene& flexur
     return text.empty() ? "none" : text;
 }
 
-// Least value met by descent, one pair exchanged at a time, from random sets with up to the part `densest` broken and from the best of `known`.
+// Least value met by descent, one pair exchanged at a time, from random sets with up to the part `densest` broken and
+// from the best of `known`.
 struct Descent {
     double value = 0.0;
     Set set;
 };
-Descent descend(const SetFunction& f, std::size_t n, const std::vector<Set>& known, double densest, int starts, std::mt19937& random) {
+Descent descend(const SetFunction& f, std::size_t n, const std::vector<Set>& known, double densest, int starts,
+                std::mt19937& random) {
     Descent least{0.0, Set(n, 0)};
     const auto keep = [&](double value, const Set& set) {
         if (value < least.value) least = {value, set};
@@ -176,15 +184,23 @@ Table sets(const Options& options) {
     Table table;
     table.name = "sets";
     table.note =
-        "Brittle specimens, h = 1 mm, point supports, J/m; F(Z) = E(Z) - E({}) + sum of the pairs' toughness at the mixity of the unbroken state. "
-        "load_part: load over that at which fronts cross. fronts: least F of all fronts; best: least F met by the minimum-norm point, and its set in mm; "
-        "descent: least F met by exchanges of single pairs from random sets. bound: dual bound if F were submodular, gap: best - bound over E({}). v: "
-        "largest growth of a marginal in random tests (shares violated in three families: any sets / fronts / front and pairs ahead; then v over the "
-        "mean marginal); bound_v, gap_v: what follows if v holds for all sets. excess: largest x(A) - F(A) of the dual vector x found by descent "
-        "from random sets that no energy rules out (those that cost at most `budget`), at the set failing_mm, whose F is F_failing; gap_x: gap of bound - excess, which holds if no set exceeds more. calls: distinct "
+        "Brittle specimens, h = 1 mm, point supports, J/m; F(Z) = E(Z) - E({}) + sum of the pairs' toughness at the "
+        "mixity of the unbroken state. "
+        "load_part: load over that at which fronts cross. fronts: least F of all fronts; best: least F met by the "
+        "minimum-norm point, and its set in mm; "
+        "descent: least F met by exchanges of single pairs from random sets. bound: dual bound if F were submodular, "
+        "gap: best - bound over E({}). v: "
+        "largest growth of a marginal in random tests (shares violated in three families: any sets / fronts / front "
+        "and pairs ahead; then v over the "
+        "mean marginal); bound_v, gap_v: what follows if v holds for all sets. excess: largest x(A) - F(A) of the dual "
+        "vector x found by descent "
+        "from random sets that no energy rules out (those that cost at most `budget`), at the set failing_mm, whose F "
+        "is F_failing; gap_x: gap of bound - excess, which holds if no set exceeds more. calls: distinct "
         "sets solved for by the minimum-norm point.";
-    table.columns = {"specimen", "load_part", "load_mm", "fronts", "best", "set_mm", "is_front", "descent", "bound", "gap", "v", "v_share", "v_over_marginal",
-                     "bound_v",  "gap_v",     "budget", "excess",   "gap_x", "failing_mm", "F_failing", "E_0",    "major",  "minor",    "wolfe_gap", "calls", "bound_holds"};
+    table.columns = {"specimen", "load_part", "load_mm",   "fronts", "best",       "set_mm",          "is_front",
+                     "descent",  "bound",     "gap",       "v",      "v_share",    "v_over_marginal", "bound_v",
+                     "gap_v",    "budget",    "excess",    "gap_x",  "failing_mm", "F_failing",       "E_0",
+                     "major",    "minor",     "wolfe_gap", "calls",  "bound_holds"};
     const int tests = options.quick ? 100 : 2000;
     const int limit = options.quick ? 20 : 400;
     for (const char* name : {"enf-brittle", "mmf-brittle"}) {
@@ -206,8 +222,8 @@ Table sets(const Options& options) {
         char shares[60];
         std::snprintf(shares, sizeof shares, "%.2f / %.2f / %.2f", all[0].share(), all[1].share(), all[2].share());
         char relative[60];
-        std::snprintf(relative, sizeof relative, "%.1e / %.1e / %.1e", all[0].worst / all[0].typical, all[1].worst / all[1].typical,
-                      all[2].worst / all[2].typical);
+        std::snprintf(relative, sizeof relative, "%.1e / %.1e / %.1e", all[0].worst / all[0].typical,
+                      all[1].worst / all[1].typical, all[2].worst / all[2].typical);
         const auto crossing = fronts.crossing(reference::MixityRule::frozen);
         for (const double part : {0.95, 0.99, 1.01, 1.05, 1.5}) {
             if (options.quick && part != 1.01) continue;
@@ -227,11 +243,11 @@ Table sets(const Options& options) {
                 least = std::min(least, f(front));
             }
             const long before = energy.calls();
-            const SubmodularMinimum found = minimise_submodular(n, f, limit);
+            const auto found = reference::minimise_submodular(n, f, limit);
             const long calls = energy.calls() - before;
-            // The dual vector proves the bound where x(A) <= F(A) for every set A: the set where that fails most, and one of lower F, are
-            // looked for by other means.
-            // E falls with the set, so F(A) >= E(V) - E({}) + cost(A): sets that cost more than `budget` are ruled out for good.
+            // The dual vector proves the bound where x(A) <= F(A) for every set A: the set where that fails most, and
+            // one of lower F, are looked for by other means. E falls with the set, so F(A) >= E(V) - E({}) + cost(A):
+            // sets that cost more than `budget` are ruled out for good.
             const double budget = found.value + square * (none - energy(Set(n, 1)));
             const double all_cost = std::accumulate(cost.begin(), cost.end(), 0.0);
             const auto less_dual = [&](const Set& set) {
@@ -243,7 +259,8 @@ Table sets(const Options& options) {
                 return value;
             };
             const int starts = options.quick ? 2 : 10;
-            const Descent failure = descend(less_dual, n, energy.known(), std::min(1.0, budget / all_cost), starts, random);
+            const Descent failure =
+                descend(less_dual, n, energy.known(), std::min(1.0, budget / all_cost), starts, random);
             const Descent other = descend(f, n, energy.known(), 1.0, starts, random);
             const double best = std::min({least, found.value, other.value});
             const double scale = square * none;
@@ -253,10 +270,32 @@ Table sets(const Options& options) {
                                         : failure.value < -1e-9 * scale    ? "not proven: x(A) > F(A) for failing_mm"
                                         : worst > 0.0                      ? "not refuted, not proven"
                                                                            : "if no set violates";
-            table.rows.push_back({name, part, load * 1e3, least, found.value, describe(energy, flexure, found.best), is_front(found.best) ? "yes" : "no",
-                                  other.value, found.bound, (best - found.bound) / scale, v, shares, relative, corrected,
-                                  (best - corrected) / scale, budget, -failure.value, (best - found.bound - failure.value) / scale,
-                                  describe(energy, flexure, failure.set), f(failure.set), scale, found.major, found.minor, found.wolfe_gap, calls, verdict});
+            table.rows.push_back({name,
+                                  part,
+                                  load * 1e3,
+                                  least,
+                                  found.value,
+                                  describe(energy, flexure, found.best),
+                                  is_front(found.best) ? "yes" : "no",
+                                  other.value,
+                                  found.bound,
+                                  (best - found.bound) / scale,
+                                  v,
+                                  shares,
+                                  relative,
+                                  corrected,
+                                  (best - corrected) / scale,
+                                  budget,
+                                  -failure.value,
+                                  (best - found.bound - failure.value) / scale,
+                                  describe(energy, flexure, failure.set),
+                                  f(failure.set),
+                                  scale,
+                                  found.major,
+                                  found.minor,
+                                  found.wolfe_gap,
+                                  calls,
+                                  verdict});
         }
     }
     return table;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flexure specimens of the slides: two arms one above the other, notched at the left, supported at the two ends and pressed down at
-// mid-span. End-notched (ENF): the lower arm is supported at the notched end. Mixed-mode (MMF): the upper one is, at its corner on the
-// interface, and the lower one is free there.
+// Flexure specimens of the slides: two arms one above the other, notched at the left, supported at the two ends and
+// pressed down at mid-span. End-notched (ENF): the lower arm is supported at the notched end. Mixed-mode (MMF): the
+// upper one is, at its corner on the interface, and the lower one is free there.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ inline constexpr LawData ductile_law{125e9, 125e9, 100.0, 100.0, 250.0, 250.0};
 inline constexpr LawData brittle_law{125e15, 125e15, 0.01, 0.01, 25.0, 25.0};
 
 struct Flexure {
-    bool mixed = false;                 // MMF
+    bool mixed = false;  // MMF
     LawData law = ductile_law;
     double h = 1e-3;                    // edge of the square cells
     std::string element = "quad4";      // quad4, quad4-incompatible, quad8

@@ -7,7 +7,8 @@
 namespace reference {
 namespace {
 
-// B = Y_t / (Y_n + Y_t) of every pair; where there is no jump to speak of (1e-10 of the largest), the known value stays.
+// B = Y_t / (Y_n + Y_t) of every pair; where there is no jump to speak of (1e-10 of the largest), the known value
+// stays.
 std::vector<double> mixities(const LawData& law, const std::vector<double>& jump, const std::vector<double>& known) {
     const std::size_t pairs = jump.size() / 2;
     std::vector<double> normal(pairs), tangential(pairs);
@@ -73,7 +74,9 @@ Fronts::Fronts(const Flexure& data, double load, std::size_t kept) : flexure_(ma
     for (const auto& [key, value] : parameters) scene.require(delam_law_set(raw, key, value), key);
     for (const Front& front : fronts_) {
         std::vector<double> cost(pairs);
-        scene.require(delam_law_toughness(raw, static_cast<std::int64_t>(pairs), front.mixity.data(), nullptr, cost.data()), "delam_law_toughness");
+        scene.require(
+            delam_law_toughness(raw, static_cast<std::int64_t>(pairs), front.mixity.data(), nullptr, cost.data()),
+            "delam_law_toughness");
         for (std::size_t p = 0; p < pairs; ++p) cost[p] *= flexure_.weight[p];
         cost_.push_back(std::move(cost));
     }

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Exhaustive scan of front positions: among all states with zeta = 0 from the notch to a front and unchanged beyond it, a front not
-// behind its previous one, the state of least stored + dissipated energy, load step after load step.
+// Exhaustive scan of front positions: among all states with zeta = 0 from the notch to a front and unchanged beyond it,
+// a front not behind its previous one, the state of least stored + dissipated energy, load step after load step.
 //
-// Energies come from delam_solver_equilibrate; nothing of the library's search is used. Contact without friction is positively
-// homogeneous, so under one proportional load the energy of an adhesion is quadratic in the load, and the mixities do not change:
+// Energies come from delam_solver_equilibrate; nothing of the library's search is used. Contact without friction is
+// positively homogeneous, so under one proportional load the energy of an adhesion is quadratic in the load, and the
+// mixities do not change:
 //
 //     E(w, a) = (w/w1)^2 E(w1, a),    B(w, a) = B(w1, a),
 //
-// and every front is solved for once, at the load w1 (cases/test_front_scan holds that claim against solutions at each load).
+// and every front is solved for once, at the load w1 (cases/test_front_scan holds that claim against solutions at each
+// load).
 #pragma once
 
 #include <cstddef>
@@ -21,8 +23,8 @@ namespace reference {
 // What a broken pair costs. Equal pure-mode toughness does not make it a constant: with exponents 2 the criterion gives
 // Gc(B) = G / sqrt((1-B)^2 + B^2), up to 1.414 G at B = 1/2.
 enum class MixityRule {
-    pure,      // the tangential toughness, whatever the mixity
-    frozen,    // a pair's mixity in the scan's own state at the end of the step before (first step: in the elastic state)
+    pure,    // the tangential toughness, whatever the mixity
+    frozen,  // a pair's mixity in the scan's own state at the end of the step before (first step: in the elastic state)
     converged  // a pair's mixity in the state in which it broke: the front at this very pair
 };
 const char* rule_name(MixityRule rule);
@@ -70,8 +72,8 @@ public:
     double cost(std::size_t front, std::size_t pair) const { return cost_[front][pair]; }
     // The scan itself, with its own history, over the given loads.
     std::vector<ScanStep> scan(const std::vector<double>& loads, MixityRule rule) const;
-    // First load at which another front has as little energy as the initial one. only_next: only the next pair may break, which is
-    // Griffith's local criterion on this mesh.
+    // First load at which another front has as little energy as the initial one. only_next: only the next pair may
+    // break, which is Griffith's local criterion on this mesh.
     Crossing crossing(MixityRule rule, bool only_next = false) const;
 
 private:

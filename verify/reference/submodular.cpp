@@ -6,15 +6,15 @@
 #include <numeric>
 #include <optional>
 
-namespace harness {
+namespace reference {
 namespace {
 
 using Vector = std::vector<double>;
 
 double dot(const Vector& a, const Vector& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
 
-// Coefficients, with sum 1, of the point of least norm in the affine hull: (G + 1 1^T) mu = 1, lambda = mu / sum(mu), G the Gram matrix.
-// Nothing where the points are affinely dependent.
+// Coefficients, with sum 1, of the point of least norm in the affine hull: (G + 1 1^T) mu = 1, lambda = mu / sum(mu), G
+// the Gram matrix. Nothing where the points are affinely dependent.
 std::optional<Vector> affine_minimiser(const std::vector<Vector>& points) {
     const std::size_t m = points.size();
     double scale = 0.0;
@@ -24,9 +24,12 @@ std::optional<Vector> affine_minimiser(const std::vector<Vector>& points) {
         for (std::size_t j = 0; j <= i; ++j) {
             double value = dot(points[i], points[j]) + scale;
             for (std::size_t k = 0; k < j; ++k) value -= l[i][k] * l[j][k];
-            if (i != j) l[i][j] = value / l[j][j];
-            else if (value > 1e-13 * scale) l[i][i] = std::sqrt(value);
-            else return std::nullopt;
+            if (i != j)
+                l[i][j] = value / l[j][j];
+            else if (value > 1e-13 * scale)
+                l[i][i] = std::sqrt(value);
+            else
+                return std::nullopt;
         }
     }
     Vector mu(m, 1.0);
@@ -87,7 +90,8 @@ SubmodularMinimum minimise_submodular(std::size_t n, const SetFunction& f, int l
             result.converged = true;
             break;
         }
-        if (std::find(points.begin(), points.end(), q) != points.end()) break;  // rounding, or a function that is not submodular
+        if (std::find(points.begin(), points.end(), q) != points.end())
+            break;  // rounding, or a function that is not submodular
         points.push_back(q);
         weight.push_back(0.0);
         bool independent = true;
@@ -124,4 +128,4 @@ SubmodularMinimum minimise_submodular(std::size_t n, const SetFunction& f, int l
     return result;
 }
 
-}  // namespace harness
+}  // namespace reference
