@@ -40,10 +40,14 @@ Choice choose(const std::string& method, reference::MixityRule rule) {
     return choice;
 }
 
-// First step in which the front went further than it does by the rounding of a stiff spring: a tenth of a millimetre.
-int first_move(const March& march) {
-    for (std::size_t k = 0; k < march.steps.size(); ++k)
-        if (march.steps[k].front > 1e-4) return static_cast<int>(k) + 1;
+// First step in which the debonded run grew by a quarter of what the scan's first jump is long: a process zone that
+// unfolds ahead of a front is no jump. 0: none.
+int first_jump(const March& march, double scan_advance) {
+    double before = 0.0;
+    for (std::size_t k = 0; k < march.steps.size(); ++k) {
+        if (march.steps[k].debonded - before > 0.25 * scan_advance) return static_cast<int>(k) + 1;
+        before = march.steps[k].debonded;
+    }
     return 0;
 }
 
@@ -75,7 +79,9 @@ void compare(Table& table, reference::Flexure data, const reference::Fronts& fro
             above += e > 1e-6 ? 1 : 0;
             refused += march.steps[k].converged ? 0 : 1;
         }
-        const int move = first_move(march);
+        const double scan_advance =
+            scan_step < steps ? fronts.list()[scan[static_cast<std::size_t>(scan_step)].front].advance : 0.0;
+        const int move = first_jump(march, scan_advance);
         const auto at_jump = static_cast<std::size_t>(std::max(1, move) - 1);
         const Record& jump = march.steps[at_jump];
         const Record& end = march.steps.back();
@@ -99,8 +105,9 @@ Table energetic(const Options& options) {
         "Brittle specimens per metre of width, 40 steps to 6 mm. exponent: of the criterion, 1: the toughness does not "
         "depend on the mixity. excess: largest "
         "(stored + dissipated) / (the scan's) - 1 over the steps (1e-6 is allowed), and the steps in which it is "
-        "larger. jump_step, jump_mm: first step "
-        "whose front is not the initial one, and its load; scan_step: the scan's. drop: energy of the state before, "
+        "larger. jump_step, jump_mm: first step that "
+        "debonds a quarter of the scan's first jump or more, and its load; scan_step: the scan's. drop: energy of the "
+        "state before, "
         "carried on to that step's load, less "
         "energy and dissipation of the state after. toughness: dissipated per length of the whole advance, J/m2, the "
         "library's and the scan's. defect: "

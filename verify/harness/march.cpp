@@ -75,6 +75,7 @@ March run(const reference::Flexure& data, int steps, const Choice& choice, bool 
         r.increment = solver.value("increment");
         r.increment_lower = solver.value("increment_lower");
         r.front = solver.value("front");
+        r.debonded = solver.value("debonded_length");
         r.am_iterations = solver.value("am_iterations");
         r.newton_solves = solver.value("newton_solves");
         r.displacement_solves = solver.value("displacement_solves");

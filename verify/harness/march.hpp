@@ -22,7 +22,7 @@ struct Record {
     double stored_bulk = 0.0, stored_interface = 0.0, dissipated = 0.0, work = 0.0;
     double stored_interface_slides = 0.0, dissipated_slides = 0.0;
     double lower = 0.0, upper = 0.0, increment = 0.0, increment_lower = 0.0;  // of the step
-    double front = 0.0;                                                       // m, advance
+    double front = 0.0, debonded = 0.0;                                       // m: advance; length with zeta <= 1e-3
     double am_iterations = 0.0, newton_solves = 0.0, displacement_solves = 0.0, candidates = 0.0, backtracks = 0.0;
     double jumps = 0.0, released = 0.0;
     bool converged = true;
