@@ -13,6 +13,33 @@ double optional_value(const reference::Solver& solver, const char* key) {
     return delam_solver_value(solver.get(), key, &value) == DELAM_OK ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
+// What is booked of the step that the solver speaks of.
+Record read(const reference::Solver& solver, bool keep_adhesion) {
+    Record r;
+    r.reaction = solver.value("reaction:press");
+    r.stored_bulk = solver.value("stored_bulk");
+    r.stored_interface = solver.value("stored_interface");
+    r.dissipated = solver.value("dissipated");
+    r.work = solver.value("work");
+    r.stored_interface_slides = solver.value("stored_interface_slides");
+    r.dissipated_slides = solver.value("dissipated_slides");
+    r.lower = solver.value("lower");
+    r.upper = solver.value("upper");
+    r.increment = solver.value("increment");
+    r.increment_lower = solver.value("increment_lower");
+    r.front = solver.value("front");
+    r.debonded = solver.value("debonded_length");
+    r.am_iterations = solver.value("am_iterations");
+    r.newton_solves = solver.value("newton_solves");
+    r.displacement_solves = solver.value("displacement_solves");
+    r.candidates = optional_value(solver, "search_candidates");
+    r.backtracks = solver.value("backtracks");
+    r.jumps = optional_value(solver, "jumps");
+    r.released = optional_value(solver, "released");
+    if (keep_adhesion) r.adhesion = solver.field("adhesion");
+    return r;
+}
+
 }  // namespace
 
 double Record::lower_violation() const {
@@ -61,31 +88,20 @@ March run(const reference::Flexure& data, int steps, const Choice& choice, bool 
         const std::int32_t status = solver.advance(time);
         if (status < 0) scene.require(status, "delam_solver_advance");
         solver.commit();
-        Record r;
-        r.load = data.load(time);
-        r.reaction = solver.value("reaction:press");
-        r.stored_bulk = solver.value("stored_bulk");
-        r.stored_interface = solver.value("stored_interface");
-        r.dissipated = solver.value("dissipated");
-        r.work = solver.value("work");
-        r.stored_interface_slides = solver.value("stored_interface_slides");
-        r.dissipated_slides = solver.value("dissipated_slides");
-        r.lower = solver.value("lower");
-        r.upper = solver.value("upper");
-        r.increment = solver.value("increment");
-        r.increment_lower = solver.value("increment_lower");
-        r.front = solver.value("front");
-        r.debonded = solver.value("debonded_length");
-        r.am_iterations = solver.value("am_iterations");
-        r.newton_solves = solver.value("newton_solves");
-        r.displacement_solves = solver.value("displacement_solves");
-        r.candidates = optional_value(solver, "search_candidates");
-        r.backtracks = solver.value("backtracks");
-        r.jumps = optional_value(solver, "jumps");
-        r.released = optional_value(solver, "released");
-        r.converged = status == DELAM_OK;
-        if (keep_adhesion) r.adhesion = solver.field("adhesion");
-        march.steps.push_back(std::move(r));
+        // Returns of the backtracking replace earlier steps: they are read again.
+        const double revised_from = optional_value(solver, "revised_from");
+        const int first = revised_from < k ? static_cast<int>(revised_from) : k;
+        march.steps.resize(static_cast<std::size_t>(k));
+        march.steps.back().converged = status == DELAM_OK;
+        for (int i = first; i <= k; ++i) {
+            if (first < k) scene.require(delam_solver_look(solver.get(), i), "delam_solver_look");
+            Record& r = march.steps[static_cast<std::size_t>(i - 1)];
+            const bool converged = r.converged;
+            r = read(solver, keep_adhesion);
+            r.converged = converged;
+            r.load = data.load(data.end_time * i / steps);
+        }
+        if (first < k) scene.require(delam_solver_look(solver.get(), -1), "delam_solver_look");
     }
     return march;
 }
