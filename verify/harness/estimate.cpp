@@ -75,7 +75,7 @@ void series(Table& table, const Options& options, const std::string& name, doubl
         for (const Cell& cell :
              std::vector<Cell>{low_eta, high_eta, low, high, worst, band, order_of_errors(sizes, bands), defects.back(),
                                order_of_errors(sizes, defects), slides.back(), order_of_errors(sizes, slides), drop,
-                               march.sum(&Record::backtracks), refused, where})
+                               march.spent.backtracks, refused, where})
             row.push_back(cell);
     }
 }

@@ -50,12 +50,6 @@ double Record::upper_violation() const {
     return (increment - upper) / std::max(std::abs(stored_bulk + stored_interface), std::abs(work));
 }
 
-double March::sum(double Record::*member) const {
-    double total = 0.0;
-    for (const Record& r : steps) total += r.*member;
-    return total;
-}
-
 double March::defect() const {
     double worst = 0.0;
     for (const Record& r : steps) worst = std::max(worst, std::abs(r.total() - r.work));
@@ -88,6 +82,10 @@ March run(const reference::Flexure& data, int steps, const Choice& choice, bool 
         const std::int32_t status = solver.advance(time);
         if (status < 0) scene.require(status, "delam_solver_advance");
         solver.commit();
+        const Record now = read(solver, false);
+        for (double Record::*count : {&Record::am_iterations, &Record::newton_solves, &Record::displacement_solves,
+                                      &Record::candidates, &Record::backtracks})
+            march.spent.*count += now.*count;
         // Returns of the backtracking replace earlier steps: they are read again.
         const double revised_from = optional_value(solver, "revised_from");
         const int first = revised_from < k ? static_cast<int>(revised_from) : k;
@@ -103,6 +101,14 @@ March run(const reference::Flexure& data, int steps, const Choice& choice, bool 
         }
         if (first < k) scene.require(delam_solver_look(solver.get(), -1), "delam_solver_look");
     }
+    std::int64_t jumps = 0;
+    double time = std::numeric_limits<double>::quiet_NaN();
+    scene.require(delam_solver_jump_count(solver.get(), &jumps), "delam_solver_jump_count");
+    if (jumps > 0)
+        scene.require(delam_solver_jump(solver.get(), 0, nullptr, nullptr, &time, nullptr, nullptr, nullptr, nullptr,
+                                        nullptr, nullptr, nullptr),
+                      "delam_solver_jump");
+    march.first_jump = data.load(time);
     return march;
 }
 

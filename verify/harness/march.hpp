@@ -40,7 +40,9 @@ struct Record {
 
 struct March {
     std::vector<Record> steps;
-    std::string refused;  // the library's own words where it does not know an option; no steps then
+    Record spent;             // counts of all calls, also of steps that were replaced later
+    double first_jump = 0.0;  // m, load of the first jump that was located; NaN: none
+    std::string refused;      // the library's own words where it does not know an option; no steps then
     double sum(double Record::*member) const;
     // Largest |stored + dissipated - work|, in either ledger.
     double defect() const;
