@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Worst relative differences of one FETI displacement step per load step to the direct reference, over the ductile
 // march.
+#include "../cases/feti_direct.hpp"
+
 #include <algorithm>
 
-#include "../cases/feti_direct.hpp"
 #include "table.hpp"
 
 namespace harness {

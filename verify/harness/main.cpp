@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 
@@ -14,6 +15,9 @@ int main(int argc, char** argv) {
             options.json = true;
         } else if (std::strcmp(argv[i], "--quick") == 0) {
             options.quick = true;
+        } else if (std::strcmp(argv[i], "--finest") == 0 && i + 1 < argc) {
+            options.finest = 1e-3 * std::strtod(argv[++i], nullptr);
+            understood = understood && options.finest > 0.0;
         } else if (name == nullptr && argv[i][0] != '-') {
             name = argv[i];
         } else {
@@ -26,7 +30,12 @@ int main(int argc, char** argv) {
     } tables[] = {{"pcg", harness::pcg},
                   {"contact", harness::contact},
                   {"balance", harness::balance},
-                  {"feti-direct", harness::feti_direct}};
+                  {"feti-direct", harness::feti_direct},
+                  {"energetic", harness::energetic},
+                  {"jump-instant", harness::jump_instant},
+                  {"estimate", harness::estimate},
+                  {"convergence", harness::convergence},
+                  {"sets", harness::sets}};
     for (const auto& table : tables) {
         if (!understood || name == nullptr || std::strcmp(name, table.name) != 0) continue;
         try {
@@ -38,6 +47,8 @@ int main(int argc, char** argv) {
             return 1;
         }
     }
-    std::fprintf(stderr, "usage: delam_harness [--json] [--quick] pcg | contact | balance | feti-direct\n");
+    std::fprintf(stderr,
+                 "usage: delam_harness [--json] [--quick] [--finest MM] TABLE\n"
+                 "tables: pcg, contact, balance, feti-direct, energetic, jump-instant, estimate, convergence, sets\n");
     return 1;
 }

@@ -31,12 +31,18 @@ struct Table {
 struct Options {
     bool json = false;
     bool quick = false;
+    double finest = 0.0;  // m: finer meshes are left out
 };
 
 Table pcg(const Options& options);
 Table contact(const Options& options);
 Table balance(const Options& options);
 Table feti_direct(const Options& options);
+Table energetic(const Options& options);
+Table jump_instant(const Options& options);
+Table estimate(const Options& options);
+Table convergence(const Options& options);
+Table sets(const Options& options);
 
 // One line on stderr, so that long tables show where they are.
 void progress(const std::string& text);

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "march.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace harness {
+namespace {
+
+double optional_value(const reference::Solver& solver, const char* key) {
+    double value = 0.0;
+    return delam_solver_value(solver.get(), key, &value) == DELAM_OK ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+// What is booked of the step that the solver speaks of.
+Record read(const reference::Solver& solver, bool keep_adhesion) {
+    Record r;
+    r.reaction = solver.value("reaction:press");
+    r.stored_bulk = solver.value("stored_bulk");
+    r.stored_interface = solver.value("stored_interface");
+    r.dissipated = solver.value("dissipated");
+    r.work = solver.value("work");
+    r.stored_interface_slides = solver.value("stored_interface_slides");
+    r.dissipated_slides = solver.value("dissipated_slides");
+    r.lower = solver.value("lower");
+    r.upper = solver.value("upper");
+    r.increment = solver.value("increment");
+    r.increment_lower = solver.value("increment_lower");
+    r.front = solver.value("front");
+    r.debonded = solver.value("debonded_length");
+    r.am_iterations = solver.value("am_iterations");
+    r.newton_solves = solver.value("newton_solves");
+    r.displacement_solves = solver.value("displacement_solves");
+    r.candidates = optional_value(solver, "search_candidates");
+    r.backtracks = solver.value("backtracks");
+    r.jumps = optional_value(solver, "jumps");
+    r.released = optional_value(solver, "released");
+    if (keep_adhesion) r.adhesion = solver.field("adhesion");
+    return r;
+}
+
+}  // namespace
+
+double Record::lower_violation() const {
+    return (lower - increment_lower) / std::max(std::abs(stored_bulk + stored_interface), std::abs(work));
+}
+
+double Record::upper_violation() const {
+    return (increment - upper) / std::max(std::abs(stored_bulk + stored_interface), std::abs(work));
+}
+
+double March::defect() const {
+    double worst = 0.0;
+    for (const Record& r : steps) worst = std::max(worst, std::abs(r.total() - r.work));
+    return worst;
+}
+
+double March::defect_slides() const {
+    double worst = 0.0;
+    for (const Record& r : steps) worst = std::max(worst, std::abs(r.total_slides() - r.work));
+    return worst;
+}
+
+March run(const reference::Flexure& data, int steps, const Choice& choice, bool keep_adhesion) {
+    March march;
+    const reference::FlexureScene flexure = reference::make_flexure(data);
+    const reference::Scene& scene = flexure.scene;
+    for (const auto& [key, value] : choice.texts) {
+        if (delam_problem_set_text(scene.problem(), key.c_str(), value.c_str()) == DELAM_OK) continue;
+        march.refused = delam_context_message(scene.context());
+        return march;
+    }
+    for (const auto& [key, value] : choice.numbers) {
+        if (delam_problem_set_number(scene.problem(), key.c_str(), value) == DELAM_OK) continue;
+        march.refused = delam_context_message(scene.context());
+        return march;
+    }
+    reference::Solver solver(scene, 0.0);
+    for (int k = 1; k <= steps; ++k) {
+        const double time = data.end_time * k / steps;
+        const std::int32_t status = solver.advance(time);
+        if (status < 0) scene.require(status, "delam_solver_advance");
+        solver.commit();
+        const Record now = read(solver, false);
+        for (double Record::*count : {&Record::am_iterations, &Record::newton_solves, &Record::displacement_solves,
+                                      &Record::candidates, &Record::backtracks})
+            march.spent.*count += now.*count;
+        // Returns of the backtracking replace earlier steps: they are read again.
+        const double revised_from = optional_value(solver, "revised_from");
+        const int first = revised_from < k ? static_cast<int>(revised_from) : k;
+        march.steps.resize(static_cast<std::size_t>(k));
+        march.steps.back().converged = status == DELAM_OK;
+        for (int i = first; i <= k; ++i) {
+            if (first < k) scene.require(delam_solver_look(solver.get(), i), "delam_solver_look");
+            Record& r = march.steps[static_cast<std::size_t>(i - 1)];
+            const bool converged = r.converged;
+            r = read(solver, keep_adhesion);
+            r.converged = converged;
+            r.load = data.load(data.end_time * i / steps);
+        }
+        if (first < k) scene.require(delam_solver_look(solver.get(), -1), "delam_solver_look");
+    }
+    std::int64_t jumps = 0;
+    double time = std::numeric_limits<double>::quiet_NaN();
+    scene.require(delam_solver_jump_count(solver.get(), &jumps), "delam_solver_jump_count");
+    if (jumps > 0)
+        scene.require(delam_solver_jump(solver.get(), 0, nullptr, nullptr, &time, nullptr, nullptr, nullptr, nullptr,
+                                        nullptr, nullptr, nullptr),
+                      "delam_solver_jump");
+    march.first_jump = data.load(time);
+    return march;
+}
+
+std::string skipped(const std::string& refused) {
+    return std::string("skipped: ").append(refused, 0, refused.find(';'));
+}
+
+double at(const std::vector<double>& values, double part) {
+    const double place = part * static_cast<double>(values.size());
+    const auto left = std::min(values.size() - 1, static_cast<std::size_t>(place));
+    const double first = left == 0 ? 0.0 : values[left - 1];
+    const double share = place - static_cast<double>(left);
+    return first + share * (values[left] - first);
+}
+
+}  // namespace harness
