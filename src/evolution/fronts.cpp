@@ -8,6 +8,8 @@ namespace delam {
 
 namespace {
 
+constexpr double worth_mentioning = 1e-9;  // of the toughness
+
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 // Connected parts of a set of pairs, each ascending.
@@ -57,11 +59,20 @@ PairGraph::PairGraph(std::span<const InterfaceGeometry> interfaces) {
     for (std::size_t p = 0; p + 1 < start_.size(); ++p) start_[p + 1] += start_[p];
 }
 
-std::vector<Front> find_fronts(const PairGraph& graph, const PairLaws& pairs, std::span<const double> adhesion,
+std::vector<std::uint8_t> adhering_pairs(const PairLaws& pairs, std::span<const double> adhesion, std::span<const Toughness> toughness) {
+    std::vector<std::uint8_t> adhering(adhesion.size(), 0);
+    for (std::size_t p = 0; p < adhering.size(); ++p) {
+        if (pairs.law[p] == nullptr || !(adhesion[p] > 0.0)) continue;
+        const double left = toughness[p].total - pairs.law[p]->dissipated(toughness[p], adhesion[p]);
+        adhering[p] = left > worth_mentioning * toughness[p].total ? 1 : 0;
+    }
+    return adhering;
+}
+
+std::vector<Front> find_fronts(const PairGraph& graph, const PairLaws& pairs, std::span<const std::uint8_t> adhering,
                                std::span<const Toughness> toughness, std::span<const double> jump, std::size_t seeds) {
-    const std::size_t count = adhesion.size();
-    std::vector<std::uint8_t> adhering(count, 0), front(count, 0);
-    for (std::size_t p = 0; p < count; ++p) adhering[p] = pairs.law[p] != nullptr && adhesion[p] > debonded_below ? 1 : 0;
+    const std::size_t count = adhering.size();
+    std::vector<std::uint8_t> front(count, 0);
     for (std::size_t p = 0; p < count; ++p)
         for (const std::int64_t q : graph.neighbours(p))
             if (adhering[p] != 0 && pairs.law[index(q)] != nullptr && adhering[index(q)] == 0) front[p] = 1;
@@ -99,16 +110,15 @@ std::vector<Front> find_fronts(const PairGraph& graph, const PairLaws& pairs, st
     return found;
 }
 
-std::vector<std::vector<std::int64_t>> rings(const PairGraph& graph, const PairLaws& pairs, std::span<const double> adhesion,
-                                             const Front& front) {
+std::vector<std::vector<std::int64_t>> rings(const PairGraph& graph, std::span<const std::uint8_t> adhering, const Front& front) {
     std::vector<std::vector<std::int64_t>> found{front.pairs};
-    std::vector<std::uint8_t> seen(adhesion.size(), 0);
+    std::vector<std::uint8_t> seen(adhering.size(), 0);
     for (const std::int64_t p : front.pairs) seen[index(p)] = 1;
     while (true) {
         std::vector<std::int64_t> next;
         for (const std::int64_t p : found.back())
             for (const std::int64_t q : graph.neighbours(index(p))) {
-                if (seen[index(q)] != 0 || pairs.law[index(q)] == nullptr || adhesion[index(q)] <= debonded_below) continue;
+                if (seen[index(q)] != 0 || adhering[index(q)] == 0) continue;
                 seen[index(q)] = 1;
                 next.push_back(q);
             }

@@ -38,15 +38,17 @@ struct Front {
     std::vector<std::int64_t> pairs;  // where it starts, the first ring
 };
 
-// Adhesion below this counts as debonded.
+// Adhesion below this counts as debonded in what is reported.
 inline constexpr double debonded_below = 1e-3;
 
-// Fronts of the debonded regions; then, in adhering regions, the ends of lines and up to `seeds` pairs per interface whose driving energy is
-// the largest part of their onset among their neighbours.
-std::vector<Front> find_fronts(const PairGraph& graph, const PairLaws& pairs, std::span<const double> adhesion,
+// [pairs] 1 where anything worth mentioning is left to dissipate. The adhesion itself does not tell: at k = 1e17 N/m3 a
+// thousandth of it still bridges a crack.
+std::vector<std::uint8_t> adhering_pairs(const PairLaws& pairs, std::span<const double> adhesion, std::span<const Toughness> toughness);
+// Fronts of the debonded regions; then, in adhering regions, the ends of lines and up to `seeds` pairs per interface
+// whose driving energy is the largest part of their onset among their neighbours.
+std::vector<Front> find_fronts(const PairGraph& graph, const PairLaws& pairs, std::span<const std::uint8_t> adhering,
                                std::span<const Toughness> toughness, std::span<const double> jump, std::size_t seeds);
 // Rings of adhering pairs around a front, the front itself first.
-std::vector<std::vector<std::int64_t>> rings(const PairGraph& graph, const PairLaws& pairs, std::span<const double> adhesion,
-                                             const Front& front);
+std::vector<std::vector<std::int64_t>> rings(const PairGraph& graph, std::span<const std::uint8_t> adhering, const Front& front);
 
 }  // namespace delam

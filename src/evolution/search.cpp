@@ -68,6 +68,10 @@ void Search::aim(const State& from) {
     if (!std::isfinite(unit_floor_)) unit_floor_ = dead ? -infinite : 0.0;
 }
 
+std::vector<std::uint8_t> Search::adhering(const Candidate& base) const {
+    return adhering_pairs(pairs_, base.adhesion, toughnesses(pairs_, base.mixity));
+}
+
 void Search::focus(std::span<const std::uint8_t> wanted) {
     if (!zone_) return;
     std::vector<std::uint8_t> pairs(wanted.begin(), wanted.end());
@@ -79,10 +83,10 @@ void Search::focus(std::span<const std::uint8_t> wanted) {
 const Search::Energy& Search::energy(const std::vector<double>& adhesion, std::span<const std::int64_t> next,
                                      std::span<const double> known) {
     const std::uint64_t key = key_of(adhesion);
-    if (const auto it = known_.find(key); it != known_.end() && (!follow_mixity_ || it->second.next_mixity.size() >= next.size()))
+    if (const auto it = known_.find(key); it != known_.end() && (!follow_mixity_ || next.empty() || std::ranges::equal(it->second.next, next)))
         return it->second;
     monitor_.progress("search", result_ != nullptr ? result_->candidates : 0, 0);
-    Energy e{infinite, {}};
+    Energy e{infinite, {next.begin(), next.end()}, {}};
     bool within = focused_;
     for (std::size_t p = 0; within && p < adhesion.size(); ++p) within = adhesion[p] == from_->adhesion[p] || zone_->inside(p);
     for (std::size_t i = 0; within && follow_mixity_ && i < next.size(); ++i) within = zone_->inside(index(next[i]));
@@ -142,6 +146,7 @@ public:
     double bound() const;
 
 private:
+    bool touches_debonded(std::span<const std::int64_t> ring) const;
     Candidate candidate(std::size_t n) const;
     void sample(std::size_t n);
     void refine_minimum();
@@ -151,6 +156,7 @@ private:
 
     Search& search_;
     const Candidate& base_;
+    std::vector<std::uint8_t> adhering_;
     std::vector<std::vector<std::int64_t>> ring_;
     bool nucleation_;
     std::map<std::size_t, Candidate> value_;          // by rings; adhesion is left out: only I and D are needed
@@ -161,9 +167,17 @@ private:
     bool stopped_ = false;
 };
 
+// A new crack that meets an older one is an advance of that one, with the mixity that its front brings.
+bool Search::Sweep::touches_debonded(std::span<const std::int64_t> ring) const {
+    for (const std::int64_t p : ring)
+        for (const std::int64_t q : search_.graph_.neighbours(index(p)))
+            if (search_.pairs_.law[index(q)] != nullptr && adhering_[index(q)] == 0) return true;
+    return false;
+}
+
 // Keeps the rings whose dissipation alone does not yet exceed what could be gained.
 Search::Sweep::Sweep(Search& search, const Front& front, const Candidate& base)
-    : search_(search), base_(base), ring_(rings(search.graph_, search.pairs_, base.adhesion, front)), nucleation_(front.nucleation),
+    : search_(search), base_(base), adhering_(search.adhering(base)), ring_(rings(search.graph_, adhering_, front)), nucleation_(front.nucleation),
       all_(ring_.size()) {
     double spent = dissipation(search.pairs_, base.mixity, search.before_->adhesion, base.adhesion);
     std::vector<std::uint8_t> wanted(base.adhesion.size(), 0);
@@ -174,7 +188,7 @@ Search::Sweep::Sweep(Search& search, const Front& front, const Candidate& base)
     while (keep < ring_.size() && (keep < 2 || search.floor_ + spent < search.best_)) {
         rows += ring_[keep].size();
         if (keep > 0 && (search.zone_ && rows * static_cast<std::size_t>(search.pairs_.dimension) > largest_zone)) break;
-        if (nucleation_ && keep == largest_crack) break;
+        if (nucleation_ && (keep == largest_crack || touches_debonded(ring_[keep]))) break;
         for (const std::int64_t p : ring_[keep]) {
             const Toughness t = search.pairs_.toughness(index(p), base.mixity[index(p)]);
             spent += search.pairs_.weight[index(p)] * (t.total - search.pairs_.law[index(p)]->dissipated(t, base.adhesion[index(p)]));
@@ -314,7 +328,7 @@ SearchResult Search::run(const State& before, const State& from, std::span<const
 
     const Candidate start{before.adhesion, {mixity.begin(), mixity.end()}, 0.0};
     const std::vector<Front> fronts =
-        find_fronts(graph_, pairs_, before.adhesion, toughnesses(pairs_, start.mixity), from.response.jump, seeds);
+        find_fronts(graph_, pairs_, adhering(start), toughnesses(pairs_, start.mixity), from.response.jump, seeds);
     std::vector<Candidate> found;
     const auto lower = [](const Candidate& a, const Candidate& b) { return a.incremental < b.incremental; };
     const auto look = [&](const Front& front, const Candidate& base, const char* with) {
@@ -341,7 +355,7 @@ SearchResult Search::run(const State& before, const State& from, std::span<const
         for (int round = 0; round < rounds && !found.empty() && left_ > 0; ++round) {
             const Candidate base = *std::min_element(found.begin(), found.end(), lower);
             if (base.incremental >= level) break;
-            for (const Front& front : find_fronts(graph_, pairs_, base.adhesion, toughnesses(pairs_, base.mixity), from.response.jump, 0))
+            for (const Front& front : find_fronts(graph_, pairs_, adhering(base), toughnesses(pairs_, base.mixity), from.response.jump, 0))
                 if (!front.nucleation) look(front, base, " from the lowest so far");
             if (std::min_element(found.begin(), found.end(), lower)->incremental >= base.incremental) break;
         }
@@ -357,7 +371,7 @@ void Search::advance_together(const Candidate& start, std::span<const Front> fro
     std::size_t longest = 0;
     for (const Front& front : fronts)
         if (!front.nucleation) {
-            ring.push_back(rings(graph_, pairs_, start.adhesion, front));
+            ring.push_back(rings(graph_, adhering(start), front));
             longest = std::max(longest, ring.back().size());
         }
     if (ring.size() < 2) return;

@@ -57,12 +57,14 @@ public:
 private:
     struct Energy {
         double value;  // at the unit load; infinite: nothing balances the load
-        std::vector<double> next_mixity;  // of the pairs of the next ring
+        std::vector<std::int64_t> next;   // pairs that may break next
+        std::vector<double> next_mixity;  // which they show
     };
     class Sweep;
 
     const Energy& energy(const std::vector<double>& adhesion, std::span<const std::int64_t> next, std::span<const double> known);
     void aim(const State& from);
+    std::vector<std::uint8_t> adhering(const Candidate& base) const;
     // Lets energies of states come from a zone about these pairs.
     void focus(std::span<const std::uint8_t> wanted);
     // I of a candidate; counts it.

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace delam {
 
 namespace {
 
 constexpr double noise = 1e-11;             // of the largest jump or force in the zone: rounding
-constexpr std::int64_t contact_steps = 30;  // beyond them the last set is taken: an energy of a start, not of a result
+constexpr std::int64_t contact_steps = 200;  // beyond them the energy is not told
 
 double largest(std::span<const double> values) {
     double m = 0.0;
@@ -65,8 +66,11 @@ std::optional<double> ZoneEnergies::zone_energy(std::span<const double> adhesion
         spring[z] = pairs_.weight[p] * adhesion[p] * (row % dim == 0 ? law.normal_stiffness : law.tangential_stiffness);
         if (spring[z] > 0.0) couplings.push_back({static_cast<std::int64_t>(z), static_cast<std::int64_t>(z), spring[z]});
     }
+    // All pairs that violate their side at once; once a set comes back, the one of least index (contact.hpp).
     std::vector<double> unknowns;
-    for (std::int64_t step = 0; step < contact_steps; ++step) {
+    std::set<std::vector<std::uint8_t>> seen;
+    bool settled = false, one_at_a_time = false;
+    for (std::int64_t step = 0; step < contact_steps && !settled; ++step) {
         if (!zone_->factor(couplings, held_)) return std::nullopt;
         const Zone::Solution solution = zone_->solve(known_->theta, {});
         if (!solution.balanced) return std::nullopt;
@@ -76,14 +80,15 @@ std::optional<double> ZoneEnergies::zone_energy(std::span<const double> adhesion
         for (std::size_t z = 0; z < force.size(); ++z) force[z] = spring[z] * jump_[z];
         zone_->complete_forces(known_->theta, solution, force);
         const double jump_scale = noise * largest(jump_), force_scale = noise * largest(force);
-        bool settled = true;
-        for (std::size_t z = 0; z < held_.size(); ++z) {
+        one_at_a_time = one_at_a_time || !seen.insert(held_).second;
+        settled = true;
+        for (std::size_t z = 0; z < held_.size() && !(one_at_a_time && !settled); ++z) {
             if (normal_[z] == 0 || (held_[z] != 0 ? force[z] <= force_scale : jump_[z] >= -jump_scale)) continue;
             held_[z] ^= 1;
             settled = false;
         }
-        if (settled) break;
     }
+    if (!settled) return std::nullopt;
     double energy = zone_->energy_of(known_->theta, unknowns);
     for (std::size_t z = 0; z < spring.size(); ++z) energy += 0.5 * spring[z] * jump_[z] * jump_[z];
     return energy;
