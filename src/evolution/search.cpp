@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <memory>
 #include <map>
 #include <optional>
 
@@ -17,7 +18,8 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t seeds = 2;           // places per interface where a new crack is tried besides the ends of lines
-constexpr std::size_t fine = 32;           // rings that are all sampled; of longer sweeps about as many
+constexpr std::ptrdiff_t most_contacts = 64;  // of the bound E_all
+constexpr std::size_t fine = 16;           // rings that are all sampled; of longer sweeps about as many
 constexpr std::size_t most_entries = 1U << 20U;  // energies kept
 constexpr std::size_t largest_zone = 1500; // rows in which sweeps of a condensed scene live
 constexpr std::size_t largest_crack = 32;  // rings of a new crack, and of the zone about it
@@ -59,13 +61,23 @@ void Search::aim(const State& from) {
     known_.clear();
     unit_floor_ = 0.0;
     if (size_ == 0.0 || !(first || dead)) return;
+    // With contact tested at a few pairs only: less than E_all, and a small problem.
     std::vector<double> nothing(from.adhesion);
     for (std::size_t p = 0; p < nothing.size(); ++p)
         if (pairs_.law[p] != nullptr) nothing[p] = 0.0;
-    focused_ = false;
-    closed_ = from.closed;
-    unit_floor_ = energy(nothing, {}, from.mixity).value;
-    if (!std::isfinite(unit_floor_)) unit_floor_ = dead ? -infinite : 0.0;
+    ContactScene coarse = contact_;
+    const auto members = [&](std::uint8_t level) { return std::ranges::count_if(coarse.level, [&](std::uint8_t l) { return l >= level; }); };
+    while (members(coarse.least_level) > most_contacts && members(static_cast<std::uint8_t>(coarse.least_level + 1)) > 0) ++coarse.least_level;
+    const std::unique_ptr<JumpOperator> twin = op_.twin();
+    std::vector<std::uint8_t> closed(nothing.size(), 0);
+    Response response;
+    unit_floor_ = dead ? -infinite : 0.0;
+    try {
+        solve_contact(twin ? *twin : op_, coarse, spring_stiffness(pairs_, nothing), direction_, closed, response, false);
+        if (response.balanced) unit_floor_ = response.stored_bulk + response.load_potential;
+    } catch (const Error& error) {
+        if (error.status() != DELAM_LIMIT && error.status() != DELAM_ERROR_NUMERICAL) throw;
+    }
 }
 
 std::vector<std::uint8_t> Search::adhering(const Candidate& base) const {

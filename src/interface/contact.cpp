@@ -57,8 +57,8 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
     ContactResult result;
     std::set<std::string> seen;  // contact sets, as bytes
     bool all_closed_tried = false, one_at_a_time = false;
-    std::uint8_t level = cold && !scene.level.empty() ? *std::max_element(scene.level.begin(), scene.level.end()) : 0;
-    if (level > 0) std::fill(closed.begin(), closed.end(), std::uint8_t{0});
+    std::uint8_t level = cold && !scene.level.empty() ? *std::max_element(scene.level.begin(), scene.level.end()) : scene.least_level;
+    if (level > scene.least_level) std::fill(closed.begin(), closed.end(), std::uint8_t{0});
     while (true) {
         for (std::size_t p = 0; p < closed.size(); ++p)
             for (std::size_t c = 0; c < dim; ++c)
@@ -70,8 +70,9 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
             if (all_closed_tried)
                 fail(DELAM_LIMIT, "no equilibrium: a dead force acts on a part that neither bonds, supports nor contact hold");
             all_closed_tried = true;
-            level = 0;
-            for (std::size_t p = 0; p < closed.size(); ++p) closed[p] = scene.bonded[p] == 0 && prescribed[p * dim] == 0 ? 1 : 0;
+            level = scene.least_level;
+            for (std::size_t p = 0; p < closed.size(); ++p)
+                closed[p] = scene.bonded[p] == 0 && prescribed[p * dim] == 0 && scene.level[p] >= level ? 1 : 0;
             continue;
         }
         result.linear_iterations += response.iterations;
@@ -80,7 +81,7 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
 
         if (scene.always) refuse_pressed(scene, prescribed, response);
         std::vector<std::size_t> wrong = violators(scene, prescribed, closed, response, level);
-        while (wrong.empty() && level > 0) {
+        while (wrong.empty() && level > scene.least_level) {
             wrong = violators(scene, prescribed, closed, response, --level);
             seen.clear();
             one_at_a_time = false;

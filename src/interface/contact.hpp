@@ -28,6 +28,7 @@ struct ContactScene {
     int dimension = 2;
     std::vector<std::uint8_t> bonded;  // [pairs] held in every direction for ever
     std::vector<std::uint8_t> level;   // [pairs] of contact_levels.hpp
+    std::uint8_t least_level = 0;      // pairs below it are not tested and may pass through each other: less energy than any contact leaves
     std::int64_t limit = 200;
     bool always = false;  // in every step, also test pairs whose normal jump the device prescribes: they cannot close, only be pressed
 };
