@@ -42,7 +42,7 @@ std::uint64_t key_of(std::span<const double> adhesion) {
 
 Search::Search(const Problem& problem, const PairLaws& pairs, const ContactScene& contact, Monitor& monitor, JumpOperator& op)
     : problem_(problem), pairs_(pairs), contact_(contact), monitor_(monitor), op_(op), graph_(problem.mesh->interfaces()),
-      follow_mixity_(problem.options.mixity_rule == "converged") {
+      rule_(mixity_rule(pairs, problem.options.mixity_rule)), follow_mixity_(rule_ == MixityRule::converged) {
     if (auto* condensed = dynamic_cast<Condensed*>(&op)) zone_.emplace(*condensed, pairs, contact);
 }
 
@@ -127,13 +127,22 @@ const Search::Energy& Search::energy(const std::vector<double>& adhesion, std::s
     return known_[key] = std::move(e);
 }
 
+// What is minimised besides bodies and springs: g, or in the slides' split f + Gc (zeta_before - zeta).
+double Search::spent(const Candidate& c) const {
+    if (rule_ != MixityRule::variational) return dissipation(pairs_, c.mixity, before_->adhesion, c.adhesion);
+    return dissipation_slides(pairs_, c.mixity, before_->adhesion, c.adhesion) + stored_slides(pairs_, c.mixity, c.adhesion);
+}
+
+double Search::energy_before() const {
+    return rule_ == MixityRule::variational ? before_->ledger.energy_slides() : before_->ledger.energy();
+}
+
 double Search::compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity) {
     --left_;
     ++result_->candidates;
     const Energy& e = energy(candidate.adhesion, next, candidate.mixity);
     if (next_mixity != nullptr) *next_mixity = e.next_mixity;
-    candidate.incremental = size_ * size_ * e.value - before_->ledger.energy() + gradient_energy(pairs_, candidate.adhesion) +
-                            dissipation(pairs_, candidate.mixity, before_->adhesion, candidate.adhesion);
+    candidate.incremental = size_ * size_ * e.value - energy_before() + gradient_energy(pairs_, candidate.adhesion) + spent(candidate);
     result_->lowest = std::min(result_->lowest, candidate.incremental);
     best_ = std::min(best_, candidate.incremental);
     return candidate.incremental;
@@ -191,7 +200,7 @@ bool Search::Sweep::touches_debonded(std::span<const std::int64_t> ring) const {
 Search::Sweep::Sweep(Search& search, const Front& front, const Candidate& base)
     : search_(search), base_(base), adhering_(search.adhering(base)), ring_(rings(search.graph_, adhering_, front)), nucleation_(front.nucleation),
       all_(ring_.size()) {
-    double spent = dissipation(search.pairs_, base.mixity, search.before_->adhesion, base.adhesion);
+    double spent = search.spent(base);
     std::vector<std::uint8_t> wanted(base.adhesion.size(), 0);
     for (std::size_t p = 0; p < wanted.size(); ++p)
         if (base.adhesion[p] != search.before_->adhesion[p]) wanted[p] = 1;
@@ -237,14 +246,14 @@ void Search::Sweep::sample(std::size_t n) {
     std::vector<double> next_mixity;
     search_.compare(c, next, &next_mixity);
     if (n < ring_.size()) mixity_[n] = std::move(next_mixity);
-    spent_[n] = dissipation(search_.pairs_, c.mixity, search_.before_->adhesion, c.adhesion);
+    spent_[n] = search_.spent(c);
     value_[n] = Candidate{{}, {}, c.incremental};
 }
 
 double Search::Sweep::between(std::size_t low, std::size_t high) const {
     double first = spent_.at(low);  // of the first ring beyond the lower sample
     const Candidate c = candidate(low + 1);
-    first = dissipation(search_.pairs_, c.mixity, search_.before_->adhesion, c.adhesion);
+    first = search_.spent(c);
     // The gradient energy is not monotone along the front: what is left of it in between is bounded by 0.
     const double gradient = search_.pairs_.gradient.empty() ? 0.0 : gradient_energy(search_.pairs_, candidate(high).adhesion);
     return value_.at(high).incremental - gradient - spent_.at(high) + first;
@@ -335,7 +344,7 @@ SearchResult Search::run(const State& before, const State& from, std::span<const
     const double level = from.ledger.increment;
     best_ = level;
     tolerance_ = problem_.options.search_tolerance * std::max(std::abs(from.ledger.energy()), std::abs(from.ledger.work));
-    floor_ = size_ * size_ * unit_floor_ - before.ledger.energy();
+    floor_ = size_ * size_ * unit_floor_ - energy_before();
     closed_ = from.closed;
 
     const Candidate start{before.adhesion, {mixity.begin(), mixity.end()}, 0.0};
@@ -397,7 +406,7 @@ void Search::advance_together(const Candidate& start, std::span<const Front> fro
         reached = std::min(n, longest);
         compare(joint, {}, nullptr);
         if (!lowest || joint.incremental < lowest->incremental) lowest = joint;
-        if (floor_ + dissipation(pairs_, joint.mixity, before_->adhesion, joint.adhesion) >= best_) break;
+        if (floor_ + spent(joint) >= best_) break;
     }
     result_->words += text("all ", ring.size(), " fronts together: advanced by 1, 2, 4 ... ", reached, " rings\n");
     if (lowest) found.push_back(std::move(*lowest));

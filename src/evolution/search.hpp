@@ -25,6 +25,7 @@
 
 #include "base/monitor.hpp"
 #include "evolution/fronts.hpp"
+#include "evolution/mixity_rule.hpp"
 #include "evolution/state.hpp"
 #include "evolution/zone_energies.hpp"
 #include "interface/contact.hpp"
@@ -67,6 +68,8 @@ private:
     std::vector<std::uint8_t> adhering(const Candidate& base) const;
     // Lets energies of states come from a zone about these pairs.
     void focus(std::span<const std::uint8_t> wanted);
+    double spent(const Candidate& c) const;
+    double energy_before() const;
     // I of a candidate; counts it.
     double compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity);
 
@@ -78,6 +81,7 @@ private:
     Monitor& monitor_;
     JumpOperator& op_;
     PairGraph graph_;
+    MixityRule rule_;
     bool follow_mixity_;
     std::optional<ZoneEnergies> zone_;  // where the operator is condensed
     bool focused_ = false;
