@@ -244,7 +244,7 @@ void Search::Sweep::refine_minimum() {
         if (at - left <= 1 && right - at <= 1) return;
         if (best_at_ == 0 && at == 1) return;
         if (at - left > 1) sample(left + (at - left) / 2);
-        if (right - at > 1) sample(at + (right - at) / 2);
+        if (right - at > 1 && search_.left_ > 0) sample(at + (right - at) / 2);
     }
     stopped_ = true;
 }
@@ -288,9 +288,10 @@ void Search::Sweep::run() {
         sample(n);
         if (search_.floor_ + spent_.at(n) >= search_.best_) break;
     }
-    if (value_.size() < 2) return;
-    refine_minimum();
-    if (!nucleation_) close_gap();
+    if (value_.size() > 1) {
+        refine_minimum();
+        if (!nucleation_) close_gap();
+    }
     search_.result_->bound = std::min(search_.result_->bound, nucleation_ ? infinite : bound());
 }
 
@@ -318,7 +319,11 @@ SearchResult Search::run(const State& before, const State& from, std::span<const
     std::vector<Candidate> found;
     const auto lower = [](const Candidate& a, const Candidate& b) { return a.incremental < b.incremental; };
     const auto look = [&](const Front& front, const Candidate& base, const char* with) {
-        if (left_ <= 0) return;
+        if (left_ <= 0) {
+            if (!front.nucleation) result.bound = std::min(result.bound, floor_ + dissipation(pairs_, base.mixity, before.adhesion, base.adhesion));
+            result.words += text(front.nucleation ? "new crack" : "front", " of interface ", front.interface, with, ": left out by search_limit\n");
+            return;
+        }
         Sweep sweep(*this, front, base);
         sweep.run();
         const std::int64_t pair = front.pairs.front() - graph_.first_pair(front.interface);

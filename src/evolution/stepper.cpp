@@ -204,7 +204,7 @@ void Stepper::search(Result& best, const State& before, const State& start) {
     const double kept = best.state.ledger.increment;
     counts.search_candidates += found.candidates;
     counts.search_margin = std::isfinite(found.lowest) ? found.lowest - kept : 0.0;
-    counts.search_gap = std::isfinite(found.bound) ? std::max(0.0, kept - found.bound) : 0.0;
+    counts.search_gap = std::max(0.0, kept - found.bound);
     searched_ = text("step ", best.state.step, " at time ", best.state.time, ": ", found.candidates, " candidates, ", minimised,
                      " of them minimised from; the kept state lies ", counts.search_margin, " below the lowest candidate\n", found.words);
 }
