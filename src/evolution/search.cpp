@@ -351,6 +351,7 @@ SearchResult Search::run(const State& before, const State& from, std::span<const
             if (std::min_element(found.begin(), found.end(), lower)->incremental >= base.incremental) break;
         }
     }
+    break_everything(start, found);
     std::stable_sort(found.begin(), found.end(), lower);
     result.starts = std::move(found);
     return result;
@@ -380,6 +381,30 @@ void Search::advance_together(const Candidate& start, std::span<const Front> fro
     }
     result_->words += text("all ", ring.size(), " fronts together: advanced by 1, 2, 4 ... ", reached, " rings\n");
     if (lowest) found.push_back(std::move(*lowest));
+}
+
+// One interface debonded altogether, and all of them: whatever their length, which bounds the cracks that begin somewhere.
+void Search::break_everything(const Candidate& start, std::vector<Candidate>& found) {
+    std::int64_t interfaces = 0;
+    for (std::size_t p = 0; p < start.adhesion.size(); ++p)
+        if (pairs_.law[p] != nullptr) interfaces = std::max(interfaces, graph_.interface_of(p) + 1);
+    for (std::int64_t i = interfaces > 1 ? 0 : interfaces; i <= interfaces && left_ > 0; ++i) {  // the last: all of them
+        Candidate all = start;
+        std::vector<std::uint8_t> wanted(all.adhesion.size(), 0);
+        for (std::size_t p = 0; p < all.adhesion.size(); ++p) {
+            if (pairs_.law[p] == nullptr || all.adhesion[p] == 0.0 || (i < interfaces && graph_.interface_of(p) != i)) continue;
+            all.adhesion[p] = 0.0;
+            wanted[p] = 1;
+        }
+        const auto rows = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}) * pairs_.dimension);
+        if (rows == 0 || floor_ + dissipation(pairs_, all.mixity, before_->adhesion, all.adhesion) >= best_) continue;
+        focused_ = false;
+        if (rows <= largest_zone) focus(wanted);
+        compare(all, {}, nullptr);
+        result_->words += text(i == interfaces ? "everything" : text("interface ", i), " debonded: ", all.incremental - from_->ledger.increment,
+                               " above the step\n");
+        found.push_back(std::move(all));
+    }
 }
 
 }  // namespace delam

@@ -4,7 +4,7 @@
 // A candidate is the adhesion before the step with a set R of pairs debonded at once:
 //   I(R) = E(t, z_R) + D(z_before, z_R).
 // Sets grow by rings from every front and from places where a crack may begin (fronts.hpp), from all fronts together, and from each
-// front again with the others where they were best. E falls as R grows and D grows with it. So nothing between two sets R1 < R2 of a sweep
+// front again with the others where they were best; and an interface may come off altogether. E falls as R grows and D grows with it. So nothing between two sets R1 < R2 of a sweep
 // lies below  E(R2) + D(R1),  nor anything beyond R below  E_all + D(R),  E_all: everything debonded. A sweep samples rings far apart, then
 // around its minima, then wherever these bounds leave room for a state that is lower by more than search_tolerance.
 //
@@ -68,6 +68,7 @@ private:
     // I of a candidate; counts it.
     double compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity);
 
+    void break_everything(const Candidate& start, std::vector<Candidate>& found);
     void advance_together(const Candidate& start, std::span<const Front> fronts, std::vector<Candidate>& found);
 
     const Problem& problem_;
