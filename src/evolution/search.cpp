@@ -18,11 +18,9 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t seeds = 2;           // places per interface where a new crack is tried besides the ends of lines
 constexpr std::size_t fine = 32;           // rings that are all sampled; of longer sweeps about as many
-constexpr std::size_t most_entries = 1U << 20U;  // energies kept
 constexpr std::size_t largest_zone = 1500; // rows in which sweeps of a condensed scene live
 constexpr std::size_t largest_crack = 32;  // rings of a new crack, and of the zone about it
 constexpr int rounds = 3;                  // of sweeps with the other fronts where they were best
-constexpr double turned = 1e-13;           // of the load's direction: another one
 
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
@@ -44,28 +42,34 @@ Search::Search(const Problem& problem, const PairLaws& pairs, const ContactScene
     if (auto* condensed = dynamic_cast<Condensed*>(&op)) zone_.emplace(*condensed, pairs, contact);
 }
 
-// Energies are kept for one direction of the load.
+// What a search finds depends on its step alone: a march that was saved, rolled back or cancelled goes on with the same bits. So nothing is
+// kept from other steps but E_all of the same load, computed from nothing else.
 void Search::aim(const State& from) {
     size_ = 0.0;
     for (const double t : from.theta) size_ = std::max(size_, std::abs(t));
-    std::vector<double> direction(from.theta);
-    for (double& d : direction) d /= size_ > 0.0 ? size_ : 1.0;
-    bool same = direction.size() == direction_.size() && known_.size() < most_entries;
-    for (std::size_t p = 0; p < direction.size() && same; ++p) same = std::abs(direction[p] - direction_[p]) <= turned;
-    if (same) return;
-    // E_all costs a solve of its own: a load that turns on its way does without, unless dead forces make its energy negative.
-    const bool first = direction_.empty(), dead = from.ledger.load_potential != 0.0;
-    direction_ = std::move(direction);
+    direction_ = from.theta;
+    for (double& d : direction_) d /= size_ > 0.0 ? size_ : 1.0;
+    if (direction_ != floor_direction_) {
+        floor_direction_.clear();
+        unit_floor_ = 0.0;
+        if (size_ > 0.0) {
+            std::vector<double> nothing(from.adhesion);
+            for (std::size_t p = 0; p < nothing.size(); ++p)
+                if (pairs_.law[p] != nullptr) nothing[p] = 0.0;
+            focused_ = false;
+            known_.clear();
+            closed_.assign(nothing.size(), 0);
+            response_ = Response{};
+            op_.recall({});
+            const double value = energy(nothing, {}, from.mixity).value;
+            unit_floor_ = std::isfinite(value) ? value : from.ledger.load_potential != 0.0 ? -infinite : 0.0;
+        }
+        floor_direction_ = direction_;
+    }
     known_.clear();
-    unit_floor_ = 0.0;
-    if (size_ == 0.0 || !(first || dead)) return;
-    std::vector<double> nothing(from.adhesion);
-    for (std::size_t p = 0; p < nothing.size(); ++p)
-        if (pairs_.law[p] != nullptr) nothing[p] = 0.0;
-    focused_ = false;
     closed_ = from.closed;
-    unit_floor_ = energy(nothing, {}, from.mixity).value;
-    if (!std::isfinite(unit_floor_)) unit_floor_ = dead ? -infinite : 0.0;
+    response_ = from.response;
+    op_.recall(from.memory);
 }
 
 void Search::focus(std::span<const std::uint8_t> wanted) {
@@ -276,7 +280,7 @@ void Search::Sweep::run() {
     while (ring_.size() / stride > fine) stride *= 2;
     std::size_t geometric = 1;
     for (std::size_t n = 1; n <= ring_.size(); ++n) {
-        // Places that do not move with the front, so that their energies are known from earlier steps.
+        // Places that do not move with the front.
         const std::size_t place = ring_[n - 1].size() == 1 ? index(ring_[n - 1].front()) : n;
         const bool wanted = nucleation_ ? n == geometric : n <= 2 || place % stride == 0;
         if (!wanted && n < ring_.size()) continue;
@@ -311,7 +315,6 @@ SearchResult Search::run(const State& before, const State& from, std::span<const
     best_ = level;
     tolerance_ = problem_.options.search_tolerance * std::max(std::abs(from.ledger.energy()), std::abs(from.ledger.work));
     floor_ = size_ * size_ * unit_floor_ - before.ledger.energy();
-    closed_ = from.closed;
 
     const Candidate start{before.adhesion, {mixity.begin(), mixity.end()}, 0.0};
     const std::vector<Front> fronts =

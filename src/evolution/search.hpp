@@ -8,8 +8,7 @@
 // lies below  E(R2) + D(R1),  nor anything beyond R below  E_all + D(R),  E_all: everything debonded. A sweep samples rings far apart, then
 // around its minima, then wherever these bounds leave room for a state that is lower by more than search_tolerance.
 //
-// Under a proportional load E(theta) = |theta|^2 E(theta/|theta|): contact without friction and springs are homogeneous. So the energy of a set is
-// kept for later steps.
+// Contact without friction and springs are homogeneous, E(theta) = |theta|^2 E(theta/|theta|): under a proportional load E_all is solved for once.
 //
 // Where the operator is condensed the energies come from a zone about each front (zone_energies.hpp), with the contact outside as it is in the
 // step; else from whole displacement solves. They choose what is minimised from; the energy of a result never comes from here.
@@ -84,7 +83,8 @@ private:
     std::vector<double> direction_;  // theta over its largest entry
     double size_ = 0.0;
     std::unordered_map<std::uint64_t, Energy> known_;
-    double unit_floor_ = 0.0;  // E_all at the unit load; 0 where it was not computed for this direction
+    double unit_floor_ = 0.0;  // E_all at the unit load of floor_direction_
+    std::vector<double> floor_direction_;
     std::vector<std::uint8_t> closed_;
     Response response_;
     // of the step at hand
