@@ -381,7 +381,7 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   search_candidates      states that the energetic search compared
  *   search_margin          F L: the lowest of them less the state kept (>= 0 up to rounding); 0 where none was compared
  *   search_gap             F L: the state kept less what bounds the candidates that were left out from below; 0: nothing of the kinds
- *                          that were searched (delam_solver_searched) can be lower
+ *                          that were searched (delam_solver_searched) can be lower; infinite: nothing bounds them (dead loads)
  *   substeps, refused_steps  parts that the step was walked in, and computed parts that were not kept
  *   jumps                  instants within the step at which the state jumps (option jump_tolerance)
  *   released               F L: energy that these set free and nothing stores or dissipates

@@ -20,11 +20,9 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t seeds = 2;           // places per interface where a new crack is tried besides the ends of lines
 constexpr std::ptrdiff_t most_contacts = 64;  // of the bound E_all
 constexpr std::size_t fine = 16;           // rings that are all sampled; of longer sweeps about as many
-constexpr std::size_t most_entries = 1U << 20U;  // energies kept
 constexpr std::size_t largest_zone = 1500; // rows in which sweeps of a condensed scene live
 constexpr std::size_t largest_crack = 32;  // rings of a new crack, and of the zone about it
 constexpr int rounds = 3;                  // of sweeps with the other fronts where they were best
-constexpr double turned = 1e-13;           // of the load's direction: another one
 
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
@@ -46,22 +44,27 @@ Search::Search(const Problem& problem, const PairLaws& pairs, const ContactScene
     if (auto* condensed = dynamic_cast<Condensed*>(&op)) zone_.emplace(*condensed, pairs, contact);
 }
 
-// Energies are kept for one direction of the load.
+// What a search finds depends on its step alone: a march that was saved, rolled back or cancelled goes on with the same bits. So nothing is
+// kept from other steps but E_all of the same load, computed from nothing else.
 void Search::aim(const State& from) {
     size_ = 0.0;
     for (const double t : from.theta) size_ = std::max(size_, std::abs(t));
-    std::vector<double> direction(from.theta);
-    for (double& d : direction) d /= size_ > 0.0 ? size_ : 1.0;
-    bool same = direction.size() == direction_.size() && known_.size() < most_entries;
-    for (std::size_t p = 0; p < direction.size() && same; ++p) same = std::abs(direction[p] - direction_[p]) <= turned;
-    if (same) return;
-    // E_all costs a solve of its own: a load that turns on its way does without, unless dead forces make its energy negative.
-    const bool first = direction_.empty(), dead = from.ledger.load_potential != 0.0;
-    direction_ = std::move(direction);
+    direction_ = from.theta;
+    for (double& d : direction_) d /= size_ > 0.0 ? size_ : 1.0;
+    if (direction_ != floor_direction_) {
+        floor_direction_.clear();
+        unit_floor_ = 0.0;
+        if (size_ > 0.0) unit_floor_ = debonded_energy(from);
+        floor_direction_ = direction_;
+    }
     known_.clear();
-    unit_floor_ = 0.0;
-    if (size_ == 0.0 || !(first || dead)) return;
-    // With contact tested at a few pairs only: less than E_all, and a small problem.
+    closed_ = from.closed;
+    response_ = from.response;
+}
+
+// E_all with contact tested at a few pairs only: less than with all of it, and a small problem.
+double Search::debonded_energy(const State& from) const {
+    const bool dead = from.ledger.load_potential != 0.0;
     std::vector<double> nothing(from.adhesion);
     for (std::size_t p = 0; p < nothing.size(); ++p)
         if (pairs_.law[p] != nullptr) nothing[p] = 0.0;
@@ -69,15 +72,17 @@ void Search::aim(const State& from) {
     const auto members = [&](std::uint8_t level) { return std::ranges::count_if(coarse.level, [&](std::uint8_t l) { return l >= level; }); };
     while (members(coarse.least_level) > most_contacts && members(static_cast<std::uint8_t>(coarse.least_level + 1)) > 0) ++coarse.least_level;
     const std::unique_ptr<JumpOperator> twin = op_.twin();
+    JumpOperator& op = twin ? *twin : op_;
+    op.recall({});
     std::vector<std::uint8_t> closed(nothing.size(), 0);
     Response response;
-    unit_floor_ = dead ? -infinite : 0.0;
     try {
-        solve_contact(twin ? *twin : op_, coarse, spring_stiffness(pairs_, nothing), direction_, closed, response, false);
-        if (response.balanced) unit_floor_ = response.stored_bulk + response.load_potential;
+        solve_contact(op, coarse, spring_stiffness(pairs_, nothing), direction_, closed, response, false);
+        if (response.balanced) return response.stored_bulk + response.load_potential;
     } catch (const Error& error) {
         if (error.status() != DELAM_LIMIT && error.status() != DELAM_ERROR_NUMERICAL) throw;
     }
+    return dead ? -infinite : 0.0;
 }
 
 std::vector<std::uint8_t> Search::adhering(const Candidate& base) const {
@@ -279,7 +284,7 @@ void Search::Sweep::refine_minimum() {
         if (at - left <= 1 && right - at <= 1) return;
         if (best_at_ == 0 && at == 1) return;
         if (at - left > 1) sample(left + (at - left) / 2);
-        if (right - at > 1) sample(at + (right - at) / 2);
+        if (right - at > 1 && search_.left_ > 0) sample(at + (right - at) / 2);
     }
     stopped_ = true;
 }
@@ -311,7 +316,7 @@ void Search::Sweep::run() {
     while (ring_.size() / stride > fine) stride *= 2;
     std::size_t geometric = 1;
     for (std::size_t n = 1; n <= ring_.size(); ++n) {
-        // Places that do not move with the front, so that their energies are known from earlier steps.
+        // Places that do not move with the front.
         const std::size_t place = ring_[n - 1].size() == 1 ? index(ring_[n - 1].front()) : n;
         const bool wanted = nucleation_ ? n == geometric : n <= 2 || place % stride == 0;
         if (!wanted && n < ring_.size()) continue;
@@ -323,9 +328,10 @@ void Search::Sweep::run() {
         sample(n);
         if (search_.floor_ + spent_.at(n) >= search_.best_) break;
     }
-    if (value_.size() < 2) return;
-    refine_minimum();
-    if (!nucleation_) close_gap();
+    if (value_.size() > 1) {
+        refine_minimum();
+        if (!nucleation_) close_gap();
+    }
     search_.result_->bound = std::min(search_.result_->bound, nucleation_ ? infinite : bound());
 }
 
@@ -345,7 +351,6 @@ SearchResult Search::run(const State& before, const State& from, std::span<const
     best_ = level;
     tolerance_ = problem_.options.search_tolerance * std::max(std::abs(from.ledger.energy()), std::abs(from.ledger.work));
     floor_ = size_ * size_ * unit_floor_ - energy_before();
-    closed_ = from.closed;
 
     const Candidate start{before.adhesion, {mixity.begin(), mixity.end()}, 0.0};
     const std::vector<Front> fronts =
@@ -353,7 +358,11 @@ SearchResult Search::run(const State& before, const State& from, std::span<const
     std::vector<Candidate> found;
     const auto lower = [](const Candidate& a, const Candidate& b) { return a.incremental < b.incremental; };
     const auto look = [&](const Front& front, const Candidate& base, const char* with) {
-        if (left_ <= 0) return;
+        if (left_ <= 0) {
+            if (!front.nucleation) result.bound = std::min(result.bound, floor_ + spent(base));
+            result.words += text(front.nucleation ? "new crack" : "front", " of interface ", front.interface, with, ": left out by search_limit\n");
+            return;
+        }
         Sweep sweep(*this, front, base);
         sweep.run();
         const std::int64_t pair = front.pairs.front() - graph_.first_pair(front.interface);
@@ -381,6 +390,7 @@ SearchResult Search::run(const State& before, const State& from, std::span<const
             if (std::min_element(found.begin(), found.end(), lower)->incremental >= base.incremental) break;
         }
     }
+    break_everything(start, found);
     std::stable_sort(found.begin(), found.end(), lower);
     result.starts = std::move(found);
     return result;
@@ -410,6 +420,30 @@ void Search::advance_together(const Candidate& start, std::span<const Front> fro
     }
     result_->words += text("all ", ring.size(), " fronts together: advanced by 1, 2, 4 ... ", reached, " rings\n");
     if (lowest) found.push_back(std::move(*lowest));
+}
+
+// One interface debonded altogether, and all of them: whatever their length, which bounds the cracks that begin somewhere.
+void Search::break_everything(const Candidate& start, std::vector<Candidate>& found) {
+    std::int64_t interfaces = 0;
+    for (std::size_t p = 0; p < start.adhesion.size(); ++p)
+        if (pairs_.law[p] != nullptr) interfaces = std::max(interfaces, graph_.interface_of(p) + 1);
+    for (std::int64_t i = interfaces > 1 ? 0 : interfaces; i <= interfaces && left_ > 0; ++i) {  // the last: all of them
+        Candidate all = start;
+        std::vector<std::uint8_t> wanted(all.adhesion.size(), 0);
+        for (std::size_t p = 0; p < all.adhesion.size(); ++p) {
+            if (pairs_.law[p] == nullptr || all.adhesion[p] == 0.0 || (i < interfaces && graph_.interface_of(p) != i)) continue;
+            all.adhesion[p] = 0.0;
+            wanted[p] = 1;
+        }
+        const auto rows = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}) * pairs_.dimension);
+        if (rows == 0 || floor_ + spent(all) >= best_) continue;
+        focused_ = false;
+        if (rows <= largest_zone) focus(wanted);
+        compare(all, {}, nullptr);
+        result_->words += text(i == interfaces ? "everything" : text("interface ", i), " debonded: ", all.incremental - from_->ledger.increment,
+                               " above the step\n");
+        found.push_back(std::move(all));
+    }
 }
 
 }  // namespace delam

@@ -4,12 +4,11 @@
 // A candidate is the adhesion before the step with a set R of pairs debonded at once:
 //   I(R) = E(t, z_R) + D(z_before, z_R).
 // Sets grow by rings from every front and from places where a crack may begin (fronts.hpp), from all fronts together, and from each
-// front again with the others where they were best. E falls as R grows and D grows with it. So nothing between two sets R1 < R2 of a sweep
+// front again with the others where they were best; and an interface may come off altogether. E falls as R grows and D grows with it. So nothing between two sets R1 < R2 of a sweep
 // lies below  E(R2) + D(R1),  nor anything beyond R below  E_all + D(R),  E_all: everything debonded. A sweep samples rings far apart, then
 // around its minima, then wherever these bounds leave room for a state that is lower by more than search_tolerance.
 //
-// Under a proportional load E(theta) = |theta|^2 E(theta/|theta|): contact without friction and springs are homogeneous. So the energy of a set is
-// kept for later steps.
+// Contact without friction and springs are homogeneous, E(theta) = |theta|^2 E(theta/|theta|): under a proportional load E_all is solved for once.
 //
 // Where the operator is condensed the energies come from a zone about each front (zone_energies.hpp), with the contact outside as it is in the
 // step; else from whole displacement solves. They choose what is minimised from; the energy of a result never comes from here.
@@ -65,6 +64,7 @@ private:
 
     const Energy& energy(const std::vector<double>& adhesion, std::span<const std::int64_t> next, std::span<const double> known);
     void aim(const State& from);
+    double debonded_energy(const State& from) const;
     std::vector<std::uint8_t> adhering(const Candidate& base) const;
     // Lets energies of states come from a zone about these pairs.
     void focus(std::span<const std::uint8_t> wanted);
@@ -73,6 +73,7 @@ private:
     // I of a candidate; counts it.
     double compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity);
 
+    void break_everything(const Candidate& start, std::vector<Candidate>& found);
     void advance_together(const Candidate& start, std::span<const Front> fronts, std::vector<Candidate>& found);
 
     const Problem& problem_;
@@ -89,7 +90,8 @@ private:
     std::vector<double> direction_;  // theta over its largest entry
     double size_ = 0.0;
     std::unordered_map<std::uint64_t, Energy> known_;
-    double unit_floor_ = 0.0;  // E_all at the unit load; 0 where it was not computed for this direction
+    double unit_floor_ = 0.0;  // E_all at the unit load of floor_direction_
+    std::vector<double> floor_direction_;
     std::vector<std::uint8_t> closed_;
     Response response_;
     // of the step at hand

@@ -13,7 +13,7 @@ namespace delam {
 namespace {
 
 constexpr std::uint64_t magic = 0x31305453'4d4c4544;  // "DELMST01" in memory on a little-endian machine
-constexpr std::uint32_t version = 4;
+constexpr std::uint32_t version = 5;
 
 std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
     std::uint64_t h = 14695981039346656037ULL;
@@ -90,6 +90,7 @@ void walk(Walker& w, S& state) {
     w.item(state.response.residual);
     w.item(state.response.iterations);
     w.item(state.memory);
+    w.item(state.search_memory);
     w.item(state.ledger);
     w.item(state.counts);
 }
@@ -107,7 +108,7 @@ void check(const State& state, const State& mine) {
     for (const auto* fractions : {&state.adhesion, &state.mixity, &state.mixity_before})
         for (const double v : *fractions)
             if (!(v >= 0.0 && v <= 1.0)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds an adhesion or mixity of ", v, ", allowed: 0 to 1");
-    for (const auto* values : {&state.theta, &a.jump, &a.force, &a.conjugate, &a.multipliers, &a.rigid, &state.memory})
+    for (const auto* values : {&state.theta, &a.jump, &a.force, &a.conjugate, &a.multipliers, &a.rigid, &state.memory, &state.search_memory})
         for (const double v : *values)
             if (!std::isfinite(v)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a number that is not finite");
 }

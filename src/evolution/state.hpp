@@ -73,6 +73,7 @@ struct State {
     std::uint8_t loaded = 0;                  // 1 once any pair has had a jump: the mixities mean something
     Response response;
     std::vector<double> memory;               // of the jump operator
+    std::vector<double> search_memory;        // of the one that a search uses
     Ledger ledger;
     Counts counts;
 };

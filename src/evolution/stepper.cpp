@@ -188,6 +188,7 @@ void Stepper::search(Result& best, const State& before, const State& start) {
     }
     const State from = best.state;
     const double level = from.ledger.increment;
+    if (twin_) twin_->recall(before.search_memory);
     SearchResult found = search_->run(before, from, start.mixity);
     if (!twin_) operator_->recall(from.memory);
     std::size_t minimised = 0;
@@ -200,11 +201,12 @@ void Stepper::search(Result& best, const State& before, const State& start) {
         other.mixity = candidate.mixity;
         keep_lower(best, std::move(other), before);
     }
+    if (twin_) best.state.search_memory = twin_->memory();
     Counts& counts = best.state.counts;
     const double kept = best.state.ledger.increment;
     counts.search_candidates += found.candidates;
     counts.search_margin = std::isfinite(found.lowest) ? found.lowest - kept : 0.0;
-    counts.search_gap = std::isfinite(found.bound) ? std::max(0.0, kept - found.bound) : 0.0;
+    counts.search_gap = std::max(0.0, kept - found.bound);
     searched_ = text("step ", best.state.step, " at time ", best.state.time, ": ", found.candidates, " candidates, ", minimised,
                      " of them minimised from; the kept state lies ", counts.search_margin, " below the lowest candidate\n", found.words);
 }
