@@ -353,7 +353,8 @@ DELAM_API int32_t delam_solver_commit(delam_solver *solver);
 DELAM_API int32_t delam_solver_rollback(delam_solver *solver);
 /* One displacement step alone: minimal-energy displacements at `time` with the given adhesion held, [dual pairs in all,
  * interface after interface]; adhesion NULL takes the committed one. Pending like a step, but the ledger does not move
- * (energies stored are those of the new state; dissipated, work and bounds stay). */
+ * (energies stored are those of the new state; dissipated, work and bounds stay). Once it is committed, steps before it are no longer
+ * kept: no return goes behind it. */
 DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, const double *adhesion);
 
 /* A scalar of the pending state, else of the committed one. Keys (delam_solver_value_name lists them):

@@ -82,15 +82,14 @@ Outcome Solver::equilibrate(double time, std::span<const double> adhesion) {
 void Solver::commit() {
     if (!pending_) fail(DELAM_ERROR_STATE, "nothing to commit: no step is pending");
     looked_ = nullptr;
-    const std::int64_t from = pending_->revised.empty() ? pending_->state.step : pending_->revised.front().step;
-    std::erase_if(jumps_, [&](const Jump& jump) { return jump.step >= from; });
-    jumps_.insert(jumps_.end(), pending_->jumps.begin(), pending_->jumps.end());
+    jumps_ = jumps(true);
     for (State& state : pending_->revised) {
         if (state.step == committed_.step)
             committed_ = std::move(state);
         else
             past_[static_cast<std::size_t>(state.step - past_.front().step)] = std::move(state);
     }
+    if (pending_->state.step == committed_.step) past_.clear();  // a state that was set: nothing leads back behind it
     if (keeps_past() && pending_->state.step > committed_.step) {
         past_.push_back(std::move(committed_));
         if (past_.size() > static_cast<std::size_t>(problem_.options.backtracking_depth)) past_.erase(past_.begin());
@@ -127,6 +126,7 @@ void Solver::look(std::int64_t step) {
 std::vector<Jump> Solver::jumps(bool pending) const {
     std::vector<Jump> all = jumps_;
     if (!pending || !pending_) return all;
+    if (pending_->state.step == committed_.step) return all;  // set, not marched to
     const std::int64_t from = pending_->revised.empty() ? pending_->state.step : pending_->revised.front().step;
     std::erase_if(all, [&](const Jump& jump) { return jump.step >= from; });
     all.insert(all.end(), pending_->jumps.begin(), pending_->jumps.end());

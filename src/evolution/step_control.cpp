@@ -108,6 +108,12 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
         ++parts;
         at = std::move(next);
         --at.step;  // the parts of a step share its number
+        // What was computed from the start of this part does not hold from its end.
+        for (Goal& other : goals)
+            if (other.reached) {
+                other.reached.reset();
+                ++refused;
+            }
     };
     while (!goals.empty()) {
         Goal& goal = goals.back();
@@ -122,9 +128,10 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
                 if (goal.smooth >= smooth_levels && !too_long(*parent.reached)) {
                     // The parent's interval is continuous: its end is reached in one part.
                     goals.pop_back();
-                    accept(std::move(goals.back()));
+                    Goal done = std::move(parent);
                     goals.pop_back();
                     ++refused;
+                    accept(std::move(done));
                     continue;
                 }
             }
@@ -143,12 +150,6 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
         Goal done = std::move(goal);
         goals.pop_back();
         accept(std::move(done));
-        // What was computed from the start of this part does not hold from its end.
-        for (Goal& other : goals)
-            if (other.reached) {
-                other.reached.reset();
-                ++refused;
-            }
     }
     ++at.step;
     out.result = {std::move(at), converged};

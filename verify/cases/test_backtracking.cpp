@@ -56,12 +56,13 @@ int first_break(const std::vector<Row>& rows, double least = 1e-3) {
     while (k < static_cast<int>(rows.size()) && rows[static_cast<std::size_t>(k)].dissipated < least) ++k;
     return k;
 }
-void expect_one_history(const std::vector<Row>& rows, const std::string& where) {
+// variational: the increment is that of the slides' split.
+void expect_one_history(const std::vector<Row>& rows, const std::string& where, bool variational = false) {
     for (std::size_t k = 1; k < rows.size(); ++k) {
         const Row &a = rows[k - 1], &b = rows[k];
         const double size = std::max(std::abs(b.energy), std::abs(b.work));
         const std::string step = where + ", step " + std::to_string(k) + ": ";
-        cases::expect_near(b.energy - a.energy + b.dissipated - a.dissipated, b.increment, 1e-10, size, step + "increment");
+        if (!variational) cases::expect_near(b.energy - a.energy + b.dissipated - a.dissipated, b.increment, 1e-10, size, step + "increment");
         cases::expect_near(b.work - a.work, 0.5 * (b.lower + b.upper), 1e-10, size, step + "work");
         for (std::size_t p = 0; p < a.adhesion.size(); ++p) cases::expect(b.adhesion[p] <= a.adhesion[p], step + "adhesion grows");
     }
@@ -90,7 +91,7 @@ double walk(Solver& solver, int first, int last, int steps, bool check = false) 
 }
 
 CASE_TEST(no_bound_is_missed_afterwards) {
-    const int steps = loop % 2 == 0 ? 20 : 40;
+    const int steps = loop % 2 == 0 ? 80 : 40;
     const double exponent = loop < 2 ? 1.0 : 2.0;
     const FlexureScene off = make(brittle(exponent), "off"), on = make(brittle(exponent), "on");
     std::vector<Row> plain{Row{}};
@@ -110,7 +111,7 @@ CASE_TEST(no_bound_is_missed_afterwards) {
 
 // Each kept step alone: displacements at its adhesion have its energy; the cost of its adhesion is what was spent.
 CASE_TEST(replaced_steps_hold_on_their_own) {
-    const int steps = 20;
+    const int steps = 40;
     const FlexureScene on = make(brittle(), "on");
     Solver b(on.scene, 0.0), probe(on.scene, 0.0);
     walk(b, 1, steps, steps);
@@ -147,7 +148,7 @@ int first_return(const FlexureScene& f, int steps) {
 }
 
 CASE_TEST(rollback_of_a_return) {
-    const int steps = 20;
+    const int steps = 40;
     const FlexureScene f = make(brittle(2.0), "on", concept_of(loop));
     int k = first_return(f, steps);
     cases::expect(loop == 1 || k > 1, "a return");
@@ -174,7 +175,7 @@ CASE_TEST(rollback_of_a_return) {
 }
 
 CASE_TEST(resumed_march) {
-    const int steps = 20;
+    const int steps = 40;
     const FlexureScene f = make(brittle(2.0), "on", concept_of(loop));
     const int k = std::max(2, first_return(f, steps));
     for (const int cut : {k - 1, k, k + 2}) {
@@ -201,7 +202,7 @@ CASE_TEST(resumed_march) {
 }
 
 CASE_TEST(limits_and_depth) {
-    const int steps = 20;
+    const int steps = 40;
     const reference::Flexure data = brittle(2.0);
     FlexureScene off = make(data, "off"), none = make(data, "on"), one = make(data, "on"), shallow = make(data, "on");
     none.scene.number("backtracking_limit", 0);
@@ -228,7 +229,7 @@ CASE_TEST(limits_and_depth) {
 
 // A state that the host sets is no step: a later return must not undo it.
 CASE_TEST(a_set_state_is_kept) {
-    const int steps = 20;
+    const int steps = 40;
     FlexureScene f = make(brittle(2.0), "on");
     const int k = first_return(f, steps);
     Solver solver(f.scene, 0.0);
@@ -252,7 +253,7 @@ CASE_TEST(returns_end) {
     Solver solver(scene, 0.0);
     const int steps = 40;
     const double returns = walk(solver, 1, steps, steps);
-    expect_one_history(history(solver, steps), rules[loop % 3]);
+    expect_one_history(history(solver, steps), rules[loop % 3], loop % 3 == 2);
     std::printf("ductile MMF, %s: %g returns, %d bounds missed\n", rules[loop % 3], returns, violated(history(solver, steps)));
 }
 
