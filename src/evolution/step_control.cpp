@@ -9,6 +9,7 @@ namespace delam {
 
 namespace {
 
+constexpr double sharp_share = 0.75;  // of the change, in half of the time: a jump rather than growth
 constexpr int smooth_levels = 2;  // halvings in a row that halve the change: the change is continuous
 
 // Sum of w |z - z_before| in mean weights of a pair.
@@ -65,6 +66,7 @@ struct Goal {
     std::unique_ptr<Stepper::Result> reached;  // null: not computed
     double change = 0.0;
     int smooth = 0;
+    bool sharp = false;  // nearly all of the change of an interval about twice as long
 };
 
 }  // namespace
@@ -120,10 +122,13 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
         if (!goal.reached) {
             goal.reached = std::make_unique<Stepper::Result>(stepper.step(at, goal.time));
             add(effort, goal.reached->state.counts);
+            const double longer = goal.change;  // to the same end, from an earlier start
             goal.change = change_in_pairs(stepper.pairs(), at, goal.reached->state);
+            goal.sharp = goal.change > sharp_share * longer && longer > 0.0;
             if (goals.size() > 1) {
                 Goal& parent = goals[goals.size() - 2];
                 const double share = parent.change > 0.0 ? goal.change / parent.change : 0.0;
+                goal.sharp = goal.sharp || (parent.reached && share > sharp_share);
                 goal.smooth = parent.reached && share > 0.25 && share < 0.75 ? parent.smooth + 1 : 0;
                 if (goal.smooth >= smooth_levels && !too_long(*parent.reached)) {
                     // The parent's interval is continuous: its end is reached in one part.
@@ -138,7 +143,7 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
         }
         const double length = goal.time - at.time;
         const bool jumps = locate && goal.change >= options.jump_size;
-        const bool halve = (jumps && length > options.jump_tolerance * asked) ||
+        const bool halve = (jumps && (length > options.jump_tolerance * asked || (!goal.sharp && length > options.smallest_step * asked))) ||
                            (too_long(*goal.reached) && length > options.smallest_step * asked);
         const double middle = at.time + 0.5 * length;
         if (halve && middle > at.time && middle < goal.time) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
 #include "interface/contact_levels.hpp"
@@ -181,6 +182,29 @@ void Stepper::keep_lower(Result& best, State other, const State& before) const {
     best.state.counts = counts;
 }
 
+// A zone's energy takes the contact outside as it was and may be too low: candidates that seem to lie below the state kept are held against it by
+// displacements of their own. Returns the lowest candidate.
+double Stepper::hold_against(Result& best, const SearchResult& found, const State& before) const {
+    double lowest = std::numeric_limits<double>::infinity();
+    bool held = false;
+    for (const Candidate& candidate : found.starts) {
+        const double kept = best.state.ledger.increment;
+        if (candidate.incremental >= kept - rounding * scale_of(best.state.ledger))
+            return std::min(lowest, held ? candidate.incremental : found.lowest);
+        held = true;
+        State own = best.state;
+        own.adhesion = candidate.adhesion;
+        own.mixity = candidate.mixity;
+        minimiser().displace(own);
+        if (rule_ == MixityRule::variational) own.mixity = mixities(pairs_, own.response.jump, own.mixity);
+        book_step(own, before);
+        lowest = std::min(lowest, own.ledger.increment);
+        best.state.counts = own.counts;
+        if (own.ledger.increment < kept) keep_lower(best, std::move(own), before);
+    }
+    return held ? lowest : found.lowest;
+}
+
 void Stepper::search(Result& best, const State& before, const State& start) {
     if (!search_) {
         twin_ = operator_->twin();
@@ -201,11 +225,12 @@ void Stepper::search(Result& best, const State& before, const State& start) {
         other.mixity = candidate.mixity;
         keep_lower(best, std::move(other), before);
     }
+    const double lowest = hold_against(best, found, before);
     if (twin_) best.state.search_memory = twin_->memory();
     Counts& counts = best.state.counts;
     const double kept = best.state.ledger.increment;
     counts.search_candidates += found.candidates;
-    counts.search_margin = std::isfinite(found.lowest) ? found.lowest - kept : 0.0;
+    counts.search_margin = std::isfinite(lowest) ? lowest - kept : 0.0;
     counts.search_gap = std::max(0.0, kept - found.bound);
     searched_ = text("step ", best.state.step, " at time ", best.state.time, ": ", found.candidates, " candidates, ", minimised,
                      " of them minimised from; the kept state lies ", counts.search_margin, " below the lowest candidate\n", found.words);

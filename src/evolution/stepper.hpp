@@ -58,6 +58,7 @@ private:
     void book_energies(State& state) const;
     void book_step(State& next, const State& before) const;
     void keep_lower(Result& best, State other, const State& before) const;
+    double hold_against(Result& best, const SearchResult& found, const State& before) const;
     void search(Result& best, const State& before, const State& start);
 
     const Problem& problem_;

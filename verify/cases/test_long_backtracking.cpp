@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fine marches of the mixed-mode flexure test with returns: the loops end, and what they leave is as sound as without.
+#include "mmf.hpp"
+#include "support.hpp"
+
+namespace {
+
+using reference::Solver;
+
+CASE_TEST(returns_end) {
+    const char* rules[] = {"frozen", "converged", "variational"};
+    const bool brittle = loop >= 3;
+    const int steps = 320;
+    reference::Scene scene = cases::make_mmf(1e-3, brittle ? cases::mmf_brittle : cases::mmf_ductile, rules[loop % 3]);
+    scene.text("backtracking", "on");
+    scene.number("backtracking_tolerance", loop == 0 ? 1e-6 : 1e-3);
+    Solver solver(scene, 0.0);
+    double returns = 0.0, most = 0.0;
+    for (int k = 1; k <= steps; ++k) {
+        const std::int32_t status = solver.advance(cases::enf_time(k, steps));
+        scene.require(status < 0 ? status : 0, "delam_solver_advance");
+        returns += solver.value("backtracks");
+        most = std::max(most, solver.value("backtracks"));
+        solver.commit();
+    }
+    int violated = 0;
+    for (int k = 1; k <= steps; ++k) {
+        scene.require(delam_solver_look(solver.get(), k), "delam_solver_look");
+        const double size = std::max(std::abs(solver.value("stored_bulk")), solver.value("work"));
+        violated += solver.value("lower") - solver.value("increment_lower") > 1e-3 * size ? 1 : 0;
+    }
+    std::printf("MMF, %s, %s: %g returns, at most %g in a step, %d bounds missed, %.5g J/m\n", brittle ? "brittle" : "ductile", rules[loop % 3], returns,
+                most, violated, solver.value("dissipated"));
+    cases::expect_below(most, 99.0, "returns in a step: the limit ended them");
+    if (!brittle) cases::expect(violated == 0, "bounds missed: " + std::to_string(violated));
+    cases::expect(solver.value("dissipated") > 0.0, "something breaks");
+}
+
+}  // namespace
+
+int main() {
+    Suite* suite = suite_create("long_backtracking");
+    TCase* tests = tcase_create("long_backtracking");
+    tcase_add_loop_test(tests, returns_end, 0, 6);
+    suite_add_tcase(suite, tests);
+    return cases::run_suite(suite);
+}

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Steps in parts: jumps where they are, none where there are none, books that close over the parts, refusals that end,
+// and calls that are cancelled at any place.
+#include <cstring>
+#include <numeric>
+
+#include "energetic_scenes.hpp"
+#include "flexure.hpp"
+#include "mmf.hpp"
+#include "small_march.hpp"
+
+namespace {
+
+using cases::Beam;
+using cases::Block;
+using reference::Scene;
+using reference::Solver;
+
+struct Jump {
+    std::int64_t step = 0, interface = -1, first = -1, last = -1;
+    double before = 0.0, time = 0.0, stored = 0.0, dissipated = 0.0, released = 0.0, debonded = 0.0;
+};
+std::vector<Jump> jumps(const Solver& solver) {
+    std::int64_t count = 0;
+    const Scene& scene = solver.scene();
+    scene.require(delam_solver_jump_count(solver.get(), &count), "delam_solver_jump_count");
+    std::vector<Jump> all(static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        Jump& j = all[i];
+        scene.require(delam_solver_jump(solver.get(), static_cast<std::int64_t>(i), &j.step, &j.before, &j.time, &j.stored, &j.dissipated,
+                                        &j.released, &j.debonded, &j.interface, &j.first, &j.last),
+                      "delam_solver_jump");
+    }
+    return all;
+}
+
+double size_of(const Solver& s) { return std::max(cases::scale(s), 1e-12); }
+
+// Steps of a march in parts: their sums are those of the whole.
+void expect_books_close(const Solver& s, double energy_before, double dissipated_before, double work_before, const std::string& where) {
+    const double change = cases::stored(s) - energy_before + s.value("dissipated") - dissipated_before;
+    cases::expect_near(s.value("increment"), change, 1e-9, size_of(s), where + "increment");
+    cases::expect_near(s.value("work") - work_before, 0.5 * (s.value("lower") + s.value("upper")), 1e-9, size_of(s), where + "work");
+    cases::expect_below(s.value("increment") - s.value("upper"), 1e-8 * size_of(s), where + "upper bound");
+    cases::expect(s.value("substeps") >= 1.0, where + "parts");
+}
+
+// Jumps of the pending step, in order, inside it, with books of their own.
+void expect_jumps(const Solver& s, double from, const std::string& where) {
+    const double to = s.value("time");
+    double released = 0.0, n = 0.0, last = from;
+    for (const Jump& j : jumps(s)) {
+        if (static_cast<double>(j.step) != s.value("step")) continue;
+        ++n;
+        released += j.released;
+        cases::expect(j.before >= last && j.time > j.before && j.time <= to, where + "instants in order");
+        last = j.time;
+        cases::expect(j.dissipated > 0.0 && j.debonded > 0.0 && j.first >= 0 && j.last >= j.first, where + "something broke");
+        cases::expect_below(j.stored, 1e-6 * size_of(s), where + "a jump stores nothing");
+        cases::expect_below(-j.released, 1e-8 * size_of(s), where + "a jump creates energy");
+    }
+    cases::expect(n == s.value("jumps"), where + "count of jumps");
+    cases::expect_near(s.value("released"), released, 1e-12, size_of(s), where + "released");
+}
+
+// A block that lets go: at its two closed-form loads, to the tolerance, whatever the steps.
+CASE_TEST(block_jumps_where_it_should) {
+    Block b;
+    b.cells = 3;
+    b.stiffness = 1e12;
+    const bool energetic = loop % 2 == 0;
+    const double local = std::sqrt(2.0 * b.stiffness * cases::toughness) * (1.0 / b.spring + 1.0 / b.stiffness);
+    const double exact = energetic ? cases::energetic_load(b) : local;
+    b.end = 1.31 * exact;
+    const double tolerance = loop < 2 ? 1e-2 : 1e-6;
+    const int steps = loop < 4 ? 3 : 1;
+    Scene scene = cases::make_block(b);
+    if (energetic) cases::set_energetic(scene);
+    scene.number("jump_tolerance", tolerance);
+    Solver solver(scene, 0.0);
+    for (int k = 1; k <= steps; ++k) {
+        const double e = cases::stored(solver), d = solver.value("dissipated"), w = solver.value("work");
+        solver.step(static_cast<double>(k) / steps);
+        const std::string where = "step " + std::to_string(k) + ": ";
+        expect_books_close(solver, e, d, w, where);
+        expect_jumps(solver, static_cast<double>(k - 1) / steps, where);
+        solver.commit();
+    }
+    const auto all = jumps(solver);
+    cases::expect(all.size() == 1, "one jump, not " + std::to_string(all.size()));
+    cases::expect(all[0].before * b.end <= exact * (1 + 1e-9) && all[0].time * b.end >= exact * (1 - 1e-9), "the jump brackets its closed form");
+    cases::expect_below(all[0].time - all[0].before, tolerance / steps * (1 + 1e-9), "width of the bracket");
+    const double spent = cases::toughness * b.width;
+    const double release = energetic ? 0.0 : 0.5 * local * local / (1.0 / b.spring + 1.0 / b.stiffness) * b.width - spent;
+    cases::expect_near(all[0].dissipated, spent, 1e-9, spent, "dissipated");
+    cases::expect_near(all[0].released, release, 6.0 * tolerance, spent + release, "released");
+    cases::expect_near(all[0].debonded, b.width, 1e-9, b.width, "debonded");
+    cases::expect(all[0].interface == 0 && all[0].first == 0 && all[0].last == 3, "all pairs");
+    // Work up to the jump and none after: E(jump) = dissipated + released.
+    cases::expect_near(solver.value("work"), spent + release, 12.0 * tolerance, spent + release, "work");
+}
+
+// Damage that grows steadily is no jump, however fine or coarse the tolerance.
+CASE_TEST(smooth_march_has_no_jump) {
+    const double tolerance[] = {0.2, 0.1, 1e-2, 1e-3};
+    reference::Flexure data = reference::find_flexure("enf-ductile");
+    data.law.exponent = 1.0;
+    data.h = 1e-3;
+    reference::FlexureScene f = reference::make_flexure(data);
+    f.scene.number("jump_tolerance", tolerance[loop]);
+    f.scene.number("jump_size", 0.5);
+    Solver solver(f.scene, 0.0);
+    double spent = 0.0;
+    for (int k = 1; k <= 20; ++k) {
+        const double e = cases::stored(solver), d = solver.value("dissipated"), w = solver.value("work");
+        solver.step(2.0 * k / 20);
+        expect_books_close(solver, e, d, w, "step " + std::to_string(k) + ": ");
+        expect_jumps(solver, 2.0 * (k - 1) / 20, "step " + std::to_string(k) + ": ");
+        solver.commit();
+        spent = solver.value("dissipated");
+        if (spent == 0.0) cases::expect(jumps(solver).empty(), "a jump before any damage");
+    }
+    cases::expect(spent > 0.0, "something is damaged");
+    double size = 0.0;
+    for (const Jump& j : jumps(solver)) size = std::max(size, j.debonded);
+    std::printf("ductile ENF, tolerance %g: %zu jumps, largest %.3g mm, front %.3g mm\n", tolerance[loop], jumps(solver).size(), 1e3 * size,
+                1e3 * solver.value("front"));
+    // A stiff spring is smooth beyond doubt; a whole front that moves by a cell at a time is not.
+    Block b;
+    b.cells = 3;
+    b.spring = 4e12;
+    b.stiffness = 125e9;
+    b.end = 2.0e-4;
+    Scene scene = cases::make_block(b);
+    const double go = 100.0, gc = 250.0;
+    scene.law(0, {b.stiffness, b.stiffness, go, go, gc, gc, 1.0});
+    scene.number("jump_tolerance", tolerance[loop]);
+    scene.number("damage_tolerance", 1e-10);
+    Solver spring(scene, 0.0);
+    for (int k = 1; k <= 5; ++k) {
+        const double e = cases::stored(spring), d = spring.value("dissipated"), w = spring.value("work");
+        spring.step(k / 5.0);
+        expect_books_close(spring, e, d, w, "spring, step " + std::to_string(k) + ": ");
+        spring.commit();
+    }
+    cases::expect_near(spring.value("dissipated"), gc * b.width, 1e-6, gc * b.width, "the spring's bond is spent");
+    cases::expect(jumps(spring).empty(), "jumps of a stable spring: " + std::to_string(jumps(spring).size()));
+}
+
+// Jumps of the flexure test: energy that they release, and books of a march with many of them.
+CASE_TEST(jumps_of_a_flexure) {
+    const bool energetic = loop == 0;
+    reference::FlexureScene f = reference::make_flexure(reference::find_flexure("enf-brittle"));
+    if (energetic) f.scene.text("solution", "energetic");
+    f.scene.text("backtracking", "off");
+    f.scene.number("jump_tolerance", 1e-3);
+    Solver solver(f.scene, 0.0);
+    double released = 0.0, parts = 0.0;
+    const int steps = 20;
+    for (int k = 1; k <= steps; ++k) {
+        const double e = cases::stored(solver), d = solver.value("dissipated"), w = solver.value("work");
+        solver.step(2.0 * k / steps);
+        const std::string where = "step " + std::to_string(k) + ": ";
+        expect_books_close(solver, e, d, w, where);
+        expect_jumps(solver, 2.0 * (k - 1) / steps, where);
+        released += solver.value("released");
+        parts += solver.value("substeps");
+        if (k == 1 || k == steps) {  // rolled back, it never was
+            const auto bits = cases::read_bits(solver);
+            const auto count = jumps(solver).size();
+            solver.rollback();
+            solver.step(2.0 * k / steps);
+            cases::expect_same(solver, cases::read_bits(solver), bits, where + "taken again");
+            cases::expect(jumps(solver).size() == count, where + "jumps taken again");
+        }
+        solver.commit();
+    }
+    cases::expect(!jumps(solver).empty(), "a jump");
+    cases::expect(parts > steps, "steps were walked in parts");
+    // What was put in and is neither stored nor dissipated was released.
+    const double missing = solver.value("work") - cases::stored(solver) - solver.value("dissipated");
+    cases::expect_near(missing, released, energetic ? 2e-2 : 2e-2, solver.value("work"), "work less stored and dissipated");
+    if (!energetic) cases::expect(released > 0.1 * solver.value("dissipated"), "a local jump releases energy");
+    // Jumps survive saving, and a state that is set.
+    const auto before = jumps(solver);
+    Solver again(f.scene, 0.0);
+    f.scene.require(again.load(solver.save()), "delam_solver_load");
+    cases::expect(jumps(again).size() == before.size() && jumps(again)[0].time == before[0].time, "jumps are saved");
+    again.equilibrate(again.value("time"), again.field("adhesion"));
+    cases::expect(jumps(again).size() == before.size(), "jumps while a set state is pending");
+    again.commit();
+    cases::expect(jumps(again).size() == before.size(), "jumps of the march after a set state is committed");
+}
+
+// ---- refusals -----------------------------------------------------------------------------------------------------------
+
+CASE_TEST(steps_that_do_not_converge_are_cut) {
+    Scene fixed = cases::small_enf(0), adaptive = cases::small_enf(0), stubborn = cases::small_enf(0);
+    for (Scene* s : {&fixed, &adaptive, &stubborn}) {
+        s->text("minimisation", "alternate");
+        s->number("minimisation_limit", 15);
+        s->number("step_tolerance", 0.9999);
+    }
+    adaptive.text("step_control", "adaptive");
+    stubborn.text("step_control", "adaptive");
+    stubborn.number("smallest_step", 0.25);
+    stubborn.number("minimisation_limit", 2);
+    Solver a(fixed, 0.0), b(adaptive, 0.0), c(stubborn, 0.0);
+    int failed = 0, failed_adaptive = 0;
+    double refused = 0.0;
+    for (int k = 1; k <= 8; ++k) {
+        const double time = cases::enf_time(k, 16);
+        failed += a.advance(time) == DELAM_NOT_CONVERGED ? 1 : 0;
+        const double e = cases::stored(b), d = b.value("dissipated"), w = b.value("work");
+        failed_adaptive += b.advance(time) == DELAM_NOT_CONVERGED ? 1 : 0;
+        expect_books_close(b, e, d, w, "adaptive, step " + std::to_string(k) + ": ");
+        refused += b.value("refused_steps");
+        const std::int32_t status = c.advance(time);
+        stubborn.require(status < 0 ? status : 0, "delam_solver_advance");
+        cases::expect_below(c.value("substeps"), 4.0, "parts that are shorter than smallest_step");
+        for (Solver* s : {&a, &b, &c}) s->commit();
+    }
+    std::printf("not converged: fixed %d, adaptive %d of 8 steps, %g refused\n", failed, failed_adaptive, refused);
+    cases::expect(failed > failed_adaptive && refused > 0.0, "cutting helps: " + std::to_string(failed) + " or " + std::to_string(failed_adaptive));
+    cases::expect(failed_adaptive == 0, "all parts converge");
+}
+
+// A step whose bounds are wide is cut until they are not.
+CASE_TEST(wide_estimates_are_cut) {
+    Beam b;
+    b.press = 1e-3;
+    Scene scene = cases::make_beam(b);
+    scene.text("step_control", "adaptive");
+    scene.number("step_tolerance", 0.5);
+    scene.number("smallest_step", 1.0 / 64.0);
+    Solver solver(scene, 0.0);
+    for (int k = 1; k <= 3; ++k) {
+        const double e = cases::stored(solver), d = solver.value("dissipated"), w = solver.value("work");
+        solver.step(k / 3.0);
+        expect_books_close(solver, e, d, w, "step " + std::to_string(k) + ": ");
+        cases::expect_below(solver.value("substeps"), 64.0, "parts that are shorter than smallest_step");
+        solver.commit();
+    }
+}
+
+CASE_TEST(snapping_steps_are_cut) {
+    Scene scene = cases::make_mmf(1e-3, cases::mmf_ductile, "frozen");
+    const double tolerance = 0.05, smallest = 1.0 / 256.0;
+    scene.number("mixity_step_tolerance", tolerance);
+    scene.number("smallest_step", smallest);
+    Solver solver(scene, 0.0);
+    double worst = 0.0, parts = 0.0;
+    const int steps = 40;
+    for (int k = 1; k <= steps; ++k) {
+        const double e = cases::stored(solver), d = solver.value("dissipated"), w = solver.value("work");
+        solver.step(2.0 * k / steps);
+        expect_books_close(solver, e, d, w, "step " + std::to_string(k) + ": ");
+        cases::expect(solver.value("mixity_error") <= tolerance || solver.value("substeps") > 8.0, "a step that snaps is cut as far as allowed");
+        cases::expect_below(solver.value("substeps"), 1.0 / smallest, "parts that are shorter than smallest_step");
+        worst = std::max(worst, solver.value("mixity_error"));
+        parts = std::max(parts, solver.value("substeps"));
+        solver.commit();
+    }
+    std::printf("ductile MMF cut at a mixity error of %g: worst %.3g, %g parts at most, %.5g J/m\n", tolerance, worst, parts, solver.value("dissipated"));
+}
+
+// ---- cancelled ------------------------------------------------------------------------------------------------------------
+
+struct Countdown {
+    std::int64_t left;
+    bool search_only;
+    std::int64_t seen = 0;
+    static std::int32_t hear(const char* stage, std::int64_t, std::int64_t, void* user) {
+        auto* c = static_cast<Countdown*>(user);
+        if (c->search_only && std::strcmp(stage, "search") != 0) return 0;
+        ++c->seen;
+        return c->left > 0 && --c->left == 0 ? 1 : 0;
+    }
+};
+
+CASE_TEST(cancelled_anywhere) {
+    Beam b;
+    Scene scene = cases::make_beam(b);
+    cases::set_energetic(scene, 1e-2);
+    scene.text("reduction", loop % 2 == 0 ? "condensed" : "feti");
+    scene.number("jump_tolerance", loop < 2 ? 0.05 : 0.0);
+    Solver solver(scene, 0.0);
+    solver.step(0.2);
+    solver.commit();
+    const auto bits = cases::read_bits(solver);
+    const auto bytes = solver.save();
+    const auto known = jumps(solver).size();
+    Countdown all{0, false}, search{0, true};
+    scene.require(delam_context_set_progress(scene.context(), &Countdown::hear, &all), "delam_context_set_progress");
+    solver.step(0.8);
+    const auto pending = cases::read_bits(solver);
+    const auto found = jumps(solver).size();
+    solver.rollback();
+    scene.require(delam_context_set_progress(scene.context(), &Countdown::hear, &search), "delam_context_set_progress");
+    solver.step(0.8);
+    cases::expect_same(solver, cases::read_bits(solver), pending, "taken again");
+    solver.rollback();
+    cases::expect(search.seen > 0 && all.seen > search.seen, "the search reports itself");
+    for (const bool only : {false, true}) {
+        const std::int64_t seen = only ? search.seen : all.seen;
+        for (std::int64_t stop = 1; stop <= seen; stop += 1 + seen / 7) {
+            Countdown c{stop, only};
+            scene.require(delam_context_set_progress(scene.context(), &Countdown::hear, &c), "delam_context_set_progress");
+            const std::string where = std::string(only ? "search " : "") + "call " + std::to_string(stop) + " of " + std::to_string(seen);
+            cases::expect(solver.advance(0.8) == DELAM_CANCELLED, where + ": cancelled");
+            cases::expect(jumps(solver).size() == known, where + ": no jump is left");
+            cases::expect(solver.save() == bytes, where + ": bytes as before");
+            cases::expect_same(solver, cases::read_bits(solver), bits, where);
+        }
+    }
+    scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "delam_context_set_progress");
+    solver.step(0.8);
+    cases::expect_same(solver, cases::read_bits(solver), pending, "after all cancelled ones");
+    cases::expect(jumps(solver).size() == found, "jumps after all cancelled ones");
+}
+
+}  // namespace
+
+int main() {
+    Suite* suite = suite_create("step_control");
+    TCase* tests = tcase_create("step_control");
+    tcase_add_loop_test(tests, block_jumps_where_it_should, 0, 6);
+    tcase_add_loop_test(tests, smooth_march_has_no_jump, 0, 4);
+    tcase_add_loop_test(tests, jumps_of_a_flexure, 0, 2);
+    tcase_add_test(tests, steps_that_do_not_converge_are_cut);
+    tcase_add_test(tests, wide_estimates_are_cut);
+    tcase_add_test(tests, snapping_steps_are_cut);
+    tcase_add_loop_test(tests, cancelled_anywhere, 0, 4);
+    suite_add_tcase(suite, tests);
+    return cases::run_suite(suite);
+}
