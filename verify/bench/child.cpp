@@ -54,6 +54,7 @@ Json run_child_task(const std::vector<std::string>& task) {
         if (word(0) == "memory") return measure_memory(word(1), word(2), number(3));
         if (word(0) == "agreement") return measure_agreement(word(1), number(2), number(3));
         if (word(0) == "critical") return measure_critical(word(1), number(2));
+        if (word(0) == "concepts") return measure_concepts(word(1), static_cast<int>(number(2)), number(3));
         return {{"error", "unknown task '" + word(0) + "'"}};
     } catch (const std::exception& e) {
         return {{"error", e.what()}};

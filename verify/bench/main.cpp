@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* usage =
     "usage: delam_bench [--json FILE] [--quick] [--scene NAME]... [--repeat N] [--cap SECONDS] [--threads N]... "
-    "march | precision | growth\n";
+    "march | precision | growth | energetic\n";
 
 }  // namespace
 
@@ -54,7 +54,10 @@ int main(int argc, char** argv) {
         const char* name;
         bench::Json (*make)(const bench::Settings&);
     } tables[] = {
-        {"march", bench::march_table}, {"precision", bench::precision_table}, {"growth", bench::growth_table}};
+        {"march", bench::march_table},
+        {"precision", bench::precision_table},
+        {"growth", bench::growth_table},
+        {"energetic", bench::energetic_table}};
     for (const auto& t : tables) {
         if (!understood || table != t.name) continue;
         try {

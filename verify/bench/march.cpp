@@ -60,15 +60,26 @@ const std::vector<Method>& methods() {
     return list;
 }
 
+const std::vector<Method>& concepts() {
+    static const std::vector<Method> list = {{"local", "condensed", "accelerated"},
+                                             {"backtracking", "condensed", "accelerated", "local", "on"},
+                                             {"energetic", "condensed", "accelerated", "energetic"}};
+    return list;
+}
+
 const Method& find_method(const std::string& key) {
-    for (const Method& m : methods()) {
-        if (key == m.key) return m;
+    for (const auto* list : {&methods(), &concepts()}) {
+        for (const Method& m : *list) {
+            if (key == m.key) return m;
+        }
     }
-    throw reference::Failure(0, "method '" + key + "' is not known: baseline, feti, condensed, accelerated");
+    throw reference::Failure(0, "method '" + key +
+                                    "' is not known: baseline, feti, condensed, accelerated, local, backtracking, "
+                                    "energetic");
 }
 
 std::optional<Choice> resolve(Stage& stage, const Method& method, double delta, std::string& refusal) {
-    const Choice full{method.reduction, method.minimisation, delta};
+    const Choice full{method.reduction, method.minimisation, delta, method.solution, method.backtracking};
     if (declare(stage, full, &refusal)) return full;
     const std::string reduction = method.reduction;
     const std::string minimisation = method.minimisation;

@@ -10,14 +10,19 @@
 
 namespace bench {
 
-// The four methods of the comparison.
+// One way of marching. nullptr: whatever the library does by itself; without a reduction: the baseline.
 struct Method {
-    const char* key;        // baseline, feti, condensed, accelerated
-    const char* reduction;  // nullptr: the baseline, or whatever the library does by itself
+    const char* key;
+    const char* reduction;
     const char* minimisation;
+    const char* solution = nullptr;
+    const char* backtracking = nullptr;
 };
+// The four methods of the table `march`: baseline, feti, condensed, accelerated.
 const std::vector<Method>& methods();
-const Method& find_method(const std::string& key);  // throws reference::Failure
+// The three of the table `energetic`, all accelerated: local, backtracking, energetic.
+const std::vector<Method>& concepts();
+const Method& find_method(const std::string& key);  // of either; throws reference::Failure
 
 // Options of a method, left out where the library cannot do anything else yet: an old library knows only FETI and plain
 // alternation, so asking for these is no refusal. nullopt: the library does not know the method; `refusal` says why.

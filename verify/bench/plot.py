@@ -6,6 +6,7 @@ precision: work-precision diagram, error of the load-displacement curve and of t
            line an element, one marker a mesh; thin lines: other numbers of steps.
 march:     cost of every method in linear-solve equivalents, one group a scene.
 growth:    time against unknowns, with the fitted exponents.
+energetic: load-displacement curves of the three marches of the finest scene, and their cost.
 """
 import json
 import sys
@@ -16,6 +17,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 METHODS = ("baseline", "feti", "condensed", "accelerated")
+CONCEPTS = ("local", "backtracking", "energetic")
 
 
 def precision(result, figure):
@@ -91,13 +93,40 @@ def growth(result, figure):
         axis.legend(fontsize=8)
 
 
+def energetic(result, figure):
+    axes = figure.subplots(1, 2)
+    labels = []
+    for i, (name, scene) in enumerate(result["scenes"].items()):
+        threads, series = next(iter(scene["threads"].items()))
+        labels.append(f"{name}\n{threads} thread(s)")
+        last = i == len(result["scenes"]) - 1
+        for j, concept in enumerate(CONCEPTS):
+            m = series.get("methods", {}).get(concept, {})
+            if "lse" not in m:
+                continue
+            axes[1].bar(i + 0.27 * (j - 1), m["lse"], 0.25, color=f"C{j}")
+            axes[1].annotate(f"{m['lse']:.3g}", (i + 0.27 * (j - 1), m["lse"]), ha="center", fontsize=7)
+            if last:
+                history = m["history"]
+                load = [0.0] + [1e3 * x for x in history["load"]]
+                style = ("-", "--", "-.")[j]
+                axes[0].plot(load, [0.0] + history["reaction"], style, color=f"C{j}", label=concept)
+                axes[0].set_title(name)
+    axes[0].set(xlabel="load, mm", ylabel="reaction, N/m")
+    axes[0].legend(fontsize=8)
+    axes[0].grid(True, alpha=0.3)
+    axes[1].set(ylabel="linear-solve equivalents of the whole march")
+    axes[1].set_xticks(range(len(labels)), labels)
+
+
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     with open(sys.argv[1], encoding="utf-8") as file:
         data = json.load(file)
     figure = plt.figure(figsize=(11, 5), layout="constrained")
-    {"precision": precision, "march": march, "growth": growth}[data["table"]](data["result"], figure)
+    draw = {"precision": precision, "march": march, "growth": growth, "energetic": energetic}
+    draw[data["table"]](data["result"], figure)
     machine = data["machine"]
     note = f"{machine['processor']}, {machine['blas_core']}, {machine['commit']}"
     figure.text(0.995, 0.005, note, ha="right", fontsize=6)

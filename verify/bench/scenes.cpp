@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 namespace bench {
 namespace {
@@ -192,13 +193,12 @@ bool declare(Stage& stage, const Choice& choice, std::string* refusal) {
         !accepted(set_formulation(scene.problem(), data.element->formulation), "formulation")) {
         return false;
     }
-    if (choice.reduction != nullptr &&
-        !accepted(delam_problem_set_text(scene.problem(), "reduction", choice.reduction), "reduction")) {
-        return false;
-    }
-    if (choice.minimisation != nullptr &&
-        !accepted(delam_problem_set_text(scene.problem(), "minimisation", choice.minimisation), "minimisation")) {
-        return false;
+    const std::pair<const char*, const char*> texts[] = {{"reduction", choice.reduction},
+                                                         {"minimisation", choice.minimisation},
+                                                         {"solution", choice.solution},
+                                                         {"backtracking", choice.backtracking}};
+    for (const auto& [key, word] : texts) {
+        if (word != nullptr && !accepted(delam_problem_set_text(scene.problem(), key, word), key)) return false;
     }
     scene.number("damage_tolerance", choice.delta);
     scene.number("minimisation_limit", 100000.0);

@@ -52,6 +52,8 @@ struct Choice {
     const char* reduction = nullptr;
     const char* minimisation = nullptr;
     double delta = 1e-5;
+    const char* solution = nullptr;
+    const char* backtracking = nullptr;
 };
 
 struct Stage {

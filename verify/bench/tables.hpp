@@ -20,5 +20,6 @@ struct Settings {
 Json march_table(const Settings& settings);
 Json precision_table(const Settings& settings);
 Json growth_table(const Settings& settings);
+Json energetic_table(const Settings& settings);
 
 }  // namespace bench

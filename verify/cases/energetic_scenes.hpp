@@ -23,11 +23,13 @@ inline reference::LawData griffith_like(double k, double scale = 1.0) {
     return {k, k, g, g, g, g, 1.0};
 }
 
-inline std::vector<std::int64_t> pairs_where(const reference::Scene& scene, std::int64_t interface, double low, double high) {
+inline std::vector<std::int64_t> pairs_where(const reference::Scene& scene, std::int64_t interface, double low,
+                                             double high) {
     const reference::Pairs pairs = scene.pairs(interface);
     std::vector<std::int64_t> found;
     for (std::size_t p = 0; p < pairs.count(); ++p)
-        if (const double x = scene.coordinate(pairs.node_a[p], 0); x > low && x < high) found.push_back(static_cast<std::int64_t>(p));
+        if (const double x = scene.coordinate(pairs.node_a[p], 0); x > low && x < high)
+            found.push_back(static_cast<std::int64_t>(p));
     return found;
 }
 inline void notch(reference::Scene& scene, std::int64_t interface, double low, double high) {
@@ -44,7 +46,7 @@ struct Beam {
     double press = 4e-3;                 // m, at time 1
     bool mirrored = false;
     double stiffness = 1e13;
-    double units = 1.0, force = 1.0;     // lengths and forces (per thickness) are multiplied by these
+    double units = 1.0, force = 1.0;  // lengths and forces (per thickness) are multiplied by these
 };
 inline constexpr double beam_length = 0.120, beam_layer = 3e-3;
 
@@ -57,7 +59,8 @@ inline reference::Scene make_beam(const Beam& b) {
     scene.begin();
     scene.require(delam_problem_set_formulation(scene.problem(), -1, "incompatible"), "formulation");
     scene.elastic(-1, 75e9 * b.force / b.units, 0.0);
-    for (int i = 0; i + 1 < b.layers; ++i) scene.law(i, griffith_like(b.stiffness * b.force / (b.units * b.units), b.force));
+    for (int i = 0; i + 1 < b.layers; ++i)
+        scene.law(i, griffith_like(b.stiffness * b.force / (b.units * b.units), b.force));
     const double end = length + h, e = 0.25 * h;
     const double first = (b.mirrored ? b.right : b.left) * b.units, last = (b.mirrored ? b.left : b.right) * b.units;
     if (first > 0.0) notch(scene, 0, -h, first - e);
@@ -69,7 +72,8 @@ inline reference::Scene make_beam(const Beam& b) {
     scene.hold(scene.find(0, {fixed, 0.0}, {fixed, 0.0}), {1.0, 0.0});
     const double top = static_cast<double>(b.layers) * layer;
     const auto middle = scene.find(b.layers - 1, {0.5 * length, top}, {0.5 * length, top});
-    scene.drive(middle, {0.0, -1.0}, scene.pattern("press", {0.0, 1.0}, {0.0, b.press * b.units}), std::vector<double>(middle.size(), 1.0));
+    scene.drive(middle, {0.0, -1.0}, scene.pattern("press", {0.0, 1.0}, {0.0, b.press * b.units}),
+                std::vector<double>(middle.size(), 1.0));
     return scene;
 }
 
@@ -82,7 +86,9 @@ struct Block {
     double end = 0.0;  // m, at time 1
     bool held = true;
 };
-inline double energetic_load(const Block& b) { return std::sqrt(2.0 * toughness * (1.0 / b.spring + 1.0 / b.stiffness)); }
+inline double energetic_load(const Block& b) {
+    return std::sqrt(2.0 * toughness * (1.0 / b.spring + 1.0 / b.stiffness));
+}
 
 inline reference::Scene make_block(const Block& b) {
     reference::Scene scene(2, {b.width}, {b.cells}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
@@ -165,18 +171,21 @@ private:
     std::vector<Rival> list_;
 };
 
-inline Rivals::Run run(const reference::Scene& scene, std::int64_t interface, double low, double high, bool from_high = false) {
+inline Rivals::Run run(const reference::Scene& scene, std::int64_t interface, double low, double high,
+                       bool from_high = false) {
     Rivals::Run r;
     std::size_t first = 0;
     for (std::int64_t i = 0; i < interface; ++i) first += scene.pairs(i).count();
-    for (const std::int64_t p : pairs_where(scene, interface, low, high)) r.push_back(first + static_cast<std::size_t>(p));
+    for (const std::int64_t p : pairs_where(scene, interface, low, high))
+        r.push_back(first + static_cast<std::size_t>(p));
     if (from_high) std::reverse(r.begin(), r.end());
     return r;
 }
 
 // A march in which no step may lie above the rivals that its start could reach, nor below its search's own candidates.
 // Returns the dissipated energy of every step.
-inline std::vector<double> march_below(const reference::Scene& scene, const Rivals& rivals, int steps, double tolerance = 1e-8) {
+inline std::vector<double> march_below(const reference::Scene& scene, const Rivals& rivals, int steps,
+                                       double tolerance = 1e-8) {
     reference::Solver solver(scene, 0.0);
     std::vector<double> dissipated;
     for (int k = 1; k <= steps; ++k) {
@@ -190,12 +199,32 @@ inline std::vector<double> march_below(const reference::Scene& scene, const Riva
         scene.require(delam_solver_look(solver.get(), -1), "delam_solver_look");
         const double rival = rivals.least(time, before) + spent;
         expect_below((total(solver) - rival) / scale(solver), tolerance, where + "energy above the rivals'");
-        expect_below(-solver.value("search_margin") / scale(solver), 1e-9, where + "energy above the search's candidates");
+        expect_below(-solver.value("search_margin") / scale(solver), 1e-9,
+                     where + "energy above the search's candidates");
         expect_below(solver.value("search_gap") / scale(solver), 1e-8, where + "what the search may have missed");
         solver.commit();
         dissipated.push_back(solver.value("dissipated"));
     }
     return dissipated;
+}
+
+struct Jump {
+    std::int64_t step = 0, interface = -1, first = -1, last = -1;
+    double before = 0.0, time = 0.0, stored = 0.0, dissipated = 0.0, released = 0.0, debonded = 0.0;
+};
+inline std::vector<Jump> jumps(const reference::Solver& solver) {
+    std::int64_t count = 0;
+    const reference::Scene& scene = solver.scene();
+    scene.require(delam_solver_jump_count(solver.get(), &count), "delam_solver_jump_count");
+    std::vector<Jump> all(static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        Jump& j = all[i];
+        scene.require(
+            delam_solver_jump(solver.get(), static_cast<std::int64_t>(i), &j.step, &j.before, &j.time, &j.stored,
+                              &j.dissipated, &j.released, &j.debonded, &j.interface, &j.first, &j.last),
+            "delam_solver_jump");
+    }
+    return all;
 }
 
 }  // namespace cases

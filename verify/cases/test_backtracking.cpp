@@ -26,7 +26,9 @@ FlexureScene make(const reference::Flexure& data, const char* backtracking, cons
 }
 double time_of(int k, int steps) { return 2.0 * k / steps; }
 
-void look(const Solver& solver, int step) { solver.scene().require(delam_solver_look(solver.get(), step), "delam_solver_look"); }
+void look(const Solver& solver, int step) {
+    solver.scene().require(delam_solver_look(solver.get(), step), "delam_solver_look");
+}
 
 // What is said of a step, as a host reads it.
 struct Row {
@@ -34,8 +36,8 @@ struct Row {
     std::vector<double> adhesion;
 };
 Row read(const Solver& s) {
-    return {cases::stored(s), s.value("dissipated"), s.value("work"), s.value("lower"), s.value("increment"), s.value("increment_lower"),
-            s.value("upper"), s.field("adhesion")};
+    return {cases::stored(s),     s.value("dissipated"),      s.value("work"),  s.value("lower"),
+            s.value("increment"), s.value("increment_lower"), s.value("upper"), s.field("adhesion")};
 }
 std::vector<Row> history(const Solver& solver, int steps) {
     std::vector<Row> rows;
@@ -62,9 +64,12 @@ void expect_one_history(const std::vector<Row>& rows, const std::string& where, 
         const Row &a = rows[k - 1], &b = rows[k];
         const double size = std::max(std::abs(b.energy), std::abs(b.work));
         const std::string step = where + ", step " + std::to_string(k) + ": ";
-        if (!variational) cases::expect_near(b.energy - a.energy + b.dissipated - a.dissipated, b.increment, 1e-10, size, step + "increment");
+        if (!variational)
+            cases::expect_near(b.energy - a.energy + b.dissipated - a.dissipated, b.increment, 1e-10, size,
+                               step + "increment");
         cases::expect_near(b.work - a.work, 0.5 * (b.lower + b.upper), 1e-10, size, step + "work");
-        for (std::size_t p = 0; p < a.adhesion.size(); ++p) cases::expect(b.adhesion[p] <= a.adhesion[p], step + "adhesion grows");
+        for (std::size_t p = 0; p < a.adhesion.size(); ++p)
+            cases::expect(b.adhesion[p] <= a.adhesion[p], step + "adhesion grows");
     }
 }
 // Walks to `steps`; every pending history is one history too. Returns the returns.
@@ -75,13 +80,15 @@ double walk(Solver& solver, int first, int last, int steps, bool check = false) 
         solver.scene().require(status < 0 ? status : 0, "delam_solver_advance");
         returns += solver.value("backtracks");
         const double from = solver.value("revised_from");
-        cases::expect(from <= k && (from == k) == (solver.value("backtracks") == 0.0), "revised_from of step " + std::to_string(k));
+        cases::expect(from <= k && (from == k) == (solver.value("backtracks") == 0.0),
+                      "revised_from of step " + std::to_string(k));
         if (check && from < k) {
             expect_one_history(history(solver, k), "pending at " + std::to_string(k));
             for (int j = static_cast<int>(from); j < k; ++j) {
                 look(solver, j);
                 cases::expect(solver.value("revisions") >= 1.0, "a replaced step says so");
-                cases::expect(solver.value("step") == j && std::abs(solver.value("time") - time_of(j, steps)) < 1e-12, "step and time");
+                cases::expect(solver.value("step") == j && std::abs(solver.value("time") - time_of(j, steps)) < 1e-12,
+                              "step and time");
             }
             look(solver, -1);
         }
@@ -121,18 +128,22 @@ CASE_TEST(replaced_steps_hold_on_their_own) {
         const auto displacement = b.field("displacement");
         probe.equilibrate(time_of(k, steps), adhesion);
         const std::string where = "step " + std::to_string(k) + ": ";
-        cases::expect_near(cases::stored(b), cases::stored(probe), 1e-9, std::abs(cases::stored(probe)), where + "energy");
-        cases::expect_near(b.value("reaction:press"), probe.value("reaction:press"), 1e-8, std::abs(probe.value("reaction:press")), where + "reaction");
+        cases::expect_near(cases::stored(b), cases::stored(probe), 1e-9, std::abs(cases::stored(probe)),
+                           where + "energy");
+        cases::expect_near(b.value("reaction:press"), probe.value("reaction:press"), 1e-8,
+                           std::abs(probe.value("reaction:press")), where + "reaction");
         const auto again = probe.field("displacement");
-        for (std::size_t i = 0; i < again.size(); ++i) cases::expect_near(displacement[i], again[i], 1e-7, 6e-3, where + "displacement");
+        for (std::size_t i = 0; i < again.size(); ++i)
+            cases::expect_near(displacement[i], again[i], 1e-7, 6e-3, where + "displacement");
         probe.rollback();
         double spent = 0.0;
-        for (std::size_t p = 0; p < adhesion.size(); ++p) spent += on.data.law.tangential_toughness * on.weight[p] * (on.adhesion[p] - adhesion[p]);
+        for (std::size_t p = 0; p < adhesion.size(); ++p)
+            spent += on.data.law.tangential_toughness * on.weight[p] * (on.adhesion[p] - adhesion[p]);
         cases::expect_near(b.value("dissipated"), spent, 1e-9, spent + 1e-3, where + "dissipated");
     }
 }
 
-// ---- rolled back, saved, looked at --------------------------------------------------------------------------------------
+// ---- rolled back, saved, looked at --------------------------------------------------------------------------------
 
 const char* concept_of(int loop) { return loop == 0 ? "local" : "energetic"; }
 
@@ -196,7 +207,8 @@ CASE_TEST(resumed_march) {
         for (int j = 0; j <= k + 4; ++j) {
             look(whole, j);
             look(resumed, j);
-            cases::expect_same(resumed, cases::read_bits(resumed), cases::read_bits(whole), "looked at, step " + std::to_string(j));
+            cases::expect_same(resumed, cases::read_bits(resumed), cases::read_bits(whole),
+                               "looked at, step " + std::to_string(j));
         }
     }
 }
@@ -212,15 +224,18 @@ CASE_TEST(limits_and_depth) {
     double returns = 0.0;
     for (int k = 1; k <= steps; ++k) {
         for (Solver* s : {&a, &b, &c, &d}) s->step(time_of(k, steps));
-        cases::expect(cases::same_bits(a.field("adhesion"), b.field("adhesion")) && b.value("backtracks") == 0.0, "limit 0 never returns");
+        cases::expect(cases::same_bits(a.field("adhesion"), b.field("adhesion")) && b.value("backtracks") == 0.0,
+                      "limit 0 never returns");
         cases::expect_below(c.value("backtracks"), 1.0, "limit 1");
         returns += c.value("backtracks");
         cases::expect(d.value("revised_from") >= k - 1, "one step is kept to return to");
         for (Solver* s : {&a, &b, &c, &d}) s->commit();
         cases::expect(delam_solver_look(d.get(), k - 2) == DELAM_ERROR_ARGUMENT || k < 2, "two steps back is not kept");
-        cases::expect(delam_solver_look(d.get(), k - 1) == DELAM_OK && delam_solver_look(d.get(), -1) == DELAM_OK, "the last one is");
+        cases::expect(delam_solver_look(d.get(), k - 1) == DELAM_OK && delam_solver_look(d.get(), -1) == DELAM_OK,
+                      "the last one is");
         cases::expect(delam_solver_look(a.get(), k - 1) == DELAM_ERROR_ARGUMENT, "without backtracking none is kept");
-        cases::expect(delam_solver_look(d.get(), k + 1) == DELAM_ERROR_ARGUMENT && delam_solver_look(d.get(), -2) == DELAM_ERROR_ARGUMENT,
+        cases::expect(delam_solver_look(d.get(), k + 1) == DELAM_ERROR_ARGUMENT &&
+                          delam_solver_look(d.get(), -2) == DELAM_ERROR_ARGUMENT,
                       "no step beyond");
     }
     cases::expect(returns > 0.0, "limit 1 returns");
@@ -241,7 +256,8 @@ CASE_TEST(a_set_state_is_kept) {
     solver.commit();
     solver.step(time_of(k, steps));
     const auto now = solver.field("adhesion");
-    for (std::size_t p = 0; p < now.size(); ++p) cases::expect(now[p] <= adhesion[p], "what was set broken is whole again at pair " + std::to_string(p));
+    for (std::size_t p = 0; p < now.size(); ++p)
+        cases::expect(now[p] <= adhesion[p], "what was set broken is whole again at pair " + std::to_string(p));
 }
 
 // Laws that soften, marches that return many times, every rule: the loops end.
@@ -254,7 +270,8 @@ CASE_TEST(returns_end) {
     const int steps = 40;
     const double returns = walk(solver, 1, steps, steps);
     expect_one_history(history(solver, steps), rules[loop % 3], loop % 3 == 2);
-    std::printf("ductile MMF, %s: %g returns, %d bounds missed\n", rules[loop % 3], returns, violated(history(solver, steps)));
+    std::printf("ductile MMF, %s: %g returns, %d bounds missed\n", rules[loop % 3], returns,
+                violated(history(solver, steps)));
 }
 
 }  // namespace

@@ -43,10 +43,11 @@ Checked walk(Solver& solver, const std::vector<double>& times) {
         scene.require(delam_solver_look(solver.get(), k), "delam_solver_look");
         const auto adhesion = solver.field("adhesion");
         const std::string where = "step " + std::to_string(k) + ": ";
-        for (std::size_t p = 0; p < before.size(); ++p) cases::expect(adhesion[p] <= before[p], where + "adhesion grows");
+        for (std::size_t p = 0; p < before.size(); ++p)
+            cases::expect(adhesion[p] <= before[p], where + "adhesion grows");
         if (k > 0) {
-            cases::expect_near(cases::stored(solver) - energy + solver.value("dissipated") - dissipated, solver.value("increment"), 1e-10, largest,
-                               where + "increment");
+            cases::expect_near(cases::stored(solver) - energy + solver.value("dissipated") - dissipated,
+                               solver.value("increment"), 1e-10, largest, where + "increment");
             const double below = (solver.value("lower") - solver.value("increment_lower")) / largest;
             const double above = (solver.value("increment") - solver.value("upper")) / largest;
             c.violated += below > eta || above > eta ? 1 : 0;
@@ -68,8 +69,8 @@ std::vector<double> times(int steps, double end = 1.0) {
     return t;
 }
 void expect_sound(const Checked& c, const std::string& what, int violated = 0) {
-    std::printf("%s: margin %.2g, below %.2g, above %.2g, gap %.2g, violated %d\n", what.c_str(), -c.worst_margin, c.worst_lower, c.worst_upper,
-                c.worst_gap, c.violated);
+    std::printf("%s: margin %.2g, below %.2g, above %.2g, gap %.2g, violated %d\n", what.c_str(), -c.worst_margin,
+                c.worst_lower, c.worst_upper, c.worst_gap, c.violated);
     cases::expect_below(c.worst_margin, 1e-9, what + ": energy above the search's candidates");
     cases::expect_below(c.violated, violated, what + ": steps beyond their bounds");
 }
@@ -83,7 +84,7 @@ CASE_TEST(brittle_flexure_misses_no_bound) {
     cases::expect(solver.value("dissipated") > 0.0, "it breaks");
 }
 
-// ---- histories ------------------------------------------------------------------------------------------------------------
+// ---- histories ----------------------------------------------------------------------------------------------------
 
 // A beam whose load follows a table, and with `push` a second one at the right end of the notch.
 Scene loaded(const std::vector<double>& at, const std::vector<double>& values, bool push = false) {
@@ -96,7 +97,8 @@ Scene loaded(const std::vector<double>& at, const std::vector<double>& values, b
     scene.drive(quarter, {0.0, -1.0}, press, std::vector<double>(quarter.size(), 1.0));
     if (push) {
         const auto tip = scene.find(1, {0.0, top}, {0.0, top});
-        scene.drive(tip, {0.0, 1.0}, scene.pattern("lift", {0.0, 0.5, 1.0}, {0.0, 0.0, 1e-3}), std::vector<double>(tip.size(), 1.0));
+        scene.drive(tip, {0.0, 1.0}, scene.pattern("lift", {0.0, 0.5, 1.0}, {0.0, 0.0, 1e-3}),
+                    std::vector<double>(tip.size(), 1.0));
     }
     return scene;
 }
@@ -131,7 +133,8 @@ CASE_TEST(turning_load_and_snapshot) {
     for (std::size_t k = 13; k < all.size(); ++k) {
         walk(whole, {all[k]});
         walk(resumed, {all[k]});
-        cases::expect_same(resumed, cases::read_bits(resumed), cases::read_bits(whole), "step " + std::to_string(k + 1));
+        cases::expect_same(resumed, cases::read_bits(resumed), cases::read_bits(whole),
+                           "step " + std::to_string(k + 1));
     }
     cases::expect(whole.value("dissipated") > 0.0, "it breaks");
 }
@@ -156,19 +159,21 @@ CASE_TEST(equal_fronts_and_snapshot) {
         whole.rollback();
         walk(whole, {all[k]});
         walk(resumed, {all[k]});
-        cases::expect_same(resumed, cases::read_bits(resumed), cases::read_bits(whole), "step " + std::to_string(k + 1));
+        cases::expect_same(resumed, cases::read_bits(resumed), cases::read_bits(whole),
+                           "step " + std::to_string(k + 1));
     }
     cases::expect(whole.value("dissipated") > 0.0, "it breaks");
 }
 
-// ---- laws -----------------------------------------------------------------------------------------------------------------
+// ---- laws ---------------------------------------------------------------------------------------------------------
 
 struct Softening {
     const char* kind;
     double plateau, gradient, k;
 };
-constexpr Softening softenings[] = {{"piecewise-linear", 0.0, 0.0, 1e12}, {"exponential", 0.0, 0.0, 1e12},   {"trapezoidal", 0.5, 0.0, 1e12},
-                                    {"griffith", 0.0, 0.0, 1e13},         {"exponential", 0.0, 0.0, 125e9}, {"piecewise-linear", 0.0, 1e-3, 1e12}};
+constexpr Softening softenings[] = {{"piecewise-linear", 0.0, 0.0, 1e12}, {"exponential", 0.0, 0.0, 1e12},
+                                    {"trapezoidal", 0.5, 0.0, 1e12},      {"griffith", 0.0, 0.0, 1e13},
+                                    {"exponential", 0.0, 0.0, 125e9},     {"piecewise-linear", 0.0, 1e-3, 1e12}};
 
 CASE_TEST(laws_that_soften) {
     const Softening& s = softenings[loop];

@@ -29,8 +29,8 @@ CASE_TEST(returns_end) {
         const double size = std::max(std::abs(solver.value("stored_bulk")), solver.value("work"));
         violated += solver.value("lower") - solver.value("increment_lower") > 1e-3 * size ? 1 : 0;
     }
-    std::printf("MMF, %s, %s: %g returns, at most %g in a step, %d bounds missed, %.5g J/m\n", brittle ? "brittle" : "ductile", rules[loop % 3], returns,
-                most, violated, solver.value("dissipated"));
+    std::printf("MMF, %s, %s: %g returns, at most %g in a step, %d bounds missed, %.5g J/m\n",
+                brittle ? "brittle" : "ductile", rules[loop % 3], returns, most, violated, solver.value("dissipated"));
     cases::expect_below(most, 99.0, "returns in a step: the limit ended them");
     if (!brittle) cases::expect(violated == 0, "bounds missed: " + std::to_string(violated));
     cases::expect(solver.value("dissipated") > 0.0, "something breaks");

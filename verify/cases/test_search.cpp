@@ -57,13 +57,14 @@ CASE_TEST(two_interfaces) {
     b.left_above = loop == 0 ? 0.021 : b.left;
     b.press = 6e-3;
     Scene scene = cases::make_beam(b);
-    const Rivals rivals(scene, {cases::run(scene, 0, b.left - 0.25 * b.h, 0.066), cases::run(scene, 1, b.left_above - 0.25 * b.h, 0.066)});
+    const Rivals rivals(scene, {cases::run(scene, 0, b.left - 0.25 * b.h, 0.066),
+                                cases::run(scene, 1, b.left_above - 0.25 * b.h, 0.066)});
     cases::set_energetic(scene);
     const auto dissipated = cases::march_below(scene, rivals, 10);
     cases::expect(dissipated.back() > 0.0, "a front moves");
 }
 
-// ---- nucleation -----------------------------------------------------------------------------------------------------
+// ---- nucleation ---------------------------------------------------------------------------------------------------
 
 // All of an intact interface lets go at w = sqrt(2 Gc (1/K + 1/k)), however many pairs it has.
 CASE_TEST(intact_interface_lets_go_at_once) {
@@ -99,7 +100,7 @@ CASE_TEST(weak_spot) {
     cases::expect(dissipated.back() > 0.0, "the weak spot breaks");
 }
 
-// ---- space ------------------------------------------------------------------------------------------------------------
+// ---- space --------------------------------------------------------------------------------------------------------
 
 CASE_TEST(straight_fronts_in_space) {
     const double length = 0.06, width = 0.008, layer = 2e-3;
@@ -125,7 +126,8 @@ CASE_TEST(straight_fronts_in_space) {
     }
     scene.hold(scene.find(-1, {0.0, 0.0, 0.0}, {length, 0.0, 2 * layer}), {0.0, 1.0, 0.0});
     const auto driven = face(1, x, 2 * layer);
-    scene.drive(driven, {0.0, 0.0, opened ? 1.0 : -1.0}, scene.pattern("load", {0.0, 1.0}, {0.0, opened ? 1.2e-3 : 2.5e-3}),
+    scene.drive(driven, {0.0, 0.0, opened ? 1.0 : -1.0},
+                scene.pattern("load", {0.0, 1.0}, {0.0, opened ? 1.2e-3 : 2.5e-3}),
                 std::vector<double>(driven.size(), 1.0));
     // Rows of pairs across the width, from the notch on.
     const auto pairs = scene.pairs(0);
@@ -151,15 +153,17 @@ CASE_TEST(straight_fronts_in_space) {
         double rival = INFINITY;
         // A march may be ahead of a scan that has no history: only fronts that cost at least as much as was spent.
         for (std::size_t f = 0; f < energy.size(); ++f)
-            if (f > 0 || k == 1 || solver.value("dissipated") == 0.0) rival = std::min(rival, t * t * energy[f] + spent[f]);
-        cases::expect_below((cases::total(solver) - rival) / cases::scale(solver), 2e-3, "step " + std::to_string(k) + ": above straight fronts");
+            if (f > 0 || k == 1 || solver.value("dissipated") == 0.0)
+                rival = std::min(rival, t * t * energy[f] + spent[f]);
+        cases::expect_below((cases::total(solver) - rival) / cases::scale(solver), 2e-3,
+                            "step " + std::to_string(k) + ": above straight fronts");
         cases::expect_below(-solver.value("search_margin") / cases::scale(solver), 1e-9, "margin");
         solver.commit();
     }
     cases::expect(solver.value("dissipated") > 0.0, "the front moves");
 }
 
-// ---- parts that come off ------------------------------------------------------------------------------------------------
+// ---- parts that come off ------------------------------------------------------------------------------------------
 
 // A block that nothing holds sideways once it is off: breaking all is a candidate as it is where it is held.
 CASE_TEST(floating_block_comes_off) {
@@ -182,7 +186,8 @@ CASE_TEST(dead_load) {
     Scene scene = cases::make_beam(b);
     const auto tip = scene.find(1, {0.0, 2 * cases::beam_layer}, {0.0, 2 * cases::beam_layer});
     const std::vector<double> force{0.0, 2e4};
-    scene.require(delam_problem_add_forces(scene.problem(), scene.pattern("hang", {0.0, 1.0}, {0.0, 1.0}), 1, tip.data(), force.data(), 0),
+    scene.require(delam_problem_add_forces(scene.problem(), scene.pattern("hang", {0.0, 1.0}, {0.0, 1.0}), 1,
+                                           tip.data(), force.data(), 0),
                   "delam_problem_add_forces");
     cases::set_energetic(scene);
     Solver solver(scene, 0.0);
@@ -200,7 +205,7 @@ CASE_TEST(dead_load) {
     cases::expect_below(worst, 1e-9, "energy above the search's candidates");
 }
 
-// ---- limits -------------------------------------------------------------------------------------------------------------
+// ---- limits -------------------------------------------------------------------------------------------------------
 
 CASE_TEST(a_limited_search_says_so) {
     const int limit = loop == 0 ? 0 : loop == 1 ? 1 : loop == 2 ? 2 : 5;
@@ -223,7 +228,7 @@ CASE_TEST(a_limited_search_says_so) {
     cases::expect_below(best.value("search_gap") / cases::scale(best), 1e-8, "gap of the whole search");
 }
 
-// ---- other ways to the same states ----------------------------------------------------------------------------------------
+// ---- other ways to the same states --------------------------------------------------------------------------------
 
 std::vector<std::vector<double>> states(Scene& scene, int steps, std::vector<double>* energy = nullptr) {
     cases::set_energetic(scene);
@@ -238,7 +243,8 @@ std::vector<std::vector<double>> states(Scene& scene, int steps, std::vector<dou
     return all;
 }
 
-void expect_same_states(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b, bool mirrored, const char* what) {
+void expect_same_states(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b,
+                        bool mirrored, const char* what) {
     for (std::size_t k = 0; k < a.size(); ++k)
         for (std::size_t p = 0; p < a[k].size(); ++p)
             cases::expect_near(b[k][mirrored ? b[k].size() - 1 - p : p], a[k][p], 1e-4, 1.0,
@@ -262,7 +268,8 @@ CASE_TEST(same_energy_by_alternation) {
     std::vector<double> a, c;
     states(fast, 6, &a);
     states(plain, 6, &c);
-    for (std::size_t k = 0; k < a.size(); ++k) cases::expect_near(c[k], a[k], 1e-6, a[k], "energy of step " + std::to_string(k + 1));
+    for (std::size_t k = 0; k < a.size(); ++k)
+        cases::expect_near(c[k], a[k], 1e-6, a[k], "energy of step " + std::to_string(k + 1));
 }
 
 CASE_TEST(same_states_in_other_units_and_mirrored) {
@@ -280,7 +287,6 @@ CASE_TEST(same_states_in_other_units_and_mirrored) {
     Scene again = cases::make_beam(other);
     expect_same_states(a, states(again, 6), other.mirrored, loop == 0 ? "mirrored" : "units");
 }
-
 
 }  // namespace
 

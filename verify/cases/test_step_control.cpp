@@ -13,34 +13,20 @@ namespace {
 
 using cases::Beam;
 using cases::Block;
+using cases::Jump;
+using cases::jumps;
 using reference::Scene;
 using reference::Solver;
-
-struct Jump {
-    std::int64_t step = 0, interface = -1, first = -1, last = -1;
-    double before = 0.0, time = 0.0, stored = 0.0, dissipated = 0.0, released = 0.0, debonded = 0.0;
-};
-std::vector<Jump> jumps(const Solver& solver) {
-    std::int64_t count = 0;
-    const Scene& scene = solver.scene();
-    scene.require(delam_solver_jump_count(solver.get(), &count), "delam_solver_jump_count");
-    std::vector<Jump> all(static_cast<std::size_t>(count));
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        Jump& j = all[i];
-        scene.require(delam_solver_jump(solver.get(), static_cast<std::int64_t>(i), &j.step, &j.before, &j.time, &j.stored, &j.dissipated,
-                                        &j.released, &j.debonded, &j.interface, &j.first, &j.last),
-                      "delam_solver_jump");
-    }
-    return all;
-}
 
 double size_of(const Solver& s) { return std::max(cases::scale(s), 1e-12); }
 
 // Steps of a march in parts: their sums are those of the whole.
-void expect_books_close(const Solver& s, double energy_before, double dissipated_before, double work_before, const std::string& where) {
+void expect_books_close(const Solver& s, double energy_before, double dissipated_before, double work_before,
+                        const std::string& where) {
     const double change = cases::stored(s) - energy_before + s.value("dissipated") - dissipated_before;
     cases::expect_near(s.value("increment"), change, 1e-9, size_of(s), where + "increment");
-    cases::expect_near(s.value("work") - work_before, 0.5 * (s.value("lower") + s.value("upper")), 1e-9, size_of(s), where + "work");
+    cases::expect_near(s.value("work") - work_before, 0.5 * (s.value("lower") + s.value("upper")), 1e-9, size_of(s),
+                       where + "work");
     cases::expect_below(s.value("increment") - s.value("upper"), 1e-8 * size_of(s), where + "upper bound");
     cases::expect(s.value("substeps") >= 1.0, where + "parts");
 }
@@ -55,7 +41,8 @@ void expect_jumps(const Solver& s, double from, const std::string& where) {
         released += j.released;
         cases::expect(j.before >= last && j.time > j.before && j.time <= to, where + "instants in order");
         last = j.time;
-        cases::expect(j.dissipated > 0.0 && j.debonded > 0.0 && j.first >= 0 && j.last >= j.first, where + "something broke");
+        cases::expect(j.dissipated > 0.0 && j.debonded > 0.0 && j.first >= 0 && j.last >= j.first,
+                      where + "something broke");
         cases::expect_below(j.stored, 1e-6 * size_of(s), where + "a jump stores nothing");
         cases::expect_below(-j.released, 1e-8 * size_of(s), where + "a jump creates energy");
     }
@@ -88,10 +75,12 @@ CASE_TEST(block_jumps_where_it_should) {
     }
     const auto all = jumps(solver);
     cases::expect(all.size() == 1, "one jump, not " + std::to_string(all.size()));
-    cases::expect(all[0].before * b.end <= exact * (1 + 1e-9) && all[0].time * b.end >= exact * (1 - 1e-9), "the jump brackets its closed form");
+    cases::expect(all[0].before * b.end <= exact * (1 + 1e-9) && all[0].time * b.end >= exact * (1 - 1e-9),
+                  "the jump brackets its closed form");
     cases::expect_below(all[0].time - all[0].before, tolerance / steps * (1 + 1e-9), "width of the bracket");
     const double spent = cases::toughness * b.width;
-    const double release = energetic ? 0.0 : 0.5 * local * local / (1.0 / b.spring + 1.0 / b.stiffness) * b.width - spent;
+    const double release =
+        energetic ? 0.0 : 0.5 * local * local / (1.0 / b.spring + 1.0 / b.stiffness) * b.width - spent;
     cases::expect_near(all[0].dissipated, spent, 1e-9, spent, "dissipated");
     cases::expect_near(all[0].released, release, 6.0 * tolerance, spent + release, "released");
     cases::expect_near(all[0].debonded, b.width, 1e-9, b.width, "debonded");
@@ -121,11 +110,8 @@ CASE_TEST(smooth_march_has_no_jump) {
         if (spent == 0.0) cases::expect(jumps(solver).empty(), "a jump before any damage");
     }
     cases::expect(spent > 0.0, "something is damaged");
-    double size = 0.0;
-    for (const Jump& j : jumps(solver)) size = std::max(size, j.debonded);
-    std::printf("ductile ENF, tolerance %g: %zu jumps, largest %.3g mm, front %.3g mm\n", tolerance[loop], jumps(solver).size(), 1e3 * size,
-                1e3 * solver.value("front"));
-    // A stiff spring is smooth beyond doubt; a whole front that moves by a cell at a time is not.
+    cases::expect(jumps(solver).empty(), "jumps of a ductile front: " + std::to_string(jumps(solver).size()));
+    // So is a stiff spring.
     Block b;
     b.cells = 3;
     b.spring = 4e12;
@@ -179,7 +165,7 @@ CASE_TEST(jumps_of_a_flexure) {
     cases::expect(parts > steps, "steps were walked in parts");
     // What was put in and is neither stored nor dissipated was released.
     const double missing = solver.value("work") - cases::stored(solver) - solver.value("dissipated");
-    cases::expect_near(missing, released, energetic ? 2e-2 : 2e-2, solver.value("work"), "work less stored and dissipated");
+    cases::expect_near(missing, released, 2e-2, solver.value("work"), "work less stored and dissipated");
     if (!energetic) cases::expect(released > 0.1 * solver.value("dissipated"), "a local jump releases energy");
     // Jumps survive saving, and a state that is set.
     const auto before = jumps(solver);
@@ -192,7 +178,29 @@ CASE_TEST(jumps_of_a_flexure) {
     cases::expect(jumps(again).size() == before.size(), "jumps of the march after a set state is committed");
 }
 
-// ---- refusals -----------------------------------------------------------------------------------------------------------
+// Open (DELAM_OPEN_TESTS=1 runs them): what is released is all that is missing. It is not where a step was replaced
+// after a return, whose jumps are not located (loop 0), nor where a local front hops by cells so regularly that the
+// hops count as growth (loop 1).
+CASE_TEST(open_all_that_is_missing_was_released) {
+    reference::FlexureScene f = reference::make_flexure(reference::find_flexure("enf-brittle"));
+    f.scene.text("backtracking", loop == 0 ? "on" : "off");
+    f.scene.number("jump_tolerance", 1e-3);
+    Solver solver(f.scene, 0.0);
+    double released = 0.0, dissipated = 0.0;
+    for (int k = 1; k <= 40; ++k) {
+        solver.step(2.0 * k / 40);
+        solver.commit();
+    }
+    for (const Jump& j : jumps(solver)) {
+        released += j.released;
+        dissipated += j.dissipated;
+    }
+    cases::expect_near(released, -solver.value("defect"), 0.05, -solver.value("defect"),
+                       "released, of what is missing");
+    cases::expect_near(dissipated, solver.value("dissipated"), 0.05, solver.value("dissipated"), "dissipated by jumps");
+}
+
+// ---- refusals -----------------------------------------------------------------------------------------------------
 
 CASE_TEST(steps_that_do_not_converge_are_cut) {
     Scene fixed = cases::small_enf(0), adaptive = cases::small_enf(0), stubborn = cases::small_enf(0);
@@ -221,7 +229,8 @@ CASE_TEST(steps_that_do_not_converge_are_cut) {
         for (Solver* s : {&a, &b, &c}) s->commit();
     }
     std::printf("not converged: fixed %d, adaptive %d of 8 steps, %g refused\n", failed, failed_adaptive, refused);
-    cases::expect(failed > failed_adaptive && refused > 0.0, "cutting helps: " + std::to_string(failed) + " or " + std::to_string(failed_adaptive));
+    cases::expect(failed > failed_adaptive && refused > 0.0,
+                  "cutting helps: " + std::to_string(failed) + " or " + std::to_string(failed_adaptive));
     cases::expect(failed_adaptive == 0, "all parts converge");
 }
 
@@ -255,16 +264,18 @@ CASE_TEST(snapping_steps_are_cut) {
         const double e = cases::stored(solver), d = solver.value("dissipated"), w = solver.value("work");
         solver.step(2.0 * k / steps);
         expect_books_close(solver, e, d, w, "step " + std::to_string(k) + ": ");
-        cases::expect(solver.value("mixity_error") <= tolerance || solver.value("substeps") > 8.0, "a step that snaps is cut as far as allowed");
+        cases::expect(solver.value("mixity_error") <= tolerance || solver.value("substeps") > 8.0,
+                      "a step that snaps is cut as far as allowed");
         cases::expect_below(solver.value("substeps"), 1.0 / smallest, "parts that are shorter than smallest_step");
         worst = std::max(worst, solver.value("mixity_error"));
         parts = std::max(parts, solver.value("substeps"));
         solver.commit();
     }
-    std::printf("ductile MMF cut at a mixity error of %g: worst %.3g, %g parts at most, %.5g J/m\n", tolerance, worst, parts, solver.value("dissipated"));
+    std::printf("ductile MMF cut at a mixity error of %g: worst %.3g, %g parts at most, %.5g J/m\n", tolerance, worst,
+                parts, solver.value("dissipated"));
 }
 
-// ---- cancelled ------------------------------------------------------------------------------------------------------------
+// ---- cancelled ----------------------------------------------------------------------------------------------------
 
 struct Countdown {
     std::int64_t left;
@@ -305,8 +316,10 @@ CASE_TEST(cancelled_anywhere) {
         const std::int64_t seen = only ? search.seen : all.seen;
         for (std::int64_t stop = 1; stop <= seen; stop += 1 + seen / 7) {
             Countdown c{stop, only};
-            scene.require(delam_context_set_progress(scene.context(), &Countdown::hear, &c), "delam_context_set_progress");
-            const std::string where = std::string(only ? "search " : "") + "call " + std::to_string(stop) + " of " + std::to_string(seen);
+            scene.require(delam_context_set_progress(scene.context(), &Countdown::hear, &c),
+                          "delam_context_set_progress");
+            const std::string where =
+                std::string(only ? "search " : "") + "call " + std::to_string(stop) + " of " + std::to_string(seen);
             cases::expect(solver.advance(0.8) == DELAM_CANCELLED, where + ": cancelled");
             cases::expect(jumps(solver).size() == known, where + ": no jump is left");
             cases::expect(solver.save() == bytes, where + ": bytes as before");
@@ -331,6 +344,10 @@ int main() {
     tcase_add_test(tests, wide_estimates_are_cut);
     tcase_add_test(tests, snapping_steps_are_cut);
     tcase_add_loop_test(tests, cancelled_anywhere, 0, 4);
+    if (std::getenv("DELAM_OPEN_TESTS") != nullptr)
+        tcase_add_loop_test(tests, open_all_that_is_missing_was_released, 0, 2);
+    else
+        std::printf("open, left out: open_all_that_is_missing_was_released (2)\n");
     suite_add_tcase(suite, tests);
     return cases::run_suite(suite);
 }

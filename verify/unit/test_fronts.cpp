@@ -25,9 +25,10 @@ struct Stack {
     std::vector<Toughness> toughness;
 
     Stack(int dimension, std::vector<std::int64_t> divisions, std::size_t layers, CellType type)
-        : mesh(make_layers(dimension, std::vector<double>(divisions.begin(), divisions.end()), divisions, std::vector<double>(layers, 1.0),
-                           std::vector<std::int64_t>(layers, 1), type)) {
-        for (std::size_t i = 0; i + 1 < layers; ++i) mesh.add_interface(static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1), 1e-6);
+        : mesh(make_layers(dimension, std::vector<double>(divisions.begin(), divisions.end()), divisions,
+                           std::vector<double>(layers, 1.0), std::vector<std::int64_t>(layers, 1), type)) {
+        for (std::size_t i = 0; i + 1 < layers; ++i)
+            mesh.add_interface(static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1), 1e-6);
         law.normal_stiffness = law.tangential_stiffness = 1.0;
         law.normal_onset = law.tangential_onset = law.normal_toughness = law.tangential_toughness = 1.0;
         pairs.dimension = dimension;
@@ -49,7 +50,9 @@ struct Stack {
         for (const std::size_t p : list) adhesion[p] = 0.0;
     }
     std::vector<std::uint8_t> adhering() const { return adhering_pairs(pairs, adhesion, toughness); }
-    std::vector<Front> fronts(std::size_t seeds = 0) const { return find_fronts(graph, pairs, adhering(), toughness, jump, seeds); }
+    std::vector<Front> fronts(std::size_t seeds = 0) const {
+        return find_fronts(graph, pairs, adhering(), toughness, jump, seeds);
+    }
     std::vector<Ring> rings_of(const Front& front) const { return rings(graph, adhering(), front); }
     std::vector<Ring> of(bool nucleation, std::size_t seeds = 0) const {
         std::vector<Ring> found;
@@ -74,7 +77,8 @@ START_TEST(neighbours_in_the_plane) {
         const std::size_t ends = p % 5 == 0 || p % 5 == 4 ? 1 : 2;
         ck_assert_uint_eq(s.graph.neighbours(p).size(), ends);
         ck_assert_int_eq(s.graph.interface_of(p), p < 5 ? 0 : 1);
-        for (const std::int64_t q : s.graph.neighbours(p)) ck_assert_int_eq(std::abs(q - static_cast<std::int64_t>(p)), 1);
+        for (const std::int64_t q : s.graph.neighbours(p))
+            ck_assert_int_eq(std::abs(q - static_cast<std::int64_t>(p)), 1);
     }
     ck_assert_int_eq(s.graph.first_pair(0), 0);
     ck_assert_int_eq(s.graph.first_pair(1), 5);
@@ -83,9 +87,11 @@ END_TEST
 
 // Neighbours are mutual, never the pair itself, never of another interface; nobody is without any.
 START_TEST(neighbours_of_all_cells) {
-    const CellType types[] = {CellType::tri3, CellType::quad4, CellType::tri6, CellType::quad8, CellType::tet4, CellType::hex8, CellType::tet10, CellType::hex20};
+    const CellType types[] = {CellType::tri3, CellType::quad4, CellType::tri6,  CellType::quad8,
+                              CellType::tet4, CellType::hex8,  CellType::tet10, CellType::hex20};
     for (const CellType type : types) {
-        const bool plane = type == CellType::tri3 || type == CellType::quad4 || type == CellType::tri6 || type == CellType::quad8;
+        const bool plane =
+            type == CellType::tri3 || type == CellType::quad4 || type == CellType::tri6 || type == CellType::quad8;
         const Stack s(plane ? 2 : 3, plane ? std::vector<std::int64_t>{3} : std::vector<std::int64_t>{3, 2}, 3, type);
         for (std::size_t p = 0; p < s.graph.size(); ++p) {
             ck_assert(!s.graph.neighbours(p).empty());
