@@ -344,7 +344,8 @@ DELAM_API void delam_solver_destroy(delam_solver **solver);
 /* One load step to `time` (> the committed time): minimisation (option minimisation) from the committed state, under the concept
  * of option solution: local, or energetic, where a search for lower states follows. With option backtracking earlier steps
  * may be replaced (value revised_from; delam_solver_look reads them); with jump_tolerance, step_control or
- * mixity_step_tolerance the step is walked in parts. The result is pending:
+ * mixity_step_tolerance the step is walked in parts (steps that a return replaces are not: their jumps are not located).
+ * The result is pending:
  * it can be read, then committed or rolled back (bit for bit the state before). DELAM_NOT_CONVERGED leaves a pending step too;
  * DELAM_LIMIT, DELAM_CANCELLED and errors leave none.
  * A process that has used the library and then forks should use it in one of the two only (threads of the linear algebra). */
@@ -381,8 +382,10 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   revised_from           first step that the returns of this step have replaced; its own number: none
  *   search_candidates      states that the energetic search compared
  *   search_margin          F L: the lowest of them less the state kept (>= 0 up to rounding); 0 where none was compared
- *   search_gap             F L: the state kept less what bounds the candidates that were left out from below; 0: nothing of the kinds
- *                          that were searched (delam_solver_searched) can be lower; infinite: nothing bounds them (dead loads)
+ *   search_gap             F L: the state kept less what bounds the front positions that were left out from below, at the mixities and with
+ *                          the contact outside the zone that the search has seen. 0: no further advance of a single front by whole rings
+ *                          can be lower; it says nothing of new cracks, of fronts together or of partly damaged states. Infinite:
+ *                          no bound (dead loads that nothing holds, mixity_rule = variational)
  *   substeps, refused_steps  parts that the step was walked in, and computed parts that were not kept
  *   jumps                  instants within the step at which the state jumps (option jump_tolerance)
  *   released               F L: energy that these set free and nothing stores or dissipates
@@ -441,7 +444,7 @@ DELAM_API const char *delam_solver_searched(const delam_solver *solver);
 
 /* Values and fields then speak of an earlier step: with option backtracking the last backtracking_depth ones are kept, with those that a
  * pending step replaces already in place. step -1: back to the pending state, else the committed one; so do advance, equilibrate,
- * commit, rollback and load. DELAM_ERROR_ARGUMENT names the steps that are kept. */
+ * commit, rollback and load where they succeed. DELAM_ERROR_ARGUMENT names the steps that are kept. */
 DELAM_API int32_t delam_solver_look(delam_solver *solver, int64_t step);
 
 /* Jumps that were located (option jump_tolerance) up to the pending or committed state, in the order of time. */

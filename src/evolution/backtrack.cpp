@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace delam {
 
@@ -27,15 +28,18 @@ Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t la
     Stepper::Result next;
     std::int64_t i = k, returns = 0, revised_from = k;
     bool returning = true, same_before = false;
-    std::vector<double> carried;  // adhesion of the state whose lower bound has failed
+    Counts effort;                        // of all that was computed and not kept as step k
+    std::map<std::int64_t, bool> settled; // did the replaced steps converge?
+    std::optional<Stepper::Start> carried;  // the state whose lower bound has failed
     while (true) {
-        std::vector<std::vector<double>> starts;
-        if (!carried.empty()) starts.push_back(carried);
-        if (i < k) starts.push_back(chain.at(i).adhesion);
+        std::vector<Stepper::Start> starts;
+        if (carried) starts.push_back(*carried);
+        if (i < k) starts.push_back({chain.at(i).adhesion, chain.at(i).mixity});
         Stepper::Result found = stepper.step(chain.at(i - 1), i < k ? chain.at(i).time : time, starts);
         if (i < k && same_before && !lower(found.state, chain.at(i))) {
             // Nothing lower: step i stands, and so does what was computed from it.
             returning = false;
+            effort.add(found.state.counts);
             if (++i == k) break;
             ++i;
             same_before = false;
@@ -45,13 +49,16 @@ Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t la
         if (i < k) {
             found.state.counts.revisions = chain.at(i).counts.revisions + 1;
             revised_from = std::min(revised_from, i);
+            effort.add(found.state.counts);
+            settled[i] = found.converged;
             chain.revise(found.state);
         } else {
+            if (next.state.step == k) effort.add(next.state.counts);  // of an attempt before the return
             next = found;
         }
         if (returning && violated && i - 1 > chain.first() && returns < options.backtracking_limit) {
             ++returns;
-            carried = std::move(found.state.adhesion);
+            carried = Stepper::Start{found.state.adhesion, found.state.mixity};
             --i;
             same_before = true;
             continue;
@@ -60,8 +67,15 @@ Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t la
         ++i;
         same_before = false;
     }
-    next.state.counts.backtracks = returns;
-    next.state.counts.revised_from = revised_from;
+    Counts& counts = next.state.counts;
+    const Counts own = counts;
+    counts.add(effort);
+    // What describes the state itself, and not the way to it.
+    counts.damage_change = own.damage_change;
+    counts.mixity_held = own.mixity_held;
+    for (const auto& [step, converged] : settled) next.converged = next.converged && converged;
+    counts.backtracks = returns;
+    counts.revised_from = revised_from;
     return next;
 }
 

@@ -96,7 +96,7 @@ PlanItem mixity_of(const Solver& solver, std::size_t interface) {
     const char* unit = "flop/step";
     if (problem.interfaces[interface].bonded) return {subject, left_out, "bonded for ever: no damage", 0.0, work, unit};
     if (problem.interfaces[interface].law->depends_on_mixity())
-        return {subject, used, "onset and toughness of the law depend on it; frozen at the step before",
+        return {subject, used, text("onset and toughness of the law depend on it; option mixity_rule = ", problem.options.mixity_rule),
                 work,    0.0,  unit};
     if (problem.options.mixity == "always")
         return {subject, used, "option mixity = always, although the law does not depend on it", work, 0.0, unit};

@@ -77,8 +77,8 @@ double Search::debonded_energy(const State& from) const {
     std::vector<std::uint8_t> closed(nothing.size(), 0);
     Response response;
     try {
-        solve_contact(op, coarse, spring_stiffness(pairs_, nothing), direction_, closed, response, false);
-        if (response.balanced) return response.stored_bulk + response.load_potential;
+        const bool settled = solve_contact(op, coarse, spring_stiffness(pairs_, nothing), direction_, closed, response, false).converged;
+        if (settled && response.balanced) return response.stored_bulk + response.load_potential;
     } catch (const Error& error) {
         if (error.status() != DELAM_LIMIT && error.status() != DELAM_ERROR_NUMERICAL) throw;
     }
@@ -119,7 +119,8 @@ const Search::Energy& Search::energy(const std::vector<double>& adhesion, std::s
         return known_[key] = std::move(e);
     }
     try {
-        solve_contact(op_, contact_, spring_stiffness(pairs_, adhesion), direction_, closed_, response_, false);
+        if (!solve_contact(op_, contact_, spring_stiffness(pairs_, adhesion), direction_, closed_, response_, false).converged)
+            return known_[key] = std::move(e);
         e.value = response_.stored_bulk + response_.load_potential + stored_energy(pairs_, adhesion, response_.jump) -
                   gradient_energy(pairs_, adhesion);  // which does not grow with the load
         if (follow_mixity_) {
@@ -256,9 +257,7 @@ void Search::Sweep::sample(std::size_t n) {
 }
 
 double Search::Sweep::between(std::size_t low, std::size_t high) const {
-    double first = spent_.at(low);  // of the first ring beyond the lower sample
-    const Candidate c = candidate(low + 1);
-    first = search_.spent(c);
+    const double first = search_.spent(candidate(low + 1));
     // The gradient energy is not monotone along the front: what is left of it in between is bounded by 0.
     const double gradient = search_.pairs_.gradient.empty() ? 0.0 : gradient_energy(search_.pairs_, candidate(high).adhesion);
     return value_.at(high).incremental - gradient - spent_.at(high) + first;
@@ -266,8 +265,12 @@ double Search::Sweep::between(std::size_t low, std::size_t high) const {
 
 double Search::Sweep::bound() const {
     double least = infinite;
-    for (auto low = value_.begin(), high = std::next(low); high != value_.end(); low = high++)
-        if (high->first > low->first + 1) least = std::min(least, between(low->first, high->first));
+    for (auto low = value_.begin(), high = std::next(low); high != value_.end(); low = high++) {
+        if (!std::isfinite(high->second.incremental))  // its energy is not known, or nothing balances its load
+            least = std::min(least, search_.floor_ + spent_.at(low->first));
+        else if (high->first > low->first + 1)
+            least = std::min(least, between(low->first, high->first));
+    }
     const std::size_t last = value_.rbegin()->first;
     return last < all_ ? std::min(least, search_.floor_ + spent_.at(last)) : least;
 }
@@ -275,14 +278,17 @@ double Search::Sweep::bound() const {
 // Halves the intervals on both sides of the lowest sample until its neighbours are sampled.
 void Search::Sweep::refine_minimum() {
     while (search_.left_ > 0) {
-        auto lowest = std::next(value_.begin());
-        for (auto it = lowest; it != value_.end(); ++it)
-            if (it->second.incremental < lowest->second.incremental) lowest = it;
+        // The lowest sample to which I falls: beyond the first pairs' resistance it may lie above the start and still be worth relaxing.
+        auto lowest = value_.end();
+        for (auto it = std::next(value_.begin()); it != value_.end(); ++it)
+            if (it->second.incremental < std::prev(it)->second.incremental &&
+                (lowest == value_.end() || it->second.incremental < lowest->second.incremental))
+                lowest = it;
+        best_at_ = lowest != value_.end() ? lowest->first : 0;
+        if (best_at_ == 0) return;
         const std::size_t at = lowest->first, left = std::prev(lowest)->first;
         const std::size_t right = std::next(lowest) == value_.end() ? at : std::next(lowest)->first;
-        best_at_ = lowest->second.incremental < std::prev(lowest)->second.incremental ? at : 0;
         if (at - left <= 1 && right - at <= 1) return;
-        if (best_at_ == 0 && at == 1) return;
         if (at - left > 1) sample(left + (at - left) / 2);
         if (right - at > 1 && search_.left_ > 0) sample(at + (right - at) / 2);
     }
@@ -294,7 +300,7 @@ void Search::Sweep::close_gap() {
         std::size_t low = 0, high = 0;
         double least = search_.best_ - search_.tolerance_;
         for (auto a = value_.begin(), b = std::next(a); b != value_.end(); a = b++) {
-            if (b->first <= a->first + 1) continue;
+            if (b->first <= a->first + 1 || !std::isfinite(b->second.incremental)) continue;
             if (const double left = between(a->first, b->first); left < least) {
                 least = left;
                 low = a->first;
@@ -415,7 +421,7 @@ void Search::advance_together(const Candidate& start, std::span<const Front> fro
                 for (const std::int64_t p : r[k]) joint.adhesion[index(p)] = 0.0;
         reached = std::min(n, longest);
         compare(joint, {}, nullptr);
-        if (!lowest || joint.incremental < lowest->incremental) lowest = joint;
+        if (std::isfinite(joint.incremental) && (!lowest || joint.incremental < lowest->incremental)) lowest = joint;
         if (floor_ + spent(joint) >= best_) break;
     }
     result_->words += text("all ", ring.size(), " fronts together: advanced by 1, 2, 4 ... ", reached, " rings\n");
@@ -439,7 +445,7 @@ void Search::break_everything(const Candidate& start, std::vector<Candidate>& fo
         if (rows == 0 || floor_ + spent(all) >= best_) continue;
         focused_ = false;
         if (rows <= largest_zone) focus(wanted);
-        compare(all, {}, nullptr);
+        if (!std::isfinite(compare(all, {}, nullptr))) continue;
         result_->words += text(i == interfaces ? "everything" : text("interface ", i), " debonded: ", all.incremental - from_->ledger.increment,
                                " above the step\n");
         found.push_back(std::move(all));

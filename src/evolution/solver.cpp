@@ -49,7 +49,6 @@ Outcome Solver::advance(double time) {
     }
     pending.state = std::move(result.state);
     stepper_.warn(pending.state);
-    if (pending.state.counts.revised_from == 0) pending.state.counts.revised_from = pending.state.step;
     for (auto& [step, state] : chain.revised()) pending.revised.push_back(std::move(state));
     Outcome outcome;
     if (!result.converged) {
@@ -81,6 +80,7 @@ Outcome Solver::equilibrate(double time, std::span<const double> adhesion) {
 
 void Solver::commit() {
     if (!pending_) fail(DELAM_ERROR_STATE, "nothing to commit: no step is pending");
+    if (looked_ != nullptr) displacement_.clear();
     looked_ = nullptr;
     jumps_ = jumps(true);
     for (State& state : pending_->revised) {

@@ -2,6 +2,7 @@
 // The state of a march after a step, complete: what the next step needs, and what the history records.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -60,6 +61,22 @@ struct Counts {
     double released = 0.0;               // energy that these set free and nothing stores or dissipates, F L
     double damage_change = 0.0;
     double linear_residual = 0.0;
+
+    // The effort of both.
+    void add(const Counts& more) {
+        am_iterations += more.am_iterations;
+        contact_iterations_first = displacement_solves == 0 ? more.contact_iterations_first : contact_iterations_first;
+        displacement_solves += more.displacement_solves;
+        contact_iterations += more.contact_iterations;
+        contact_iterations_max = std::max(contact_iterations_max, more.contact_iterations_max);
+        contact_fallbacks += more.contact_fallbacks;
+        linear_iterations += more.linear_iterations;
+        newton_solves += more.newton_solves;
+        debond_moves += more.debond_moves;
+        mixity_held += more.mixity_held;
+        search_candidates += more.search_candidates;
+        linear_residual = std::max(linear_residual, more.linear_residual);
+    }
 };
 
 struct State {

@@ -45,21 +45,6 @@ Jump describe(const PairLaws& pairs, const PairGraph& graph, const State& before
     return jump;
 }
 
-void add(Counts& sum, const Counts& more) {
-    sum.am_iterations += more.am_iterations;
-    sum.contact_iterations_first = sum.displacement_solves == 0 ? more.contact_iterations_first : sum.contact_iterations_first;
-    sum.displacement_solves += more.displacement_solves;
-    sum.contact_iterations += more.contact_iterations;
-    sum.contact_iterations_max = std::max(sum.contact_iterations_max, more.contact_iterations_max);
-    sum.contact_fallbacks += more.contact_fallbacks;
-    sum.linear_iterations += more.linear_iterations;
-    sum.newton_solves += more.newton_solves;
-    sum.debond_moves += more.debond_moves;
-    sum.mixity_held += more.mixity_held;
-    sum.search_candidates += more.search_candidates;
-    sum.linear_residual = std::max(sum.linear_residual, more.linear_residual);
-}
-
 // An instant to be reached; once computed, with the state there.
 struct Goal {
     double time;
@@ -79,10 +64,11 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
                                const Options& options) {
     const double asked = whole.state.time - before.time;
     const bool locate = options.jump_tolerance > 0.0;
-    const auto too_long = [&](const Stepper::Result& r) {
+    // While nothing is damaged the work is exact, however wide the band.
+    const auto too_long = [&](const Stepper::Result& r, double change) {
         const Ledger& l = r.state.ledger;
         const double scale = std::max(std::abs(l.energy()), std::abs(l.work));
-        return (options.step_control == "adaptive" && (!r.converged || l.upper - l.lower > options.step_tolerance * scale)) ||
+        return (options.step_control == "adaptive" && (!r.converged || (change > 0.0 && l.upper - l.lower > options.step_tolerance * scale))) ||
                (options.mixity_step_tolerance > 0.0 && r.state.ledger.mixity_error > options.mixity_step_tolerance);
     };
     ControlledStep out;
@@ -97,7 +83,7 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
     std::vector<Goal> goals;
     const double end = whole.state.time;
     goals.push_back({end, std::make_unique<Stepper::Result>(std::move(whole)), 0.0, 0});
-    add(effort, first);
+    effort.add(first);
     goals.back().change = change_in_pairs(stepper.pairs(), at, goals.back().reached->state);
     const auto accept = [&](Goal goal) {
         State& next = goal.reached->state;
@@ -105,6 +91,8 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
         sum.increment += next.ledger.increment;
         sum.upper += next.ledger.upper;
         sum.increment_lower += next.ledger.increment_lower;
+        effort.search_gap = std::max(effort.search_gap, next.counts.search_gap);
+        effort.search_margin = parts == 0 ? next.counts.search_margin : std::min(effort.search_margin, next.counts.search_margin);
         sum.mixity_error = std::max(sum.mixity_error, next.ledger.mixity_error);
         converged = converged && goal.reached->converged;
         ++parts;
@@ -121,7 +109,7 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
         Goal& goal = goals.back();
         if (!goal.reached) {
             goal.reached = std::make_unique<Stepper::Result>(stepper.step(at, goal.time));
-            add(effort, goal.reached->state.counts);
+            effort.add(goal.reached->state.counts);
             const double longer = goal.change;  // to the same end, from an earlier start
             goal.change = change_in_pairs(stepper.pairs(), at, goal.reached->state);
             goal.sharp = goal.change > sharp_share * longer && longer > 0.0;
@@ -130,7 +118,7 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
                 const double share = parent.change > 0.0 ? goal.change / parent.change : 0.0;
                 goal.sharp = goal.sharp || (parent.reached && share > sharp_share);
                 goal.smooth = parent.reached && share > 0.25 && share < 0.75 ? parent.smooth + 1 : 0;
-                if (goal.smooth >= smooth_levels && !too_long(*parent.reached)) {
+                if (goal.smooth >= smooth_levels && !too_long(*parent.reached, parent.change)) {
                     // The parent's interval is continuous: its end is reached in one part.
                     goals.pop_back();
                     Goal done = std::move(parent);
@@ -144,7 +132,7 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
         const double length = goal.time - at.time;
         const bool jumps = locate && goal.change >= options.jump_size;
         const bool halve = (jumps && (length > options.jump_tolerance * asked || (!goal.sharp && length > options.smallest_step * asked))) ||
-                           (too_long(*goal.reached) && length > options.smallest_step * asked);
+                           (too_long(*goal.reached, goal.change) && length > options.smallest_step * asked);
         const double middle = at.time + 0.5 * length;
         if (halve && middle > at.time && middle < goal.time) {
             goals.push_back({middle, nullptr, 0.0, 0});
@@ -164,8 +152,6 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
     state.ledger.upper = sum.upper;
     state.ledger.increment_lower = sum.increment_lower;
     effort.damage_change = state.counts.damage_change;
-    effort.search_margin = state.counts.search_margin;
-    effort.search_gap = state.counts.search_gap;
     state.ledger.mixity_error = sum.mixity_error;
     effort.backtracks = first.backtracks;
     effort.revisions = first.revisions;

@@ -88,6 +88,7 @@ void Stepper::begin(State& next, const State& before, double time) const {
     next.time = time;
     next.theta = problem_.factors(time);
     next.counts = Counts{};
+    next.counts.revised_from = before.step;
     operator_->recall(before.memory);
 }
 
@@ -143,10 +144,11 @@ double Stepper::lower_excess(const State& state) const {
     return scale > 0.0 ? (state.ledger.lower - state.ledger.increment_lower) / scale : 0.0;
 }
 
-Stepper::Result Stepper::step(const State& before, double time, std::span<const std::vector<double>> also) {
+Stepper::Result Stepper::step(const State& before, double time, std::span<const Start> also) {
     State start = before;
     begin(start, before, time);
     ++start.step;
+    start.counts.revised_from = start.step;
     bool converged = true;
     if (before.loaded == 0) {
         // Before the first load there is no jump to take the mixity from: the elastic solution of this step gives it.
@@ -164,10 +166,13 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
     if (rule_ == MixityRule::variational) start.mixity_before = start.mixity;
     Result best{start, true};
     best.converged = minimise(best.state, before) && converged;
-    for (const std::vector<double>& adhesion : also) {
+    for (const Start& from : also) {
         State other = start;
         other.counts = best.state.counts;
-        for (std::size_t p = 0; p < adhesion.size(); ++p) other.adhesion[p] = std::min(adhesion[p], before.adhesion[p]);
+        for (std::size_t p = 0; p < other.adhesion.size(); ++p) {
+            other.adhesion[p] = std::min(from.adhesion[p], before.adhesion[p]);
+            if (rule_ == MixityRule::converged && other.adhesion[p] <= 0.0) other.mixity[p] = from.mixity[p];
+        }
         keep_lower(best, std::move(other), before);
     }
     if (problem_.options.solution == "energetic") search(best, before, start);
@@ -177,9 +182,13 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
 // Minimises from another start and keeps what is lower. All effort is counted.
 void Stepper::keep_lower(Result& best, State other, const State& before) const {
     const bool converged = minimise(other, before);
-    const Counts counts = other.counts;
-    if (other.ledger.increment < best.state.ledger.increment - rounding * scale_of(best.state.ledger)) best = {std::move(other), converged};
+    const Counts counts = other.counts, kept = best.state.counts;
+    const bool taken = other.ledger.increment < best.state.ledger.increment - rounding * scale_of(best.state.ledger);
+    if (taken) best = {std::move(other), converged};
     best.state.counts = counts;
+    if (taken) return;
+    best.state.counts.damage_change = kept.damage_change;
+    best.state.counts.mixity_held = kept.mixity_held;
 }
 
 // A zone's energy takes the contact outside as it was and may be too low: candidates that seem to lie below the state kept are held against it by
@@ -218,7 +227,8 @@ void Stepper::search(Result& best, const State& before, const State& start) {
     std::size_t minimised = 0;
     for (const Candidate& candidate : found.starts) {
         const double spent = dissipation(pairs_, candidate.mixity, before.adhesion, candidate.adhesion);
-        if (minimised == most_starts || candidate.incremental > level + promising * spent) break;
+        if (minimised == most_starts) break;
+        if (candidate.incremental > level + promising * spent) continue;
         ++minimised;
         State other = best.state;
         other.adhesion = candidate.adhesion;
@@ -231,9 +241,10 @@ void Stepper::search(Result& best, const State& before, const State& start) {
     const double kept = best.state.ledger.increment;
     counts.search_candidates += found.candidates;
     counts.search_margin = std::isfinite(lowest) ? lowest - kept : 0.0;
-    counts.search_gap = std::max(0.0, kept - found.bound);
+    // Candidates under the variational rule are energies at the mixities of the start: no bound.
+    counts.search_gap = rule_ == MixityRule::variational ? std::numeric_limits<double>::infinity() : std::max(0.0, kept - found.bound);
     searched_ = text("step ", best.state.step, " at time ", best.state.time, ": ", found.candidates, " candidates, ", minimised,
-                     " of them minimised from; the kept state lies ", counts.search_margin, " below the lowest candidate\n", found.words);
+                     " of them minimised from; lowest candidate less the state kept: ", counts.search_margin, "\n", found.words);
 }
 
 Stepper::Result Stepper::equilibrate(const State& before, double time, std::span<const double> adhesion) {

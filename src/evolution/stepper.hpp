@@ -33,8 +33,12 @@ public:
     };
     // The initial state: displacements at the initial adhesion.
     Result initial(double time);
-    // also: further adhesions to start from, [pairs] each, clipped to `before`.
-    Result step(const State& before, double time, std::span<const std::vector<double>> also = {});
+    // Another state of the same scene to start from: its adhesion, clipped to `before`, and where pairs are broken the
+    // mixity with which they broke.
+    struct Start {
+        std::vector<double> adhesion, mixity;  // [pairs]
+    };
+    Result step(const State& before, double time, std::span<const Start> also = {});
     // Displacements alone, at the state's adhesion and a time.
     Result equilibrate(const State& before, double time, std::span<const double> adhesion);
     // Does the lower bound of a step fail by more than eta: is there a lower state than `before` at its own time?

@@ -45,7 +45,8 @@ bool ZoneEnergies::focus(const State& known, std::span<const std::uint8_t> wante
     }
     const std::optional<double> energy = zone_energy(known.adhesion);
     if (!energy) return false;
-    offset_ = known.ledger.energy() - *energy;
+    // The gradient term, which does not depend on displacements, is the search's own business.
+    offset_ = known.ledger.energy() - gradient_energy(pairs_, known.adhesion) - *energy;
     return true;
 }
 

@@ -67,7 +67,8 @@ const std::array<Row, 27>& rows() {
          0.0,
          1.0000000000000002},
         {{"step_control", "text", "-", "fixed", "fixed | adaptive",
-          "adaptive: a step that does not converge or whose two-sided estimate is wider than step_tolerance is refused and halved within"},
+          "adaptive: a step that does not converge, or damages something while its two-sided estimate is wider than step_tolerance, is refused and "
+          "halved within; it never grows beyond what the host asks for"},
          &Options::step_control},
         {{"step_tolerance", "real", "-", "1e-2", "0 < value < 1",
           "largest width of the two-sided estimate of an adaptive step, relative to the larger of energy and work"},

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wall time.
+// Wall time, and time of the processor.
 #pragma once
 
 #include <chrono>
+#include <ctime>
 
 namespace bench {
 
@@ -18,6 +19,15 @@ public:
 
 private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// Processor time of this process, all threads: other processes do not count, threads that wait by spinning do.
+class ProcessorClock {
+public:
+    double seconds() const { return static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }
+
+private:
+    std::clock_t start_ = std::clock();
 };
 
 }  // namespace bench

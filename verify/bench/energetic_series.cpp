@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "clock.hpp"
 #include "lse.hpp"
 #include "machine.hpp"
 #include "measure.hpp"
@@ -123,7 +124,7 @@ Json findings(const Course& course) {
 struct Entry {
     std::optional<Choice> choice;
     std::string refusal;
-    std::vector<double> total, factor, iterate;
+    std::vector<double> total, factor, iterate, processor;
     std::vector<double> units;     // total over the mean of the LSE measured before and after it
     std::vector<double> to_local;  // total over that of the local march of the same round
     std::optional<March> first;
@@ -162,10 +163,12 @@ Json measure_concepts(const std::string& scene, int repeat, double cap) {
                                   [&](reference::Solver& solver, int k) { entry.course.see(solver, k); });
     }
 
-    std::vector<double> lse_times[2];
+    std::vector<double> lse_times[2], lse_processor;
     int turn = 0;
     const auto unit = [&] {
+        const ProcessorClock processor;
         lse_times[turn % 2].push_back(lse.measure());
+        lse_processor.push_back(processor.seconds());
         return lse_times[turn++ % 2].back();
     };
     for (int round = 0; round < repeat; ++round) {
@@ -180,6 +183,7 @@ Json measure_concepts(const std::string& scene, int repeat, double cap) {
             entry.total.push_back(march.total());
             entry.factor.push_back(march.setup + march.factor);
             entry.iterate.push_back(march.iterate);
+            entry.processor.push_back(march.processor);
             entry.units.push_back(march.total() / (0.5 * (before + after)));
             if (method.solution == nullptr) local = march.total();
             entry.to_local.push_back(march.total() / local);
@@ -192,6 +196,7 @@ Json measure_concepts(const std::string& scene, int repeat, double cap) {
     all.insert(all.end(), lse_times[1].begin(), lse_times[1].end());
     const double one = median(all);
     result["lse_s"] = spread(all);
+    result["lse_processor_s"] = spread(lse_processor);
     result["noise_floor"] = {{"series_a", spread(lse_times[0])},
                              {"series_b", spread(lse_times[1])},
                              {"ratio_of_medians", median(lse_times[0]) / median(lse_times[1])}};
@@ -210,6 +215,8 @@ Json measure_concepts(const std::string& scene, int repeat, double cap) {
         } else {
             m["lse_by_round"] = spread(entry.units);
             m["to_local"] = spread(entry.to_local);
+            m["processor_s"] = spread(entry.processor);
+            m["lse_processor"] = median(entry.processor) / median(lse_processor);
         }
         m["total_s"] = spread(entry.total);
         m["before_first_step_s"] = spread(entry.factor);
@@ -218,6 +225,7 @@ Json measure_concepts(const std::string& scene, int repeat, double cap) {
         m["counts"] = counts(*entry.first);
         m["plan"] = entry.first->plan;
         m.update(findings(entry.course));
+        for (const StepRecord& r : entry.first->steps) m["history"]["seconds"].push_back(r.seconds);
     }
     return result;
 }

@@ -29,18 +29,20 @@ void add_costs(std::vector<Row>& rows, const Json& series, const Json& memory, i
     const std::string scene = series["scene"], n = std::to_string(threads);
     const auto median_of = [](const Json& m, const char* key) { return number(m[key]["median"].get<double>()); };
     rows.push_back({scene, n, "one linear solve", median_of(series, "lse_s"), range_of(series, "lse_s", "%.3g"), "1",
-                    "", "", "", "", peak_of(memory, "lse"),
+                    "", "1", "", "", "", peak_of(memory, "lse"),
                     "A/A " + number(series["noise_floor"]["ratio_of_medians"].get<double>())});
     for (const auto& [key, m] : series["methods"].items()) {
         if (m.contains("skipped")) {
-            rows.push_back({scene, n, key, "", "", "", "", "", "", "", "",
+            rows.push_back({scene, n, key, "", "", "", "", "", "", "", "", "",
                             "skipped: " + m["skipped"].get<std::string>().substr(0, 60)});
             continue;
         }
         rows.push_back({scene, n, key, median_of(m, "total_s"), range_of(m, "total_s", "%.3g"),
                         number(m["lse"].get<double>(), "%.1f"), range_of(m, "lse_by_round", "%.1f"),
+                        m.contains("lse_processor") ? number(m["lse_processor"].get<double>(), "%.1f") : "",
                         m.contains("to_local") ? number(m["to_local"]["median"].get<double>(), "%.2f") : "",
-                        median_of(m, "before_first_step_s"), median_of(m, "steps_s"), peak_of(memory, key), m["label"]});
+                        median_of(m, "before_first_step_s"), median_of(m, "steps_s"), peak_of(memory, key),
+                        m["label"]});
     }
 }
 
@@ -53,7 +55,8 @@ void add_findings(std::vector<Row>& rows, const Json& series) {
         Row row{scene, key};
         if (const Json& jump = m["jump"]; jump.is_object()) {
             row.insert(row.end(), {number(value_of(jump["step"]), "%.0f"), number(1e3 * value_of(jump["load"]), "%.2f"),
-                                   number(1e3 * value_of(jump["advance"]), "%.1f"), number(value_of(jump["released"]))});
+                                   number(1e3 * value_of(jump["advance"]), "%.1f"),
+                                   number(value_of(jump["released"]))});
         } else {
             row.insert(row.end(), {"-", "-", "-", "-"});
         }
@@ -112,7 +115,8 @@ Json energetic_table(const Settings& settings) {
         }
         result["scenes"][name] = std::move(scene);
     }
-    print_rows({"scene", "thr", "march", "total_s", "q1..q3", "LSE", "by round", "/local", "setup_s", "steps_s",
+    print_rows({"scene", "thr", "march", "total_s", "q1..q3", "LSE", "by round", "LSE_cpu",
+                "/local", "setup_s", "steps_s",
                 "peak_MB", "note"},
                costs);
     std::printf("\n");

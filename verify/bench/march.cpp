@@ -96,6 +96,7 @@ March run_library(Stage& stage, const Choice& choice, double cap,
                   const std::function<void(reference::Solver&, int)>& at_step) {
     March march;
     const Deadline deadline(stage.scene, cap);
+    const ProcessorClock processor;
     Clock clock;
     std::string refusal;
     if (!declare(stage, choice, &refusal)) throw reference::Failure(0, refusal);
@@ -121,8 +122,11 @@ March run_library(Stage& stage, const Choice& choice, double cap,
         }
         if (status < 0) stage.scene.require(status, "delam_solver_advance");
         solver->commit();
-        march.iterate += clock.lap();
+        const double seconds = clock.lap();
+        march.iterate += seconds;
         march.steps.push_back(read(*solver, status));
+        march.steps.back().seconds = seconds;
+        march.processor = processor.seconds();
         if (at_step) at_step(*solver, k);
     }
     march.bulk_factorisations = optional_value(*solver, "bulk_factorisations");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Single measurements of the tables `march` and `energetic`; each runs in a process of its own (child.hpp). `cap`: seconds that a march
-// may take.
+// Single measurements of the tables `march` and `energetic`; each runs in a process of its own (child.hpp).
+// `cap`: seconds that a march may take.
 #pragma once
 
 #include <string>
@@ -17,8 +17,8 @@ Json measure_memory(const std::string& scene, const std::string& method, double 
 Json measure_agreement(const std::string& scene, double delta, double cap);
 // Is every method's end state a critical point? (critical.cpp)
 Json measure_critical(const std::string& scene, double cap);
-// Local, backtracked and energetic march and the LSE by turns, `repeat` rounds: times, counts, the jump, what the search
-// left open (energetic_series.cpp).
+// Local, backtracked and energetic march and the LSE by turns, `repeat` rounds: times, counts, the jump, what the
+// search left open (energetic_series.cpp).
 Json measure_concepts(const std::string& scene, int repeat, double cap);
 
 // Largest relative differences of two marches over their common steps: reaction over the largest reaction, energies

@@ -22,6 +22,7 @@ struct StepRecord {
     std::int64_t contact_iterations = 0;  // active-set steps: linear systems solved
     std::int64_t linear_iterations = 0;   // Krylov iterations
     std::int32_t status = 0;
+    double seconds = 0.0;  // of this step, by the library
 };
 
 struct March {
@@ -29,6 +30,7 @@ struct March {
     double setup = 0.0;    // s, problem and its checks
     double factor = 0.0;   // s, everything that is done once: assembly, analysis, condensation, first factors
     double iterate = 0.0;  // s, the steps
+    double processor = 0.0;  // s, processor time of all three, all threads; library marches only
     double bulk_factorisations = -1.0;  // -1: not counted by this library
     double field_recoveries = -1.0;
     std::string plan;

@@ -37,7 +37,8 @@ def plot_load(result):
         x, y = result.load_curve(p)
         drawn = axes[0] if number == 1 else axes[0][p:p + 1]
         for ax in drawn:
-            ax.plot(x, y, color=BLUE, marker="o", markersize=3)
+            # Markers show the steps, where there is room between them.
+            ax.plot(x, y, color=BLUE, marker="o" if len(x) <= 100 else None, markersize=3)
             if bad:
                 ax.plot(x[bad], y[bad], "x", color=RED, label="not converged")
                 ax.legend()
@@ -150,12 +151,17 @@ def snapshot_steps(file, instants):
     return [(times[k], file["steps"][names[k]]) for k in (chosen or [len(names) - 1])]
 
 
+def four_digits(value):
+    """Four digits, without an exponent as long as that is short."""
+    return f"{value:.0f}" if 1e3 <= abs(value) < 1e7 else f"{value:.4g}"
+
+
 def load_text(result, time):
     """Load and reaction at the row of this time."""
     row = int(np.argmin(np.abs(result.history["time"] - time)))
     _, drives, load, reaction = result.patterns()[0]
-    return (f"load {result.history[load][row]:.4g}" + (f" {result.length}" if drives != "force" else "") +
-            (f", reaction {result.history[reaction][row]:.4g} {result.force}" if drives != "force" else ""))
+    return (f"load {four_digits(result.history[load][row])}" + (f" {result.length}" if drives != "force" else "") +
+            (f", reaction {four_digits(result.history[reaction][row])} {result.force}" if drives != "force" else ""))
 
 
 def draw_plane(ax, file, step, scale, light_mesh):

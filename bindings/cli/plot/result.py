@@ -45,7 +45,7 @@ def zoom(ax, x, curves):
     seen = np.concatenate([np.asarray(y)[np.asarray(at) <= x] for at, y in curves])
     room = 0.05 * (seen.max() - seen.min())
     first = min(at[0] for at, _ in curves)
-    ax.set_xlim(first - 0.02 * (x - first), x)
+    ax.set_xlim(first - 0.02 * (x - first), x + 0.02 * (x - first))
     if room > 0:
         ax.set_ylim(seen.min() - room, seen.max() + room)
 

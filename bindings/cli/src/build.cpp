@@ -96,9 +96,7 @@ void set_interfaces(Model& model, const Scene& scene) {
         const std::int32_t status = delam_law_create(model.context.get(), from.kind.c_str(), &handle);
         const Law law(handle);
         call(context, status, from.place);
-        const auto at = [&](const std::string& key) {
-            return Place{from.place.file, from.place.path + "." + key, from.place.line};
-        };
+        const auto at = [&](const std::string& key) { return from.places.at(key); };
         for (const auto& [key, value] : from.texts)
             call(context, delam_law_set_text(law.get(), key.c_str(), value.c_str()), at(key));
         for (const auto& [key, value] : from.parameters)

@@ -61,7 +61,7 @@ History::History(const Model& model, const delam_solver* solver, const Scene& sc
     for (const std::string& key : scene.output.columns) {
         if (!knows(key))
             throw SceneFailure(
-                {scene.output.place.file, scene.output.place.path + ".columns", scene.output.place.line},
+                scene.output.columns_place,
                 fmt::format("\"{}\": no such value{}; one of {}", key, suggestion(key, known), listing(known)));
         const auto same_key = [&key](const Column& column) { return column.key == key; };
         if (std::none_of(columns_.begin(), columns_.end(), same_key)) add(key, key);

@@ -78,10 +78,15 @@ std::int64_t checked_whole(const toml::node& node, const Place& where, std::int6
     return value;
 }
 
-std::string checked_text(const toml::node& node, const Place& where) {
-    if (!node.is_string()) throw SceneFailure(where, fmt::format("{}: a text in quotes is expected", shown(node)));
+// words: what is allowed, for people; "" where anything is.
+std::string checked_word(const toml::node& node, const Place& where, const std::string& words) {
+    if (!node.is_string())
+        throw SceneFailure(where, fmt::format("{}: a text in quotes is expected{}{}", shown(node),
+                                              words.empty() ? "" : ": ", words));
     return *node.value<std::string>();
 }
+
+std::string checked_text(const toml::node& node, const Place& where) { return checked_word(node, where, ""); }
 
 template <class Value, class Check>
 std::vector<Value> checked_list(const toml::node& node, const Place& where, std::size_t count, Check&& check) {
@@ -178,6 +183,10 @@ bool Table::flag(std::string_view key, bool otherwise) const {
     if (!has(key)) return otherwise;
     if (!need(key).is_boolean()) fail(key, fmt::format("{}: true or false is expected", shown(need(key))));
     return *need(key).value<bool>();
+}
+
+std::string Table::word(std::string_view key, const std::string& words) const {
+    return checked_word(need(key), place(key), words);
 }
 
 std::string Table::text(std::string_view key) const { return checked_text(need(key), place(key)); }

@@ -51,6 +51,8 @@ public:
     // Of any size; range: words for the error that it is no whole number.
     [[nodiscard]] std::int64_t whole(std::string_view key, const std::string& range) const;
     [[nodiscard]] bool flag(std::string_view key, bool otherwise) const;
+    // words: what is allowed, for people; only the type is checked.
+    [[nodiscard]] std::string word(std::string_view key, const std::string& words) const;
     [[nodiscard]] std::string text(std::string_view key) const;
     [[nodiscard]] std::string text(std::string_view key, const std::string& otherwise) const;
     [[nodiscard]] std::string choice(std::string_view key, std::initializer_list<std::string_view> names,

@@ -218,7 +218,7 @@ void read_options(const Table& root, Scene& scene) {
         if (!table.has(known[i])) continue;
         SolverOption option{known[i], 0.0, table.place(known[i])};
         if (types[i] == "text") {
-            option.value = table.text(known[i]);
+            option.value = table.word(known[i], ranges[i]);
         } else if (types[i] == "integer") {
             option.value = static_cast<double>(table.whole(known[i], ranges[i]));
         } else {
@@ -248,6 +248,7 @@ void read_output(const Table& root, Scene& scene) {
     if (table.has("snapshots")) output.snapshots = table.numbers("snapshots", any_number);
     output.displacement_scale = table.number("displacement_scale", not_negative, 5.0);
     if (table.has("columns")) output.columns = table.texts("columns");
+    output.columns_place = table.place("columns");
 }
 
 void read_units(const Table& root, Scene& scene) {

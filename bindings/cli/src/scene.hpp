@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -48,6 +49,7 @@ struct LawData {
     std::vector<std::pair<std::string, std::string>> texts;  // set first: they decide which parameters there are
     std::vector<std::pair<std::string, double>> parameters;
     std::vector<double> table_xi, table_s;  // softening of a tabulated law
+    std::map<std::string, Place> places;    // of each key that is there
     Place place;
 };
 
@@ -129,6 +131,7 @@ struct Output {
     std::vector<double> snapshots;
     double displacement_scale = 5;
     std::vector<std::string> columns;  // values of the solver beyond the standard columns of history.csv
+    Place columns_place;
     Place place;
 };
 

@@ -2,6 +2,7 @@
 // Interface laws. Kinds and keys are those that the library lists; what they must satisfy together it checks itself.
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,7 +17,7 @@ namespace {
 struct Parameter {
     std::string key;
     std::string type;
-    bool positive;
+    const Range* range;
 };
 
 std::vector<Parameter> parameters_of(const std::string& kind) {
@@ -26,7 +27,11 @@ std::vector<Parameter> parameters_of(const std::string& kind) {
         const char* type = nullptr;
         const char* range = nullptr;
         delam_law_parameter_info(kind.c_str(), i, &key, &type, nullptr, nullptr, &range, nullptr);
-        out.push_back({key, type, std::string(range) == "finite and > 0"});
+        const std::string_view words = range;
+        out.push_back({key, type,
+                       words == "finite and > 0"    ? &positive
+                       : words == "finite and >= 0" ? &not_negative
+                                                    : &any_number});
     }
     return out;
 }
@@ -43,8 +48,9 @@ void read_laws(const Table& root, Scene& scene) {
         for (const Parameter& parameter : parameters) known.push_back(parameter.key);
         table.only(known);
         law.name = new_name(table, scene.laws, "law");
-        for (const auto& [key, type, above_zero] : parameters) {
+        for (const auto& [key, type, range] : parameters) {
             if (!table.has(key)) continue;
+            law.places.emplace(key, table.place(key));
             if (type == "text") {
                 law.texts.emplace_back(key, table.text(key));
             } else if (type == "table") {
@@ -53,7 +59,7 @@ void read_laws(const Table& root, Scene& scene) {
                     law.table_s.push_back(point[1]);
                 }
             } else {
-                law.parameters.emplace_back(key, table.number(key, above_zero ? positive : any_number));
+                law.parameters.emplace_back(key, table.number(key, *range));
             }
         }
         law.place = table.place();

@@ -98,6 +98,8 @@ std::string checked_value(const std::string& path, const std::string& value) {
 toml::node* entry(toml::node& parent, std::span<const PathStep> steps, std::size_t depth, const std::string& path) {
     const auto fail_here = [&](const std::string& text) { fail(path, shown(steps.first(depth)) + text); };
     if (const auto* key = std::get_if<std::string>(&steps[depth])) {
+        if (parent.is_array())
+            fail_here(fmt::format(" is a list: {}[0] is its first entry", shown(steps.first(depth))));
         if (!parent.is_table()) fail_here(" is no table");
         return parent.as_table()->get(*key);
     }

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reading an earlier step leaves nothing behind; a gradient term is counted once where fronts are searched.
+#include "mmf.hpp"
+#include "small_march.hpp"
+
+namespace {
+
+using reference::Solver;
+
+// look at step 1, read its displacements, commit step 2, read again: those of step 2.
+CASE_TEST(fields_after_a_look) {
+    (void)loop;
+    auto scene = cases::small_enf(0);
+    scene.text("backtracking", "on");
+    Solver solver(scene, 0.0), plain(scene, 0.0);
+    for (Solver* s : {&solver, &plain}) {
+        s->step(cases::small_time(1));
+        s->commit();
+        s->step(cases::small_time(2));
+    }
+    scene.require(delam_solver_look(solver.get(), 1), "delam_solver_look");
+    const auto earlier = solver.field("displacement");
+    solver.commit();
+    plain.commit();
+    const auto now = solver.field("displacement");
+    cases::expect(cases::same_bits(now, plain.field("displacement")), "displacements of the committed step");
+    cases::expect(!cases::same_bits(now, earlier), "the load has grown");
+}
+
+// The margin of a search does not depend on how the bodies are reduced, with a gradient term either.
+CASE_TEST(gradient_term_in_the_search) {
+    double margin[2], increment[2];
+    for (int feti = 0; feti < 2; ++feti) {
+        cases::Enf e;
+        e.h = 1.5e-3;
+        auto scene = cases::make_enf(e);
+        scene.text("solution", "energetic");
+        scene.text("reduction", feti != 0 ? "feti" : "condensed");
+        delam_law* handle = nullptr;
+        scene.require(delam_law_create(scene.context(), "piecewise-linear", &handle), "delam_law_create");
+        for (const auto& [key, value] : std::initializer_list<std::pair<const char*, double>>{
+                 {"normal_stiffness", 125e13}, {"tangential_stiffness", 125e13}, {"normal_onset", 1.0}, {"tangential_onset", 1.0},
+                 {"normal_toughness", 25.0}, {"tangential_toughness", 25.0}, {"gradient", loop == 0 ? 0.0 : 1e-4}})
+            scene.require(delam_law_set(handle, key, value), key);
+        scene.require(delam_problem_set_law(scene.problem(), 0, handle), "delam_problem_set_law");
+        delam_law_destroy(&handle);
+        Solver solver(scene, 0.0);
+        for (int k = 1; k <= 2; ++k) {
+            solver.step(0.04 * k);
+            margin[feti] = solver.value("search_margin");
+            increment[feti] = solver.value("increment");
+            solver.commit();
+        }
+    }
+    cases::expect(margin[0] > -1e-9, "no candidate lies below");
+    cases::expect_near(increment[0], increment[1], 1e-6, std::abs(increment[1]), "the state kept");
+    cases::expect_near(margin[0], margin[1], 2e-2, std::abs(increment[1]), "margin");
+}
+
+}  // namespace
+
+int main() {
+    Suite* suite = suite_create("look");
+    TCase* tests = tcase_create("look");
+    tcase_add_loop_test(tests, fields_after_a_look, 0, 1);
+    tcase_add_loop_test(tests, gradient_term_in_the_search, 0, 2);
+    suite_add_tcase(suite, tests);
+    return cases::run_suite(suite);
+}
