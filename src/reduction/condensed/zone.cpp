@@ -14,6 +14,7 @@ namespace {
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 constexpr double dependent = 1e-10;   // coefficients of dependent rows below this are rounding
+constexpr double rounded = 1e-11;     // of motion times load, what is taken for rounding (measured: up to 5e-13)
 constexpr double unbalanced = 1e-8;   // largest part of a load that may be left on a free motion
 
 }  // namespace
@@ -236,14 +237,17 @@ Zone::Solution Zone::solve(std::span<const double> theta, std::span<const double
     }
 
     for (std::int64_t c = 0; rigid_.columns > 0 && c < motions_.free.columns; ++c) {
-        double total = 0.0, size = 0.0;
+        double total = 0.0, size = 0.0, motion = 0.0, pull_size = 0.0;
         for (std::int64_t i = 0; i < rigid_.rows; ++i) {
             double z = 0.0;
             for (std::int64_t k = 0; k < rigid_.columns; ++k) z += rigid_(i, k) * motions_.free(k, c);
             total += z * g[index(i)];
             size += std::abs(z * g[index(i)]);
+            motion += z * z;
+            pull_size += g[index(i)] * g[index(i)];
         }
-        if (std::abs(total) > unbalanced * size) {
+        // A load that is at right angles to the motion everywhere (a pressed fibre that may turn) leaves nothing but rounding in both sums.
+        if (std::abs(total) > std::max(unbalanced * size, rounded * std::sqrt(motion * pull_size))) {
             solution.balanced = false;
             return solution;
         }
