@@ -38,8 +38,9 @@ bool ZoneEnergies::focus(const State& known, std::span<const std::uint8_t> wante
     normal_.assign(members.size(), 0);
     for (std::size_t z = 0; z < members.size(); ++z) {
         const auto row = static_cast<std::size_t>(members[z]);
-        held_[z] = springs.held[row];
-        normal_[z] = row % dim == 0 && contact_.bonded[row / dim] == 0 ? 1 : 0;
+        const bool given = op_.prescribed_rows()[row] != 0;  // by the device: neither held nor let go
+        held_[z] = given ? 0 : springs.held[row];
+        normal_[z] = row % dim == 0 && contact_.bonded[row / dim] == 0 && !given ? 1 : 0;
         if (row % dim == 0 && z + dim <= members.size() && static_cast<std::size_t>(members[z + dim - 1]) == row + dim - 1)
             place_[row / dim] = static_cast<std::int64_t>(z);
     }

@@ -54,14 +54,16 @@ public:
         : newton_(newton), state_(state), mixity_(mixity), toughness_(mixity.toughness()), old_(adhesion_old), dim_(static_cast<std::size_t>(newton.pairs.dimension)),
           zone_(find_zone()) {
         const std::vector<std::int64_t>& rows = newton_.op.zone_rows();
+        const std::span<const std::uint8_t> prescribed = newton_.op.prescribed_rows();
         held_.resize(rows.size());
         spring_.assign(rows.size(), 0.0);
         normal_.assign(rows.size(), 0);
         for (std::size_t z = 0; z < rows.size(); ++z) {
             const auto row = static_cast<std::size_t>(rows[z]);
-            held_[z] = springs_.held[row];
+            const bool given = prescribed[row] != 0;  // by the device: neither held nor let go
+            held_[z] = given ? 0 : springs_.held[row];
             spring_[z] = springs_.stiffness[row];
-            normal_[z] = row % dim_ == 0 && newton_.contact.bonded[row / dim_] == 0 ? 1 : 0;
+            normal_[z] = row % dim_ == 0 && newton_.contact.bonded[row / dim_] == 0 && !given ? 1 : 0;
         }
         for (std::size_t z = 0; z + dim_ <= rows.size(); ++z) {
             const auto row = static_cast<std::size_t>(rows[z]);

@@ -235,9 +235,16 @@ void Condensed::condense_inner() {
     for (std::size_t z = 0; z < zone_unknowns_.size(); ++z) place[index(zone_unknowns_[z])] = static_cast<std::int64_t>(z);
     zone_rows_.clear();
     std::vector<Bulk::Row> rows;
+    const auto dim = index(problem_.mesh->dimension());
+    const auto pair_inside = [&](std::size_t pair) {
+        for (std::size_t r = pair * dim; r < (pair + 1) * dim; ++r)
+            if (const Bulk::Row& row = bulk_->rows()[r]; !row.prescribed() && place[index(row.unknowns.front().first)] >= 0) return true;
+        return false;
+    };
     for (std::size_t r = 0; r < bulk_->rows().size(); ++r) {
         const Bulk::Row& row = bulk_->rows()[r];
-        if (row.prescribed() || place[index(row.unknowns.front().first)] < 0) continue;
+        // A prescribed row comes with the others of its pair: who works in the zone needs whole pairs.
+        if (row.prescribed() ? !pair_inside(r / dim) : place[index(row.unknowns.front().first)] < 0) continue;
         Bulk::Row local{{}, row.offset};
         for (const auto& [i, n] : row.unknowns) local.unknowns.emplace_back(place[index(i)], n);
         zone_rows_.push_back(static_cast<std::int64_t>(r));
@@ -318,6 +325,7 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
     std::vector<std::uint8_t> held(zone_rows_.size());
     for (std::size_t z = 0; z < zone_rows_.size(); ++z) {
         const auto r = index(zone_rows_[z]);
+        if (prescribed_[r] != 0) continue;  // constant: no unknown, whatever holds it
         held[z] = springs.held[r];
         if (held[z] == 0 && springs.stiffness[r] > 0.0)
             couplings.push_back({static_cast<std::int64_t>(z), static_cast<std::int64_t>(z), springs.stiffness[r]});
