@@ -266,6 +266,18 @@ DELAM_API void delam_problem_destroy(delam_problem **problem);
 DELAM_API int32_t delam_problem_set_plane(delam_problem *problem, const char *assumption);
 /* Isotropic elasticity of a body (-1: of all): young > 0 (F/L2), -1 < poisson < 0.5. */
 DELAM_API int32_t delam_problem_set_elastic(delam_problem *problem, int32_t body, double young, double poisson);
+/* Orthotropic elasticity of a body (-1: of all) in its material axes 1, 2, 3: constants [9] = E1 E2 E3 nu12 nu13 nu23 G12 G13 G23 (moduli
+ * F/L2 > 0). nu_ij is the contraction along j under tension along i: nu_ij/E_i = nu_ji/E_j. DELAM_ERROR_ARGUMENT names the constant that
+ * makes the elasticity indefinite, and its bound. Transversely isotropic about 1: E3 = E2, nu13 = nu12, G13 = G12, G23 = E2/(2(1 + nu23)).
+ * Material axes are those of space unless delam_problem_set_orientation says otherwise. In 2D: plane strain takes the rows xx, yy, xy of the
+ * elasticity in space; plane stress sets the stresses zz, yz, zx free. Replaces what delam_problem_set_elastic has set, and the other
+ * way round. Source: S. W. Tsai, H. T. Hahn, Introduction to Composite Materials (1980). */
+DELAM_API int32_t delam_problem_set_orthotropic(delam_problem *problem, int32_t body, const double *constants);
+/* Material axes of some cells, for orthotropic materials and eigenstrains. axes: [count][2][3], directions of axes 1 and 2 in space, also in 2D
+ * (z is out of the plane there), any lengths > 0, not parallel; 2 is made normal to 1, 3 = 1 x 2. cells: [count] mesh cells, of `body` (-1: of any);
+ * NULL with count 1: all cells of the body. Later calls overwrite earlier ones. Cells of equal axes share them. */
+DELAM_API int32_t delam_problem_set_orientation(delam_problem *problem, int32_t body, int64_t count, const int64_t *cells,
+                                                const double *axes, int32_t index_base);
 /* How the cells of a body (-1: of all) are computed: "standard" (default), or "incompatible" for bodies of quad4 or hex8 alone
  * (DELAM_ERROR_ARGUMENT names another cell): internal bending modes after Wilson, Taylor and Beresford, condensed in each
  * cell. Pure bending of rectangular cells is then exact, where standard ones are too stiff (by half for squares). The

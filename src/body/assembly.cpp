@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "body/cell_elasticity.hpp"
 #include "body/element.hpp"
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
@@ -184,10 +185,10 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> 
     const NodeGraph graph = node_graph(local, nodes.size());
     SparseMatrix k = empty_matrix(graph, dim);
 
-    const std::vector<double> elasticity = elasticity_matrix(model.elastic, mesh.dimension(), model.plane);
+    CellElasticity elasticity(model, mesh.dimension());
     std::vector<double> matrix(9 * most_cell_nodes * most_cell_nodes);
     for (std::size_t c = 0; c < cells.size(); ++c) {
-        element_stiffness(mesh.cell_type(cells[c]), cell_coordinates(mesh, cells[c]).view(), elasticity,
+        element_stiffness(mesh.cell_type(cells[c]), cell_coordinates(mesh, cells[c]).view(), elasticity.matrix(cells[c]),
                           model.formulation, matrix);
         const Block block{std::span(local.node).subspan(local.start[c], local.start[c + 1] - local.start[c]),
                           &graph.place[graph.cell_start[c]], matrix.data()};
@@ -199,9 +200,8 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> 
 std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> models,
                                   std::span<const double> displacement) {
     const std::size_t dim = at(mesh.dimension());
-    std::vector<std::vector<double>> elasticity;
-    for (const BodyModel& model : models)
-        elasticity.push_back(elasticity_matrix(model.elastic, mesh.dimension(), model.plane));
+    std::vector<CellElasticity> elasticity;
+    for (const BodyModel& model : models) elasticity.emplace_back(model, mesh.dimension());
 
     std::vector<double> stress;
     stress.reserve(at(mesh.cell_count()) * (dim == 2 ? 4 : 6));
@@ -212,15 +212,22 @@ std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> m
             for (std::size_t i = 0; i < dim; ++i) u.push_back(displacement[at(n) * dim + i]);
         const std::vector<double> strain = centre_strain(mesh.cell_type(c), cell_coordinates(mesh, c).view(), u);
         const std::size_t body = at(mesh.cell_body(c));
-        const std::vector<double>& matrix = elasticity[body];
+        const std::span<const double> matrix = elasticity[body].matrix(c);
         std::array<double, 6> s{};
         for (std::size_t i = 0; i < strain.size(); ++i)
             for (std::size_t j = 0; j < strain.size(); ++j) s[i] += matrix[i * strain.size() + j] * strain[j];
         if (dim == 3) {
             stress.insert(stress.end(), s.begin(), s.end());
         } else {
-            const BodyModel& model = models[body];
-            const double zz = model.plane == Plane::strain ? model.elastic.poisson * (s[0] + s[1]) : 0.0;
+            double zz = 0.0;
+            if (models[body].plane == Plane::strain) {
+                if (const auto* isotropic = std::get_if<Elastic>(&models[body].material)) {
+                    zz = isotropic->poisson * (s[0] + s[1]);
+                } else {
+                    const SpaceElasticity& space = elasticity[body].space(c);
+                    zz = space[12] * strain[0] + space[13] * strain[1] + space[15] * strain[2];
+                }
+            }
             stress.insert(stress.end(), {s[0], s[1], zz, s[2]});
         }
     }

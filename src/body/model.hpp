@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "body/material.hpp"
+#include "body/orientation.hpp"
 #include "mesh/mesh.hpp"
 
 namespace delam {
@@ -13,9 +15,10 @@ namespace delam {
 enum class Formulation { standard, incompatible };
 
 struct BodyModel {
-    Elastic elastic;
+    Material material;
     Plane plane = Plane::strain;
     Formulation formulation = Formulation::standard;
+    std::shared_ptr<const Orientation> orientation{};  // of the whole mesh's cells; null: none
 
     bool operator==(const BodyModel& other) const = default;
 };

@@ -21,7 +21,7 @@ void give(const SparseMatrix& matrix, std::int64_t* row_starts, std::int64_t* co
 const SparseMatrix& body_matrix(const delam_problem& problem, std::int32_t body) {
     const Problem& core = *problem.core;
     if (!core.material[static_cast<std::size_t>(body)]) {
-        fail(DELAM_ERROR_PROBLEM, "body ", core.mesh->body_label(body), ": no material (delam_problem_set_elastic)");
+        fail(DELAM_ERROR_PROBLEM, "body ", core.mesh->body_label(body), ": no material (delam_problem_set_elastic or delam_problem_set_orthotropic)");
     }
     const BodyModel model = core.model(body);
     delam_problem::BodyMatrix& last = problem.assembled;

@@ -3,8 +3,11 @@
 // exports.cpp.
 #include "scene/problem.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <span>
 #include <string>
 
 #include "capi/handles.hpp"
@@ -16,6 +19,19 @@ using namespace delam;
 std::size_t require_interface(const Problem& problem, std::int64_t index) {
     const auto count = static_cast<std::int64_t>(problem.interfaces.size());
     return static_cast<std::size_t>(require_index(index, count, 0, "interface_index"));
+}
+
+// -1: all bodies.
+std::int32_t require_body(const Problem& problem, std::int32_t body) {
+    const std::int32_t index = body < 0 ? -1 : problem.mesh->body_of_label(body);
+    if (body != -1 && index < 0) fail(DELAM_ERROR_ARGUMENT, "body = ", body, ": no cell carries this label");
+    return index;
+}
+
+void set_material(Problem& problem, std::int32_t body, const Material& material) {
+    const std::int32_t index = require_body(problem, body);
+    for (std::size_t i = 0; i < problem.material.size(); ++i)
+        if (body == -1 || i == static_cast<std::size_t>(index)) problem.material[i] = material;
 }
 
 }  // namespace
@@ -56,12 +72,57 @@ int32_t delam_problem_set_elastic(delam_problem* problem, int32_t body, double y
         if (!(poisson > -1.0 && poisson < 0.5)) {
             fail(DELAM_ERROR_ARGUMENT, "poisson = ", poisson, " (body ", body, ") is outside -1 < poisson < 0.5");
         }
+        set_material(*problem->core, body, Elastic{young, poisson});
+    });
+}
+
+int32_t delam_problem_set_orthotropic(delam_problem* problem, int32_t body, const double* constants) {
+    return guard(problem, [&] {
+        require_pointer(constants, "constants");
+        Orthotropic material;
+        std::copy_n(constants, material.constant.size(), material.constant.begin());
+        if (const std::string wrong = indefinite_constant(material); !wrong.empty())
+            fail(DELAM_ERROR_ARGUMENT, "constants (body ", body, "): ", wrong);
+        set_material(*problem->core, body, material);
+    });
+}
+
+int32_t delam_problem_set_orientation(delam_problem* problem, int32_t body, int64_t count, const int64_t* cells,
+                                      const double* axes, int32_t index_base) {
+    return guard(problem, [&] {
         Problem& core = *problem->core;
-        const std::int32_t index = body < 0 ? -1 : core.mesh->body_of_label(body);
-        if (body != -1 && index < 0) fail(DELAM_ERROR_ARGUMENT, "body = ", body, ": no cell carries this label");
-        for (std::size_t i = 0; i < core.material.size(); ++i) {
-            if (body == -1 || i == static_cast<std::size_t>(index)) core.material[i] = Elastic{young, poisson};
+        const Mesh& mesh = *core.mesh;
+        const std::int32_t index = require_body(core, body);
+        require_base(index_base);
+        require_count(count, "count");
+        if (count > std::numeric_limits<std::int32_t>::max() - mesh.cell_count())
+            fail(DELAM_ERROR_ARGUMENT, "count = ", count, ": at most 2^31 - 1 with the cells of the mesh");
+        if (cells == nullptr && count != 1)
+            fail(DELAM_ERROR_ARGUMENT, "cells is NULL (one orientation for the whole body), but count = ", count, ", not 1");
+        require_array(axes, 6 * count, "axes");
+        require_finite(axes, 6 * count, "axes");
+        std::vector<std::int64_t> list;
+        std::vector<Axes> chosen(static_cast<std::size_t>(count));
+        for (std::int64_t i = 0; i < count; ++i) {
+            const double* own = axes + 6 * i;
+            if (!orthonormal_axes(std::span<const double, 3>(own, 3), std::span<const double, 3>(own + 3, 3),
+                                  chosen[static_cast<std::size_t>(i)]))
+                fail(DELAM_ERROR_ARGUMENT, "axes[", i, "]: axis 1 = (", own[0], ", ", own[1], ", ", own[2], "), axis 2 = (", own[3],
+                     ", ", own[4], ", ", own[5], "): both must have a length > 0 and not be parallel");
+            if (cells == nullptr) continue;
+            const std::int64_t cell = require_index(cells[i], mesh.cell_count(), index_base, text("cells[", i, "]"));
+            if (body != -1 && mesh.cell_body(cell) != index)
+                fail(DELAM_ERROR_ARGUMENT, "cells[", i, "] = ", cells[i], " belongs to body ", mesh.body_label(mesh.cell_body(cell)),
+                     ", not to body = ", body);
+            list.push_back(cell);
         }
+        if (cells == nullptr) {
+            for (std::int64_t cell = 0; cell < mesh.cell_count(); ++cell)
+                if (body == -1 || mesh.cell_body(cell) == index) list.push_back(cell);
+            chosen.assign(list.size(), Axes(chosen.front()));
+        }
+        const Orientation before = core.orientation == nullptr ? Orientation{} : *core.orientation;
+        core.orientation = std::make_shared<const Orientation>(oriented(before, mesh.cell_count(), list, chosen));
     });
 }
 
@@ -73,8 +134,7 @@ int32_t delam_problem_set_formulation(delam_problem* problem, int32_t body, cons
             fail(DELAM_ERROR_ARGUMENT, "formulation = '", word, "' is not known; known are standard, incompatible");
         }
         Problem& core = *problem->core;
-        const std::int32_t index = body < 0 ? -1 : core.mesh->body_of_label(body);
-        if (body != -1 && index < 0) fail(DELAM_ERROR_ARGUMENT, "body = ", body, ": no cell carries this label");
+        const std::int32_t index = require_body(core, body);
         const Formulation chosen = word == "standard" ? Formulation::standard : Formulation::incompatible;
         std::vector<Formulation> changed = core.formulation;
         for (std::int32_t i = 0; i < core.mesh->body_count(); ++i) {

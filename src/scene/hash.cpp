@@ -58,6 +58,22 @@ void add_mesh(Fnv& fnv, const Mesh& mesh) {
     }
 }
 
+void add_material(Fnv& fnv, const std::optional<Material>& material) {
+    fnv.add(material ? static_cast<std::int64_t>(material->index()) + 1 : std::int64_t{0});
+    if (!material) return;
+    if (const auto* isotropic = std::get_if<Elastic>(&*material)) {
+        fnv.add(isotropic->young);
+        fnv.add(isotropic->poisson);
+    } else {
+        for (const double constant : std::get<Orthotropic>(*material).constant) fnv.add(constant);
+    }
+}
+
+void add_orientation(Fnv& fnv, const Orientation& orientation) {
+    fnv.add_all(orientation.of_cell);
+    for (const Axes& axes : orientation.axes) fnv.add_all(std::span<const double>(axes));
+}
+
 void add_law(Fnv& fnv, const Law& law) {
     for (const double parameter :
          {law.normal_stiffness, law.tangential_stiffness, law.normal_onset, law.tangential_onset, law.normal_toughness,
@@ -137,13 +153,8 @@ std::uint64_t hash(const Problem& problem) {
     Fnv fnv;
     add_mesh(fnv, *problem.mesh);
     fnv.add(static_cast<std::int64_t>(problem.plane));
-    for (const std::optional<Elastic>& material : problem.material) {
-        fnv.add(material.has_value());
-        if (material) {
-            fnv.add(material->young);
-            fnv.add(material->poisson);
-        }
-    }
+    for (const std::optional<Material>& material : problem.material) add_material(fnv, material);
+    if (problem.orientation != nullptr) add_orientation(fnv, *problem.orientation);
     for (const Formulation formulation : problem.formulation) fnv.add(static_cast<std::int64_t>(formulation));
     for (const InterfaceProperties& interface : problem.interfaces) {
         fnv.add(interface.bonded);

@@ -32,7 +32,7 @@ std::int64_t Problem::pair_count() const {
 
 BodyModel Problem::model(std::int32_t body) const {
     const auto i = static_cast<std::size_t>(body);
-    return {*material[i], plane, formulation[i]};
+    return {*material[i], plane, formulation[i], orientation};
 }
 
 std::vector<double> Problem::factors(double time) const {

@@ -51,8 +51,9 @@ struct Problem {
 
     std::shared_ptr<const Mesh> mesh;
     Plane plane = Plane::strain;
-    std::vector<std::optional<Elastic>> material;  // [bodies]
-    std::vector<Formulation> formulation;          // [bodies]
+    std::vector<std::optional<Material>> material;   // [bodies]
+    std::vector<Formulation> formulation;            // [bodies]
+    std::shared_ptr<const Orientation> orientation;  // of the cells; null: none
     std::vector<InterfaceProperties> interfaces;
     std::vector<Pattern> patterns;
     std::vector<Constraint> constraints;

@@ -22,7 +22,7 @@ void check_bodies(const Problem& problem) {
     if (mesh.cell_count() == 0) fail(DELAM_ERROR_PROBLEM, "mesh: no cells");
     for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
         if (!problem.material[static_cast<std::size_t>(body)]) {
-            fail(DELAM_ERROR_PROBLEM, "body ", mesh.body_label(body), ": no material (delam_problem_set_elastic)");
+            fail(DELAM_ERROR_PROBLEM, "body ", mesh.body_label(body), ": no material (delam_problem_set_elastic or delam_problem_set_orthotropic)");
         }
         require_formulation(mesh, body, problem.formulation[static_cast<std::size_t>(body)], DELAM_ERROR_PROBLEM);
     }

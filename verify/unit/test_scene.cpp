@@ -345,8 +345,8 @@ START_TEST(hash_changes_with_every_datum) {
     ck_assert(hash(Problem(base)) == origin);
     const std::vector<std::function<void(Problem&)>> changes{
         [](Problem& p) { p.plane = Plane::stress; },
-        [](Problem& p) { p.material[1]->young = 76e9; },
-        [](Problem& p) { p.material[1]->poisson = 0.31; },
+        [](Problem& p) { std::get<Elastic>(*p.material[1]).young = 76e9; },
+        [](Problem& p) { std::get<Elastic>(*p.material[1]).poisson = 0.31; },
         [](Problem& p) { p.material[0].reset(); },
         [](Problem& p) { p.interfaces[0].bonded = true; },
         [](Problem& p) { p.interfaces[0].law.reset(); },

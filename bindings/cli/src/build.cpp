@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "build_materials.hpp"
 #include "call.hpp"
 #include "selection.hpp"
 
@@ -171,11 +172,7 @@ Model build(Context context, const Scene& scene) {
         call(owner, delam_problem_set_plane(problem, scene.geometry.plane.c_str()), scene.geometry.place);
     for (std::size_t i = 0; i < scene.layers.size(); ++i) {
         const Material& material = scene.materials[scene.layers[i].material];
-        call(owner, delam_problem_set_elastic(problem, static_cast<std::int32_t>(i), material.young, material.poisson),
-             material.place);
-        call(owner,
-             delam_problem_set_formulation(problem, static_cast<std::int32_t>(i), material.formulation.c_str()),
-             material.place);
+        set_material(owner, problem, static_cast<std::int32_t>(i), material, scene.layers[i].axes, scene.layers[i].place);
     }
     set_interfaces(model, scene);
     for (const PatternData& pattern : scene.patterns) {

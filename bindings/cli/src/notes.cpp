@@ -95,9 +95,10 @@ std::vector<std::string> notes_of(const Scene& scene) {
     for (const Layer& layer : scene.layers) {
         const Material& material = scene.materials[layer.material];
         // Plane stress is free to change its thickness, so nothing locks.
-        if (material.poisson > 0.49 && geometry.plane != "plane-stress")
+        const auto* isotropic = std::get_if<Isotropic>(&material.elastic);
+        if (isotropic != nullptr && isotropic->poisson > 0.49 && geometry.plane != "plane-stress")
             out.push_back(fmt::format("layer \"{}\": poisson = {} locks with full integration: far too stiff",
-                                      layer.name, material.poisson));
+                                      layer.name, isotropic->poisson));
         if (simplices && layer.divisions < 4)
             out.push_back(fmt::format("layer \"{}\": {} of {} across the thickness: far too stiff in bending (use {}, "
                                       "or 4 cells and more)",

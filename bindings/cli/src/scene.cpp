@@ -81,23 +81,10 @@ void read_geometry(const Table& root, Scene& scene) {
             std::min(geometry.smallest_edge, geometry.lengths[i] / static_cast<double>(geometry.divisions[i]));
 }
 
-void read_materials(const Table& root, Scene& scene) {
-    for (const Table& table : root.tables("materials")) {
-        table.only({"name", "young", "poisson", "formulation"});
-        Material material;
-        material.name = new_name(table, scene.materials, "material");
-        material.young = table.number("young", positive);
-        material.poisson = table.number("poisson", poisson_range);
-        material.formulation = table.choice("formulation", {"standard", "incompatible"}, "standard");
-        material.place = table.place();
-        scene.materials.push_back(std::move(material));
-    }
-}
-
 void read_layers(const Table& root, Scene& scene) {
     const Table geometry = root.table("geometry");
     for (const Table& table : root.tables("layers")) {
-        table.only({"name", "thickness", "divisions", "material"});
+        table.only({"name", "thickness", "divisions", "material", "angle", "axes"});
         Layer layer;
         layer.name = new_name(table, scene.layers, "layer");
         layer.thickness = table.number("thickness", positive);
@@ -109,6 +96,7 @@ void read_layers(const Table& root, Scene& scene) {
             table.fail("divisions", "is missing: a whole number >= 1 is expected (or give geometry.h)");
         }
         layer.material = find_named(table, "material", table.text("material"), scene.materials, "material");
+        layer.axes = read_axes(table, scene.geometry.dimension);
         layer.place = table.place();
         scene.geometry.smallest_edge =
             std::min(scene.geometry.smallest_edge, layer.thickness / static_cast<double>(layer.divisions));

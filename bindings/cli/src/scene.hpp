@@ -21,6 +21,7 @@ struct Layer {
     double thickness = 0;
     std::int64_t divisions = 1;
     std::size_t material = 0;
+    std::optional<std::array<double, 6>> axes;  // of the material, 1 and 2, in space
     Place place;
 };
 
@@ -35,10 +36,14 @@ struct Geometry {
     Place place;
 };
 
-struct Material {
-    std::string name;
+struct Isotropic {
     double young = 0;
     double poisson = 0;
+};
+
+struct Material {
+    std::string name;
+    std::variant<Isotropic, std::array<double, 9>> elastic;  // or E1 E2 E3 nu12 nu13 nu23 G12 G13 G23
     std::string formulation;
     Place place;
 };

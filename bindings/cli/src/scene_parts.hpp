@@ -7,6 +7,9 @@
 
 namespace cli {
 
+void read_materials(const Table& root, Scene& scene);
+// Material axes by `angle` or `axes` of a layer.
+std::optional<std::array<double, 6>> read_axes(const Table& table, std::int32_t dimension);
 void read_laws(const Table& root, Scene& scene);
 void read_patterns(const Table& root, Scene& scene);
 void read_supports_and_loads(const Table& root, Scene& scene);

@@ -123,6 +123,36 @@ expect(delam("check", write(bending))[0] == 0, "incompatible modes")
 refuse(changed("dimension = 2", 'dimension = 2\ncell = "tri6"', bending), r"materials\[0\]", "tri6")
 refuse(changed("incompatible", "reduced", bending), r"materials\[0\]\.formulation", "incompatible")
 
+
+ISOTROPIC = "young = 75e9\npoisson = 0.3"
+PLY = "E1 = 135e9\nE2 = 9e9\nnu12 = 0.24\nnu23 = 0.46\nG12 = 5.2e9"
+FULL = ("E1 = 135e9\nE2 = 9e9\nE3 = 9e9\nnu12 = 0.24\nnu13 = 0.24\nnu23 = 0.46\n"
+        "G12 = 5.2e9\nG13 = 5.2e9\nG23 = 3.082191780821918e9")
+UPPER = 'name = "upper"\nthickness = 0.003'
+ply = changed(ISOTROPIC, PLY)
+
+
+def hash_of(text):
+    code, out, error = delam("check", write(text))
+    expect(code == 0, "a ply: " + error)
+    return re.search(r"scene hash +(\w+)", out).group(1) if code == 0 else error
+
+
+expect(hash_of(ply) == hash_of(changed(ISOTROPIC, FULL)), "the short form of a ply is the full one")
+turned = {words: hash_of(changed(UPPER, UPPER + "\n" + words, ply))
+          for words in ("angle = 0.0", "angle = 90", "angle = -270.0", "angle = 45.0", "axes = [[0, 0, 2], [1, 0, 0]]")}
+expect(turned["angle = 90"] == turned["angle = -270.0"] == turned["axes = [[0, 0, 2], [1, 0, 0]]"], "quarter turns are exact")
+expect(len(set(turned.values())) == 3, "angles matter")
+refuse(changed(ISOTROPIC, "E1 = 135e9\n" + ISOTROPIC), r"materials\[0\]\.young", "either")
+refuse(changed("G12 = 5.2e9", "G12 = 5.2e9\nG13 = 5.2e9", ply), r"materials\[0\]\.E3", "missing", "transversely isotropic")
+refuse(changed("nu23 = 0.46\n", "", ply), r"materials\[0\]\.nu23", "missing")
+refuse(changed("E2 = 9e9", "E2 = -9e9", ply), r"materials\[0\]\.E2", "> 0")
+refuse(changed("nu12 = 0.24", "nu12 = 4.0", ply), r"materials\[0\]", "nu12 = 4 is outside", "3.87", "nu21")
+refuse(changed("nu23 = 0.46", "nu23 = 1.0", ply), r"materials\[0\]\.nu23", "in \\(-1, 1\\)")
+refuse(changed(UPPER, UPPER + "\nangle = 45.0\naxes = [[1, 0, 0], [0, 1, 0]]", ply), r"layers\[1\]\.axes", "either")
+refuse(changed(UPPER, UPPER + "\naxes = [[1, 0, 0]]", ply), r"layers\[1\]\.axes", "two are expected")
+refuse(changed(UPPER, UPPER + "\naxes = [[1, 0, 0], [2, 0, 0]]", ply), r"layers\[1\]", "parallel")
+
 with open("/dev/full", "w", encoding="utf-8") as full:
     for words in (("check", write(SCENE)), ("--help",)):
         done = subprocess.run([DELAM, *words], stdout=full, stderr=subprocess.PIPE, text=True, check=False)

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "body/cell_elasticity.hpp"
+
+namespace delam {
+
+namespace {
+
+std::vector<double> reduced(const SpaceElasticity& space, int dimension, Plane plane) {
+    if (dimension == 3) return {space.begin(), space.end()};
+    const auto in_plane = plane_elasticity(space, plane);
+    return {in_plane.begin(), in_plane.end()};
+}
+
+}  // namespace
+
+CellElasticity::CellElasticity(const BodyModel& model, int dimension)
+    : model_(model), dimension_(dimension), material_(space_elasticity(model.material)), space_(material_) {
+    const auto* isotropic = std::get_if<Elastic>(&model.material);
+    matrix_ = isotropic != nullptr ? elasticity_matrix(*isotropic, dimension, model.plane)
+                                   : reduced(space_, dimension, model.plane);
+}
+
+const Axes* CellElasticity::axes(std::int64_t cell) const {
+    if (model_.orientation == nullptr) return nullptr;
+    const std::int32_t own = model_.orientation->of_cell[static_cast<std::size_t>(cell)];
+    return own < 0 ? nullptr : &model_.orientation->axes[static_cast<std::size_t>(own)];
+}
+
+// Isotropic elasticity is the same in all axes, and stays as it was computed.
+void CellElasticity::turn(std::int64_t cell) {
+    if (model_.orientation == nullptr || std::holds_alternative<Elastic>(model_.material)) return;
+    const std::int32_t own = model_.orientation->of_cell[static_cast<std::size_t>(cell)];
+    if (own == orientation_) return;
+    orientation_ = own;
+    const Axes* axes = this->axes(cell);
+    space_ = axes == nullptr ? material_ : rotated(material_, *axes);
+    matrix_ = reduced(space_, dimension_, model_.plane);
+}
+
+std::span<const double> CellElasticity::matrix(std::int64_t cell) {
+    turn(cell);
+    return matrix_;
+}
+
+const SpaceElasticity& CellElasticity::space(std::int64_t cell) {
+    turn(cell);
+    return space_;
+}
+
+}  // namespace delam
