@@ -412,6 +412,11 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   kkt_complementarity    largest |gap * force| of a closed contact, over (largest jump * largest force)
  *   kkt_equilibrium        largest out-of-balance nodal force of the recovered displacements, over the largest reaction
  *                          (the kkt_ values recover the displacements: a sparse solve each)
+ * of the fronts of all interfaces with a law, and with :I behind it (crack_length:0) of interface I:
+ *   crack_length           L or L2: initially open part, in 2D up to the pair at the tip, in 3D the faces that touch an open pair, and
+ *                          sum of weight (1 - zeta) over the pairs that adhered at first
+ *   energy_release_rate, front_mixity   G in F/L and (G_II + G_III)/G at the front point with the largest G; 0: there is no front
+ *   process_zone_length, process_zone_pairs   L, and number of pairs, there (see delam_solver_front for all of these)
  * and per pattern load:NAME (its factor) and reaction:NAME (its conjugate: positive when the device does work; of a force
  * pattern, minus the conjugate displacement).
  * delam_solver_value_count counts all of them. */
@@ -433,6 +438,32 @@ DELAM_API const char *delam_solver_value_name(const delam_solver *solver, int64_
 DELAM_API int32_t delam_solver_field_shape(const delam_solver *solver, const char *key, int64_t part, int64_t *rows,
                                            int64_t *columns);
 DELAM_API int32_t delam_solver_field(delam_solver *solver, const char *key, int64_t part, int64_t capacity, double *values);
+
+/* Fronts of the cracks of an interface, of the state that values and fields speak of: where adhesion passes 1/2. In 2D each is a point, in 3D
+ * a polyline on the faces, open or a loop. An interface without a law has none, nor has one on which no pair has adhesion below 1/2. Found on
+ * request, from the jumps and adhesions alone. Either output may be NULL. */
+DELAM_API int32_t delam_solver_front_count(const delam_solver *solver, int64_t interface_index, int64_t *fronts, int64_t *points);
+/* Capacities count fronts and points; any output may be NULL.
+ *   starts      [fronts + 1]  the points of front f are starts[f] .. starts[f+1] - 1
+ *   closed      [fronts]      1: a loop, the last point is joined to the first
+ *   places      [points][dimension]  L, before deformation. 2D: from the tip of the notch (the first pair that adhered) ahead by the sum of
+ *                             weight (1 - zeta), of a crack that began inside half of it to either side; 3D: where the adhesion,
+ *                             linear between pairs, is 1/2 (half a cell behind the 2D figure at a sharp front)
+ *   directions  [points][dimension]  unit vector along the interface, across the front, into what adheres
+ *   lengths     [points]      L; 2D: of the crack that ends here; 3D: of front that the point stands for
+ *   rates       [points][3]   F/L, energy release rate in modes I, II (shear along the direction) and III (along the front): J = - int t . d[u]/dx dx
+ *                             over the interface from the open crack to beyond the process zone, plus the energy that the layer holds where that ends
+ *                             (Rice 1968); in all, int Y dzeta/dx dx. On a stiff interface with a sharp front this is virtual crack closure, 1/2 traction times
+ *                             opening behind; it equals Gc where a front grows steadily. The end of the path and closed contact have no influence.
+ *   zone_lengths, zone_pairs  [points]  process zone, 1e-3 < zeta < (1 - 1e-3) of the initial adhesion: extent along the direction, and
+ *                             pairs in it; below about 3 its traction, and with it the load of a local march, depends on the mesh
+ * Exact in the limit of fine pairs for straight interfaces between bodies that do not vary along them, without eigenstrains; on curved interfaces
+ * (radius not much larger than the process zone), with thermal strains or where materials change along the interface it is approximate. 3D: each part
+ * of the integral goes to the nearest point of a front; on a single point it scatters more than along the front. Unresolved fronts on the pairs of
+ * quadratic cells (weights that alternate) are good to some ten percent only, from pair to pair. */
+DELAM_API int32_t delam_solver_front(const delam_solver *solver, int64_t interface_index, int64_t front_capacity, int64_t point_capacity,
+                                     int64_t *starts, int32_t *closed, double *places, double *directions, double *lengths,
+                                     double *rates, double *zone_lengths, double *zone_pairs);
 
 /* What the scene needs and what was left out, each with its reason, its predicted cost and what the decision saves. In words, a line
  * each, "subject: decision, reason (cost ..., saves ...)\n". Valid until the next call with this solver. Never NULL. */

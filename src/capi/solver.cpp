@@ -32,6 +32,11 @@ void copy_out(const std::vector<T>& values, std::int64_t capacity, T* out, const
     std::copy(values.begin(), values.end(), out);
 }
 
+const std::vector<CrackFront>& fronts_of(const delam_solver& solver, std::int64_t interface_index) {
+    const auto count = static_cast<std::int64_t>(solver.core->problem().interfaces.size());
+    return solver.core->crack_fronts(require_index(interface_index, count, 0, "interface_index"));
+}
+
 }  // namespace
 
 extern "C" {
@@ -114,6 +119,44 @@ int32_t delam_solver_field(delam_solver* solver, const char* key, int64_t part, 
         const FieldShape shape = field_shape(*solver->core, key, part);
         require_capacity(capacity, shape.rows * shape.columns, "values");
         copy_out(field(*solver->core, key, part), capacity, values, "values");
+    });
+}
+
+int32_t delam_solver_front_count(const delam_solver* solver, int64_t interface_index, int64_t* fronts, int64_t* points) {
+    return guard(solver, [&] {
+        const std::vector<CrackFront>& found = fronts_of(*solver, interface_index);
+        if (fronts != nullptr) *fronts = static_cast<int64_t>(found.size());
+        if (points == nullptr) return;
+        *points = 0;
+        for (const CrackFront& front : found) *points += static_cast<int64_t>(front.points.size());
+    });
+}
+
+int32_t delam_solver_front(const delam_solver* solver, int64_t interface_index, int64_t front_capacity, int64_t point_capacity,
+                           int64_t* starts, int32_t* closed, double* places, double* directions, double* lengths, double* rates,
+                           double* zone_lengths, double* zone_pairs) {
+    return guard(solver, [&] {
+        const std::vector<CrackFront>& found = fronts_of(*solver, interface_index);
+        const auto dim = static_cast<std::size_t>(solver->core->problem().mesh->dimension());
+        std::size_t points = 0;
+        for (const CrackFront& front : found) points += front.points.size();
+        require_capacity(front_capacity, static_cast<int64_t>(found.size()), "fronts");
+        require_capacity(point_capacity, static_cast<int64_t>(points), "points");
+        std::size_t at = 0;
+        for (std::size_t f = 0; f < found.size(); ++f) {
+            if (starts != nullptr) starts[f] = static_cast<int64_t>(at);
+            if (closed != nullptr) closed[f] = found[f].closed ? 1 : 0;
+            for (const FrontPoint& point : found[f].points) {
+                if (places != nullptr) std::copy_n(point.place.begin(), dim, places + at * dim);
+                if (directions != nullptr) std::copy_n(point.direction.begin(), dim, directions + at * dim);
+                if (lengths != nullptr) lengths[at] = point.length;
+                if (rates != nullptr) std::copy(point.rate.begin(), point.rate.end(), rates + 3 * at);
+                if (zone_lengths != nullptr) zone_lengths[at] = point.zone;
+                if (zone_pairs != nullptr) zone_pairs[at] = point.zone_pairs;
+                ++at;
+            }
+        }
+        if (starts != nullptr) starts[found.size()] = static_cast<int64_t>(at);
     });
 }
 

@@ -61,7 +61,7 @@ Outcome Solver::advance(double time) {
         if (next.counts.mixity_held > 0)
             outcome.text += text("; the mixity of ", next.counts.mixity_held, " pairs would not settle and was held");
     }
-    displacement_.clear();
+    forget();
     looked_ = nullptr;
     pending_ = std::move(pending);
     return outcome;
@@ -72,7 +72,7 @@ Outcome Solver::equilibrate(double time, std::span<const double> adhesion) {
     Stepper::Result result = stepper_.equilibrate(committed_, time, adhesion);
     Outcome outcome;
     if (!result.converged) outcome = unconverged_displacement(result.state);
-    displacement_.clear();
+    forget();
     looked_ = nullptr;
     pending_ = Pending{std::move(result.state), {}, {}};
     return outcome;
@@ -80,7 +80,7 @@ Outcome Solver::equilibrate(double time, std::span<const double> adhesion) {
 
 void Solver::commit() {
     if (!pending_) fail(DELAM_ERROR_STATE, "nothing to commit: no step is pending");
-    if (looked_ != nullptr) displacement_.clear();
+    if (looked_ != nullptr) forget();
     looked_ = nullptr;
     jumps_ = jumps(true);
     for (State& state : pending_->revised) {
@@ -102,7 +102,7 @@ void Solver::rollback() {
     if (!pending_) fail(DELAM_ERROR_STATE, "nothing to roll back: no step is pending");
     looked_ = nullptr;
     pending_.reset();
-    displacement_.clear();
+    forget();
 }
 
 void Solver::look(std::int64_t step) {
@@ -120,7 +120,7 @@ void Solver::look(std::int64_t step) {
         if (found == nullptr) found = step == committed_.step ? &committed_ : &past_[static_cast<std::size_t>(step - past_.front().step)];
     }
     looked_ = found;
-    displacement_.clear();
+    forget();
 }
 
 std::vector<Jump> Solver::jumps(bool pending) const {
@@ -140,7 +140,38 @@ void Solver::restore(State restored, std::vector<State> past, std::vector<Jump> 
     jumps_ = std::move(jumps);
     pending_.reset();
     looked_ = nullptr;
+    forget();
+}
+
+void Solver::forget() {
     displacement_.clear();
+    fronts_.clear();
+}
+
+std::optional<CrackedInterface> Solver::cracked(const State& state, std::int64_t interface) const {
+    const Mesh& mesh = *problem_.mesh;
+    const InterfaceProperties& properties = problem_.interfaces[static_cast<std::size_t>(interface)];
+    if (properties.bonded || !properties.law) return std::nullopt;
+    const InterfaceGeometry& geometry = mesh.interfaces()[static_cast<std::size_t>(interface)];
+    const auto first = static_cast<std::size_t>(graph_.first_pair(interface)), count = static_cast<std::size_t>(geometry.pair_count());
+    const auto dim = static_cast<std::size_t>(mesh.dimension());
+    return CrackedInterface{mesh, geometry, *properties.law, std::span(properties.adhesion), std::span(state.adhesion).subspan(first, count),
+                            std::span(state.response.jump).subspan(first * dim, count * dim)};
+}
+
+const std::vector<CrackFront>& Solver::crack_fronts(std::int64_t interface) const {
+    fronts_.resize(problem_.interfaces.size());
+    auto& kept = fronts_[static_cast<std::size_t>(interface)];
+    if (!kept) {
+        const std::optional<CrackedInterface> of = cracked(state(), interface);
+        kept = of ? delam::crack_fronts(*of) : std::vector<CrackFront>{};
+    }
+    return *kept;
+}
+
+double Solver::crack_length(std::int64_t interface) const {
+    const std::optional<CrackedInterface> of = cracked(state(), interface);
+    return of ? delam::crack_length(*of) : 0.0;
 }
 
 const std::vector<double>& Solver::displacement() const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/monitor.hpp"
+#include "evolution/crack_front.hpp"
 #include "evolution/jump.hpp"
 #include "evolution/plan.hpp"
 #include "evolution/stepper.hpp"
@@ -67,6 +68,10 @@ public:
     std::vector<PlanItem> plan() const;
     // Initial adhesion, [pairs].
     const std::vector<double>& initial_adhesion() const { return stepper_.initial_adhesion(); }
+    // Fronts of the cracks of an interface; none where it has no law. Found on request, kept until the state changes.
+    const std::vector<CrackFront>& crack_fronts(std::int64_t interface) const;
+    // L or L2; 0 where it has no law.
+    double crack_length(std::int64_t interface) const;
     // What the last search looked at, in words.
     const std::string& searched() const { return stepper_.searched(); }
 
@@ -78,6 +83,9 @@ private:
     };
 
     void require_nothing_pending(double time) const;
+    // Of what was found on request.
+    void forget();
+    std::optional<CrackedInterface> cracked(const State& state, std::int64_t interface) const;
     Outcome unconverged_displacement(const State& state) const;
 
     Problem problem_;
@@ -90,6 +98,7 @@ private:
     std::optional<Pending> pending_;
     const State* looked_ = nullptr;
     mutable std::vector<double> displacement_;  // of state(), empty: not recovered
+    mutable std::vector<std::optional<std::vector<CrackFront>>> fronts_;  // likewise, [interfaces]
 };
 
 }  // namespace delam

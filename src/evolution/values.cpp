@@ -15,6 +15,7 @@ namespace {
 constexpr double intact_above = 1.0 - 1e-3;
 
 double count(std::int64_t n) { return static_cast<double>(n); }
+std::int64_t count_of_interfaces(const Problem& problem) { return static_cast<std::int64_t>(problem.interfaces.size()); }
 
 double largest(std::span<const double> values) {
     double m = 0.0;
@@ -83,6 +84,42 @@ double kkt_complementarity(const Solver& s) {
     return ratio(product, largest(state.response.jump) * largest(state.response.force));
 }
 
+// The point of an interface's fronts (-1: of all) with the largest energy release rate; a point of zeros where there is no front.
+FrontPoint leading_point(const Solver& s, std::int64_t interface) {
+    FrontPoint leading;
+    bool found = false;
+    for (std::int64_t i = 0; i < count_of_interfaces(s.problem()); ++i) {
+        if (interface >= 0 && i != interface) continue;
+        for (const CrackFront& front : s.crack_fronts(i))
+            for (const FrontPoint& point : front.points) {
+                if (found && !(point.total() > leading.total())) continue;
+                leading = point;
+                found = true;
+            }
+    }
+    return leading;
+}
+
+double crack_length(const Solver& s, std::int64_t interface) {
+    double sum = 0.0;
+    for (std::int64_t i = 0; i < count_of_interfaces(s.problem()); ++i)
+        if (interface < 0 || i == interface) sum += s.crack_length(i);
+    return sum;
+}
+
+// Of all interfaces together (-1), and as KEY:I of one.
+struct FrontEntry {
+    const char* key;
+    double (*value)(const Solver&, std::int64_t);
+};
+constexpr FrontEntry front_table[] = {
+    {"crack_length", crack_length},
+    {"energy_release_rate", [](const Solver& s, std::int64_t i) { return leading_point(s, i).total(); }},
+    {"front_mixity", [](const Solver& s, std::int64_t i) { return leading_point(s, i).mixity(); }},
+    {"process_zone_length", [](const Solver& s, std::int64_t i) { return leading_point(s, i).zone; }},
+    {"process_zone_pairs", [](const Solver& s, std::int64_t i) { return leading_point(s, i).zone_pairs; }},
+};
+
 struct Entry {
     const char* key;
     double (*value)(const Solver&);
@@ -147,6 +184,8 @@ constexpr Entry table[] = {
 std::vector<std::string> value_names(const Problem& problem) {
     std::vector<std::string> names;
     for (const Entry& entry : table) names.emplace_back(entry.key);
+    for (std::int64_t i = -1; i < count_of_interfaces(problem); ++i)
+        for (const FrontEntry& entry : front_table) names.push_back(i < 0 ? entry.key : text(entry.key, ":", i));
     for (const Pattern& pattern : problem.patterns) {
         names.push_back("load:" + pattern.name);
         names.push_back("reaction:" + pattern.name);
@@ -157,6 +196,12 @@ std::vector<std::string> value_names(const Problem& problem) {
 double value(const Solver& solver, const std::string& key) {
     for (const Entry& entry : table)
         if (key == entry.key) return entry.value(solver);
+    for (const FrontEntry& entry : front_table) {
+        if (key == entry.key) return entry.value(solver, -1);
+        if (key.rfind(text(entry.key, ":"), 0) != 0) continue;
+        for (std::int64_t i = 0; i < count_of_interfaces(solver.problem()); ++i)
+            if (key == text(entry.key, ":", i)) return entry.value(solver, i);
+    }
     const auto& patterns = solver.problem().patterns;
     for (std::size_t p = 0; p < patterns.size(); ++p) {
         if (key == "load:" + patterns[p].name) return solver.state().theta[p];

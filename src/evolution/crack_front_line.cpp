@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fronts of an interface that is a line: the pairs as chains, each walked from the open side of a front to the adhering one.
+#include <algorithm>
+#include <cmath>
+
+#include "evolution/crack_front.hpp"
+#include "mesh/faces.hpp"
+
+namespace delam {
+
+namespace {
+
+// Pairs one after another. In a ring the first pair is the last one, too, with half of its weight in either place.
+struct Chain {
+    std::vector<std::int64_t> pair;
+    std::vector<double> arc;  // distance from the first pair
+    bool ring = false;
+};
+
+double distance(const Vector3& p, const Vector3& q) { return std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]); }
+
+// Edges walked from pairs that do not have two of them; what is left are rings. A ring is cut where the adhesion is largest.
+std::vector<Chain> chains(const CrackedInterface& interface) {
+    const std::size_t count = interface.adhesion.size();
+    std::vector<std::vector<std::int64_t>> next(count);
+    for (const PairPiece& piece : pair_pieces(interface.geometry, 2)) {
+        next[at(piece.pair[0])].push_back(piece.pair[1]);
+        next[at(piece.pair[1])].push_back(piece.pair[0]);
+    }
+    const auto take = [&](std::int64_t from, std::int64_t to) {  // the edge, from both of its ends
+        std::erase(next[at(from)], to);
+        std::erase(next[at(to)], from);
+    };
+    std::vector<std::size_t> degree(count);
+    for (std::size_t p = 0; p < count; ++p) degree[p] = next[p].size();
+    std::vector<Chain> found;
+    const auto walk = [&](std::int64_t first) {
+        Chain chain{{first}, {}, false};
+        for (std::int64_t p = first; !next[at(p)].empty();) {
+            const std::int64_t q = next[at(p)].front();
+            take(p, q);
+            chain.pair.push_back(q);
+            p = q;
+            if (degree[at(q)] != 2) break;
+        }
+        chain.ring = chain.pair.size() > 2 && chain.pair.back() == first;
+        found.push_back(std::move(chain));
+    };
+    for (std::size_t p = 0; p < count; ++p)
+        while (degree[p] != 2 && !next[p].empty()) walk(static_cast<std::int64_t>(p));
+    for (std::size_t p = 0; p < count; ++p)
+        if (!next[p].empty()) walk(static_cast<std::int64_t>(p));
+
+    for (Chain& chain : found) {
+        if (chain.ring && degree[at(chain.pair.front())] == 2) {
+            chain.pair.pop_back();
+            const auto less = [&](std::int64_t p, std::int64_t q) { return interface.adhesion[at(p)] < interface.adhesion[at(q)]; };
+            std::rotate(chain.pair.begin(), std::max_element(chain.pair.begin(), chain.pair.end(), less), chain.pair.end());
+            chain.pair.push_back(chain.pair.front());
+        }
+        double arc = 0.0;
+        for (std::size_t k = 0; k < chain.pair.size(); ++k) {
+            if (k > 0) arc += distance(place_of(interface, chain.pair[k - 1]), place_of(interface, chain.pair[k]));
+            chain.arc.push_back(arc);
+        }
+    }
+    return found;
+}
+
+// A chain with the state of its pairs, and what lies about one of its fronts. Positions are those in the chain.
+class Walk {
+public:
+    // corner: of quadratic faces, [pairs]
+    Walk(const CrackedInterface& interface, const Chain& chain, std::span<const std::uint8_t> corner)
+        : interface_(interface), chain_(chain), first_corner_(corner[at(chain.pair.front())] != 0 ? 0 : 1) {}
+
+    struct Found {
+        std::int64_t open, adhering;  // the two pairs that it separates
+        std::int64_t from, to;        // what belongs to it, from the open side on
+        double arc;                   // where it is
+    };
+    std::vector<Found> fronts() const {
+        std::vector<Found> found;
+        for (std::int64_t k = 0; k + 1 < size(); ++k) {
+            if (below(k) && !below(k + 1)) found.push_back(front(k, k + 1));
+            if (!below(k) && below(k + 1)) found.push_back(front(k + 1, k));
+        }
+        return found;
+    }
+
+    // Arc at which the crack of this front begins: that of its other front, else the end of the chain.
+    double other_end(const std::vector<Found>& all, const Found& front) const {
+        const std::int64_t end = run_end(front.open, front.open - front.adhering);
+        for (const Found& other : all)
+            if (other.open == end && other.adhering != front.adhering) return other.arc;
+        return chain_.arc[at(end)];
+    }
+
+    FrontPoint point(const Found& front) const {
+        FrontPoint out;
+        const auto after = static_cast<std::size_t>(std::upper_bound(chain_.arc.begin(), chain_.arc.end() - 1, front.arc) - chain_.arc.begin());
+        const std::size_t k = std::max<std::size_t>(after, 1);
+        const Vector3 p = place(static_cast<std::int64_t>(k) - 1), q = place(static_cast<std::int64_t>(k));
+        const double share = (front.arc - chain_.arc[k - 1]) / (chain_.arc[k] - chain_.arc[k - 1]);
+        const double sign = front.adhering > front.open ? 1.0 : -1.0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            out.place[i] = p[i] + share * (q[i] - p[i]);
+            out.direction[i] = sign * (q[i] - p[i]) / distance(p, q);
+        }
+        const std::int64_t step = front.adhering - front.open;
+        for (std::int64_t i = front.from; i != front.to; i += step) add_links(i, i + step, out);
+        for (std::int64_t i = front.from;; i += step) {
+            if (in_process_zone(initial(i), adhesion(i))) {
+                out.zone += weight(i);
+                out.zone_pairs += 1.0;
+            }
+            if (i == front.to) return out;
+        }
+    }
+
+private:
+    std::int64_t size() const { return static_cast<std::int64_t>(chain_.pair.size()); }
+    std::int64_t pair(std::int64_t i) const { return chain_.pair[at(i)]; }
+    double adhesion(std::int64_t i) const { return interface_.adhesion[at(pair(i))]; }
+    double initial(std::int64_t i) const { return interface_.initial[at(pair(i))]; }
+    bool below(std::int64_t i) const { return adhesion(i) < front_adhesion; }
+    double weight(std::int64_t i) const {
+        const double whole = interface_.geometry.weight[at(pair(i))];
+        return chain_.ring && (i == 0 || i == size() - 1) ? 0.5 * whole : whole;
+    }
+    Vector3 place(std::int64_t i) const { return place_of(interface_, pair(i)); }
+    bool inside(std::int64_t i) const { return i >= 0 && i < size(); }
+
+    // Last pair on the same side of 1/2, from i on.
+    std::int64_t run_end(std::int64_t i, std::int64_t step) const {
+        while (inside(i + step) && below(i + step) == below(i)) i += step;
+        return i;
+    }
+    // What belongs to one of two fronts ends where the run from i to end has its extreme adhesion, in the middle if there are many.
+    std::int64_t share_of(std::int64_t i, std::int64_t end, std::int64_t step) const {
+        if (!inside(end + step)) return end;
+        double extreme = adhesion(i);
+        std::int64_t first = i, last = i;
+        for (std::int64_t j = i; j != end + step; j += step) {
+            const double zeta = adhesion(j);
+            if (below(i) ? zeta < extreme : zeta > extreme) first = j;
+            if (below(i) ? zeta <= extreme : zeta >= extreme) {
+                extreme = zeta;
+                last = j;
+            }
+        }
+        return first + (last - first) / 2;
+    }
+
+    Found front(std::int64_t open, std::int64_t adhering) const {
+        const std::int64_t step = adhering - open;
+        const std::int64_t open_end = run_end(open, -step);
+        Found found{open, adhering, share_of(open, open_end, -step), share_of(adhering, run_end(adhering, step), step), 0.0};
+        // Counted from the tip of the notch, else from the end of the chain or the middle of a crack that began inside.
+        std::int64_t anchor = open;
+        while (anchor != open_end && initial(anchor) > 0.0) anchor -= step;
+        double spent = 0.0;
+        if (!(initial(anchor) > 0.0)) {
+            anchor += step;
+        } else {
+            anchor = found.from;
+            if (inside(open_end - step)) spent = -0.5 * weight(anchor) * (1.0 - adhesion(anchor));
+        }
+        for (std::int64_t i = anchor;; i += step) {
+            spent += weight(i) * (1.0 - adhesion(i));
+            if (i == found.to) break;
+        }
+        found.arc = std::clamp(chain_.arc[at(anchor)] + static_cast<double>(step) * spent, 0.0, chain_.arc.back());
+        return found;
+    }
+
+    // From a pair to the next. The weights of quadratic cells alternate, and with them the tractions: there every pair goes with the next one of its
+    // kind, corners with a third (Simpson's share of an edge), middle nodes with two thirds, so that a sharp tip gives the virtual crack closure of
+    // quadratic cells, 1/(2 l) (F_corner.[u] one cell behind + F_middle.[u] one cell behind).
+    void add_links(std::int64_t i0, std::int64_t i1, FrontPoint& out) const {
+        if (interface_.geometry.nodes_per_face == 2) return add_link(i0, i1, 1.0, out);
+        const std::int64_t i2 = 2 * i1 - i0;
+        const bool corner = (i0 - first_corner_) % 2 == 0;
+        if (inside(i2)) return add_link(i0, i2, corner ? 1.0 / 3.0 : 2.0 / 3.0, out);
+        if (!corner) add_link(i0, i1, 2.0 / 3.0, out);  // the end of the interface stands for a middle node beyond
+    }
+    // 1/2 k (zeta_1 - zeta_0) [u]_0 [u]_1
+    void add_link(std::int64_t i0, std::int64_t i1, double share, FrontPoint& out) const {
+        if (undamaged(initial(i0), adhesion(i0)) && undamaged(initial(i1), adhesion(i1))) return;
+        const SpaceJump u0 = jump_of(interface_, pair(i0)), u1 = jump_of(interface_, pair(i1));
+        const double half = 0.5 * share * (adhesion(i1) - adhesion(i0));
+        out.rate[0] += half * interface_.law.normal_stiffness * u0.normal * u1.normal;
+        out.rate[1] += half * interface_.law.tangential_stiffness * (u0.tangential[0] * u1.tangential[0] + u0.tangential[1] * u1.tangential[1]);
+    }
+
+    const CrackedInterface& interface_;
+    const Chain& chain_;
+    std::int64_t first_corner_;  // 0 or 1
+};
+
+}  // namespace
+
+std::vector<CrackFront> crack_fronts_on_lines(const CrackedInterface& interface) {
+    const InterfaceGeometry& geometry = interface.geometry;
+    std::vector<std::uint8_t> corner(interface.adhesion.size(), 1);
+    for (std::size_t f = 2; geometry.nodes_per_face == 3 && f < geometry.face.size(); f += 3) corner[at(geometry.face[f])] = 0;
+    std::vector<CrackFront> fronts;
+    for (const Chain& chain : chains(interface)) {
+        const Walk walk(interface, chain, corner);
+        const std::vector<Walk::Found> found = walk.fronts();
+        for (const Walk::Found& front : found) {
+            FrontPoint point = walk.point(front);
+            point.length = std::abs(front.arc - walk.other_end(found, front));
+            fronts.push_back({false, {point}});
+        }
+    }
+    return fronts;
+}
+
+}  // namespace delam

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fronts of given states: where they are, how long, and J of fields whose integral is known.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "evolution/crack_front.hpp"
+#include "mesh/layers.hpp"
+
+#include <check.h>  // last: it has a macro named fail
+
+using namespace delam;
+
+namespace {
+
+void near(double value, double exact, double tolerance = 1e-12) {
+    ck_assert_msg(std::abs(value - exact) <= tolerance, "%.17g instead of %.17g", value, exact);
+}
+
+// The interface of two layers of unit thickness; adhesions and jumps as functions of the place.
+struct Bed {
+    using Function = std::function<double(double, double)>;
+    Mesh mesh;
+    Law law;
+    std::vector<double> initial, adhesion, jump;
+
+    explicit Bed(Mesh made) : mesh(std::move(made)) {
+        law.normal_stiffness = 3.0;
+        law.tangential_stiffness = 5.0;
+        initial.assign(geometry().weight.size(), 1.0);
+        adhesion = initial;
+        jump.assign(adhesion.size() * static_cast<std::size_t>(mesh.dimension()), 0.0);
+    }
+    static Bed layers(const std::vector<double>& lengths, const std::vector<std::int64_t>& divisions, CellType type) {
+        const std::vector<double> thickness{1.0, 1.0};
+        const std::vector<std::int64_t> through{1, 1};
+        Mesh mesh = make_layers(static_cast<int>(lengths.size()) + 1, lengths, divisions, thickness, through, type);
+        mesh.add_interface(0, 1, 1e-6);
+        return Bed(std::move(mesh));
+    }
+    const InterfaceGeometry& geometry() const { return mesh.interfaces()[0]; }
+    std::span<const double> place(std::size_t pair) const { return mesh.node(geometry().node_a[pair]); }
+    void set(std::vector<double>& field, const Function& f) const {
+        for (std::size_t p = 0; p < field.size(); ++p) field[p] = f(place(p)[0], place(p)[1]);
+    }
+    void open(const Function& normal, const Function& tangential) {
+        const auto dim = static_cast<std::size_t>(mesh.dimension());
+        for (std::size_t p = 0; p < adhesion.size(); ++p) {
+            jump[p * dim] = normal(place(p)[0], place(p)[1]);
+            jump[p * dim + 1] = tangential(place(p)[0], place(p)[1]);
+        }
+    }
+    CrackedInterface interface() const { return {mesh, geometry(), law, initial, adhesion, jump}; }
+    std::vector<CrackFront> fronts() const { return crack_fronts(interface()); }
+};
+
+double one(double, double) { return 1.0; }
+double none(double, double) { return 0.0; }
+
+}  // namespace
+
+// A notch at the left end, a crack inside, one from the right end; 20 cells of length 1/2, linear and quadratic ones.
+START_TEST(fronts_on_a_line) {
+    Bed bed = Bed::layers({10.0}, {_i == 0 ? 20 : 10}, _i == 0 ? CellType::quad4 : CellType::quad8);
+    bed.set(bed.initial, [](double x, double) { return x < 1.9 ? 0.0 : 1.0; });
+    ck_assert_uint_eq((bed.adhesion = bed.initial, bed.fronts().size()), 1);
+    near(bed.fronts()[0].points[0].place[0], 2.0);
+    near(bed.fronts()[0].points[0].length, 2.0);
+    near(crack_length(bed.interface()), 2.0);
+
+    bed.set(bed.adhesion, [](double x, double) { return x < 2.9 || (x > 4.9 && x < 6.1) || x > 9.4 ? 0.0 : 1.0; });
+    const std::vector<CrackFront> fronts = bed.fronts();
+    ck_assert_uint_eq(fronts.size(), 4);
+    const double spent[] = {1.0, 1.5, 0.75};  // weights of the pairs that broke: 2, 2.5; 5, 5.5, 6; 9.5, 10
+    double sum = 2.0;
+    for (std::size_t p = 0; p < bed.adhesion.size(); ++p)
+        if (bed.initial[p] > 0.0) sum += bed.geometry().weight[p] * (1.0 - bed.adhesion[p]);
+    near(crack_length(bed.interface()), sum);
+    const double direction[] = {1.0, -1.0, 1.0, -1.0};
+    for (std::size_t f = 0; f < 4; ++f) near(fronts[f].points[0].direction[0], direction[f]);
+    near(fronts[1].points[0].length, fronts[2].points[0].length);
+    near(0.5 * (fronts[1].points[0].place[0] + fronts[2].points[0].place[0]), 5.5);
+    if (_i == 0) {
+        near(fronts[0].points[0].length, 2.0 + spent[0]);
+        near(fronts[1].points[0].length, spent[1]);
+        near(fronts[3].points[0].length, spent[2]);
+        near(fronts[3].points[0].place[0], 10.0 - spent[2]);
+    }
+    double lengths = fronts[0].points[0].length + fronts[1].points[0].length + fronts[3].points[0].length;
+    near(lengths, sum);
+
+    bed.set(bed.adhesion, none);
+    ck_assert_uint_eq(bed.fronts().size(), 0);
+    near(crack_length(bed.interface()), 10.0);
+}
+END_TEST
+
+// With constant jumps int Y dzeta/dx dx = Y, whatever way the adhesion takes; a patch of lesser initial adhesion ahead adds nothing.
+START_TEST(rates_on_a_line) {
+    Bed bed = Bed::layers({10.0}, {_i == 0 ? 20 : 10}, _i == 0 ? CellType::quad4 : CellType::quad8);
+    bed.set(bed.initial, [](double x, double) { return x < 1.9 ? 0.0 : x > 7.9 ? 0.4 : 1.0; });
+    bed.set(bed.adhesion, [](double x, double) { return x < 1.9 ? 0.0 : x > 7.9 ? 0.4 : std::min(1.0, 0.2 * (x - 1.9)); });
+    bed.open([](double, double) { return 0.1; }, [](double, double) { return -0.2; });
+    const std::vector<CrackFront> fronts = bed.fronts();
+    const FrontPoint& point = fronts[0].points[0];
+    near(point.rate[0], 0.5 * 3.0 * 0.01, 1e-15);
+    near(point.rate[1], 0.5 * 5.0 * 0.04, 1e-15);
+    near(point.rate[2], 0.0);
+    near(point.mixity(), 0.1 / 0.115, 1e-12);
+    near(point.zone_pairs, 10.0);  // 2.0 .. 6.5
+    near(point.zone, 5.0, _i == 0 ? 1e-12 : 0.2);
+}
+END_TEST
+
+// An interface that is a ring: two fronts of one crack, wherever the list of faces begins.
+START_TEST(ring) {
+    const std::int64_t n = 24;
+    std::vector<double> nodes;
+    std::vector<std::int64_t> cells;
+    std::vector<std::int32_t> bodies;
+    const double radius[] = {1.0, 2.0, 2.0, 3.0};
+    for (const double r : radius)
+        for (std::int64_t i = 0; i < n; ++i)
+            for (const double x : {r * std::cos(2.0 * M_PI * static_cast<double>(i) / n), r * std::sin(2.0 * M_PI * static_cast<double>(i) / n)}) nodes.push_back(x);
+    for (const std::int64_t inner : {std::int64_t{0}, 2 * n})
+        for (std::int64_t i = 0; i < n; ++i) {
+            const std::int64_t j = (i + 1) % n;
+            for (const std::int64_t node : {inner + i, inner + n + i, inner + n + j, inner + j}) cells.push_back(node);
+            bodies.push_back(inner == 0 ? 0 : 1);
+        }
+    Mesh mesh(2, nodes);
+    mesh.add_cells(CellType::quad4, cells, bodies);
+    mesh.add_interface(0, 1, 1e-6);
+    Bed bed(std::move(mesh));
+    const double start = 2.0 * M_PI * _i / 4.0;
+    const auto inside = [&](double x, double y) { return std::cos(std::atan2(y, x) - start) > std::cos(0.9); };
+    bed.set(bed.adhesion, [&](double x, double y) { return inside(x, y) ? 0.0 : 1.0; });
+    bed.open([](double, double) { return 0.1; }, one);
+    const std::vector<CrackFront> fronts = bed.fronts();
+    ck_assert_uint_eq(fronts.size(), 2);
+    double opened = 0.0;
+    for (std::size_t p = 0; p < bed.adhesion.size(); ++p) opened += bed.geometry().weight[p] * (1.0 - bed.adhesion[p]);
+    for (const CrackFront& front : fronts) {
+        const FrontPoint& point = front.points[0];
+        near(point.length, opened, 1e-9);
+        near(std::acos((point.place[0] * std::cos(start) + point.place[1] * std::sin(start)) / std::hypot(point.place[0], point.place[1])) * 4.0, opened, 0.05);
+        near(point.rate[0], 0.5 * 3.0 * 0.01, 1e-12);
+        near(point.rate[1], 0.5 * 5.0 * std::cos(2.0 * M_PI / n), 1e-9);  // the tangents of two neighbours turn
+    }
+    bed.set(bed.adhesion, none);
+    ck_assert_uint_eq(bed.fronts().size(), 0);
+}
+END_TEST
+
+struct Kind {
+    CellType type;
+    std::int64_t cells;
+};
+constexpr Kind kinds[] = {{CellType::hex8, 20}, {CellType::tet4, 20}, {CellType::hex20, 10}, {CellType::tet10, 10}};
+
+// A straight front across the width, a blister inside: an open line and a loop on one interface.
+START_TEST(contours) {
+    const Kind kind = kinds[_i];
+    Bed bed = Bed::layers({20.0, 20.0}, {kind.cells, kind.cells}, kind.type);
+    bed.set(bed.adhesion, [](double x, double y) {
+        return std::clamp(std::min(0.5 + (x - 3.2) / 3.0, 0.5 + (std::hypot(x - 12.0, y - 10.0) - 4.0) / 3.0), 0.0, 1.0);
+    });
+    bed.open([](double, double) { return 0.1; }, [](double, double) { return 0.2; });
+    const std::vector<CrackFront> fronts = bed.fronts();
+    ck_assert_uint_eq(fronts.size(), 2);
+    const bool swapped = fronts[0].closed;
+    const CrackFront &line = fronts[swapped ? 1 : 0], &loop = fronts[swapped ? 0 : 1];
+    ck_assert(!line.closed && loop.closed);
+    const double area = bed.geometry().weight.size() > 0 ? 400.0 : 0.0;
+    double length = 0.0, rate = 0.0;
+    for (const FrontPoint& point : line.points) {
+        near(point.place[0], 3.2, 0.02);
+        near(point.direction[0], 1.0, 0.02);
+        length += point.length;
+        rate += point.length * point.total();
+    }
+    near(length, 20.0, 0.05);
+    near(rate / length, 0.5 * (3.0 * 0.01 + 5.0 * 0.04), 0.004);
+    length = 0.0;
+    double normal = 0.0, mixed[2] = {0.0, 0.0};
+    for (const FrontPoint& point : loop.points) {
+        const double x = point.place[0] - 12.0, y = point.place[1] - 10.0, r = std::hypot(x, y);
+        near(r, 4.0, 0.15);
+        ck_assert_msg((point.direction[0] * x + point.direction[1] * y) / r > 0.9, "outward");
+        length += point.length;
+        normal += point.length * point.rate[0];
+        mixed[0] += point.length * point.rate[1];
+        mixed[1] += point.length * point.rate[2];
+    }
+    near(length, 8.0 * M_PI, 0.6);
+    // Shear along x all around: half of its energy is in mode II, half in mode III.
+    near(normal / length, 0.5 * 3.0 * 0.01, 0.0015);
+    near(mixed[0] / length, 0.25 * 5.0 * 0.04, 0.006);
+    near(mixed[1] / length, 0.25 * 5.0 * 0.04, 0.006);
+    double weights = 0.0;
+    for (const double w : bed.geometry().weight) weights += w;
+    near(weights, area, 1e-9);
+}
+END_TEST
+
+// A front that grows in strips: each point has its process zone and its pairs.
+START_TEST(zones_in_space) {
+    Bed bed = Bed::layers({20.0, 8.0}, {20, 4}, CellType::hex8);
+    bed.set(bed.adhesion, [](double x, double) { return std::clamp((x - 4.5) / 6.0, 0.0, 1.0); });
+    const std::vector<CrackFront> fronts = bed.fronts();
+    ck_assert_uint_eq(fronts.size(), 1);
+    ck_assert_uint_eq(fronts[0].points.size(), 5);
+    for (const FrontPoint& point : fronts[0].points) {
+        near(point.zone, 6.0, 1e-9);
+        near(point.zone_pairs, 6.0, 1e-9);
+        near(point.rate[0], 0.0);
+    }
+}
+END_TEST
+
+// A checkerboard: saddles, many loops; every crossing ends up on one front, and nothing is lost or endless.
+START_TEST(saddles) {
+    Bed bed = Bed::layers({8.0, 8.0}, {8, 8}, CellType::hex8);
+    bed.set(bed.adhesion, [](double x, double y) { return static_cast<int>(std::lround(x + y)) % 2 == 0 ? 0.0 : 0.9; });
+    std::size_t points = 0;
+    for (const CrackFront& front : bed.fronts()) points += front.points.size();
+    ck_assert(points > 0);
+    bed.set(bed.adhesion, [](double x, double y) { return std::lround(x) == 4 && std::lround(y) == 4 ? 0.0 : 1.0; });
+    ck_assert_uint_eq(bed.fronts().size(), 1);
+    ck_assert(bed.fronts()[0].closed);
+}
+END_TEST
+
+int main() {
+    Suite* suite = suite_create("crack_front");
+    TCase* fronts = tcase_create("fronts");
+    tcase_add_loop_test(fronts, fronts_on_a_line, 0, 2);
+    tcase_add_loop_test(fronts, rates_on_a_line, 0, 2);
+    tcase_add_loop_test(fronts, ring, 0, 4);
+    tcase_add_loop_test(fronts, contours, 0, 4);
+    tcase_add_test(fronts, zones_in_space);
+    tcase_add_test(fronts, saddles);
+    suite_add_tcase(suite, fronts);
+    SRunner* runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? 0 : 1;
+}
