@@ -285,8 +285,12 @@ DELAM_API int32_t delam_problem_set_orientation(delam_problem *problem, int32_t 
 DELAM_API int32_t delam_problem_set_formulation(delam_problem *problem, int32_t body, const char *formulation);
 /* The law of an interface; its parameters are taken as they are now. Initial adhesion 1 everywhere. */
 DELAM_API int32_t delam_problem_set_law(delam_problem *problem, int64_t interface_index, const delam_law *law);
-/* The interface is glued perfectly and for ever (zero compliance). Each interface needs a law or this. */
+/* The interface is glued perfectly and for ever (zero compliance). Each interface needs a law, this or
+ * delam_problem_set_contact. */
 DELAM_API int32_t delam_problem_set_bonded(delam_problem *problem, int64_t interface_index);
+/* The interface has contact alone: faces that may part but not overlap, without friction, and no adhesion: an unglued joint, a unilateral
+ * support. Its initial adhesion is 0 (delam_problem_check refuses another). */
+DELAM_API int32_t delam_problem_set_contact(delam_problem *problem, int64_t interface_index);
 /* Initial adhesion of some pairs, in [0,1]; 0 makes a notch: no adhesion, contact stays. adhesion: [count]. */
 DELAM_API int32_t delam_problem_set_adhesion(delam_problem *problem, int64_t interface_index, int64_t count,
                                              const int64_t *pairs, const double *adhesion, int32_t index_base);
@@ -295,6 +299,10 @@ DELAM_API int32_t delam_problem_set_adhesion(delam_problem *problem, int64_t int
  * increasing; values: [count]; count >= 1. Name: unique, letters, digits, '_' and '-'. *out_pattern: its index, from 0. */
 DELAM_API int32_t delam_problem_add_pattern(delam_problem *problem, const char *name, int64_t count, const double *times,
                                             const double *values, int64_t *out_pattern);
+/* Control nodes: nodes of the mesh without cells. Prescriptions, means, equations, periods, forces and pairs may refer to them; each is
+ * then an unknown translation [dimension] without stiffness of its own, wherever it lies: a rigid loading nose, an average strain.
+ * Something must hold it. Nodes without cells that nothing refers to are absent. Tied nodes (projected interfaces) may be used too:
+ * they stand for what they are tied to. */
 /* Prescribes, for each of count nodes, direction . u = sum over patterns of coefficients[i][p] * factor_p(t).
  * direction: [dimension], any length > 0 (normalised). patterns: [pattern_count]; coefficients: [count][pattern_count], L per
  * factor. pattern_count 0: held at zero. */
@@ -308,6 +316,29 @@ DELAM_API int32_t delam_problem_prescribe_nodes(delam_problem *problem, int64_t 
 DELAM_API int32_t delam_problem_prescribe_mean(delam_problem *problem, int64_t count, const int64_t *nodes,
                                                const double *weights, const double *direction, int64_t pattern_count,
                                                const int64_t *patterns, const double *coefficients, int32_t index_base);
+/* A linear equation among displacements of nodes of any bodies and control nodes:
+ *   sum_i coefficients[i][:] . u_nodes[i] = sum over patterns of prescribed[p] * factor_p(t)
+ * nodes: [count], count >= 1, a node may come several times; coefficients: [count][dimension], not all 0, taken as they are; prescribed:
+ * [pattern_count]; pattern_count 0: homogeneous. Its reaction is the force that goes with the left side (sum of coefficient *
+ * force). Equations of up to 32 displacements are eliminated exactly and cost no unknown, however many there are;
+ * those of longer ones stay in the dense stage of the condensed operator. Among rigid lines that turn: write u_i = u_0 + w r_i with equations
+ * of three nodes. delam_problem_check refuses, by number, an equation that others imply or contradict. */
+DELAM_API int32_t delam_problem_add_equation(delam_problem *problem, int64_t count, const int64_t *nodes,
+                                             const double *coefficients, int64_t pattern_count, const int64_t *patterns,
+                                             const double *prescribed, int32_t index_base);
+/* A periodic cell: u(x + period_k) - u(x) = u of control node k, for all nodes on opposite faces of the mesh, which must be a
+ * parallelepiped along its periods (with fewer periods than dimensions it may have any shape across them). periods: [period_count][dimension] L,
+ * independent, 1 <= period_count <= dimension; control_nodes: [period_count], distinct, without cells. tolerance: largest distance of
+ * partners as a fraction of the mesh's size; 0 gives 1e-6. Partners are nodes of the same body; where bodies touch at a place and one node
+ * is left over on each side (a fibre that the cell's edge cuts into two bodies), these. Edges and corners get no redundant
+ * equations. DELAM_ERROR_MESH names nodes without a partner.
+ * The displacement of control node k is the average displacement gradient along its period, <grad u> period_k, opening of interfaces
+ * included: prescribe it (average strain e: u_k = e period_k), or put dead forces F_k on it (average stress s of a cell of volume V = |det periods|:
+ * F_k = V s d_k with the dual vectors d_k . period_l = 1 if k = l, else 0). The average stress is 1/V sum_k F_k (x) period_k, F_k the force on
+ * control node k: its reaction where it is prescribed. Of the cell itself one node must be held against translation, and as long as
+ * the average rotation is not prescribed, control nodes against it: d(d-1)/2 components, e.g. y of control node 0 in 2D. */
+DELAM_API int32_t delam_problem_add_periodic(delam_problem *problem, int64_t period_count, const double *periods,
+                                             const int64_t *control_nodes, double tolerance, int32_t index_base);
 /* Dead forces: forces[count][dimension] (F) times the factor of the pattern. A pattern drives either forces or prescribed displacements. */
 DELAM_API int32_t delam_problem_add_forces(delam_problem *problem, int64_t pattern, int64_t count, const int64_t *nodes,
                                            const double *forces, int32_t index_base);
@@ -332,7 +363,8 @@ DELAM_API int32_t delam_problem_dofs(const delam_problem *problem, int64_t *prim
  * that body, its DOFs dimension*i + component. Call with NULL arrays for *rows and *entries, then with row_starts[rows+1], columns, values. */
 DELAM_API int32_t delam_problem_body_matrix(const delam_problem *problem, int32_t body, int64_t *rows, int64_t *entries,
                                             int64_t *row_starts, int64_t *columns, double *values);
-/* Constraints, one a row, CSR over mesh DOFs (dimension*node + component), and their right-hand sides as
+/* Constraints (prescribed nodes, means, equations, periods in the order they were added), one a row, CSR over mesh DOFs (dimension*node +
+ * component; of bodies and control nodes, tied ones replaced), and their right-hand sides as
  * coefficients[rows][pattern_count]. NULL arrays ask for the sizes. */
 DELAM_API int32_t delam_problem_constraints(const delam_problem *problem, int64_t *rows, int64_t *entries,
                                             int64_t *pattern_count, int64_t *row_starts, int64_t *columns, double *values,

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Load patterns, prescribed displacements and dead forces.
+// Load patterns, prescribed displacements, equations, periodic cells and dead forces.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <string>
 #include <unordered_map>
 
 #include "capi/handles.hpp"
+#include "scene/periodic.hpp"
 #include "scene/problem.hpp"
 
 namespace {
@@ -45,11 +47,41 @@ Direction require_direction(const Mesh& mesh, const double* direction) {
     return unit;
 }
 
+// A node of a body, a control node (without cells) or a tied one.
 std::int64_t require_node(const Mesh& mesh, std::int64_t value, std::int32_t index_base, const std::string& what) {
-    const std::int64_t node = require_index(value, mesh.node_count(), index_base, what);
-    if (mesh.node_body(node) < 0) fail(DELAM_ERROR_ARGUMENT, what, " = ", value, " belongs to no cell");
-    return node;
+    return require_index(value, mesh.node_count(), index_base, what);
 }
+
+// Displacements with coefficients, each DOF once; tied nodes are what they are tied to.
+class Terms {
+public:
+    explicit Terms(const Mesh& mesh) : mesh_(mesh) {}
+    void add(std::int64_t node, std::int64_t component, double coefficient) {
+        if (coefficient == 0.0) return;
+        const auto& ties = mesh_.ties();
+        const auto tie = std::lower_bound(ties.begin(), ties.end(), node, [](const NodeTie& t, std::int64_t n) { return t.node < n; });
+        if (tie == ties.end() || tie->node != node) {
+            sum_[mesh_.dimension() * node + component] += coefficient;
+            return;
+        }
+        for (const auto& [other, weight] : tie->of) sum_[mesh_.dimension() * other + component] += weight * coefficient;
+    }
+    const std::map<std::int64_t, double>& list() const { return sum_; }
+    Constraint constraint(std::vector<double> prescribed) const {
+        Constraint c;
+        for (const auto& [dof, coefficient] : sum_) {
+            if (coefficient == 0.0) continue;
+            c.dof.push_back(dof);
+            c.coefficient.push_back(coefficient);
+        }
+        c.prescribed = std::move(prescribed);
+        return c;
+    }
+
+private:
+    const Mesh& mesh_;
+    std::map<std::int64_t, double> sum_;
+};
 
 // Patterns as 0-based indices, none of which drives the other kind of load.
 std::vector<std::int64_t> require_patterns(const Problem& problem, std::int64_t count, const std::int64_t* patterns,
@@ -84,8 +116,10 @@ std::unordered_map<std::int64_t, std::vector<Direction>> held_directions(const P
     for (const Constraint& constraint : problem.constraints) {
         if (constraint.dof.front() / dimension != constraint.dof.back() / dimension) continue;
         Direction direction{};
+        double length = 0.0;
+        for (const double c : constraint.coefficient) length = std::hypot(length, c);
         for (std::size_t i = 0; i < constraint.dof.size(); ++i) {
-            direction[size(constraint.dof[i] % dimension)] = constraint.coefficient[i];
+            direction[size(constraint.dof[i] % dimension)] = constraint.coefficient[i] / length;
         }
         held[constraint.dof.front() / dimension].push_back(direction);
     }
@@ -173,14 +207,9 @@ int32_t delam_problem_prescribe_nodes(delam_problem* problem, int64_t count, con
                      dimension == 3 ? text(", ", unit[2]) : "", ") already");
             }
             others.push_back(unit);
-            Constraint constraint;
-            for (std::int64_t d = 0; d < dimension; ++d) {
-                if (unit[size(d)] == 0.0) continue;
-                constraint.dof.push_back(dimension * node + d);
-                constraint.coefficient.push_back(unit[size(d)]);
-            }
-            constraint.prescribed = prescribed(core, list, coefficients + i * pattern_count);
-            added.push_back(std::move(constraint));
+            Terms terms(*core.mesh);
+            for (std::int64_t d = 0; d < dimension; ++d) terms.add(node, d, unit[size(d)]);
+            added.push_back(terms.constraint(prescribed(core, list, coefficients + i * pattern_count)));
         }
         core.constraints.insert(core.constraints.end(), std::make_move_iterator(added.begin()),
                                 std::make_move_iterator(added.end()));
@@ -212,20 +241,85 @@ int32_t delam_problem_prescribe_mean(delam_problem* problem, int64_t count, cons
         // Weights of quadratic faces may be negative at their corners; their sum is the extent of the patch.
         if (!(sum > 0.0)) fail(DELAM_ERROR_ARGUMENT, "weights: their sum is ", sum, ", must be > 0");
         std::sort(members.begin(), members.end());
-        Constraint constraint;
+        Terms terms(*core.mesh);
         for (std::size_t i = 0; i < members.size(); ++i) {
             if (i > 0 && members[i].first == members[i - 1].first) {
                 fail(DELAM_ERROR_ARGUMENT, "nodes: node ", members[i].first + index_base, " is listed twice");
             }
+            for (std::int64_t d = 0; d < dimension; ++d) terms.add(members[i].first, d, members[i].second / sum * unit[size(d)]);
+        }
+        core.constraints.push_back(terms.constraint(prescribed(core, list, coefficients)));
+        mark(core, list, Pattern::Drives::displacement);
+    });
+}
+
+int32_t delam_problem_add_equation(delam_problem* problem, int64_t count, const int64_t* nodes, const double* coefficients,
+                                   int64_t pattern_count, const int64_t* patterns, const double* prescribed_values,
+                                   int32_t index_base) {
+    return guard(problem, [&] {
+        Problem& core = *problem->core;
+        const std::int64_t dimension = core.mesh->dimension();
+        require_base(index_base);
+        require_count(count, "count", 1);
+        require_array(nodes, count, "nodes");
+        require_array(coefficients, count, "coefficients");
+        require_finite(coefficients, count * dimension, "coefficients");
+        const auto list = require_patterns(core, pattern_count, patterns, index_base, Pattern::Drives::displacement);
+        require_array(prescribed_values, pattern_count, "prescribed");
+        require_finite(prescribed_values, pattern_count, "prescribed");
+        Terms terms(*core.mesh);
+        double largest = 0.0;
+        for (std::int64_t i = 0; i < count; ++i) {
+            const std::int64_t node = require_node(*core.mesh, nodes[i], index_base, text("nodes[", i, "]"));
             for (std::int64_t d = 0; d < dimension; ++d) {
-                if (unit[size(d)] == 0.0) continue;
-                constraint.dof.push_back(dimension * members[i].first + d);
-                constraint.coefficient.push_back(members[i].second / sum * unit[size(d)]);
+                terms.add(node, d, coefficients[i * dimension + d]);
+                largest = std::max(largest, std::abs(coefficients[i * dimension + d]));
             }
         }
-        constraint.prescribed = prescribed(core, list, coefficients);
+        Constraint constraint = terms.constraint(prescribed(core, list, prescribed_values));
+        if (std::none_of(constraint.coefficient.begin(), constraint.coefficient.end(),
+                         [&](double c) { return std::abs(c) > 1e-14 * largest; }))
+            fail(DELAM_ERROR_ARGUMENT, "coefficients: their sums over each node are all 0, the equation says nothing");
         core.constraints.push_back(std::move(constraint));
         mark(core, list, Pattern::Drives::displacement);
+    });
+}
+
+int32_t delam_problem_add_periodic(delam_problem* problem, int64_t period_count, const double* periods,
+                                   const int64_t* control_nodes, double tolerance, int32_t index_base) {
+    return guard(problem, [&] {
+        Problem& core = *problem->core;
+        const std::int64_t dimension = core.mesh->dimension();
+        require_base(index_base);
+        require_count(period_count, "period_count", 1);
+        if (period_count > dimension) fail(DELAM_ERROR_ARGUMENT, "period_count = ", period_count, ": must be in 1..", dimension);
+        require_array(periods, period_count, "periods");
+        require_array(control_nodes, period_count, "control_nodes");
+        require_finite(periods, period_count * dimension, "periods");
+        if (!(tolerance >= 0.0 && tolerance < 0.5)) fail(DELAM_ERROR_ARGUMENT, "tolerance = ", tolerance, ": must be in 0 .. 0.5");
+        std::vector<std::int64_t> controls;
+        for (std::int64_t k = 0; k < period_count; ++k) {
+            const std::int64_t node = require_node(*core.mesh, control_nodes[k], index_base, text("control_nodes[", k, "]"));
+            const auto& ties = core.mesh->ties();
+            const bool tied = std::any_of(ties.begin(), ties.end(), [&](const NodeTie& t) { return t.node == node; });
+            if (core.mesh->node_body(node) >= 0 || tied)
+                fail(DELAM_ERROR_ARGUMENT, "control_nodes[", k, "] = ", control_nodes[k], tied ? " is a tied node" : " belongs to cells",
+                     ": must be a node of its own");
+            if (std::find(controls.begin(), controls.end(), node) != controls.end())
+                fail(DELAM_ERROR_ARGUMENT, "control_nodes[", k, "] = ", control_nodes[k], " is listed twice");
+            controls.push_back(node);
+        }
+        const auto pairs = periodic_pairs(*core.mesh, {periods, size(period_count * dimension)}, tolerance == 0.0 ? 1e-6 : tolerance);
+        std::vector<Constraint> added;
+        for (const PeriodicPair& pair : pairs)
+            for (std::int64_t d = 0; d < dimension; ++d) {
+                Terms terms(*core.mesh);
+                terms.add(pair.node, d, 1.0);
+                terms.add(pair.base, d, -1.0);
+                for (const std::size_t k : pair.directions) terms.add(controls[k], d, -1.0);
+                added.push_back(terms.constraint({}));
+            }
+        core.constraints.insert(core.constraints.end(), std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()));
     });
 }
 
@@ -244,10 +338,9 @@ int32_t delam_problem_add_forces(delam_problem* problem, int64_t pattern, int64_
         std::vector<NodalForce> added;
         for (std::int64_t i = 0; i < count; ++i) {
             const std::int64_t node = require_node(*core.mesh, nodes[i], index_base, text("nodes[", i, "]"));
-            for (std::int64_t d = 0; d < dimension; ++d) {
-                if (forces[i * dimension + d] == 0.0) continue;
-                added.push_back({pattern, dimension * node + d, forces[i * dimension + d]});
-            }
+            Terms terms(*core.mesh);
+            for (std::int64_t d = 0; d < dimension; ++d) terms.add(node, d, forces[i * dimension + d]);
+            for (const auto& [dof, force] : terms.list()) added.push_back({pattern, dof, force});
         }
         core.forces.insert(core.forces.end(), added.begin(), added.end());
         if (count > 0) mark(core, list, Pattern::Drives::force);

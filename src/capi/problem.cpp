@@ -151,16 +151,29 @@ int32_t delam_problem_set_law(delam_problem* problem, int64_t interface_index, c
         InterfaceProperties& interface = problem->core->interfaces[require_interface(*problem->core, interface_index)];
         require_handle(law, "law");
         law->core->validate();
+        if (interface.contact) std::fill(interface.adhesion.begin(), interface.adhesion.end(), 1.0);
         interface.law = *law->core;
-        interface.bonded = false;
+        interface.bonded = interface.contact = false;
     });
 }
 
 int32_t delam_problem_set_bonded(delam_problem* problem, int64_t interface_index) {
     return guard(problem, [&] {
         InterfaceProperties& interface = problem->core->interfaces[require_interface(*problem->core, interface_index)];
+        if (interface.contact) std::fill(interface.adhesion.begin(), interface.adhesion.end(), 1.0);
         interface.bonded = true;
+        interface.contact = false;
         interface.law.reset();
+    });
+}
+
+int32_t delam_problem_set_contact(delam_problem* problem, int64_t interface_index) {
+    return guard(problem, [&] {
+        InterfaceProperties& interface = problem->core->interfaces[require_interface(*problem->core, interface_index)];
+        interface.contact = true;
+        interface.bonded = false;
+        interface.law.reset();
+        std::fill(interface.adhesion.begin(), interface.adhesion.end(), 0.0);
     });
 }
 

@@ -95,6 +95,7 @@ PlanItem mixity_of(const Solver& solver, std::size_t interface) {
     const std::string subject = text("mixity of interface ", interface);
     const char* unit = "flop/step";
     if (problem.interfaces[interface].bonded) return {subject, left_out, "bonded for ever: no damage", 0.0, work, unit};
+    if (problem.interfaces[interface].contact) return {subject, left_out, "contact alone: no damage", 0.0, work, unit};
     if (problem.interfaces[interface].law->depends_on_mixity())
         return {subject, used, text("onset and toughness of the law depend on it; option mixity_rule = ", problem.options.mixity_rule),
                 work,    0.0,  unit};

@@ -29,14 +29,15 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
     for (std::size_t i = 0; i < mesh.interfaces().size(); ++i) {
         const InterfaceProperties& properties = problem_.interfaces[i];
         std::optional<Toughness> fixed;
-        if (!properties.bonded && problem_.options.mixity == "auto" && !properties.law->depends_on_mixity()) fixed = properties.law->toughness(0.0);
-        if (!properties.bonded && properties.law->gradient > 0.0)
-            pairs_.gradient.push_back(std::make_shared<const GradientTerm>(properties.law->gradient,
+        const Law* law = properties.law ? &*properties.law : nullptr;  // none: bonded for ever, or contact alone
+        if (law != nullptr && problem_.options.mixity == "auto" && !law->depends_on_mixity()) fixed = law->toughness(0.0);
+        if (law != nullptr && law->gradient > 0.0)
+            pairs_.gradient.push_back(std::make_shared<const GradientTerm>(law->gradient,
                                                                            surface_stiffness(mesh, mesh.interfaces()[i], properties.adhesion),
                                                                            mesh.interfaces()[i].weight, pairs_.weight.size()));
         for (const double weight : mesh.interfaces()[i].weight) {
             pairs_.weight.push_back(weight);
-            pairs_.law.push_back(properties.bonded ? nullptr : &*properties.law);
+            pairs_.law.push_back(law);
             pairs_.fixed.push_back(fixed);
             contact_.bonded.push_back(properties.bonded ? 1 : 0);
         }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mesh/interface_geometry.hpp"
@@ -32,6 +33,12 @@ struct CellTopology {
     std::array<std::array<int, 2>, 12> middle;             // node corners+k sits between corners middle[k]
 };
 const CellTopology& topology(CellType type);
+
+// A node without cells whose displacement is a combination of others': sum of weight u_node, weights summing to 1.
+struct NodeTie {
+    std::int64_t node;
+    std::vector<std::pair<std::int64_t, double>> of;
+};
 
 class Mesh {
 public:
@@ -73,6 +80,8 @@ public:
     std::vector<std::int64_t> body_cells(std::int32_t body) const;
 
     const std::vector<InterfaceGeometry>& interfaces() const { return interfaces_; }
+    // Tied nodes, ascending.
+    const std::vector<NodeTie>& ties() const { return ties_; }
     // Largest extent of the bounding box: the length that absolute tolerances are measured by.
     double size() const;
 
@@ -86,6 +95,7 @@ private:
     std::vector<std::int32_t> labels_;      // distinct labels, ascending
     std::vector<std::int32_t> node_label_;  // -1: none
     std::vector<InterfaceGeometry> interfaces_;
+    std::vector<NodeTie> ties_;
 };
 
 // A face that one cell alone has: cell, its nodes (corners outward, then mid-sides), in order of cells and local faces.

@@ -10,6 +10,7 @@
 #include "delam/delam.h"
 #include "reduction/condensed/condensed.hpp"
 #include "reduction/feti/feti.hpp"
+#include "scene/carriers.hpp"
 
 namespace delam {
 
@@ -88,15 +89,18 @@ ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, doub
     const Mesh& mesh = *problem.mesh;
     const int dim = mesh.dimension();
     const double dofs = number(mesh.node_count() * dim), parts = number(subdomains);
+    const Carriers carriers(problem);
+    const auto of_a_body = [&](std::int64_t node) { return carriers.kind(node) == Carriers::Kind::cells; };
     std::set<std::int64_t> touched;
-    for (const InterfaceGeometry& face : mesh.interfaces()) {
-        touched.insert(face.node_a.begin(), face.node_a.end());
-        touched.insert(face.node_b.begin(), face.node_b.end());
-    }
+    for (const InterfaceGeometry& face : mesh.interfaces())
+        for (const auto* side : {&face.node_a, &face.node_b})
+            for (const std::int64_t node : *side)
+                for (const auto& [carrier, weight] : carriers.of(node))
+                    if (of_a_body(carrier)) touched.insert(carrier);
     std::set<std::int64_t> driven;
     for (const Constraint& constraint : problem.constraints)
         for (const std::int64_t dof : constraint.dof)
-            if (!touched.contains(dof / dim)) driven.insert(dof);
+            if (of_a_body(dof / dim) && !touched.contains(dof / dim)) driven.insert(dof);
     double copies =
         number(static_cast<std::int64_t>(touched.size())) * dim + number(static_cast<std::int64_t>(driven.size()));
     double element_entries = 0.0;

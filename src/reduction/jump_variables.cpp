@@ -6,74 +6,84 @@
 #include <map>
 
 #include "linalg/echelon.hpp"
+#include "linalg/sparse_elimination.hpp"
+#include "scene/carriers.hpp"
 
 namespace delam {
 
 namespace {
 
-// What is smaller than this part of a row's largest coefficient is left over from cancellation.
-constexpr double rounding = 1e-12;
+// A constraint on more variables than this is left to the dense stage.
+constexpr std::size_t short_equation = 32;
 
-// A displacement component in provisional variables: ids below the number of mesh DOFs are displacements of roots, the others
-// jump rows.
-using Combination = std::map<std::int64_t, double>;
+using Row = SparseElimination::Row;
 
-void tidy(Combination& c) {
-    double largest = 0.0;
-    for (const auto& [id, value] : c) largest = std::max(largest, std::abs(value));
-    std::erase_if(c, [&](const auto& e) { return std::abs(e.second) <= rounding * largest; });
-}
-
-struct Pair {
-    std::int64_t a, b;
-    std::int64_t first_row;
-    const double* frame;  // [dim][dim]
-};
-
+// Variables while they are found: ids below the number of mesh DOFs are displacements, the others jump rows.
 class Builder {
 public:
     explicit Builder(const Problem& problem)
-        : problem_(problem), dim_(problem.mesh->dimension()), dofs_(problem.mesh->node_count() * dim_) {
+        : problem_(problem), carriers_(problem), dim_(problem.mesh->dimension()), dofs_(problem.mesh->node_count() * dim_) {
+        find_pairs();
         hang_nodes();
+        for (const std::size_t p : closing_) close_ring(pairs_[p]);
         take_constraints();
+        solved_.close();
     }
     JumpVariables build() const;
 
 private:
+    struct Pair {
+        std::int64_t a, b;
+        std::int64_t first_row;
+        const double* frame;  // [dim][dim]
+    };
+
     const Problem& problem_;
+    Carriers carriers_;
     std::int64_t dim_;
     std::int64_t dofs_;
     std::vector<Pair> pairs_;
-    std::map<std::int64_t, Combination> hanging_;       // mesh DOF -> combination, for nodes of pairs that are no roots
-    std::map<std::int64_t, Combination> ring_;          // jump row that closes a ring -> other rows
-    std::map<std::int64_t, std::vector<double>> fixed_; // root DOF -> factors of the patterns
-    struct Row {
-        Combination left;
-        std::vector<double> prescribed;
-    };
-    std::vector<Row> open_;  // constraints on more than one variable, or on jumps alone
+    std::vector<std::size_t> closing_;  // pairs outside the spanning trees: they close rings, or have a tied node
+    SparseElimination solved_;
+    std::vector<std::int64_t> bound_;   // jump rows that constraints solve for
+    std::vector<Row> open_;             // long constraints
 
-    Combination of(std::int64_t dof) const {
-        const auto found = hanging_.find(dof);
-        return found == hanging_.end() ? Combination{{dof, 1.0}} : found->second;
-    }
+    bool displacement(std::int64_t id) const { return id < dofs_; }
+    std::vector<double> nothing() const { return std::vector<double>(problem_.patterns.size(), 0.0); }
+    void find_pairs();
     void hang_nodes();
+    void close_ring(const Pair& pair);
+    std::int64_t choose_pivot(const Row& row, std::int64_t preferred_node) const;
     void take_constraints();
+    // row += factor * displacement of a node
+    void add(Row& row, std::int64_t node, std::int64_t k, double factor) const {
+        for (const auto& [carrier, weight] : carriers_.of(node)) row.terms[carrier * dim_ + k] += factor * weight;
+    }
 };
 
-void Builder::hang_nodes() {
+void Builder::find_pairs() {
     std::int64_t row = 0;
-    std::map<std::int64_t, std::vector<std::size_t>> pairs_of;
-    for (const InterfaceGeometry& face : problem_.mesh->interfaces()) {
-        for (std::size_t p = 0; p < face.node_a.size(); ++p, row += dim_) {
-            pairs_of[face.node_a[p]].push_back(pairs_.size());
-            pairs_of[face.node_b[p]].push_back(pairs_.size());
+    for (const InterfaceGeometry& face : problem_.mesh->interfaces())
+        for (std::size_t p = 0; p < face.node_a.size(); ++p, row += dim_)
             pairs_.push_back({face.node_a[p], face.node_b[p], row, &face.frame[p * static_cast<std::size_t>(dim_ * dim_)]});
-        }
-    }
+}
+
+// Control nodes are roots first, so that what they move hangs on them.
+void Builder::hang_nodes() {
+    std::map<std::int64_t, std::vector<std::size_t>> pairs_of;
+    const auto tied = [this](std::int64_t node) { return carriers_.kind(node) == Carriers::Kind::tied; };
     std::vector<std::uint8_t> in_tree(pairs_.size(), 0);
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+        if (tied(pairs_[p].a) || tied(pairs_[p].b)) continue;
+        pairs_of[pairs_[p].a].push_back(p);
+        pairs_of[pairs_[p].b].push_back(p);
+    }
+    std::vector<std::int64_t> roots;
+    for (const std::int64_t node : carriers_.controls())
+        if (pairs_of.contains(node)) roots.push_back(node);
+    for (const auto& [node, unused] : pairs_of) roots.push_back(node);
     std::map<std::int64_t, bool> met;
-    for (const auto& [root, unused] : pairs_of) {
+    for (const std::int64_t root : roots) {
         if (met[root]) continue;
         met[root] = true;
         std::vector<std::int64_t> front{root};
@@ -83,86 +93,122 @@ void Builder::hang_nodes() {
             for (const std::size_t p : pairs_of[node]) {
                 const Pair& pair = pairs_[p];
                 const std::int64_t other = pair.a == node ? pair.b : pair.a;
-                if (met[other]) continue;
+                if (met[other] || carriers_.kind(other) == Carriers::Kind::control) continue;
                 met[other] = true;
                 in_tree[p] = 1;
                 const double sign = pair.a == node ? 1.0 : -1.0;
                 for (std::int64_t k = 0; k < dim_; ++k) {
-                    Combination c = of(node * dim_ + k);
+                    // u_other - u_node -+ Q^T j = 0
+                    Row row{{{node * dim_ + k, -1.0}}, nothing()};
                     for (std::int64_t r = 0; r < dim_; ++r)
-                        if (const double q = pair.frame[r * dim_ + k]; q != 0.0) c[dofs_ + pair.first_row + r] += sign * q;
-                    hanging_[other * dim_ + k] = std::move(c);
+                        if (const double q = pair.frame[r * dim_ + k]; q != 0.0) row.terms[dofs_ + pair.first_row + r] -= sign * q;
+                    solved_.reduce(row);
+                    row.terms[other * dim_ + k] = 1.0;
+                    solved_.solve(row, other * dim_ + k);
                 }
                 front.push_back(other);
             }
         }
     }
-    for (std::size_t p = 0; p < pairs_.size(); ++p) {
-        if (in_tree[p] != 0) continue;
-        for (std::int64_t r = 0; r < dim_; ++r) {
-            Combination c;
-            for (std::int64_t k = 0; k < dim_; ++k) {
-                const double q = pairs_[p].frame[r * dim_ + k];
-                if (q == 0.0) continue;
-                for (const auto& [id, value] : of(pairs_[p].b * dim_ + k)) c[id] += q * value;
-                for (const auto& [id, value] : of(pairs_[p].a * dim_ + k)) c[id] -= q * value;
-            }
-            // The root cancels exactly in exact arithmetic.
-            std::erase_if(c, [&](const auto& e) { return e.first < dofs_ || std::abs(e.second) <= rounding; });
-            ring_[pairs_[p].first_row + r] = std::move(c);
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+        if (in_tree[p] == 0) closing_.push_back(p);
+}
+
+// What is left of u_b - u_a - Q^T j = 0 once hanging nodes are replaced: where displacements are left (tied nodes, control nodes) one of them
+// hangs on the rest; where none is, the jump of this pair is made up of the ring's others.
+void Builder::close_ring(const Pair& pair) {
+    std::vector<Row> apart;
+    for (std::int64_t k = 0; k < dim_; ++k) {
+        Row row{{}, nothing()};
+        add(row, pair.b, k, 1.0);
+        add(row, pair.a, k, -1.0);
+        solved_.reduce(row);
+        apart.push_back(std::move(row));
+    }
+    const bool moves = std::any_of(apart[0].terms.begin(), apart[0].terms.end(), [this](const auto& t) { return displacement(t.first); });
+    for (std::int64_t i = 0; i < dim_; ++i) {
+        Row row{{}, nothing()};
+        if (moves) {
+            row = apart[static_cast<std::size_t>(i)];
+            for (std::int64_t r = 0; r < dim_; ++r)
+                if (const double q = pair.frame[r * dim_ + i]; q != 0.0) row.terms[dofs_ + pair.first_row + r] -= q;
+            solved_.reduce(row);
+            solved_.solve(row, choose_pivot(row, pair.b));
+            continue;
         }
+        for (std::int64_t k = 0; k < dim_; ++k)
+            for (const auto& [id, c] : apart[static_cast<std::size_t>(k)].terms) row.terms[id] -= pair.frame[i * dim_ + k] * c;
+        solved_.reduce(row);
+        row.terms[dofs_ + pair.first_row + i] = 1.0;
+        solved_.solve(row, dofs_ + pair.first_row + i);
     }
 }
 
-// Constraints on one root each are resolved first, one after another since each may leave others with a single variable.
+// The largest coefficient among displacements of bodies, else of control nodes, else of jumps. The preferred node comes first where its
+// coefficient is no small one.
+std::int64_t Builder::choose_pivot(const Row& row, std::int64_t preferred_node) const {
+    const auto rank = [this](std::int64_t id) {
+        if (!displacement(id)) return 2;
+        return carriers_.kind(id / dim_) == Carriers::Kind::control ? 1 : 0;
+    };
+    int lowest = 2;
+    double largest = 0.0;
+    for (const auto& [id, c] : row.terms) lowest = std::min(lowest, rank(id));
+    for (const auto& [id, c] : row.terms)
+        if (rank(id) == lowest) largest = std::max(largest, std::abs(c));
+    std::int64_t pivot = -1;
+    for (const auto& [id, c] : row.terms) {
+        if (rank(id) != lowest || std::abs(c) < (1.0 - 1e-9) * largest) continue;
+        if (pivot < 0) pivot = id;
+    }
+    for (const auto& [id, c] : row.terms)
+        if (displacement(id) && id / dim_ == preferred_node && rank(id) == lowest && std::abs(c) > 0.5 * largest) pivot = id;
+    return pivot;
+}
+
+// Constraints on one displacement each are resolved first, since they leave others with fewer; then short ones; what is long stays open.
 void Builder::take_constraints() {
-    const std::size_t patterns = problem_.patterns.size();
     for (const Constraint& constraint : problem_.constraints) {
-        Row row;
+        Row row{{}, constraint.prescribed};
         for (std::size_t i = 0; i < constraint.dof.size(); ++i)
-            for (const auto& [id, value] : of(constraint.dof[i])) row.left[id] += constraint.coefficient[i] * value;
-        tidy(row.left);
-        row.prescribed = constraint.prescribed;
-        row.prescribed.resize(patterns, 0.0);
+            add(row, constraint.dof[i] / dim_, constraint.dof[i] % dim_, constraint.coefficient[i]);
+        row.right.resize(problem_.patterns.size(), 0.0);
+        solved_.reduce(row);
         open_.push_back(std::move(row));
     }
-    for (bool again = true; again;) {
-        again = false;
+    const auto pass = [this](std::size_t longest, bool jumps) {
+        bool any = false;
         for (Row& row : open_) {
-            for (auto e = row.left.begin(); e != row.left.end();) {
-                const auto known = fixed_.find(e->first);
-                if (known == fixed_.end()) {
-                    ++e;
-                    continue;
-                }
-                for (std::size_t p = 0; p < patterns; ++p) row.prescribed[p] -= e->second * known->second[p];
-                e = row.left.erase(e);
-            }
-            if (row.left.size() != 1 || row.left.begin()->first >= dofs_) continue;
-            const auto [dof, coefficient] = *row.left.begin();
-            std::vector<double> value = row.prescribed;
-            for (double& v : value) v /= coefficient;
-            fixed_[dof] = std::move(value);
-            row.left.clear();
-            again = true;
+            if (row.terms.empty()) continue;
+            solved_.reduce(row);
+            if (row.terms.empty() || row.terms.size() > longest) continue;
+            const std::int64_t pivot = choose_pivot(row, -1);
+            if (!jumps && !displacement(pivot)) continue;
+            solved_.solve(row, pivot);
+            if (!displacement(pivot)) bound_.push_back(pivot - dofs_);
+            row.terms.clear();
+            any = true;
         }
-    }
-    std::erase_if(open_, [](const Row& row) { return row.left.empty(); });
+        std::erase_if(open_, [](const Row& row) { return row.terms.empty(); });
+        return any;
+    };
+    for (int sweep = 0; sweep < 4 && pass(1, false); ++sweep) {}
+    while (pass(short_equation, true)) {}
 }
 
 JumpVariables Builder::build() const {
     JumpVariables v;
     const std::size_t patterns = problem_.patterns.size();
-    enum : std::int64_t { absent = -1, fixed = -2, kept = -3 };
-    std::vector<std::int64_t> index(static_cast<std::size_t>(dofs_), 0);
-    for (std::int64_t node = 0; node < problem_.mesh->node_count(); ++node)
-        if (problem_.mesh->node_body(node) < 0)
-            for (std::int64_t k = 0; k < dim_; ++k) index[static_cast<std::size_t>(node * dim_ + k)] = absent;
-    for (const auto& [dof, unused] : hanging_) index[static_cast<std::size_t>(dof)] = absent;
-    for (const auto& [dof, unused] : fixed_) index[static_cast<std::size_t>(dof)] = fixed;
+    constexpr std::int64_t absent = -1, kept = -2;
+    std::vector<std::int64_t> index(static_cast<std::size_t>(dofs_), absent);
+    for (std::int64_t dof = 0; dof < dofs_; ++dof) {
+        const Carriers::Kind kind = carriers_.kind(dof / dim_);
+        if (solved_.solved(dof) || kind == Carriers::Kind::nothing || kind == Carriers::Kind::tied) continue;
+        index[static_cast<std::size_t>(dof)] = kind == Carriers::Kind::control ? kept : 0;
+    }
     for (const Row& row : open_)
-        for (const auto& [id, value] : row.left)
-            if (id < dofs_) index[static_cast<std::size_t>(id)] = kept;
+        for (const auto& [id, value] : row.terms)
+            if (displacement(id)) index[static_cast<std::size_t>(id)] = kept;
     for (std::int64_t& i : index)
         if (i == 0) i = v.leading++;
     for (std::int64_t& i : index)
@@ -171,19 +217,24 @@ JumpVariables Builder::build() const {
     const std::int64_t rows = problem_.jump_count();
     std::vector<std::int64_t> jump(static_cast<std::size_t>(rows), absent);
     for (std::int64_t r = 0; r < rows; ++r)
-        if (!ring_.contains(r)) jump[static_cast<std::size_t>(r)] = v.jumps++;
+        if (!solved_.solved(dofs_ + r)) jump[static_cast<std::size_t>(r)] = v.jumps++;
+    v.row_offset.resize(static_cast<std::size_t>(rows));
     for (std::int64_t r = 0; r < rows; ++r) {
-        if (const auto ring = ring_.find(r); ring != ring_.end()) {
-            SparseVector entries;
-            for (const auto& [id, value] : ring->second) entries.emplace_back(jump[static_cast<std::size_t>(id - dofs_)], value);
-            v.row.push_back(std::move(entries));
-        } else {
+        const SparseElimination::Solution* solution = solved_.find(dofs_ + r);
+        if (solution == nullptr) {
             v.row.push_back({{jump[static_cast<std::size_t>(r)], 1.0}});
+            continue;
         }
+        SparseVector entries;
+        for (const auto& [id, value] : solution->terms) entries.emplace_back(jump[static_cast<std::size_t>(id - dofs_)], value);
+        v.row.push_back(std::move(entries));
+        if (std::any_of(solution->right.begin(), solution->right.end(), [](double d) { return d != 0.0; }))
+            v.row_offset[static_cast<std::size_t>(r)] = solution->right;
     }
+    v.bound = bound_;
     const std::int64_t first_jump = v.leading + v.kept;
     const auto variable = [&](std::int64_t id) {
-        return id < dofs_ ? index[static_cast<std::size_t>(id)] : first_jump + jump[static_cast<std::size_t>(id - dofs_)];
+        return displacement(id) ? index[static_cast<std::size_t>(id)] : first_jump + jump[static_cast<std::size_t>(id - dofs_)];
     };
 
     v.lift.assign(patterns, std::vector<double>(static_cast<std::size_t>(dofs_), 0.0));
@@ -192,28 +243,27 @@ JumpVariables Builder::build() const {
     v.transform.column.reserve(static_cast<std::size_t>(dofs_ + 2 * rows));
     v.transform.value.reserve(static_cast<std::size_t>(dofs_ + 2 * rows));
     v.transform.start.reserve(static_cast<std::size_t>(dofs_) + 1);
-    const auto append = [&](std::int64_t dof, std::int64_t id, double value) {
-        if (id < dofs_ && index[static_cast<std::size_t>(id)] == fixed) {
-            const std::vector<double>& factors = fixed_.at(id);
-            for (std::size_t p = 0; p < patterns; ++p) v.lift[p][static_cast<std::size_t>(dof)] += value * factors[p];
-            return;
-        }
-        v.transform.column.push_back(variable(id));
-        v.transform.value.push_back(value);
-    };
-    auto next = hanging_.begin();
+    std::map<std::int64_t, double> entries;
     for (std::int64_t dof = 0; dof < dofs_; ++dof) {
-        if (next != hanging_.end() && next->first == dof) {
-            for (const auto& [id, value] : next->second) append(dof, id, value);
-            ++next;
-        } else if (index[static_cast<std::size_t>(dof)] != absent) {
-            append(dof, dof, 1.0);
+        entries.clear();
+        for (const auto& [carrier, weight] : carriers_.of(dof / dim_)) {
+            const std::int64_t at = carrier * dim_ + dof % dim_;
+            if (const SparseElimination::Solution* solution = solved_.find(at); solution != nullptr) {
+                for (const auto& [id, value] : solution->terms) entries[variable(id)] += weight * value;
+                for (std::size_t p = 0; p < patterns; ++p) v.lift[p][static_cast<std::size_t>(dof)] += weight * solution->right[p];
+            } else if (index[static_cast<std::size_t>(at)] >= 0) {
+                entries[index[static_cast<std::size_t>(at)]] += weight;
+            }
+        }
+        for (const auto& [column, value] : entries) {
+            v.transform.column.push_back(column);
+            v.transform.value.push_back(value);
         }
         v.transform.start.push_back(static_cast<std::int64_t>(v.transform.column.size()));
     }
     for (const Row& row : open_) {
-        JumpVariables::Equation equation{{}, row.prescribed};
-        for (const auto& [id, value] : row.left) equation.entries.emplace_back(variable(id) - v.leading, value);
+        JumpVariables::Equation equation{{}, row.right};
+        for (const auto& [id, value] : row.terms) equation.entries.emplace_back(variable(id) - v.leading, value);
         v.equations.push_back(std::move(equation));
     }
     return v;

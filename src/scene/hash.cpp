@@ -158,6 +158,7 @@ std::uint64_t hash(const Problem& problem) {
     for (const Formulation formulation : problem.formulation) fnv.add(static_cast<std::int64_t>(formulation));
     for (const InterfaceProperties& interface : problem.interfaces) {
         fnv.add(interface.bonded);
+        fnv.add(interface.contact);
         fnv.add(interface.law.has_value());
         if (interface.law) add_law(fnv, *interface.law);
         fnv.add_all(interface.adhesion);

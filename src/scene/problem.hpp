@@ -26,8 +26,8 @@ struct Pattern {
     double at(double time) const;
 };
 
-// sum_j coefficient[j] u[dof[j]] = sum_p prescribed[p] factor_p(t); scaled so that the coefficients' squares sum to 1 for a
-// single node and the coefficients sum to 1 along the direction for a mean.
+// sum_j coefficient[j] u[dof[j]] = sum_p prescribed[p] factor_p(t), of bodies and control nodes, never of tied ones. Prescribed nodes are scaled so that
+// the coefficients' squares sum to 1, means so that they sum to 1 along the direction, equations are taken as they come.
 struct Constraint {
     std::vector<std::int64_t> dof;  // mesh DOFs: dimension*node + component
     std::vector<double> coefficient;
@@ -41,8 +41,9 @@ struct NodalForce {
 };
 
 struct InterfaceProperties {
-    std::optional<Law> law;  // none and not bonded: still missing
+    std::optional<Law> law;  // none, not bonded and no contact: still missing
     bool bonded = false;
+    bool contact = false;          // contact alone: no law, no adhesion
     std::vector<double> adhesion;  // initial, [pairs]
 };
 

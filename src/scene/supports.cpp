@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The search runs on rigid pieces, not on nodes. Face-connected cells are one piece; pieces that enough tied pairs join
-// become one as well. What is left are a few pieces, hinges between them (a single pair, say) and the constraints:
-// their rows act on three or six motions per piece, and the null space of the small Gram matrix of the rows is what
-// nothing resists.
+// become one as well. What is left are a few pieces, hinges between them (a single pair, say), control nodes, which move by
+// translations, and rows: constraints and pairs that join control nodes. Rows act on three or six motions per piece, and the
+// null space of their small Gram matrix is what nothing resists.
 #include "scene/supports.hpp"
 
 #include <algorithm>
@@ -14,6 +14,7 @@
 
 #include "base/error.hpp"
 #include "mesh/partition.hpp"
+#include "scene/carriers.hpp"
 
 namespace delam {
 namespace {
@@ -91,6 +92,9 @@ struct Tie {
     Point place;
 };
 
+// sum of coefficient u[dof] = 0
+using Row = std::vector<std::pair<std::int64_t, double>>;
+
 struct Frame {
     Point centre{};
     double length = 0.0;
@@ -101,10 +105,11 @@ public:
     Search(const Problem& problem, bool tied)
         : problem_(problem),
           mesh_(*problem.mesh),
+          carriers_(problem),
           dimension_(at(mesh_.dimension())),
           modes_(dimension_ == 2 ? 3 : 6),
           cut_(partition(mesh_, 1)),
-          groups_(cut_.subdomain_body.size()) {
+          groups_(cut_.subdomain_body.size() + carriers_.controls().size()) {
         find_pieces();
         find_ties(tied);
         merge();
@@ -114,12 +119,14 @@ public:
 private:
     const Problem& problem_;
     const Mesh& mesh_;
+    Carriers carriers_;
     std::size_t dimension_;
     std::size_t modes_;
     Partition cut_;
-    Sets groups_;
+    Sets groups_;  // of the pieces, then of the control nodes
     std::vector<std::int64_t> node_piece_;
     std::vector<Tie> ties_;
+    std::vector<Row> rows_;
     std::map<std::size_t, Frame> frame_;  // of each group
 
     Point place(std::int64_t node) const {
@@ -128,6 +135,8 @@ private:
         return p;
     }
     std::size_t group(std::int64_t node) { return groups_.find(at(node_piece_[at(node)])); }
+    bool control(std::int64_t node) const { return carriers_.kind(node) == Carriers::Kind::control; }
+    bool control_group(std::size_t group) const { return group >= cut_.subdomain_body.size(); }
 
     // Component c of rigid mode m at p: translations, then rotations about the centre, of unit displacement at distance
     // `length`.
@@ -162,16 +171,42 @@ void Search::find_pieces() {
             if (node_piece_[at(node)] != piece) ties_.push_back({at(node_piece_[at(node)]), at(piece), place(node)});
         }
     }
+    for (std::size_t c = 0; c < carriers_.controls().size(); ++c)
+        node_piece_[at(carriers_.controls()[c])] = static_cast<std::int64_t>(cut_.subdomain_body.size() + c);
 }
 
+// A tied node moves with the piece that it is tied to: its combination is exact in rigid motions. A control node is nowhere: pairs with one are
+// rows.
 void Search::find_ties(bool tied) {
     for (std::size_t i = 0; i < problem_.interfaces.size(); ++i) {
         const InterfaceGeometry& face = mesh_.interfaces()[i];
+        const InterfaceProperties& interface = problem_.interfaces[i];
         for (std::size_t p = 0; p < face.node_a.size(); ++p) {
-            if (!tied && !problem_.interfaces[i].bonded && problem_.interfaces[i].adhesion[p] <= 0.0) continue;
-            ties_.push_back(
-                {at(node_piece_[at(face.node_a[p])]), at(node_piece_[at(face.node_b[p])]), place(face.node_a[p])});
+            const bool glued = tied || interface.bonded || (!interface.contact && interface.adhesion[p] > 0.0);
+            if (!glued && !interface.contact) continue;
+            const std::int64_t a = carriers_.of(face.node_a[p]).front().first, b = carriers_.of(face.node_b[p]).front().first;
+            if (glued && !control(a) && !control(b)) {
+                ties_.push_back({at(node_piece_[at(a)]), at(node_piece_[at(b)]), place(face.node_a[p])});
+                continue;
+            }
+            for (std::size_t c = 0; c < (glued ? dimension_ : 1); ++c) {
+                Row row;
+                for (std::size_t d = 0; d < dimension_; ++d) {
+                    const double q = face.frame[(p * dimension_ + c) * dimension_ + d];
+                    if (q == 0.0) continue;
+                    for (const auto& [node, weight] : carriers_.of(face.node_b[p]))
+                        row.emplace_back(mesh_.dimension() * node + static_cast<std::int64_t>(d), q * weight);
+                    for (const auto& [node, weight] : carriers_.of(face.node_a[p]))
+                        row.emplace_back(mesh_.dimension() * node + static_cast<std::int64_t>(d), -q * weight);
+                }
+                rows_.push_back(std::move(row));
+            }
         }
+    }
+    for (const Constraint& constraint : problem_.constraints) {
+        Row row;
+        for (std::size_t i = 0; i < constraint.dof.size(); ++i) row.emplace_back(constraint.dof[i], constraint.coefficient[i]);
+        rows_.push_back(std::move(row));
     }
 }
 
@@ -193,6 +228,7 @@ void Search::measure() {
             f.centre[d] = 0.5 * (corners[0][d] + corners[1][d]);
             f.length = std::max(f.length, 0.5 * (corners[1][d] - corners[0][d]));
         }
+        if (control_group(g)) f.length = 1.0;
         frame_[g] = f;
     }
 }
@@ -264,14 +300,14 @@ std::vector<double> Search::gram(const std::vector<std::size_t>& cluster) {
             close();
         }
     }
-    for (const Constraint& constraint : problem_.constraints) {
-        if (offset.find(group(constraint.dof.front() / mesh_.dimension())) == offset.end()) continue;
-        for (std::size_t i = 0; i < constraint.dof.size(); ++i) {
-            const std::int64_t node = constraint.dof[i] / mesh_.dimension();
-            add(group(node), at(constraint.dof[i] % mesh_.dimension()), place(node), constraint.coefficient[i]);
-        }
+    for (const Row& constraint : rows_) {
+        if (offset.find(group(constraint.front().first / mesh_.dimension())) == offset.end()) continue;
+        for (const auto& [dof, coefficient] : constraint)
+            add(group(dof / mesh_.dimension()), at(dof % mesh_.dimension()), place(dof / mesh_.dimension()), coefficient);
         close();
     }
+    for (std::size_t i = 0; i < cluster.size(); ++i)
+        for (std::size_t m = dimension_; control_group(cluster[i]) && m < modes_; ++m) g[(i * modes_ + m) * (n + 1)] = 1.0;
     return g;
 }
 
@@ -313,17 +349,19 @@ std::string Search::words(const Frame& f, const double* motion) const {
 }
 
 FreeMotion Search::describe(const std::vector<std::size_t>& cluster, const std::vector<double>& motion) {
-    FreeMotion free{{}, "", 0.0, -1};
+    FreeMotion free{{}, {}, "", 0.0, -1};
     double largest = 0.0;
     std::size_t mover = 0;
     std::vector<double> size(cluster.size(), 0.0);
     for (std::size_t i = 0; i < cluster.size(); ++i) {
         for (std::size_t m = 0; m < modes_; ++m) size[i] = std::max(size[i], std::abs(motion[i * modes_ + m]));
-        if (size[i] > largest) {
-            largest = size[i];
-            mover = i;
-        }
+        largest = std::max(largest, size[i]);
+        // Bodies say more than control nodes, which follow them.
+        const bool tells = control_group(cluster[mover]) == control_group(cluster[i]) ? size[i] > size[mover] : control_group(cluster[mover]);
+        if (tells && size[i] > 1e-6 * largest) mover = i;
     }
+    for (std::size_t i = 0; i < cluster.size(); ++i)
+        if (size[mover] <= 1e-6 * largest && size[i] > size[mover]) mover = i;
     free.description = words(frame_[cluster[mover]], &motion[mover * modes_]);
     for (std::size_t piece = 0; piece < cut_.subdomain_body.size(); ++piece) {
         const auto found = std::find(cluster.begin(), cluster.end(), groups_.find(piece));
@@ -331,6 +369,8 @@ FreeMotion Search::describe(const std::vector<std::size_t>& cluster, const std::
             free.bodies.push_back(cut_.subdomain_body[piece]);
         }
     }
+    for (std::size_t i = 0; i < cluster.size(); ++i)
+        if (control_group(cluster[i]) && size[i] > 1e-6 * largest) free.controls.push_back(carriers_.controls()[cluster[i] - cut_.subdomain_body.size()]);
     std::sort(free.bodies.begin(), free.bodies.end());
     free.bodies.erase(std::unique(free.bodies.begin(), free.bodies.end()), free.bodies.end());
 
@@ -396,13 +436,10 @@ std::vector<FreeMotion> Search::examine(const std::vector<std::size_t>& cluster)
 }
 
 std::vector<FreeMotion> Search::run() {
-    Sets clusters(cut_.subdomain_body.size());
+    Sets clusters(cut_.subdomain_body.size() + carriers_.controls().size());
     for (const Tie& tie : ties_) clusters.join(groups_.find(tie.piece_a), groups_.find(tie.piece_b));
-    for (const Constraint& constraint : problem_.constraints) {
-        for (const std::int64_t dof : constraint.dof) {
-            clusters.join(group(constraint.dof.front() / mesh_.dimension()), group(dof / mesh_.dimension()));
-        }
-    }
+    for (const Row& row : rows_)
+        for (const auto& [dof, coefficient] : row) clusters.join(group(row.front().first / mesh_.dimension()), group(dof / mesh_.dimension()));
     std::map<std::size_t, std::vector<std::size_t>> members;
     for (const auto& [g, f] : frame_) members[clusters.find(g)].push_back(g);
     std::vector<FreeMotion> list;

@@ -6,11 +6,11 @@
 // debonded ply lies between its neighbours, held by contact or not at all) unless a dead force drives them.
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
+#include <numeric>
 
 #include "base/error.hpp"
 #include "delam/delam.h"
+#include "linalg/sparse_elimination.hpp"
 #include "scene/problem.hpp"
 #include "scene/supports.hpp"
 
@@ -38,8 +38,14 @@ void check_interfaces(const Problem& problem) {
                          " has an adhesion of ", interface.adhesion[p], ", not 1");
                 }
             }
+        } else if (interface.contact) {
+            for (std::size_t p = 0; p < interface.adhesion.size(); ++p)
+                if (interface.adhesion[p] > 0.0)
+                    fail(DELAM_ERROR_PROBLEM, "interface ", i, " has contact alone, but pair ", p, " has an adhesion of ",
+                         interface.adhesion[p], ", not 0");
         } else if (!interface.law) {
-            fail(DELAM_ERROR_PROBLEM, "interface ", i, ": no law (delam_problem_set_law or delam_problem_set_bonded)");
+            fail(DELAM_ERROR_PROBLEM, "interface ", i,
+                 ": no law (delam_problem_set_law, delam_problem_set_bonded or delam_problem_set_contact)");
         } else {
             try {
                 interface.law->validate();
@@ -58,80 +64,34 @@ void check_loads(const Problem& problem) {
     }
 }
 
-// Prescribed nodes are independent of each other already when they are added. What is left of a prescribed mean, once
-// the prescribed directions are projected out, must not vanish, nor may these rests depend on each other.
-void check_means(const Problem& problem) {
-    const std::int64_t dimension = problem.mesh->dimension();
-    std::map<std::int64_t, std::vector<std::vector<double>>> held;  // orthonormal directions at a node
-    std::vector<std::size_t> means;
-    for (std::size_t i = 0; i < problem.constraints.size(); ++i) {
+// No constraint may follow from others, nor contradict them. Short ones are reduced first: they fill little. Pairs are not asked: where they are
+// bonded, supports on both sides are harmless.
+void check_constraints(const Problem& problem) {
+    std::vector<std::size_t> order(problem.constraints.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return problem.constraints[a].dof.size() < problem.constraints[b].dof.size(); });
+    SparseElimination known;
+    for (const std::size_t i : order) {
         const Constraint& c = problem.constraints[i];
-        if (c.dof.front() / dimension != c.dof.back() / dimension) {
-            means.push_back(i);
-            continue;
+        SparseElimination::Row row{{}, c.prescribed};
+        row.right.resize(problem.patterns.size(), 0.0);
+        for (std::size_t k = 0; k < c.dof.size(); ++k) row.terms[c.dof[k]] += c.coefficient[k];
+        const double scale = known.reduce(row);
+        if (row.terms.empty()) {
+            const bool agrees = std::all_of(row.right.begin(), row.right.end(), [&](double r) { return std::abs(r) <= 1e-9 * scale; });
+            fail(DELAM_ERROR_PROBLEM, "constraint ", i, " (of ", c.dof.size(), " displacements, the first at node ",
+                 c.dof.front() / problem.mesh->dimension(), ") ", agrees ? "prescribes what other constraints do already" : "contradicts other constraints");
         }
-        std::vector<double> direction(static_cast<std::size_t>(dimension), 0.0);
-        for (std::size_t k = 0; k < c.dof.size(); ++k)
-            direction[static_cast<std::size_t>(c.dof[k] % dimension)] = c.coefficient[k];
-        auto& others = held[c.dof.front() / dimension];
-        for (const std::vector<double>& other : others) {
-            double along = 0.0;
-            for (std::size_t d = 0; d < direction.size(); ++d) along += direction[d] * other[d];
-            for (std::size_t d = 0; d < direction.size(); ++d) direction[d] -= along * other[d];
-        }
-        double length = 0.0;
-        for (const double value : direction) length += value * value;
-        if (length < 1e-20)
-            fail(DELAM_ERROR_PROBLEM, "constraint ", i, " prescribes what earlier ones at its node do already");
-        for (double& value : direction) value /= std::sqrt(length);
-        others.push_back(std::move(direction));
-    }
-    std::vector<std::map<std::int64_t, double>> rests;
-    for (const std::size_t i : means) {
-        const Constraint& c = problem.constraints[i];
-        std::map<std::int64_t, double> rest;
-        double before = 0.0;
-        for (std::size_t k = 0; k < c.dof.size(); ++k) {
-            rest[c.dof[k]] += c.coefficient[k];
-            before += c.coefficient[k] * c.coefficient[k];
-        }
-        std::set<std::int64_t> nodes;
-        for (const std::int64_t dof : c.dof) nodes.insert(dof / dimension);
-        for (const std::int64_t node : nodes) {
-            const auto found = held.find(node);
-            if (found == held.end()) continue;
-            for (const std::vector<double>& direction : found->second) {
-                double along = 0.0;
-                for (std::int64_t d = 0; d < dimension; ++d) {
-                    const auto entry = rest.find(dimension * node + d);
-                    if (entry != rest.end()) along += entry->second * direction[static_cast<std::size_t>(d)];
-                }
-                if (along == 0.0) continue;
-                for (std::int64_t d = 0; d < dimension; ++d) {
-                    rest[dimension * node + d] -= along * direction[static_cast<std::size_t>(d)];
-                }
-            }
-        }
-        for (const std::map<std::int64_t, double>& other : rests) {
-            double along = 0.0;
-            for (const auto& [dof, value] : other) {
-                const auto entry = rest.find(dof);
-                if (entry != rest.end()) along += entry->second * value;
-            }
-            if (along == 0.0) continue;
-            for (const auto& [dof, value] : other) rest[dof] -= along * value;
-        }
-        double after = 0.0;
-        for (const auto& [dof, value] : rest) after += value * value;
-        if (after < 1e-20 * before) {
-            fail(DELAM_ERROR_PROBLEM, "constraint ", i, " (a mean) prescribes what other constraints do already");
-        }
-        for (auto& [dof, value] : rest) value /= std::sqrt(after);
-        rests.push_back(std::move(rest));
+        const auto largest = std::max_element(row.terms.begin(), row.terms.end(),
+                                              [](const auto& a, const auto& b) { return std::abs(a.second) < std::abs(b.second); });
+        known.solve(row, largest->first);
     }
 }
 
-std::string names(const Mesh& mesh, const std::vector<std::int32_t>& bodies) {
+std::string names(const Mesh& mesh, const FreeMotion& motion) {
+    const std::vector<std::int32_t>& bodies = motion.bodies;
+    if (bodies.empty()) return text("control node ", motion.controls.empty() ? -1 : motion.controls.front());
     std::string list = bodies.size() == 1 ? "body " : "bodies ";
     for (std::size_t i = 0; i < bodies.size(); ++i) list += text(i == 0 ? "" : ", ", mesh.body_label(bodies[i]));
     return list;
@@ -144,13 +104,13 @@ void check_supports(const Problem& problem) {
     if (!missing.empty()) {
         std::string list;
         for (std::size_t i = 0; i < missing.size() && i < 6; ++i) {
-            list += text(i == 0 ? "" : "; ", names(*problem.mesh, missing[i].bodies), " can ", missing[i].description);
+            list += text(i == 0 ? "" : "; ", names(*problem.mesh, missing[i]), " can ", missing[i].description);
         }
         fail(DELAM_ERROR_PROBLEM, "missing support: ", list);
     }
     for (const FreeMotion& motion : free_motions(problem, false)) {
         if (motion.force_work > 1e-9) {
-            fail(DELAM_ERROR_PROBLEM, "missing support: ", names(*problem.mesh, motion.bodies), " can ",
+            fail(DELAM_ERROR_PROBLEM, "missing support: ", names(*problem.mesh, motion), " can ",
                  motion.description, " where nothing adheres, and the dead forces of pattern '",
                  problem.patterns[static_cast<std::size_t>(motion.force_pattern)].name, "' act along");
         }
@@ -163,7 +123,7 @@ void validate(const Problem& problem) {
     check_bodies(problem);
     check_interfaces(problem);
     check_loads(problem);
-    check_means(problem);
+    check_constraints(problem);
     check_supports(problem);
 }
 

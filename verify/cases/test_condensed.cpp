@@ -82,6 +82,23 @@ const Entry entries[] = {
     {"redundant supports 3D", [] { return cases::make_redundant(3); }, false},
     {"dead forces", [] { return cases::make_forces(2); }},
     {"dead forces 3D", [] { return cases::make_forces(3); }},
+    {"nose", [] { return cases::make_nose(2, false); }},
+    {"nose 3D", [] { return cases::make_nose(3, false); }},
+    {"nose, dead force", [] { return cases::make_nose(2, true); }},
+    {"nose, dead force 3D", [] { return cases::make_nose(3, true); }},
+    {"lever", [] { return cases::make_lever(2); }},
+    {"lever 3D", [] { return cases::make_lever(3); }},
+    {"rigid end", [] { return cases::make_rigid_end(2, nullptr); }},
+    {"rigid end 3D", [] { return cases::make_rigid_end(3, nullptr); }},
+    {"rigid end, slanted", [] { return cases::make_rigid_end(2, cases::inclined()); }},
+    {"chains", [] { return cases::make_chains(2); }, false},
+    {"chains 3D", [] { return cases::make_chains(3); }, false},
+    {"periodic", [] { return cases::make_periodic_plies(2, false); }, false},
+    {"periodic 3D", [] { return cases::make_periodic_plies(3, false); }, false},
+    {"periodic, dead force", [] { return cases::make_periodic_plies(2, true); }, false},
+    {"periodic, dead force 3D", [] { return cases::make_periodic_plies(3, true); }, false},
+    {"unglued", [] { return cases::make_unglued(2); }},
+    {"unglued 3D", [] { return cases::make_unglued(3); }},
 };
 constexpr int entry_count = static_cast<int>(std::size(entries));
 
@@ -92,7 +109,7 @@ std::vector<double> random_adhesion(const Scene& scene, std::mt19937& random, co
     std::size_t pair = 0;
     for (std::size_t i = 0; i < scene.stiffness().size(); ++i)
         for (std::size_t k = scene.pairs(static_cast<std::int64_t>(i)).count(); k > 0; --k, ++pair) {
-            if (scene.stiffness()[i].bonded) continue;
+            if (scene.stiffness()[i].bonded || scene.stiffness()[i].normal == 0.0) continue;
             const double x = draw(random);
             zeta[pair] = x < 0.25 ? 0.0 : x < 0.35 ? 1e-12 : x < 0.5 ? 1.0 : x < 0.6 ? 1e-4 : draw(random);
         }

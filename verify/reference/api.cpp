@@ -124,6 +124,23 @@ void Scene::drive(const std::vector<std::int64_t>& nodes, const std::vector<doub
             "delam_problem_prescribe_nodes");
 }
 
+void Scene::equation(const std::vector<std::int64_t>& nodes, const std::vector<double>& coefficients, std::int64_t pattern,
+                     double coefficient) {
+    require(delam_problem_add_equation(problem(), length(nodes), nodes.data(), coefficients.data(), pattern < 0 ? 0 : 1, &pattern,
+                                       &coefficient, 0),
+            "delam_problem_add_equation");
+}
+
+void Scene::periodic(const std::vector<double>& periods, const std::vector<std::int64_t>& control_nodes) {
+    require(delam_problem_add_periodic(problem(), length(control_nodes), periods.data(), control_nodes.data(), 0.0, 0),
+            "delam_problem_add_periodic");
+}
+
+void Scene::contact(std::int64_t interface_index) {
+    require(delam_problem_set_contact(problem(), interface_index), "delam_problem_set_contact");
+    stiffness_[static_cast<std::size_t>(interface_index)] = {0.0, 0.0, false};
+}
+
 void Scene::number(const char* key, double value) { require(delam_problem_set_number(problem(), key, value), key); }
 
 void Scene::text(const char* key, const char* value) { require(delam_problem_set_text(problem(), key, value), key); }

@@ -82,6 +82,11 @@ public:
     // Driven by one pattern with one coefficient per node.
     void drive(const std::vector<std::int64_t>& nodes, const std::vector<double>& direction, std::int64_t pattern,
                const std::vector<double>& coefficients);
+    // sum of coefficients[i][:] . u_nodes[i] = coefficient * factor of the pattern (-1: 0).
+    void equation(const std::vector<std::int64_t>& nodes, const std::vector<double>& coefficients, std::int64_t pattern = -1,
+                  double coefficient = 0.0);
+    void periodic(const std::vector<double>& periods, const std::vector<std::int64_t>& control_nodes);
+    void contact(std::int64_t interface_index);
     void number(const char* key, double value);
     void text(const char* key, const char* value);
     void require(std::int32_t status, const char* call) const;

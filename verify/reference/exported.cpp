@@ -80,6 +80,15 @@ Exported::Exported(const Scene& scene) : dimension(scene.dimension()), dofs(scen
                                             constraints.column.data(), constraints.value.data(), prescribed.data()),
                   "delam_problem_constraints");
 
+    // A node without cells that something refers to is a control node: unknowns without stiffness.
+    const auto refer = [&](std::int64_t node) {
+        for (int k = 0; k < dimension; ++k) alive[static_cast<std::size_t>(node * dimension + k)] = true;
+    };
+    for (const std::int64_t dof : constraints.column) refer(dof / dimension);
+    for (const Pairs& p : interfaces) {
+        for (const std::int64_t node : p.node_a) refer(node);
+        for (const std::int64_t node : p.node_b) refer(node);
+    }
     for (std::size_t p = 0; p < patterns; ++p) {
         forces.emplace_back(dofs);
         scene.require(delam_problem_forces(scene.problem(), static_cast<std::int64_t>(p),

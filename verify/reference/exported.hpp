@@ -22,7 +22,7 @@ struct Exported {
     int dimension = 0;
     std::size_t dofs = 0;     // dimension * mesh nodes
     Csr stiffness;            // all bodies over mesh DOFs, both triangles
-    std::vector<bool> alive;  // DOFs that some cell touches
+    std::vector<bool> alive;  // DOFs that some cell touches, and those of control nodes
     std::vector<Pairs> interfaces;
     Csr constraints;  // over mesh DOFs
     std::size_t patterns = 0;

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "body/assembly.hpp"
 #include "reduction/condensed/rigid_jumps.hpp"
+#include "scene/carriers.hpp"
 
 namespace delam {
 
@@ -55,6 +56,7 @@ SparseMatrix assemble(const Problem& problem) {
 SparseMatrix jump_matrix(const Problem& problem) {
     const std::int64_t dim = problem.mesh->dimension();
     std::vector<Triplet> triplets;
+    const Carriers carriers(problem);
     std::int64_t row = 0;
     for (const InterfaceGeometry& face : problem.mesh->interfaces())
         for (std::size_t p = 0; p < face.node_a.size(); ++p)
@@ -62,10 +64,88 @@ SparseMatrix jump_matrix(const Problem& problem) {
                 for (std::int64_t k = 0; k < dim; ++k) {
                     const double q = face.frame[(p * index(dim) + index(r)) * index(dim) + index(k)];
                     if (q == 0.0) continue;
-                    triplets.push_back({row, face.node_b[p] * dim + k, q});
-                    triplets.push_back({row, face.node_a[p] * dim + k, -q});
+                    for (const auto& [node, weight] : carriers.of(face.node_b[p])) triplets.push_back({row, node * dim + k, q * weight});
+                    for (const auto& [node, weight] : carriers.of(face.node_a[p])) triplets.push_back({row, node * dim + k, -q * weight});
                 }
     return from_triplets(row, problem.mesh->node_count() * dim, std::move(triplets));
+}
+
+// Groups of constraints up to this size are solved densely.
+constexpr std::size_t dense_reactions = 200;
+
+std::vector<double> direct_reactions(std::span<const Constraint* const> list, std::span<const double> left) {
+    const auto n = static_cast<std::int64_t>(list.size());
+    std::vector<std::map<std::int64_t, double>> row(list.size());
+    DenseMatrix gram(n, n);
+    std::vector<double> right(list.size(), 0.0), rho(list.size(), 0.0);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        for (std::size_t k = 0; k < list[i]->dof.size(); ++k) row[i][list[i]->dof[k]] += list[i]->coefficient[k];
+        for (const auto& [dof, c] : row[i]) right[i] += c * left[index(dof)];
+        for (std::size_t j = 0; j <= i; ++j)
+            for (const auto& [dof, c] : row[i])
+                if (const auto other = row[j].find(dof); other != row[j].end())
+                    gram(static_cast<std::int64_t>(i), static_cast<std::int64_t>(j)) += c * other->second;
+    }
+    mirror_lower(gram);
+    const Eigen eigen = eigen_symmetric(std::move(gram));
+    for (std::int64_t e = 0; e < n; ++e) {
+        if (!(eigen.value[index(e)] > dependent * eigen.value.back())) continue;
+        double along = 0.0;
+        for (std::int64_t i = 0; i < n; ++i) along += eigen.vector(i, e) * right[index(i)];
+        for (std::int64_t i = 0; i < n; ++i) rho[index(i)] += along / eigen.value[index(e)] * eigen.vector(i, e);
+    }
+    return rho;
+}
+
+// CGLS (M. Hestenes, E. Stiefel, 1952) on rows of unit length.
+std::vector<double> iterated_reactions(std::span<const Constraint* const> list, std::span<const double> left) {
+    std::map<std::int64_t, std::int64_t> place;
+    std::vector<Triplet> triplets;
+    std::vector<double> length;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        double square = 0.0;
+        for (const double c : list[i]->coefficient) square += c * c;
+        length.push_back(std::sqrt(square));
+        for (std::size_t k = 0; k < list[i]->dof.size(); ++k) {
+            const auto at = place.try_emplace(list[i]->dof[k], static_cast<std::int64_t>(place.size())).first->second;
+            triplets.push_back({static_cast<std::int64_t>(i), at, list[i]->coefficient[k] / length.back()});
+        }
+    }
+    const auto n = static_cast<std::int64_t>(list.size());
+    const SparseMatrix d = from_triplets(n, static_cast<std::int64_t>(place.size()), std::move(triplets));
+    std::vector<double> residual(place.size()), step(place.size()), s(list.size()), p, rho(list.size(), 0.0);
+    for (const auto& [dof, at] : place) residual[index(at)] = left[index(dof)];
+    multiply(d, residual, s);
+    p = s;
+    double size = dot(s, s);
+    const double enough = 1e-30 * size;
+    for (std::int64_t iteration = 0; iteration < 4 * n && size > enough; ++iteration) {
+        multiply_transposed(d, p, step);
+        const double length_of_step = size / dot(step, step);
+        add_scaled(length_of_step, p, rho);
+        add_scaled(-length_of_step, step, residual);
+        multiply(d, residual, s);
+        const double next = dot(s, s);
+        for (std::size_t i = 0; i < p.size(); ++i) p[i] = s[i] + next / size * p[i];
+        size = next;
+    }
+    for (std::size_t i = 0; i < rho.size(); ++i) rho[i] /= length[i];
+    return rho;
+}
+
+// A control node that only long constraints refer to has no stiffness at all: its diagonal entry is to be there all the same.
+SparseMatrix with_diagonal(SparseMatrix k, std::int64_t first) {
+    std::vector<Triplet> missing;
+    for (std::int64_t r = first; r < k.rows; ++r) {
+        const auto begin = k.column.begin() + k.start[index(r)], end = k.column.begin() + k.start[index(r) + 1];
+        if (!std::binary_search(begin, end, r)) missing.push_back({r, r, 0.0});
+    }
+    if (missing.empty()) return k;
+    std::vector<Triplet> all;
+    for (std::int64_t r = 0; r < k.rows; ++r)
+        for (std::int64_t e = k.start[index(r)]; e < k.start[index(r) + 1]; ++e) all.push_back({r, k.column[index(e)], k.value[index(e)]});
+    all.insert(all.end(), missing.begin(), missing.end());
+    return from_triplets(k.rows, k.columns, std::move(all));
 }
 
 }  // namespace
@@ -75,7 +155,7 @@ Bulk::Bulk(const Problem& problem, Monitor& monitor) : problem_(problem) {
     stiffness_ = assemble(problem_);
     jump_rows_ = jump_matrix(problem_);
     variables_ = make_jump_variables(problem_);
-    transformed_ = congruence(stiffness_, variables_.transform);
+    transformed_ = with_diagonal(congruence(stiffness_, variables_.transform), variables_.leading);
     monitor.progress("analyse", 0, 0);
     factor_ = std::make_unique<SparseCholesky>(transformed_, variables_.trailing());
     size_ = factor_->size();
@@ -85,13 +165,17 @@ void Bulk::condense(Monitor& monitor) {
     const std::int64_t leading = variables_.leading, trailing = variables_.trailing();
     const std::size_t patterns = problem_.patterns.size();
     std::vector<double> shift(index(trailing), 0.0);
+    std::vector<std::int64_t> diagonal(index(trailing));
     for (std::int64_t t = 0; t < trailing; ++t) {
         const std::int64_t r = leading + t;
-        for (std::int64_t e = transformed_.start[index(r)]; e < transformed_.start[index(r) + 1]; ++e) {
-            if (transformed_.column[index(e)] != r) continue;
-            shift[index(t)] = transformed_.value[index(e)];
-            transformed_.value[index(e)] *= 2.0;
-        }
+        for (std::int64_t e = transformed_.start[index(r)]; e < transformed_.start[index(r) + 1]; ++e)
+            if (transformed_.column[index(e)] == r) diagonal[index(t)] = e;
+        shift[index(t)] = transformed_.value[index(diagonal[index(t)])];
+    }
+    const double largest = trailing > 0 ? *std::max_element(shift.begin(), shift.end()) : 0.0;
+    for (std::int64_t t = 0; t < trailing; ++t) {
+        if (!(shift[index(t)] > 0.0)) shift[index(t)] = largest > 0.0 ? largest : 1.0;
+        transformed_.value[index(diagonal[index(t)])] += shift[index(t)];
     }
     monitor.progress("factor", 0, 0);
     ++factorisations_;
@@ -211,8 +295,10 @@ void Bulk::resolve_equations() {
     }
 
     // Rows of the jumps in unknowns.
-    for (const SparseVector& in_jumps : variables_.row) {
+    for (std::size_t r = 0; r < variables_.row.size(); ++r) {
+        const SparseVector& in_jumps = variables_.row[r];
         Row row;
+        row.offset = variables_.row_offset[r];
         std::map<std::int64_t, double> entries;
         for (const auto& [jump, c] : in_jumps) {
             const std::int64_t at = place[index(kept + jump)];
@@ -231,9 +317,11 @@ void Bulk::resolve_equations() {
         rows_.push_back(std::move(row));
     }
     row_of_unknown_.assign(index(rest - kept_rest_), -1);
-    for (std::size_t r = 0; r < rows_.size(); ++r)
-        if (variables_.row[r].size() == 1 && rows_[r].unknowns.size() == 1 && rows_[r].offset.empty())
-            row_of_unknown_[index(rows_[r].unknowns.front().first)] = static_cast<std::int64_t>(r);
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+        if (rows_[r].unknowns.size() != 1 || rows_[r].unknowns.front().second != 1.0 || !rows_[r].offset.empty()) continue;
+        std::int64_t& first = row_of_unknown_[index(rows_[r].unknowns.front().first)];
+        if (first < 0) first = static_cast<std::int64_t>(r);
+    }
 }
 
 std::vector<double> Bulk::leading_solve(std::span<const double> nodal) const {
@@ -288,12 +376,15 @@ std::vector<double> Bulk::residual(std::span<const double> theta, std::span<cons
     return r;
 }
 
-// D^T rho = residual on the DOFs of the constraints: constraints that share DOFs are solved together, in the least-squares sense with the
-// smallest forces where they depend on each other.
+// D^T rho = residual on the DOFs of the constraints, in the least-squares sense with the smallest forces where they depend on each other.
+// Constraints that share DOFs of bodies are solved together, densely. A control node joins thousands: those it joins are solved by
+// conjugate gradients on D D^T, which has few distinct eigenvalues then (rows of few nodes, and one direction a control DOF).
 std::vector<double> Bulk::reaction(std::span<const double> theta, std::span<const double> displacement,
                                    std::span<const double> force) const {
     const std::vector<double> left = residual(theta, displacement, force);
     const std::size_t count = problem_.constraints.size();
+    const Carriers carriers(problem_);
+    const std::int64_t dim = problem_.mesh->dimension();
     std::vector<std::size_t> group(count);
     std::iota(group.begin(), group.end(), std::size_t{0});
     const auto find = [&](std::size_t i) {
@@ -309,27 +400,14 @@ std::vector<double> Bulk::reaction(std::span<const double> theta, std::span<cons
 
     std::vector<double> rho(count, 0.0);
     for (const auto& [root, list] : members) {
-        const auto n = static_cast<std::int64_t>(list.size());
-        std::vector<std::map<std::int64_t, double>> row(list.size());
-        DenseMatrix gram(n, n);
-        std::vector<double> right(list.size(), 0.0);
-        for (std::size_t i = 0; i < list.size(); ++i) {
-            const Constraint& constraint = problem_.constraints[list[i]];
-            for (std::size_t k = 0; k < constraint.dof.size(); ++k) row[i][constraint.dof[k]] += constraint.coefficient[k];
-            for (const auto& [dof, c] : row[i]) right[i] += c * left[index(dof)];
-            for (std::size_t j = 0; j <= i; ++j)
-                for (const auto& [dof, c] : row[i])
-                    if (const auto other = row[j].find(dof); other != row[j].end())
-                        gram(static_cast<std::int64_t>(i), static_cast<std::int64_t>(j)) += c * other->second;
-        }
-        mirror_lower(gram);
-        const Eigen eigen = eigen_symmetric(std::move(gram));
-        for (std::int64_t e = 0; e < n; ++e) {
-            if (!(eigen.value[index(e)] > dependent * eigen.value.back())) continue;
-            double along = 0.0;
-            for (std::int64_t i = 0; i < n; ++i) along += eigen.vector(i, e) * right[index(i)];
-            for (std::int64_t i = 0; i < n; ++i) rho[list[index(i)]] += along / eigen.value[index(e)] * eigen.vector(i, e);
-        }
+        const bool controlled = std::any_of(list.begin(), list.end(), [&](std::size_t c) {
+            const auto& dofs = problem_.constraints[c].dof;
+            return std::any_of(dofs.begin(), dofs.end(), [&](std::int64_t dof) { return carriers.kind(dof / dim) == Carriers::Kind::control; });
+        });
+        std::vector<const Constraint*> rows;
+        for (const std::size_t c : list) rows.push_back(&problem_.constraints[c]);
+        const std::vector<double> own = controlled && list.size() > dense_reactions ? iterated_reactions(rows, left) : direct_reactions(rows, left);
+        for (std::size_t i = 0; i < list.size(); ++i) rho[list[i]] = own[i];
     }
     return rho;
 }

@@ -35,7 +35,7 @@ public:
         bool prescribed() const { return unknowns.empty(); }
     };
     const std::vector<Row>& rows() const { return rows_; }
-    // The jump row that is nothing but unknown i.
+    // The first jump row that is nothing but unknown i. Others may be (on opposite faces of a periodic cell).
     const std::vector<std::int64_t>& row_of_unknown() const { return row_of_unknown_; }
     const DenseEnergy& energy() const { return base_ ? base_->energy() : energy_; }
     const DenseMatrix& pattern_stiffness() const { return pattern_stiffness_; }

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "mesh/partition.hpp"
+#include "scene/carriers.hpp"
 
 namespace delam {
 
@@ -27,7 +28,7 @@ DenseMatrix null_vectors(const DenseMatrix& gram) {
 }
 
 // A piece that hangs together through whole faces moves rigidly: translations, and rotations about its centre with unit displacement at
-// its edge.
+// its edge. A control node moves by translations.
 struct Piece {
     std::array<double, 3> centre{};
     double size = 0.0;
@@ -35,7 +36,8 @@ struct Piece {
 
 class Motions {
 public:
-    explicit Motions(const Problem& problem) : mesh_(*problem.mesh), dim_(mesh_.dimension()), modes_(dim_ == 2 ? 3 : 6) {
+    explicit Motions(const Problem& problem)
+        : mesh_(*problem.mesh), carriers_(problem), dim_(mesh_.dimension()), modes_(dim_ == 2 ? 3 : 6) {
         const Partition parts = partition(mesh_, 1);
         pieces_.resize(parts.subdomain_body.size());
         piece_of_.assign(static_cast<std::size_t>(mesh_.node_count()), -1);
@@ -62,7 +64,8 @@ public:
             }
     }
 
-    std::int64_t count() const { return static_cast<std::int64_t>(pieces_.size()) * modes_; }
+    // Of the pieces, then the translations of each control node.
+    std::int64_t count() const { return static_cast<std::int64_t>(pieces_.size()) * modes_ + static_cast<std::int64_t>(carriers_.controls().size()) * dim_; }
 
     // row += factor * (component k of all motions at a node of a piece)
     void add(std::map<std::int64_t, double>& row, std::int64_t node, std::int64_t piece, std::int64_t k, double factor) const {
@@ -77,7 +80,16 @@ public:
         }
     }
     void add(std::map<std::int64_t, double>& row, std::int64_t node, std::int64_t k, double factor) const {
-        add(row, node, piece_of_[static_cast<std::size_t>(node)], k, factor);
+        for (const auto& [carrier, weight] : carriers_.of(node)) {
+            const std::int64_t piece = piece_of_[static_cast<std::size_t>(carrier)];
+            if (piece >= 0) {
+                add(row, carrier, piece, k, factor * weight);
+                continue;
+            }
+            const auto& controls = carriers_.controls();
+            const auto place = std::lower_bound(controls.begin(), controls.end(), carrier) - controls.begin();
+            row[static_cast<std::int64_t>(pieces_.size()) * modes_ + place * dim_ + k] += factor * weight;
+        }
     }
 
     struct Hinge {
@@ -88,6 +100,7 @@ public:
 
 private:
     const Mesh& mesh_;
+    Carriers carriers_;
     std::int64_t dim_;
     std::int64_t modes_;
     std::vector<Piece> pieces_;

@@ -21,8 +21,11 @@ constexpr double unbalanced = 1e-8;   // largest part of a load that may be left
 
 Zone::Zone(const DenseEnergy& energy, std::vector<Bulk::Row> rows, DenseMatrix rigid)
     : energy_(&energy), rows_(std::move(rows)), rigid_(std::move(rigid)) {
+    std::vector<std::uint8_t> taken(index(energy.rows()), 0);
     for (const Bulk::Row& row : rows_) {
-        const bool plain = row.offset.empty() && row.unknowns.size() == 1 && row.unknowns.front().second == 1.0;
+        const bool plain = row.offset.empty() && row.unknowns.size() == 1 && row.unknowns.front().second == 1.0 &&
+                           taken[index(row.unknowns.front().first)] == 0;
+        if (plain) taken[index(row.unknowns.front().first)] = 1;
         plain_.push_back(plain ? row.unknowns.front().first : -1);
         with_offsets_ = with_offsets_ || !row.offset.empty();
     }
@@ -39,7 +42,7 @@ Zone::Zone(const DenseEnergy& energy, std::vector<Bulk::Row> rows, DenseMatrix r
             for (std::int64_t i = 0; i < shifted_.rows; ++i) shifted_(i, j) += rho * rigid_(i, c) * rigid_(j, c);
 }
 
-// A held row that is an unknown of its own takes it out; other held rows fix one unknown each by the rest.
+// A held row that is an unknown of its own (the first such row of it) takes it out; other held rows fix one unknown each by the rest.
 void Zone::hold(std::span<const std::uint8_t> held) {
     held_.assign(held.begin(), held.end());
     std::vector<std::uint8_t> out(index(energy_->rows()), 0);

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "delam/delam.h"
+#include "scene/carriers.hpp"
 
 namespace delam {
 
@@ -19,9 +20,13 @@ DualRowBuilder::DualRowBuilder(const Problem& problem, std::span<const Subdomain
                 {static_cast<std::int32_t>(s), static_cast<std::int64_t>(i)});
 
     // Any copy may stand for its node in jumps and constraints, since the copies are glued: the first one does.
-    const auto entry = [&](std::int64_t node, int component, double coefficient) {
-        const NodeCopy& copy = copies_[static_cast<std::size_t>(node)].front();
-        return Entry{copy.subdomain, copy.local * dim + component, coefficient};
+    // A tied node is what it is tied to.
+    const Carriers carriers(problem);
+    const auto append = [&](std::vector<Entry>& row, std::int64_t node, int component, double coefficient) {
+        for (const auto& [carrier, weight] : carriers.of(node)) {
+            const NodeCopy& copy = copies_[static_cast<std::size_t>(carrier)].front();
+            row.push_back({copy.subdomain, copy.local * dim + component, coefficient * weight});
+        }
     };
 
     for (const InterfaceGeometry& interface : mesh.interfaces()) {
@@ -31,8 +36,8 @@ DualRowBuilder::DualRowBuilder(const Problem& problem, std::span<const Subdomain
                 for (int k = 0; k < dim; ++k) {
                     const double direction = interface.frame[static_cast<std::size_t>((p * dim + c) * dim + k)];
                     if (direction == 0.0) continue;
-                    row.push_back(entry(interface.node_b[static_cast<std::size_t>(p)], k, direction));
-                    row.push_back(entry(interface.node_a[static_cast<std::size_t>(p)], k, -direction));
+                    append(row, interface.node_b[static_cast<std::size_t>(p)], k, direction);
+                    append(row, interface.node_a[static_cast<std::size_t>(p)], k, -direction);
                 }
                 rows_.push_back(std::move(row));
             }
@@ -65,7 +70,7 @@ DualRowBuilder::DualRowBuilder(const Problem& problem, std::span<const Subdomain
     for (const Constraint& constraint : problem.constraints) {
         std::vector<Entry> row;
         for (std::size_t i = 0; i < constraint.dof.size(); ++i)
-            row.push_back(entry(constraint.dof[i] / dim, static_cast<int>(constraint.dof[i] % dim), constraint.coefficient[i]));
+            append(row, constraint.dof[i] / dim, static_cast<int>(constraint.dof[i] % dim), constraint.coefficient[i]);
         rows_.push_back(std::move(row));
     }
     constraint_count_ = static_cast<std::int64_t>(problem.constraints.size());
@@ -82,14 +87,25 @@ std::vector<std::vector<std::int64_t>> DualRowBuilder::touched(std::size_t subdo
     return dofs;
 }
 
+std::vector<double> DualRowBuilder::scale(std::int32_t subdomain, std::int64_t dofs) const {
+    std::vector<double> touching(static_cast<std::size_t>(dofs), 0.0);
+    for (const auto& row : rows_)
+        for (const Entry& e : row)
+            if (e.subdomain == subdomain) touching[static_cast<std::size_t>(e.dof)] += e.coefficient * e.coefficient;
+    for (double& t : touching) t = t > 0.0 ? 1.0 / std::sqrt(t) : 1.0;
+    return touching;
+}
+
 DualRows DualRowBuilder::finish(std::span<const Subdomain> subdomains) const {
     DualRows result;
     result.jump_count = jump_count_;
     result.glue_count = glue_count_;
     result.constraint_count = constraint_count_;
     result.offset.assign(1, 0);
-    for (const Subdomain& s : subdomains)
+    for (const Subdomain& s : subdomains) {
         result.offset.push_back(result.offset.back() + static_cast<std::int64_t>(s.boundary.size()));
+        if (s.body >= 0) result.body_dofs = result.offset.back();
+    }
     std::vector<Triplet> triplets;
     for (std::size_t r = 0; r < rows_.size(); ++r) {
         for (const Entry& e : rows_[r]) {

@@ -17,6 +17,7 @@ struct DualRows {
     std::int64_t jump_count = 0;
     std::int64_t glue_count = 0;
     std::int64_t constraint_count = 0;
+    std::int64_t body_dofs = 0;        // boundary DOFs of bodies; those of the control nodes come after them
     std::vector<std::int64_t> offset;  // [subdomains+1] of each subdomain's boundary in the joint vector of boundary DOFs
     SparseMatrix b;                    // [rows][boundary DOFs of all subdomains]
 
@@ -37,6 +38,8 @@ public:
     DualRowBuilder(const Problem& problem, std::span<const Subdomain> subdomains, const std::string& gluing);
     // Local DOFs that rows touch, per subdomain, ascending.
     std::vector<std::vector<std::int64_t>> touched(std::size_t subdomains) const;
+    // 1 / sqrt(rows that touch it) of each local DOF of a subdomain: what gives its motions the size of those of bodies.
+    std::vector<double> scale(std::int32_t subdomain, std::int64_t dofs) const;
     // Final rows, once every subdomain knows its boundary (a superset of what is touched).
     DualRows finish(std::span<const Subdomain> subdomains) const;
     // Copies of each mesh node.

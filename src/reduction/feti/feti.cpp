@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "mesh/partition.hpp"
 #include "reduction/feti/projected_cg.hpp"
+#include "scene/carriers.hpp"
 
 namespace delam {
 
@@ -38,6 +39,10 @@ Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monito
     for (std::size_t s = 0; s < subdomains_.size(); ++s) {
         monitor_.progress("condense", static_cast<std::int64_t>(s), static_cast<std::int64_t>(subdomains_.size()));
         Subdomain& subdomain = subdomains_[s];
+        if (subdomain.body < 0) {
+            subdomain.hold_controls(builder.scale(static_cast<std::int32_t>(s), static_cast<std::int64_t>(subdomain.nodes.size()) * problem_.mesh->dimension()));
+            continue;
+        }
         subdomain.boundary = touched[s];
         subdomain.condense(*problem_.mesh, cells[s], problem_.model(subdomain.body), with_schur);
     }
@@ -61,6 +66,15 @@ Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monito
                                                        subdomains_[s].flexibility(di - first, dj - first);
                 }
     }
+    // Rows among control nodes alone know no flexibility; the coarse problem decides their forces, whatever their weight.
+    double sum = 0.0;
+    std::int64_t known = 0;
+    for (const double f : flexibility_diagonal_) {
+        sum += f;
+        known += f > 0.0 ? 1 : 0;
+    }
+    for (double& f : flexibility_diagonal_)
+        if (!(f > 0.0)) f = known > 0 ? sum / static_cast<double>(known) : 1.0;
     prescribed_ = problem_.prescribed_matrix();
     precompute_forces();
 }
@@ -80,6 +94,10 @@ std::vector<std::vector<std::int64_t>> Feti::cut() {
     for (Subdomain& s : subdomains_) {
         std::sort(s.nodes.begin(), s.nodes.end());
         s.nodes.erase(std::unique(s.nodes.begin(), s.nodes.end()), s.nodes.end());
+    }
+    if (const Carriers carriers(problem_); !carriers.controls().empty()) {
+        subdomains_.emplace_back().nodes = carriers.controls();
+        cells.emplace_back();
     }
     return cells;
 }
@@ -314,6 +332,9 @@ std::vector<double> Feti::displacement(std::span<const double> theta, const Resp
                 u[node * index(dim) + index(k)] += local[i * index(dim) + index(k)] / static_cast<double>(copies_[node].size());
         }
     }
+    for (const NodeTie& tie : problem_.mesh->ties())
+        for (const auto& [node, weight] : tie.of)
+            for (int k = 0; k < dim; ++k) u[index(tie.node * dim + k)] += weight * u[index(node * dim + k)];
     return u;
 }
 
@@ -354,7 +375,8 @@ std::string Feti::description() const {
         largest = std::max(largest, n);
         bytes += 8.0 * static_cast<double>(n) * static_cast<double>(n) * (s.schur.rows > 0 ? 2.0 : 1.0);
     }
-    return text("total FETI: ", subdomains_.size(), " subdomains, ", rows_.jump_count, " jump + ", rows_.glue_count, " gluing + ",
+    const bool controls = subdomains_.back().body < 0;
+    return text("total FETI: ", subdomains_.size() - (controls ? 1 : 0), " subdomains", controls ? " and control nodes, " : ", ", rows_.jump_count, " jump + ", rows_.glue_count, " gluing + ",
                 rows_.constraint_count, " constraint multipliers, coarse problem ", coarse_->size(), ", preconditioner ",
                 problem_.options.preconditioner, ", largest boundary ", largest, " DOFs, dense blocks ", bytes / 1048576.0,
                 " MiB");

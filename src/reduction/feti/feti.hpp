@@ -29,7 +29,9 @@ public:
     std::vector<double> displacement(std::span<const double> theta, const Response& response) const override;
     double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
     std::span<const std::uint8_t> prescribed_rows() const override { return scaling_.prescribed; }
-    std::int64_t factorisations() const override { return static_cast<std::int64_t>(subdomains_.size()); }
+    std::int64_t factorisations() const override { 
+        return static_cast<std::int64_t>(subdomains_.size()) - (subdomains_.back().body < 0 ? 1 : 0);
+    }
     std::int64_t recoveries() const override { return recoveries_; }
     std::string description() const override;
 

@@ -11,8 +11,14 @@ namespace {
 
 constexpr double dependence = 1e-9;  // relative size below which a row counts as a combination of others
 
-// Rows that hang together through shared boundary DOFs, by union-find over DOFs.
-std::vector<std::vector<std::int64_t>> clusters(const SparseMatrix& b) {
+// Columns are sorted, control nodes last.
+bool of_bodies(const SparseMatrix& b, std::int64_t row, std::int64_t body_dofs) {
+    const auto first = static_cast<std::size_t>(b.start[static_cast<std::size_t>(row)]);
+    return b.start[static_cast<std::size_t>(row)] < b.start[static_cast<std::size_t>(row) + 1] && b.column[first] < body_dofs;
+}
+
+// Rows that hang together through shared boundary DOFs of bodies, by union-find over DOFs. Rows among control nodes alone are in none.
+std::vector<std::vector<std::int64_t>> clusters(const SparseMatrix& b, std::int64_t body_dofs) {
     std::vector<std::int64_t> parent(static_cast<std::size_t>(b.columns));
     std::iota(parent.begin(), parent.end(), std::int64_t{0});
     const auto find = [&](std::int64_t i) {
@@ -25,11 +31,13 @@ std::vector<std::vector<std::int64_t>> clusters(const SparseMatrix& b) {
     };
     for (std::int64_t r = 0; r < b.rows; ++r)
         for (std::int64_t e = b.start[static_cast<std::size_t>(r)]; e < b.start[static_cast<std::size_t>(r) + 1]; ++e)
-            parent[static_cast<std::size_t>(find(b.column[static_cast<std::size_t>(e)]))] =
-                find(b.column[static_cast<std::size_t>(b.start[static_cast<std::size_t>(r)])]);
+            if (b.column[static_cast<std::size_t>(e)] < body_dofs)
+                parent[static_cast<std::size_t>(find(b.column[static_cast<std::size_t>(e)]))] =
+                    find(b.column[static_cast<std::size_t>(b.start[static_cast<std::size_t>(r)])]);
     std::vector<std::vector<std::int64_t>> groups;
     std::vector<std::int64_t> group_of(static_cast<std::size_t>(b.columns), -1);
     for (std::int64_t r = 0; r < b.rows; ++r) {
+        if (!of_bodies(b, r, body_dofs)) continue;
         const auto root = static_cast<std::size_t>(find(b.column[static_cast<std::size_t>(b.start[static_cast<std::size_t>(r)])]));
         if (group_of[root] < 0) {
             group_of[root] = static_cast<std::int64_t>(groups.size());
@@ -40,21 +48,22 @@ std::vector<std::vector<std::int64_t>> clusters(const SparseMatrix& b) {
     return groups;
 }
 
-// Rows of B over the DOFs that they touch, densely.
+// Rows of B over the DOFs below `end` that they touch, densely.
 struct ClusterBlock {
     std::vector<std::int64_t> dof;
     DenseMatrix b;
 
-    ClusterBlock(const SparseMatrix& matrix, const std::vector<std::int64_t>& rows) {
+    ClusterBlock(const SparseMatrix& matrix, const std::vector<std::int64_t>& rows, std::int64_t end) {
         for (const std::int64_t r : rows)
-            dof.insert(dof.end(), matrix.column.begin() + matrix.start[static_cast<std::size_t>(r)],
-                       matrix.column.begin() + matrix.start[static_cast<std::size_t>(r) + 1]);
+            for (std::int64_t e = matrix.start[static_cast<std::size_t>(r)]; e < matrix.start[static_cast<std::size_t>(r) + 1]; ++e)
+                if (matrix.column[static_cast<std::size_t>(e)] < end) dof.push_back(matrix.column[static_cast<std::size_t>(e)]);
         std::sort(dof.begin(), dof.end());
         dof.erase(std::unique(dof.begin(), dof.end()), dof.end());
         b = DenseMatrix(static_cast<std::int64_t>(rows.size()), static_cast<std::int64_t>(dof.size()));
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const auto r = static_cast<std::size_t>(rows[i]);
             for (std::int64_t e = matrix.start[r]; e < matrix.start[r + 1]; ++e) {
+                if (matrix.column[static_cast<std::size_t>(e)] >= end) continue;
                 const auto at = std::lower_bound(dof.begin(), dof.end(), matrix.column[static_cast<std::size_t>(e)]) - dof.begin();
                 b(static_cast<std::int64_t>(i), at) = matrix.value[static_cast<std::size_t>(e)];
             }
@@ -125,8 +134,11 @@ Scaling make_scaling(const DualRows& rows, const std::vector<Subdomain>& subdoma
     Scaling scaling;
     scaling.prescribed.assign(static_cast<std::size_t>(rows.jump_count), 0);
     std::vector<Triplet> triplets;
-    for (const auto& cluster : clusters(rows.b)) {
-        const ClusterBlock block(rows.b, cluster);
+    std::vector<std::int64_t> control_rows;  // among control nodes alone
+    for (std::int64_t r = rows.jump_count; r < rows.count(); ++r)
+        if (!of_bodies(rows.b, r, rows.body_dofs)) control_rows.push_back(r);
+    for (const auto& cluster : clusters(rows.b, rows.body_dofs)) {
+        const ClusterBlock block(rows.b, cluster, rows.body_dofs);
         const auto n = static_cast<std::int64_t>(cluster.size());
         DenseMatrix weighted = block.b;  // B W^-1
         for (std::int64_t d = 0; d < weighted.columns; ++d)
@@ -142,7 +154,7 @@ Scaling make_scaling(const DualRows& rows, const std::vector<Subdomain>& subdoma
             for (std::int64_t d = 0; d < b_d.columns; ++d)
                 if (b_d(i, d) != 0.0)
                     triplets.push_back({cluster[static_cast<std::size_t>(i)], block.dof[static_cast<std::size_t>(d)], b_d(i, d)});
-        if (n == 1) continue;
+        if (n == 1 && control_rows.empty()) continue;
         const double largest = eigen.value.back();
         for (std::int64_t j = 0; j < n && eigen.value[static_cast<std::size_t>(j)] <= dependence * largest; ++j) {
             Scaling::Dependency dependency{{}, {}, 1.0 / largest};
@@ -155,7 +167,9 @@ Scaling make_scaling(const DualRows& rows, const std::vector<Subdomain>& subdoma
             }
             if (of_jumps) scaling.dependencies.push_back(std::move(dependency));
         }
-        find_prescribed(cluster, rows.jump_count, block, scaling);
+        std::vector<std::int64_t> held = cluster;
+        held.insert(held.end(), control_rows.begin(), control_rows.end());
+        find_prescribed(held, rows.jump_count, ClusterBlock(rows.b, held, rows.boundary_count()), scaling);
     }
     scaling.b_d = from_triplets(rows.count(), rows.boundary_count(), std::move(triplets));
     return scaling;

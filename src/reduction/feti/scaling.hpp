@@ -2,7 +2,8 @@
 // The scaled operator B_D of the FETI preconditioners, S~ = B_D S B_D^T, with
 //   B_D = (B W^-1 B^T)^+ B W^-1,   W diagonal: the stiffness's diagonal, or 1 (multiplicity scaling),
 // so that B_D^T B is the W-orthogonal projector off the continuous fields, whatever basis the rows use (D. Rixen, C. Farhat, IJNME 44,
-// 1999, for signed rows). B W^-1 B^T falls apart into small clusters of rows that share boundary DOFs.
+// 1999, for signed rows). B W^-1 B^T falls apart into small clusters of rows that share boundary DOFs. Control nodes have no stiffness and stay
+// out of it: what they must do, the coarse problem states.
 #pragma once
 
 #include <cstdint>

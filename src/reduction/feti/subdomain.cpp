@@ -109,7 +109,26 @@ void Subdomain::condense(const Mesh& mesh, std::span<const std::int64_t> cells, 
     if (!with_schur) schur = DenseMatrix();
 }
 
+void Subdomain::hold_controls(std::span<const double> scale) {
+    const auto n = static_cast<std::int64_t>(scale.size());
+    stiffness = SparseMatrix();
+    stiffness.rows = stiffness.columns = n;
+    stiffness.start.assign(scale.size() + 1, 0);
+    rigid_count = n;
+    rigid = DenseMatrix(n, n);
+    boundary.resize(scale.size());
+    for (std::int64_t i = 0; i < n; ++i) {
+        boundary[static_cast<std::size_t>(i)] = i;
+        rigid(i, i) = scale[static_cast<std::size_t>(i)];
+    }
+    rigid_boundary = rigid;
+    flexibility = DenseMatrix(n, n);
+    schur = DenseMatrix(n, n);
+    diagonal.assign(scale.size(), 0.0);
+}
+
 std::vector<double> Subdomain::solve_interior(std::span<const double> g) const {
+    if (interior_.empty()) return {};
     std::vector<double> b(interior_.size()), x(interior_.size());
     for (std::size_t i = 0; i < b.size(); ++i) b[i] = g[static_cast<std::size_t>(interior_[i])];
     factor_->solve_leading(b, x);

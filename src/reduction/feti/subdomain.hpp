@@ -7,6 +7,9 @@
 // is a generalised inverse on the boundary that favours no DOF. (Holding as many DOFs as there are motions is cheaper, but rounding in
 // K R then ends as a false force at the held DOFs: measured 3e-10 of the reactions on a 120 mm ply.) The interior
 // follows from the boundary: u_i = K_ii^-1 (f_i - K_ib u_b).
+//
+// All control nodes together are one more subdomain, without cells: K = 0, every DOF on the boundary and a motion of its own (R = I up to scale),
+// no flexibility. The coarse problem then states their equilibrium.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +25,7 @@
 namespace delam {
 
 struct Subdomain {
-    std::int32_t body = -1;
+    std::int32_t body = -1;              // -1: control nodes
     std::vector<std::int64_t> nodes;     // mesh nodes, ascending; local DOF = dimension*index + component
     std::vector<std::int64_t> boundary;  // local DOFs, ascending
     std::int64_t rigid_count = 0;
@@ -36,6 +39,8 @@ struct Subdomain {
 
     // Numerical set-up, after nodes, boundary and body are known.
     void condense(const Mesh& mesh, std::span<const std::int64_t> cells, const BodyModel& model, bool with_schur);
+    // The subdomain of the control nodes, instead. scale: of each DOF's motion.
+    void hold_controls(std::span<const double> scale);
     // u over all local DOFs from its boundary values, in equilibrium with f inside. f: local DOFs, only the interior is read.
     std::vector<double> extend(std::span<const double> boundary_values, std::span<const double> f) const;
     // Forces on the interior carried to the boundary: f_b - K_bi K_ii^-1 f_i.
