@@ -134,6 +134,16 @@ DELAM_API int32_t delam_mesh_create_layers(delam_context *context, int32_t dimen
 DELAM_API int32_t delam_mesh_add_cells(delam_mesh *mesh, int32_t cell_type, int64_t cell_count,
                                        const int64_t *connectivity, const int32_t *bodies, int32_t index_base);
 
+/* As delam_mesh_add_cells, for the cells of a conforming mesh of touching bodies as a mesher writes them: a node that another
+ * body has already is doubled. This body then gets a node of its own at the same place, appended after the present ones: one
+ * for each body and original node, also over several calls, so that cells of several types, or a body in portions, may come one
+ * after another. The first body to come keeps the original. connectivity holds nodes of the mesh, originals or copies, as they were before
+ * the call; the number of nodes grows (delam_mesh_size; delam_mesh_node_origins tells what was doubled). Where three or more
+ * bodies meet, each has a node. Bodies that share faces are then joined by delam_mesh_add_all_interfaces; those that share no more than a
+ * corner, or in 3D an edge, are joined by nothing there. DELAM_ERROR_MESH for inverted or degenerate cells. */
+DELAM_API int32_t delam_mesh_add_conforming_cells(delam_mesh *mesh, int32_t cell_type, int64_t cell_count,
+                                                  const int64_t *connectivity, const int32_t *bodies, int32_t index_base);
+
 /* Pairs the coinciding boundary faces of two bodies. The jump of a pair is u_b - u_a; the normal points from a to b, so a
  * positive normal jump is an opening. `tolerance`: largest distance of two nodes that count as one, as a fraction of the
  * shortest edge of the two bodies (of quadratic cells: from corner to mid-side node); 0 gives 1e-6; must be < 0.5.
@@ -146,6 +156,12 @@ DELAM_API int32_t delam_mesh_add_cells(delam_mesh *mesh, int32_t cell_type, int6
  * Pairs are ordered by coordinates, x first. */
 DELAM_API int32_t delam_mesh_add_interface(delam_mesh *mesh, int32_t body_a, int32_t body_b, double tolerance,
                                            int64_t *out_interface);
+/* An interface, as by delam_mesh_add_interface, between every two bodies that share matching faces and have none yet, in the
+ * order of their labels (body_a < body_b, then next pair); *out_count receives how many there are, maybe 0. `tolerance` as there, of
+ * each two bodies. Where three or more bodies meet, each two that share faces have a pair there. DELAM_ERROR_MESH when faces of two
+ * bodies overlap without matching (the first place is named; the mesh is unchanged). Bodies whose faces are farther from each other than the
+ * tolerance, such as the two sides of a curved interface meshed apart, do not touch in this sense and get no interface. */
+DELAM_API int32_t delam_mesh_add_all_interfaces(delam_mesh *mesh, double tolerance, int64_t *out_count);
 DELAM_API void delam_mesh_destroy(delam_mesh **mesh);
 
 /* Sizes: any pointer may be NULL. body labels are 0-based input labels; body_count counts distinct ones. */
@@ -155,6 +171,8 @@ DELAM_API int32_t delam_mesh_size(const delam_mesh *mesh, int32_t *dimension, in
 DELAM_API int32_t delam_mesh_nodes(const delam_mesh *mesh, int64_t capacity, double *nodes);
 /* Label of the body that a node belongs to, [node_count]; -1 for a node without cells. */
 DELAM_API int32_t delam_mesh_node_bodies(const delam_mesh *mesh, int64_t capacity, int32_t *bodies);
+/* The node that each node was doubled from (delam_mesh_add_conforming_cells), itself otherwise: [node_count]. */
+DELAM_API int32_t delam_mesh_node_origins(const delam_mesh *mesh, int64_t capacity, int64_t *origins);
 /* Cells in the order they were added: types, bodies [cell_count], offsets [cell_count+1] into connectivity. Any output may be
  * NULL; capacity counts entries of connectivity and *needed receives how many there are (may be NULL). */
 DELAM_API int32_t delam_mesh_cells(const delam_mesh *mesh, int32_t *types, int32_t *bodies, int64_t *offsets,

@@ -64,6 +64,48 @@ const InterfaceGeometry& require_interface(const Mesh& mesh, std::int64_t index)
     return mesh.interfaces()[size(require_index(index, count, 0, "interface_index"))];
 }
 
+struct Cells {
+    CellType type;
+    std::vector<std::int64_t> nodes;
+    std::vector<std::int32_t> labels;
+};
+
+Cells take_cells(const Mesh& mesh, std::int32_t cell_type, std::int64_t cell_count, const std::int64_t* connectivity,
+                 const std::int32_t* bodies, std::int32_t index_base) {
+    Cells cells{require_cell_type(cell_type, mesh.dimension()), {}, {}};
+    require_count(cell_count, "cell_count");
+    require_array(connectivity, cell_count, "connectivity");
+    require_base(index_base);
+    const std::int64_t per_cell = topology(cells.type).nodes;
+    cells.nodes.resize(size(cell_count * per_cell));
+    for (std::int64_t i = 0; i < cell_count * per_cell; ++i) {
+        if (connectivity[i] < index_base || connectivity[i] - index_base >= mesh.node_count()) {
+            fail(DELAM_ERROR_ARGUMENT, "connectivity: cell ", i / per_cell + index_base, " has node ", connectivity[i],
+                 ", outside ", index_base, " .. ", mesh.node_count() - 1 + index_base);
+        }
+        cells.nodes[size(i)] = connectivity[i] - index_base;
+    }
+    cells.labels.assign(size(cell_count), 0);
+    for (std::int64_t c = 0; c < cell_count && bodies != nullptr; ++c) {
+        if (bodies[c] < 0) fail(DELAM_ERROR_ARGUMENT, "bodies[", c, "] = ", bodies[c], " must be >= 0");
+        cells.labels[size(c)] = bodies[c];
+    }
+    return cells;
+}
+
+double require_tolerance(double tolerance) {
+    if (!(tolerance >= 0.0 && tolerance < 0.5)) {
+        fail(DELAM_ERROR_ARGUMENT, "tolerance = ", tolerance, " is outside 0 <= tolerance < 0.5");
+    }
+    return tolerance;
+}
+
+void require_two_bodies(const Mesh& mesh, std::int32_t body_a, std::int32_t body_b) {
+    require_body(mesh, body_a, "body_a", false);
+    require_body(mesh, body_b, "body_b", false);
+    if (body_a == body_b) fail(DELAM_ERROR_ARGUMENT, "body_a and body_b are both ", body_a, ", expected two bodies");
+}
+
 void require_box(const Mesh& mesh, const double* lower, const double* upper) {
     require_pointer(lower, "lower");
     require_pointer(upper, "upper");
@@ -132,26 +174,16 @@ int32_t delam_mesh_create_layers(delam_context* context, int32_t dimension, cons
 int32_t delam_mesh_add_cells(delam_mesh* mesh, int32_t cell_type, int64_t cell_count, const int64_t* connectivity,
                              const int32_t* bodies, int32_t index_base) {
     return guard(mesh, [&] {
-        Mesh& core = *mesh->core;
-        const CellType type = require_cell_type(cell_type, core.dimension());
-        require_count(cell_count, "cell_count");
-        require_array(connectivity, cell_count, "connectivity");
-        require_base(index_base);
-        const std::int64_t per_cell = topology(type).nodes;
-        std::vector<std::int64_t> nodes(size(cell_count * per_cell));
-        for (std::int64_t i = 0; i < cell_count * per_cell; ++i) {
-            if (connectivity[i] < index_base || connectivity[i] - index_base >= core.node_count()) {
-                fail(DELAM_ERROR_ARGUMENT, "connectivity: cell ", i / per_cell + index_base, " has node ",
-                     connectivity[i], ", outside ", index_base, " .. ", core.node_count() - 1 + index_base);
-            }
-            nodes[size(i)] = connectivity[i] - index_base;
-        }
-        std::vector<std::int32_t> labels(size(cell_count), 0);
-        for (std::int64_t c = 0; c < cell_count && bodies != nullptr; ++c) {
-            if (bodies[c] < 0) fail(DELAM_ERROR_ARGUMENT, "bodies[", c, "] = ", bodies[c], " must be >= 0");
-            labels[size(c)] = bodies[c];
-        }
-        core.add_cells(type, nodes, labels);
+        const Cells cells = take_cells(*mesh->core, cell_type, cell_count, connectivity, bodies, index_base);
+        mesh->core->add_cells(cells.type, cells.nodes, cells.labels);
+    });
+}
+
+int32_t delam_mesh_add_conforming_cells(delam_mesh* mesh, int32_t cell_type, int64_t cell_count,
+                                        const int64_t* connectivity, const int32_t* bodies, int32_t index_base) {
+    return guard(mesh, [&] {
+        const Cells cells = take_cells(*mesh->core, cell_type, cell_count, connectivity, bodies, index_base);
+        mesh->core->add_conforming_cells(cells.type, cells.nodes, cells.labels);
     });
 }
 
@@ -159,14 +191,16 @@ int32_t delam_mesh_add_interface(delam_mesh* mesh, int32_t body_a, int32_t body_
                                  int64_t* out_interface) {
     return guard(mesh, [&] {
         require_pointer(out_interface, "out_interface");
-        if (!(tolerance >= 0.0 && tolerance < 0.5)) {
-            fail(DELAM_ERROR_ARGUMENT, "tolerance = ", tolerance, " is outside 0 <= tolerance < 0.5");
-        }
-        require_body(*mesh->core, body_a, "body_a", false);
-        require_body(*mesh->core, body_b, "body_b", false);
-        if (body_a == body_b)
-            fail(DELAM_ERROR_ARGUMENT, "body_a and body_b are both ", body_a, ", expected two bodies");
-        *out_interface = mesh->core->add_interface(body_a, body_b, tolerance == 0.0 ? 1e-6 : tolerance);
+        require_tolerance(tolerance);
+        require_two_bodies(*mesh->core, body_a, body_b);
+        *out_interface = mesh->core->add_interface(body_a, body_b, tolerance);
+    });
+}
+
+int32_t delam_mesh_add_all_interfaces(delam_mesh* mesh, double tolerance, int64_t* out_count) {
+    return guard(mesh, [&] {
+        require_pointer(out_count, "out_count");
+        *out_count = mesh->core->add_all_interfaces(require_tolerance(tolerance));
     });
 }
 
@@ -202,6 +236,15 @@ int32_t delam_mesh_node_bodies(const delam_mesh* mesh, int64_t capacity, int32_t
             const std::int32_t body = core.node_body(node);
             bodies[node] = body < 0 ? -1 : core.body_label(body);
         }
+    });
+}
+
+int32_t delam_mesh_node_origins(const delam_mesh* mesh, int64_t capacity, int64_t* origins) {
+    return guard(mesh, [&] {
+        const Mesh& core = *mesh->core;
+        require_pointer(origins, "origins");
+        require_capacity(capacity, core.node_count(), "origins");
+        for (std::int64_t node = 0; node < core.node_count(); ++node) origins[node] = core.node_origin(node);
     });
 }
 

@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::int64_t leaf_size = 8;
 
-bool contains(const Box& box, const Point& p) {
+bool meet(const Box& a, const Box& b) {
     for (std::size_t i = 0; i < 3; ++i)
-        if (p[i] < box.low[i] || p[i] > box.high[i]) return false;
+        if (b.high[i] < a.low[i] || b.low[i] > a.high[i]) return false;
     return true;
 }
 
@@ -60,20 +60,24 @@ void BoxTree::grow(std::int64_t begin, std::int64_t end) {
 }
 
 void BoxTree::containing(const Point& point, const std::function<void(std::int64_t)>& visit) const {
+    meeting({point, point}, visit);
+}
+
+void BoxTree::meeting(const Box& box, const std::function<void(std::int64_t)>& visit) const {
     std::vector<std::size_t> open;
     if (!branches_.empty()) open.push_back(0);
     while (!open.empty()) {
         const std::size_t self = open.back();
         const Branch& branch = branches_[self];
         open.pop_back();
-        if (!contains(branch.box, point)) continue;
+        if (!meet(branch.box, box)) continue;
         if (branch.right != 0) {
             open.push_back(at(branch.right));
             open.push_back(self + 1);
             continue;
         }
         for (std::int64_t k = branch.begin; k < branch.end; ++k)
-            if (contains(boxes_[at(order_[at(k)])], point)) visit(order_[at(k)]);
+            if (meet(boxes_[at(order_[at(k)])], box)) visit(order_[at(k)]);
     }
 }
 

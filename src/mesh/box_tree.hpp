@@ -24,6 +24,9 @@ public:
     // Calls visit(i) for each box that contains the point.
     void containing(const Point& point, const std::function<void(std::int64_t)>& visit) const;
 
+    // Calls visit(i) for each box that has a point in common with this one.
+    void meeting(const Box& box, const std::function<void(std::int64_t)>& visit) const;
+
     // The box nearest to a point, the first of several, among those within `limit`; index -1 when there is none.
     struct Nearest {
         std::int64_t index = -1;

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "delam/delam.h"
+#include "mesh/points.hpp"
 
 namespace delam {
 
@@ -22,6 +23,31 @@ bool opposite(std::span<const std::int64_t> a, std::span<const std::int64_t> b) 
     const std::size_t n = a.size();
     const auto k = static_cast<std::size_t>(std::find(b.begin(), b.end(), a[0]) - b.begin());
     return n == 2 ? k == 1 : b[(k + n - 1) % n] == a[1];
+}
+
+// Between neighbouring nodes: of a quadratic cell, from a corner to the mid-side node.
+double shortest_edge(const Mesh& mesh, std::int64_t c) {
+    double shortest = std::numeric_limits<double>::infinity();
+    const auto measure = [&](std::int64_t a, std::int64_t b) {
+        shortest = std::min(shortest, length(position(mesh, a) - position(mesh, b)));
+    };
+    const CellTopology& shape = topology(mesh.cell_type(c));
+    const auto cell = mesh.cell(c);
+    const auto corners = at(shape.face_corners);
+    for (std::size_t f = 0; f < at(shape.faces); ++f) {
+        for (std::size_t k = 0; k < corners; ++k) {
+            const std::int64_t here = cell[at(shape.face[f][k])];
+            const std::int64_t next = cell[at(shape.face[f][(k + 1) % corners])];
+            if (shape.face_nodes == shape.face_corners) {
+                measure(here, next);
+            } else {
+                const std::int64_t between = cell[at(shape.face[f][corners + (corners == 2 ? 0 : k)])];
+                measure(here, between);
+                measure(between, next);
+            }
+        }
+    }
+    return shortest;
 }
 
 }  // namespace
@@ -131,6 +157,28 @@ FaceTable match_faces(const Mesh& mesh, std::span<const std::int64_t> cells) {
         }
     }
     return table;
+}
+
+double shortest_edge(const Mesh& mesh, std::span<const std::int64_t> cells) {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const std::int64_t c : cells) shortest = std::min(shortest, shortest_edge(mesh, c));
+    return shortest;
+}
+
+Box box_of(const Mesh& mesh, const BoundaryFace& face, double widened) {
+    Box box{position(mesh, face.node[0]), position(mesh, face.node[0])};
+    for (const std::int64_t node : face.all()) {
+        const Point p = position(mesh, node);
+        for (std::size_t i = 0; i < 3; ++i) {
+            box.low[i] = std::min(box.low[i], p[i]);
+            box.high[i] = std::max(box.high[i], p[i]);
+        }
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        box.low[i] -= widened;
+        box.high[i] += widened;
+    }
+    return box;
 }
 
 }  // namespace delam

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/box_tree.hpp"
 #include "mesh/mesh.hpp"
 
 namespace delam {
@@ -38,5 +39,11 @@ std::span<const FacePiece> face_pieces(int dimension, std::size_t face_nodes);
 // Outward area vector of a face: its length (2D) or area (3D) times the mean unit normal; of a curved one in 3D, that
 // of its linear pieces. Third component 0 in 2D.
 std::array<double, 3> area_vector(const Mesh& mesh, std::span<const std::int64_t> nodes);
+
+// Smallest distance between neighbouring nodes of some cells: of quadratic ones, from a corner to a mid-side node.
+double shortest_edge(const Mesh& mesh, std::span<const std::int64_t> cells);
+
+// Box around the nodes of a face, widened on all sides.
+Box box_of(const Mesh& mesh, const BoundaryFace& face, double widened);
 
 }  // namespace delam

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.hpp"
 #include "delam/delam.h"
@@ -20,6 +21,9 @@ Mesh::Mesh(int dimension, std::span<const double> nodes) : dimension_(dimension)
             fail(DELAM_ERROR_ARGUMENT, "node ", i / at(dimension), ", coordinate ", i % at(dimension), ": ", nodes[i],
                  " is not finite");
     node_label_.assign(at(node_count()), -1);
+    node_origin_.resize(at(node_count()));
+    std::iota(node_origin_.begin(), node_origin_.end(), std::int64_t{0});
+    next_copy_.assign(at(node_count()), -1);
 }
 
 namespace {
@@ -137,7 +141,7 @@ std::vector<std::int64_t> Mesh::body_nodes(std::int32_t body) const {
 std::vector<std::int64_t> Mesh::body_cells(std::int32_t body) const {
     std::vector<std::int64_t> cells;
     for (std::int64_t c = 0; c < cell_count(); ++c)
-        if (cell_label_[at(c)] == body_label(body)) cells.push_back(c);
+        if (body < 0 || cell_label_[at(c)] == body_label(body)) cells.push_back(c);
     return cells;
 }
 

@@ -46,8 +46,15 @@ public:
 
     // Labels >= 0; checks indices, orientation and that no node serves two bodies. Leaves the mesh unchanged on error.
     void add_cells(CellType type, std::span<const std::int64_t> connectivity, std::span<const std::int32_t> labels);
+    // The same, but a node that another body has is doubled: a node of this body's own is appended at its place, one for
+    // each body and original node (conforming.cpp).
+    void add_conforming_cells(CellType type, std::span<const std::int64_t> connectivity,
+                              std::span<const std::int32_t> labels);
     // Pairs matching boundary faces of two bodies (pairing.cpp); returns the index of the interface.
     std::int64_t add_interface(std::int32_t label_a, std::int32_t label_b, double tolerance);
+    // Of every two bodies that share matching faces and have no interface yet, in the order of their labels; returns how
+    // many were added.
+    std::int64_t add_all_interfaces(double tolerance);
 
     int dimension() const { return dimension_; }
     std::int64_t node_count() const { return static_cast<std::int64_t>(nodes_.size()) / dimension_; }
@@ -74,9 +81,11 @@ public:
     std::int32_t body_of_label(std::int32_t label) const;
     // Body index of a node, -1 for a node without cells.
     std::int32_t node_body(std::int64_t node) const;
+    // The node that a node was doubled from, itself otherwise.
+    std::int64_t node_origin(std::int64_t node) const { return node_origin_[static_cast<std::size_t>(node)]; }
     // Nodes of a body, ascending.
     std::vector<std::int64_t> body_nodes(std::int32_t body) const;
-    // Cells of a body, ascending.
+    // Cells of a body (-1: of all), ascending.
     std::vector<std::int64_t> body_cells(std::int32_t body) const;
 
     const std::vector<InterfaceGeometry>& interfaces() const { return interfaces_; }
@@ -86,6 +95,10 @@ public:
     double size() const;
 
 private:
+    // Body indices of two labels that differ and have no interface.
+    std::pair<std::int32_t, std::int32_t> require_unjoined(std::int32_t label_a, std::int32_t label_b) const;
+    std::int64_t node_for(std::int64_t node, std::int32_t label, std::vector<std::int64_t>& taken);
+
     int dimension_;
     std::vector<double> nodes_;
     std::vector<CellType> cell_type_;
@@ -94,6 +107,8 @@ private:
     std::vector<std::int64_t> connectivity_;
     std::vector<std::int32_t> labels_;      // distinct labels, ascending
     std::vector<std::int32_t> node_label_;  // -1: none
+    std::vector<std::int64_t> node_origin_;
+    std::vector<std::int64_t> next_copy_;   // of the same origin, -1: none
     std::vector<InterfaceGeometry> interfaces_;
     std::vector<NodeTie> ties_;
 };
@@ -109,6 +124,7 @@ struct BoundaryFace {
     std::span<const std::int64_t> corner() const { return all().first(static_cast<std::size_t>(corners)); }
     std::span<const std::int64_t> middle() const { return all().subspan(static_cast<std::size_t>(corners)); }
 };
+// body -1: of all bodies.
 std::vector<BoundaryFace> boundary_faces(const Mesh& mesh, std::int32_t body);
 
 }  // namespace delam

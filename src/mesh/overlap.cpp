@@ -8,22 +8,11 @@
 
 #include "mesh/box_tree.hpp"
 #include "mesh/faces.hpp"
+#include "mesh/points.hpp"
 
 namespace delam {
 
 namespace {
-
-Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Point position(const Mesh& mesh, std::int64_t node) {
-    Point p{};
-    std::copy(mesh.node(node).begin(), mesh.node(node).end(), p.begin());
-    return p;
-}
 
 Point unit_normal(const Mesh& mesh, const BoundaryFace& face) {
     Point n = area_vector(mesh, face.all());
@@ -67,21 +56,7 @@ std::pair<std::int64_t, std::int64_t> find_covered(const Mesh& mesh, std::span<c
                                                    std::span<const BoundaryFace> over, double distance) {
     std::vector<Box> boxes;
     boxes.reserve(under.size());
-    for (const BoundaryFace& face : under) {
-        Box box{position(mesh, face.node[0]), position(mesh, face.node[0])};
-        for (const std::int64_t node : face.all()) {
-            const Point p = position(mesh, node);
-            for (std::size_t i = 0; i < 3; ++i) {
-                box.low[i] = std::min(box.low[i], p[i]);
-                box.high[i] = std::max(box.high[i], p[i]);
-            }
-        }
-        for (std::size_t i = 0; i < 3; ++i) {
-            box.low[i] -= distance;
-            box.high[i] += distance;
-        }
-        boxes.push_back(box);
-    }
+    for (const BoundaryFace& face : under) boxes.push_back(box_of(mesh, face, distance));
     const BoxTree tree(std::move(boxes));
     for (std::size_t f = 0; f < over.size(); ++f) {
         const Point normal = unit_normal(mesh, over[f]);

@@ -193,6 +193,48 @@ START_TEST(unpaired_faces) {
 }
 END_TEST
 
+START_TEST(conforming_meshes) {
+    /* Two squares side by side with 1-based nodes, and a triangle upon the first. */
+    const double nodes[14] = {0, 0, 1, 0, 2, 0, 0, 1, 1, 1, 2, 1, 0.5, 2};
+    const int64_t squares[8] = {1, 2, 5, 4, 2, 3, 6, 5};
+    const int64_t inverted[8] = {1, 2, 5, 4, 2, 5, 6, 3};
+    const int64_t triangle[3] = {4, 5, 7};
+    const int32_t bodies[2] = {5, 3};
+    const int32_t four = 4;
+    const int32_t labels[10] = {5, 5, 3, 5, 5, 3, 4, 3, 3, 4};
+    int64_t origins[12];
+    int32_t found[12];
+    int32_t a = -1;
+    int32_t b = -1;
+    int64_t count = -1;
+    int64_t pairs = 0;
+    int64_t i;
+    delam_mesh *other = NULL;
+    fine(delam_mesh_create(context, 2, 7, nodes, &other));
+    expect(delam_mesh_add_conforming_cells(other, DELAM_QUAD4, 2, inverted, bodies, 1), DELAM_ERROR_MESH, "body 3");
+    fine(delam_mesh_size(other, NULL, &count, NULL, NULL, NULL));
+    ck_assert_int_eq(count, 7);
+    fine(delam_mesh_add_conforming_cells(other, DELAM_QUAD4, 2, squares, bodies, 1));
+    fine(delam_mesh_add_conforming_cells(other, DELAM_TRI3, 1, triangle, &four, 1));
+    expect(delam_mesh_add_conforming_cells(other, DELAM_TRI3, 1, triangle, &four, 0), DELAM_ERROR_MESH, "cell 3");
+    fine(delam_mesh_size(other, NULL, &count, NULL, NULL, NULL));
+    ck_assert_int_eq(count, 11);
+    expect(delam_mesh_node_origins(other, 10, origins), DELAM_ERROR_ARGUMENT, "capacity 10 < 11");
+    fine(delam_mesh_node_origins(other, 12, origins));
+    fine(delam_mesh_node_bodies(other, 12, found));
+    for (i = 0; i < 7; ++i) ck_assert_int_eq(origins[i], i);
+    ck_assert(origins[7] == 1 && origins[8] == 4 && origins[9] == 3 && origins[10] == 4);
+    for (i = 0; i < 10; ++i) ck_assert_int_eq(found[i], labels[i]);
+    expect(delam_mesh_add_all_interfaces(other, 0.7, &count), DELAM_ERROR_ARGUMENT, "tolerance = 0.7");
+    expect(delam_mesh_add_all_interfaces(other, 0.0, NULL), DELAM_ERROR_ARGUMENT, "out_count is NULL");
+    fine(delam_mesh_add_all_interfaces(other, 0.0, &count));
+    ck_assert_int_eq(count, 2);
+    fine(delam_mesh_interface_size(other, 1, &a, &b, &pairs, NULL, NULL));
+    ck_assert(a == 4 && b == 5 && pairs == 2);
+    delam_mesh_destroy(&other);
+}
+END_TEST
+
 START_TEST(laws) {
     const double half = 0.5;
     const double beyond = 1.5;
@@ -499,6 +541,7 @@ int main(void) {
     tcase_add_test(tests, constants);
     tcase_add_test(tests, meshes);
     tcase_add_test(tests, unpaired_faces);
+    tcase_add_test(tests, conforming_meshes);
     tcase_add_test(tests, laws);
     tcase_add_test(tests, scenes);
     tcase_add_test(tests, loads);

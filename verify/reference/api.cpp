@@ -28,17 +28,30 @@ Scene::Scene(int dimension, const std::vector<double>& lengths, const std::vecto
     adopt_mesh();
 }
 
-Scene::Scene(int dimension, const std::vector<double>& nodes, std::int32_t cell_type,
-             const std::vector<std::int64_t>& cells, const std::vector<std::int32_t>& bodies)
-    : dimension_(dimension), context_(make_context()) {
+Scene::Scene(int dimension, const std::vector<double>& nodes) : dimension_(dimension), context_(make_context()) {
     delam_mesh* raw = nullptr;
     require(delam_mesh_create(context(), dimension, length(nodes) / dimension, nodes.data(), &raw),
             "delam_mesh_create");
     mesh_.reset(raw);
+}
+
+Scene::Scene(int dimension, const std::vector<double>& nodes, std::int32_t cell_type,
+             const std::vector<std::int64_t>& cells, const std::vector<std::int32_t>& bodies)
+    : Scene(dimension, nodes) {
     require(delam_mesh_add_cells(mesh(), cell_type, static_cast<std::int64_t>(bodies.size()), cells.data(),
                                  bodies.data(), 0),
             "delam_mesh_add_cells");
     adopt_mesh();
+}
+
+Scene Scene::conforming(int dimension, const std::vector<double>& nodes, std::int32_t cell_type,
+                        const std::vector<std::int64_t>& cells, const std::vector<std::int32_t>& bodies) {
+    Scene scene(dimension, nodes);
+    scene.require(delam_mesh_add_conforming_cells(scene.mesh(), cell_type, static_cast<std::int64_t>(bodies.size()),
+                                                  cells.data(), bodies.data(), 0),
+                  "delam_mesh_add_conforming_cells");
+    scene.adopt_mesh();
+    return scene;
 }
 
 void Scene::adopt_mesh() {
@@ -52,6 +65,12 @@ void Scene::require(std::int32_t status, const char* call) const {
     if (status == DELAM_OK) return;
     throw Failure(status,
                   std::string(call) + ": " + delam_status_name(status) + ": " + delam_context_message(context()));
+}
+
+std::int64_t Scene::all_interfaces() {
+    std::int64_t count = -1;
+    require(delam_mesh_add_all_interfaces(mesh(), 0.0, &count), "delam_mesh_add_all_interfaces");
+    return count;
 }
 
 std::int64_t Scene::interface(std::int32_t body_a, std::int32_t body_b) {

@@ -68,7 +68,13 @@ public:
     Scene(int dimension, const std::vector<double>& nodes, std::int32_t cell_type,
           const std::vector<std::int64_t>& cells, const std::vector<std::int32_t>& bodies);
 
+    // The same from a conforming mesh: nodes are doubled.
+    static Scene conforming(int dimension, const std::vector<double>& nodes, std::int32_t cell_type,
+                            const std::vector<std::int64_t>& cells, const std::vector<std::int32_t>& bodies);
+
     std::int64_t interface(std::int32_t body_a, std::int32_t body_b);
+    // Between all bodies that touch; returns how many.
+    std::int64_t all_interfaces();
     void begin();
 
     void elastic(std::int32_t body, double young, double poisson);
@@ -109,6 +115,7 @@ public:
     const std::vector<InterfaceStiffness>& stiffness() const { return stiffness_; }
 
 private:
+    Scene(int dimension, const std::vector<double>& nodes);
     void adopt_mesh();
 
     int dimension_;

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/assemble_interface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+#include "mesh/faces.hpp"
+#include "mesh/nodal_rule.hpp"
+#include "mesh/points.hpp"
+
+namespace delam {
+
+namespace {
+
+// Orders places by x, then y, then z, where coordinates closer than `distance` count as equal: rounding in the nodes
+// of a straight interface must not shuffle it.
+std::vector<std::size_t> spatial_order(const Mesh& mesh, std::span<const NodePair> pairs, double distance) {
+    std::vector<std::size_t> order(pairs.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::vector<std::array<std::int64_t, 3>> rank(pairs.size(), {0, 0, 0});
+    for (std::size_t axis = 0; axis < at(mesh.dimension()); ++axis) {
+        const auto x = [&](std::size_t i) { return mesh.node(pairs[i].first)[axis]; };
+        std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return x(i) < x(j); });
+        for (std::size_t k = 1; k < order.size(); ++k)
+            rank[order[k]][axis] = rank[order[k - 1]][axis] + (x(order[k]) - x(order[k - 1]) > distance ? 1 : 0);
+    }
+    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+        return std::pair(rank[i], pairs[i].first) < std::pair(rank[j], pairs[j].first);
+    });
+    return order;
+}
+
+// A face as pairs: walked from its smallest pair (edges: from their first corner on), so that neither weights nor order
+// depend on how the host numbered its cells.
+struct PairFace {
+    std::vector<std::int64_t> pair;  // corners, then mid-sides
+    std::size_t corners;
+    bool operator<(const PairFace& other) const { return pair < other.pair; }
+};
+
+PairFace pair_face(const BoundaryFace& face, const std::map<std::int64_t, std::int64_t>& index) {
+    PairFace result{{}, face.corner().size()};
+    for (const std::int64_t node : face.all()) result.pair.push_back(index.at(node));
+    if (result.corners == 2) return result;
+    const auto first = result.pair.begin();
+    const auto middle = first + static_cast<std::ptrdiff_t>(result.corners);
+    const auto turn = std::min_element(first, middle) - first;
+    std::rotate(first, first + turn, middle);
+    if (middle != result.pair.end()) std::rotate(middle, middle + turn, result.pair.end());
+    return result;
+}
+
+// The face in the list of an interface whose largest faces have more corners: the last corner is repeated, and where
+// there is no mid-side node, the corner before it stands in.
+void append_padded(const PairFace& face, std::size_t corners, std::size_t nodes, std::vector<std::int64_t>& out) {
+    const std::size_t own = face.corners;
+    for (std::size_t k = 0; k < corners; ++k) out.push_back(face.pair[std::min(k, own - 1)]);
+    for (std::size_t side = 0; side < nodes - corners; ++side) {
+        const std::size_t mine = side + 1 == corners ? own - 1 : side;  // the last side closes either polygon
+        const bool there = own + mine < face.pair.size() && (side + 1 < own || side + 1 == corners);
+        out.push_back(there ? face.pair[own + mine] : face.pair[std::min(side, own - 1)]);
+    }
+}
+
+}  // namespace
+
+// In the plane the tangent is the normal turned clockwise; in space the first one is the x axis laid into the face, or
+// the y axis where the normal is close to x, and the second completes a right-handed frame.
+void write_frame(int dimension, const Point& along, double* frame) {
+    const double size = length(along);
+    const Point n{along[0] / size, along[1] / size, along[2] / size};
+    if (dimension == 2) {
+        const double rows[] = {n[0], n[1], n[1], -n[0]};
+        std::copy(std::begin(rows), std::end(rows), frame);
+        return;
+    }
+    const std::size_t axis = std::abs(n[0]) <= 0.9 ? 0 : 1;
+    Point t;
+    for (std::size_t i = 0; i < 3; ++i) t[i] = (i == axis ? 1.0 : 0.0) - n[axis] * n[i];
+    const double norm = std::hypot(t[0], t[1], t[2]);
+    for (double& component : t) component /= norm;
+    const double rows[] = {n[0], n[1], n[2], t[0], t[1], t[2], n[1] * t[2] - n[2] * t[1], n[2] * t[0] - n[0] * t[2],
+                           n[0] * t[1] - n[1] * t[0]};
+    std::copy(std::begin(rows), std::end(rows), frame);
+}
+
+BoundaryFace turned(const BoundaryFace& face) {
+    BoundaryFace result = face;
+    const auto n = at(face.corners);
+    for (std::size_t k = 0; k < n; ++k) result.node[k] = face.node[n - 1 - k];
+    const std::size_t sides = face.middle().size();
+    for (std::size_t k = 0; k < sides; ++k) result.node[n + k] = face.node[n + (2 * sides - 2 - k) % sides];
+    return result;
+}
+
+InterfaceGeometry assemble_interface(const Mesh& mesh, std::span<const NodePair> pairs,
+                                     std::span<const BoundaryFace> faces_of_nodes, FaceSide side, double distance) {
+    InterfaceGeometry result;
+    std::map<std::int64_t, std::int64_t> index;  // pair of a node of the faces
+    for (const std::size_t i : spatial_order(mesh, pairs, distance)) {
+        index.emplace(side == FaceSide::a ? pairs[i].first : pairs[i].second, result.pair_count());
+        result.node_a.push_back(pairs[i].first);
+        result.node_b.push_back(pairs[i].second);
+    }
+    std::size_t corners = 2;
+    bool quadratic = false;
+    std::vector<PairFace> faces;
+    for (const BoundaryFace& face : faces_of_nodes) {
+        corners = std::max(corners, face.corner().size());
+        quadratic = quadratic || !face.middle().empty();
+        faces.push_back(pair_face(face, index));
+    }
+    std::sort(faces.begin(), faces.end());
+    const std::size_t nodes_per_face = !quadratic ? corners : corners == 2 ? 3 : 2 * corners;
+    result.nodes_per_face = static_cast<int>(nodes_per_face);
+
+    const std::vector<std::int64_t>& on_faces = side == FaceSide::a ? result.node_a : result.node_b;
+    const auto dim = at(mesh.dimension());
+    result.weight.assign(result.node_a.size(), 0.0);
+    std::vector<Point> area(result.node_a.size(), Point{});
+    for (const PairFace& face : faces) {
+        std::array<std::int64_t, most_face_nodes> nodes{};
+        for (std::size_t k = 0; k < face.pair.size(); ++k) nodes[k] = on_faces[at(face.pair[k])];
+        const NodalRule rule = nodal_rule(mesh, std::span<const std::int64_t>(nodes).first(face.pair.size()));
+        for (std::size_t k = 0; k < face.pair.size(); ++k) {
+            result.weight[at(face.pair[k])] += rule.weight[k];
+            for (std::size_t i = 0; i < 3; ++i) area[at(face.pair[k])][i] += rule.area[k][i];
+        }
+        append_padded(face, corners, nodes_per_face, result.face);
+    }
+    result.frame.resize(result.node_a.size() * dim * dim);
+    for (std::size_t p = 0; p < result.node_a.size(); ++p) {
+        if (!(length(area[p]) > 1e-6 * result.weight[p]))
+            fail(DELAM_ERROR_MESH, "the faces that meet at ", place(mesh, on_faces[p]),
+                 " look in opposite directions: no normal");
+        write_frame(mesh.dimension(), area[p], &result.frame[p * dim * dim]);
+    }
+    return result;
+}
+
+}  // namespace delam

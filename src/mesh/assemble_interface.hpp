@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From node pairs and the faces they lie on to an interface: order, weights, frames.
+#pragma once
+
+#include <span>
+#include <utility>
+
+#include "mesh/mesh.hpp"
+
+namespace delam {
+
+using NodePair = std::pair<std::int64_t, std::int64_t>;  // of a, of b
+
+// `faces` have the nodes that `side` picks from the pairs (all of them), and look from a to b. Pairs are ordered by the
+// places of their first nodes, where coordinates closer than `distance` count as equal; weights and normals are those
+// of the faces. Bodies are left to the caller.
+enum class FaceSide { a, b };
+InterfaceGeometry assemble_interface(const Mesh& mesh, std::span<const NodePair> pairs,
+                                     std::span<const BoundaryFace> faces, FaceSide side, double distance);
+
+// The same face looking the other way.
+BoundaryFace turned(const BoundaryFace& face);
+
+// Rows normal, tangent(s), from any vector along the normal: [dimension][dimension].
+void write_frame(int dimension, const std::array<double, 3>& along, double* frame);
+
+}  // namespace delam
