@@ -376,6 +376,13 @@ DELAM_API int32_t delam_problem_hash(const delam_problem *problem, char *out);
 /* Primal DOFs (nodes times dimension) and dual DOFs (pairs times dimension, notch included). Either may be NULL. */
 DELAM_API int32_t delam_problem_dofs(const delam_problem *problem, int64_t *primal, int64_t *dual);
 
+/* Length of the process zone to be expected on an interface, L, and the mean distance of its pairs (3D: square root of the mean weight): about 3 pairs
+ * or more resolve it. With peak traction s = sqrt(2 k Go) and toughness Gc, the shorter of modes I and II: E' Gc/s^2, in slender arms of thickness h
+ * (E' Gc/s^2)^(1/4) h^(3/4) in mode I and (h E' Gc)^(1/2)/s in mode II (Yang and Cox, Int. J. Fract. 133, 2005), where these are shorter. E' =
+ * E/(1 - nu^2), in plane stress E, of an orthotropic body its smallest Young's modulus, h: volume of the body over area of the interface; of the
+ * two bodies the one with the shorter zone. An estimate: a factor of 2 either way. length 0: bonded, or a law without softening. Outputs may be NULL. */
+DELAM_API int32_t delam_problem_process_zone(const delam_problem *problem, int64_t interface_index, double *length, double *spacing);
+
 /* What the library assembled, for hosts that check or reuse it.
  * Stiffness of a body, both triangles, CSR over the body's DOFs: local node i of the body is the i-th ascending mesh node of
  * that body, its DOFs dimension*i + component. Call with NULL arrays for *rows and *entries, then with row_starts[rows+1], columns, values. */
@@ -410,6 +417,7 @@ DELAM_API void delam_solver_destroy(delam_solver **solver);
  * The result is pending:
  * it can be read, then committed or rolled back (bit for bit the state before). DELAM_NOT_CONVERGED leaves a pending step too;
  * DELAM_LIMIT, DELAM_CANCELLED and errors leave none.
+ * A warning (level 1) says once when a front grew with fewer than 3 pairs in its process zone (laws that soften, solution = local).
  * A process that has used the library and then forks should use it in one of the two only (threads of the linear algebra). */
 DELAM_API int32_t delam_solver_advance(delam_solver *solver, double time);
 DELAM_API int32_t delam_solver_commit(delam_solver *solver);
@@ -457,6 +465,8 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *                          (both count over the solver's life; they are no part of its state, nor of saved bytes)
  *   damage_change          what a further damage step would change at this state, max norm: <= damage_tolerance when converged
  *   linear_residual        worst relative residual of the iterative linear solves of the step; 0 where they are direct
+ *   rotation_max           rad: largest rotation of a cell, the skew part of the displacement gradient at its centre (recovers the displacements).
+ *                          Small strains miss about half its square: beyond 0.1 a warning (level 1) says so, once
  *   kkt_gap                deepest penetration of the recovered displacements, over the largest jump (0 = none)
  *   kkt_pressure           largest pull of a closed contact, over the largest force of a pair (0 = none)
  *   kkt_complementarity    largest |gap * force| of a closed contact, over (largest jump * largest force)
@@ -478,6 +488,7 @@ DELAM_API const char *delam_solver_value_name(const delam_solver *solver, int64_
 /* Fields of the pending state, else of the committed one, as [rows][columns]:
  *   displacement  [nodes][dimension]    L; recovered from the interfaces when asked for
  *   stress        [cells][4 or 6]       F/L2 at the cell's centre: xx, yy, zz, xy (2D) or xx, yy, zz, xy, yz, zx
+ *   rotation      [cells][1 or 3]       rad at the cell's centre, axial vector of the skew part of the displacement gradient: about z (2D) or x, y, z
  *   jump          [pairs][dimension]    L, local: normal (>= 0), tangent(s)
  *   traction      [pairs][dimension]    F/L2, local, on face b's side as pull positive; a pressure of contact is negative
  *   adhesion, mixity, contact  [pairs][1]   -, mixity B = Y_t/Y that the last step used (mixity_rule = converged: of its own solution, and of a pair that
@@ -488,6 +499,11 @@ DELAM_API const char *delam_solver_value_name(const delam_solver *solver, int64_
 DELAM_API int32_t delam_solver_field_shape(const delam_solver *solver, const char *key, int64_t part, int64_t *rows,
                                            int64_t *columns);
 DELAM_API int32_t delam_solver_field(delam_solver *solver, const char *key, int64_t part, int64_t capacity, double *values);
+
+/* Strain and stress on average over the volume of a body (label; -1: of all), of the state that values and fields speak of; exact. strain, stress: [6]
+ * in the order xx, yy, zz, xy, yz, zx, shear strains doubled, stress in F/L2; volume in L2 or L3. Any output may be NULL. In 2D the rest follows from
+ * the plane assumption. What cracks open between bodies is not in it. Recovers the displacements. */
+DELAM_API int32_t delam_solver_average(const delam_solver *solver, int32_t body, double *volume, double *strain, double *stress);
 
 /* Fronts of the cracks of an interface, of the state that values and fields speak of: where adhesion passes 1/2. In 2D each is a point, in 3D
  * a polyline on the faces, open or a loop. An interface without a law has none, nor has one on which no pair has adhesion below 1/2. Found on
@@ -510,7 +526,7 @@ DELAM_API int32_t delam_solver_front_count(const delam_solver *solver, int64_t i
  * Exact in the limit of fine pairs for straight interfaces between bodies that do not vary along them, without eigenstrains; on curved interfaces
  * (radius not much larger than the process zone), with thermal strains or where materials change along the interface it is approximate. 3D: each part
  * of the integral goes to the nearest point of a front; on a single point it scatters more than along the front. Unresolved fronts on the pairs of
- * quadratic cells (weights that alternate) are good to some ten percent only, from pair to pair. */
+ * quadratic cells in space (weights that alternate) are good on average along the front, single points to some ten percent. */
 DELAM_API int32_t delam_solver_front(const delam_solver *solver, int64_t interface_index, int64_t front_capacity, int64_t point_capacity,
                                      int64_t *starts, int32_t *closed, double *places, double *directions, double *lengths,
                                      double *rates, double *zone_lengths, double *zone_pairs);

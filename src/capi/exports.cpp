@@ -6,6 +6,7 @@
 #include "body/assembly.hpp"
 #include "capi/handles.hpp"
 #include "scene/problem.hpp"
+#include "scene/process_zone.hpp"
 
 namespace {
 
@@ -107,4 +108,13 @@ const char* delam_problem_pattern_name(const delam_problem* problem, int64_t pat
         name = problem->names[static_cast<std::size_t>(require_index(pattern, count, 0, "pattern"))].c_str();
     });
     return name;
+}
+
+int32_t delam_problem_process_zone(const delam_problem* problem, int64_t interface_index, double* length, double* spacing) {
+    return guard(problem, [&] {
+        const auto count = static_cast<std::int64_t>(problem->core->interfaces.size());
+        const ProcessZone zone = predicted_process_zone(*problem->core, require_index(interface_index, count, 0, "interface_index"));
+        if (length != nullptr) *length = zone.length;
+        if (spacing != nullptr) *spacing = zone.spacing;
+    });
 }

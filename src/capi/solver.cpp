@@ -160,6 +160,18 @@ int32_t delam_solver_front(const delam_solver* solver, int64_t interface_index, 
     });
 }
 
+int32_t delam_solver_average(const delam_solver* solver, int32_t body, double* volume, double* strain, double* stress) {
+    return guard(solver, [&] {
+        const Mesh& mesh = *solver->core->problem().mesh;
+        const std::int32_t index = body < 0 ? -1 : mesh.body_of_label(body);
+        if (body >= 0 && index < 0) fail(DELAM_ERROR_ARGUMENT, "body ", body, ": no cell has this label");
+        const VolumeAverage average = solver->core->average(index);
+        if (volume != nullptr) *volume = average.volume;
+        if (strain != nullptr) std::copy(average.strain.begin(), average.strain.end(), strain);
+        if (stress != nullptr) std::copy(average.stress.begin(), average.stress.end(), stress);
+    });
+}
+
 const char* delam_solver_plan(delam_solver* solver) {
     const std::int32_t status = guard(solver, [&] { solver->plan_words = plan_in_words(solver->plan); });
     return status == DELAM_OK ? solver->plan_words.c_str() : "";

@@ -30,7 +30,7 @@ std::vector<PairPiece> pair_pieces(const InterfaceGeometry& geometry, int dimens
 }
 
 Vector3 place_of(const CrackedInterface& interface, std::int64_t pair) {
-    const auto node = interface.mesh.node(interface.geometry.node_a[at(pair)]);
+    const auto node = interface.mesh.node(interface.geometry.node_b[at(pair)]);
     Vector3 place{};
     std::copy(node.begin(), node.end(), place.begin());
     return place;
@@ -53,7 +53,7 @@ namespace {
 
 double measure(const CrackedInterface& interface, const PairPiece& piece) {
     std::array<std::int64_t, 4> node{};
-    for (int k = 0; k < piece.pairs; ++k) node[at(k)] = interface.geometry.node_a[at(piece.pair[at(k)])];
+    for (int k = 0; k < piece.pairs; ++k) node[at(k)] = interface.geometry.node_b[at(piece.pair[at(k)])];
     const auto area = area_vector(interface.mesh, std::span<const std::int64_t>(node).first(at(piece.pairs)));
     return std::hypot(area[0], area[1], area[2]);
 }

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "body/assembly.hpp"
+#include "body/rotation.hpp"
 #include "delam/delam.h"
 
 namespace delam {
@@ -40,9 +41,10 @@ FieldShape field_shape(const Solver& solver, const std::string& key, std::int64_
     if (part != -1) fail(DELAM_ERROR_ARGUMENT, "field '", key, "': part ", part, ", allowed: -1");
     if (key == "displacement") return {mesh.node_count(), dim};
     if (key == "stress") return {mesh.cell_count(), dim == 2 ? 4 : 6};
+    if (key == "rotation") return {mesh.cell_count(), dim == 2 ? 1 : 3};
     if (key == "reaction") return {static_cast<std::int64_t>(solver.problem().constraints.size()), 1};
     fail(DELAM_ERROR_ARGUMENT, "unknown field '", key,
-         "'; known: displacement, stress, jump, traction, adhesion, mixity, contact, reaction");
+         "'; known: displacement, stress, rotation, jump, traction, adhesion, mixity, contact, reaction");
 }
 
 std::vector<double> field(const Solver& solver, const std::string& key, std::int64_t part) {
@@ -51,11 +53,8 @@ std::vector<double> field(const Solver& solver, const std::string& key, std::int
     const Problem& problem = solver.problem();
     if (key == "displacement") return solver.displacement();
     if (key == "reaction") return solver.reaction();
-    if (key == "stress") {
-        std::vector<BodyModel> models;
-        for (std::int32_t body = 0; body < problem.mesh->body_count(); ++body) models.push_back(problem.model(body));
-        return centre_stress(*problem.mesh, models, solver.displacement());
-    }
+    if (key == "stress") return centre_stress(*problem.mesh, solver.models(), solver.displacement());
+    if (key == "rotation") return centre_rotation(*problem.mesh, solver.displacement());
     const auto first = static_cast<std::size_t>(pair_range(solver, part).first);
     const auto columns = static_cast<std::size_t>(shape.columns);
     const std::size_t count = static_cast<std::size_t>(shape.rows) * columns, begin = first * columns;

@@ -5,13 +5,21 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "body/rotation.hpp"
 #include "evolution/backtrack.hpp"
 #include "evolution/step_control.hpp"
 
 namespace delam {
 
+namespace {
+
+constexpr double resolving_pairs = 3.0;  // in a process zone; with fewer its traction depends on the mesh
+constexpr double small_rotation = 0.1;   // rad
+
+}  // namespace
+
 Solver::Solver(const Problem& problem, Monitor& monitor, double time)
-    : problem_(problem), stepper_(problem_, monitor), graph_(problem_.mesh->interfaces()) {
+    : problem_(problem), monitor_(monitor), stepper_(problem_, monitor), graph_(problem_.mesh->interfaces()) {
     Stepper::Result first = stepper_.initial(time);
     committed_ = std::move(first.state);
     if (!first.converged) initial_outcome_ = unconverged_displacement(committed_);
@@ -49,6 +57,7 @@ Outcome Solver::advance(double time) {
     }
     pending.state = std::move(result.state);
     stepper_.warn(pending.state);
+    warn_of_unresolved_front(committed_, pending.state);
     for (auto& [step, state] : chain.revised()) pending.revised.push_back(std::move(state));
     Outcome outcome;
     if (!result.converged) {
@@ -158,6 +167,48 @@ std::optional<CrackedInterface> Solver::cracked(const State& state, std::int64_t
     return CrackedInterface{mesh, geometry, *properties.law, std::span(properties.adhesion), std::span(state.adhesion).subspan(first, count),
                             std::span(state.response.jump).subspan(first * dim, count * dim)};
 }
+
+// A zone that is cut short where a front comes to rest was longer before it ran: the better of both states counts. The energetic solution knows the
+// front by its energy, which needs no resolved zone; Griffith's law has none.
+void Solver::warn_of_unresolved_front(const State& before, const State& after) {
+    if (warned_of_front_ || problem_.options.solution == "energetic") return;
+    for (std::int64_t i = 0; i < static_cast<std::int64_t>(problem_.interfaces.size()); ++i) {
+        const std::optional<CrackedInterface> then = cracked(before, i), now = cracked(after, i);
+        if (!now || std::holds_alternative<GriffithSoftening>(now->law.softening)) continue;
+        bool grown = false;
+        for (std::size_t p = 0; p < now->adhesion.size(); ++p)
+            grown = grown || (then->adhesion[p] >= front_adhesion && now->adhesion[p] < front_adhesion);
+        if (!grown) continue;
+        double pairs = -1.0;
+        for (const CrackedInterface* state : {&*then, &*now})
+            for (const CrackFront& front : delam::crack_fronts(*state))
+                for (const FrontPoint& point : front.points) pairs = std::max(pairs, point.zone_pairs);
+        if (pairs < 0.0 || pairs >= resolving_pairs) continue;
+        warned_of_front_ = true;
+        monitor_.log(1, text("step ", after.step, " at time ", after.time, ": a front of interface ", i, " grew with ", std::floor(pairs),
+                             " pairs in its process zone, which takes ", resolving_pairs,
+                             ": when and how far it grows depends on the mesh; finer cells or solution = energetic cure it (said once)"));
+        return;
+    }
+}
+
+double Solver::largest_rotation() const {
+    const double largest = delam::largest_rotation(*problem_.mesh, displacement());
+    if (largest > small_rotation && !warned_of_rotation_) {
+        warned_of_rotation_ = true;
+        monitor_.log(1, text("step ", state().step, " at time ", state().time, ": cells turn by up to ", largest,
+                             " rad; strains are small ones, off by about half the square of that, ", 0.5 * largest * largest, " (said once)"));
+    }
+    return largest;
+}
+
+std::vector<BodyModel> Solver::models() const {
+    std::vector<BodyModel> models;
+    for (std::int32_t body = 0; body < problem_.mesh->body_count(); ++body) models.push_back(problem_.model(body));
+    return models;
+}
+
+VolumeAverage Solver::average(std::int32_t body) const { return volume_average(*problem_.mesh, models(), displacement(), body); }
 
 const std::vector<CrackFront>& Solver::crack_fronts(std::int64_t interface) const {
     fronts_.resize(problem_.interfaces.size());

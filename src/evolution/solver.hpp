@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/monitor.hpp"
+#include "body/averages.hpp"
 #include "evolution/crack_front.hpp"
 #include "evolution/jump.hpp"
 #include "evolution/plan.hpp"
@@ -72,6 +73,11 @@ public:
     const std::vector<CrackFront>& crack_fronts(std::int64_t interface) const;
     // L or L2; 0 where it has no law.
     double crack_length(std::int64_t interface) const;
+    // rad; recovers the displacements. Warns once of more than 0.1.
+    double largest_rotation() const;
+    // Of a body (index), -1: of all; recovers the displacements.
+    VolumeAverage average(std::int32_t body) const;
+    std::vector<BodyModel> models() const;
     // What the last search looked at, in words.
     const std::string& searched() const { return stepper_.searched(); }
 
@@ -85,10 +91,12 @@ private:
     void require_nothing_pending(double time) const;
     // Of what was found on request.
     void forget();
+    void warn_of_unresolved_front(const State& before, const State& after);
     std::optional<CrackedInterface> cracked(const State& state, std::int64_t interface) const;
     Outcome unconverged_displacement(const State& state) const;
 
     Problem problem_;
+    Monitor& monitor_;
     Stepper stepper_;
     PairGraph graph_;
     Outcome initial_outcome_;
@@ -99,6 +107,8 @@ private:
     const State* looked_ = nullptr;
     mutable std::vector<double> displacement_;  // of state(), empty: not recovered
     mutable std::vector<std::optional<std::vector<CrackFront>>> fronts_;  // likewise, [interfaces]
+    bool warned_of_front_ = false;
+    mutable bool warned_of_rotation_ = false;
 };
 
 }  // namespace delam

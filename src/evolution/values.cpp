@@ -176,6 +176,7 @@ constexpr Entry table[] = {
     {"kkt_gap", kkt_gap},
     {"kkt_pressure", kkt_pressure},
     {"kkt_complementarity", kkt_complementarity},
+    {"rotation_max", [](const Solver& s) { return s.largest_rotation(); }},
     {"kkt_equilibrium", [](const Solver& s) { return s.equilibrium_defect(); }},
 };
 

@@ -7,6 +7,7 @@
 #include "history.hpp"
 #include "interrupt.hpp"
 #include "notes.hpp"
+#include "resolution.hpp"
 #include "result.hpp"
 #include "say.hpp"
 
@@ -58,8 +59,10 @@ int check(const std::string& scene_file, const std::vector<std::string>& setting
                    pattern.times.front(), pattern.times.back());
     say("time        {} to {} in {}\n", scene.times.front(), scene.times.back(),
         counted(static_cast<std::int64_t>(scene.step_count()), "step"));
+    for (const std::string& text : process_zones(model, scene)) say("zone        {}\n", text);
     say("\n{}", delam_solver_plan(solver.get()));
     for (const std::string& text : notes_of(scene)) say("note: {}\n", text);
+    for (const std::string& text : resolution_warnings(model, solver.get(), scene)) complain("warning: {}\n", text);
     // Not beside the output, where it is lost when that goes to a file.
     for (const std::string& text : warnings_of(model, scene)) complain("warning: {}\n", text);
     if (!converged) complain("warning: the displacement of the initial state did not converge\n");

@@ -10,22 +10,13 @@
 #include <fmt/ranges.h>
 
 #include "delam/delam.h"
+#include "rows.hpp"
 
 namespace cli {
 
 namespace {
 
 constexpr std::string_view option_key = "backtracking_tolerance";
-
-std::vector<std::string> parts(std::string_view text, char separator) {
-    std::vector<std::string> out;
-    while (!text.empty()) {
-        const std::size_t end = std::min(text.find(separator), text.size());
-        out.emplace_back(text.substr(0, end));
-        text.remove_prefix(std::min(end + 1, text.size()));
-    }
-    return out;
-}
 
 }  // namespace
 
@@ -44,15 +35,10 @@ double estimate_tolerance(const Scene& scene) {
 
 std::vector<std::int64_t> violated_steps(std::string_view history, double eta) {
     std::vector<std::int64_t> out;
-    const std::vector<std::string> rows = parts(history, '\n');
-    if (rows.empty()) return out;
-    const std::vector<std::string> titles = parts(rows.front(), ',');
+    std::vector<std::map<std::string, double>> rows = rows_of(history);
     // Row 0 is the initial state: no step led there.
-    for (std::size_t i = 2; i < rows.size(); ++i) {
-        const std::vector<std::string> cells = parts(rows[i], ',');
-        std::map<std::string, double> of;
-        for (std::size_t k = 0; k < std::min(titles.size(), cells.size()); ++k)
-            of.emplace(titles[k], std::strtod(cells[k].c_str(), nullptr));
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        std::map<std::string, double>& of = rows[i];
         // The potential of dead loads is part of the stored energy; without them there is no such column, and it is 0.
         const double stored = of["stored_bulk"] + of["stored_interface"] + of["load_potential"];
         const double slack = eta * std::max(std::abs(stored), std::abs(of["work"]));

@@ -142,7 +142,7 @@ void Fields::synchronise_steps() {
     unsynchronised_.clear();
 }
 
-void Fields::assemble(const Model& model, const Scene& scene, std::size_t last, const std::string& problem_hash,
+double Fields::assemble(const Model& model, const Scene& scene, std::size_t last, const std::string& problem_hash,
                       const Concept& named) const {
     const std::string path = folder_ + "/fields.h5";
     std::int64_t bytes = std::int64_t{1} << 20;
@@ -150,6 +150,7 @@ void Fields::assemble(const Model& model, const Scene& scene, std::size_t last, 
         if (step <= last) bytes += static_cast<std::int64_t>(std::filesystem::file_size(step_path(step)));
     require_room(path, bytes);
 
+    double rotation = 0;
     std::vector<XdmfStep> steps;
     std::vector<XdmfBlock> blocks;
     h5::File file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), path);
@@ -168,6 +169,8 @@ void Fields::assemble(const Model& model, const Scene& scene, std::size_t last, 
             const std::string name = fmt::format("{:08d}", step);
             const h5::File from(H5Fopen(step_path(step).c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), step_path(step));
             h5::require(H5Ocopy(from.get(), "step", group.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), path);
+            const h5::Group own(H5Gopen2(from.get(), "step", H5P_DEFAULT), step_path(step));
+            rotation = std::max(rotation, h5::read_number(own.get(), "rotation_max"));
             steps.push_back({name, scene.times[step]});
         }
         h5::require(H5Fflush(file.get(), H5F_SCOPE_GLOBAL), path);
@@ -175,6 +178,7 @@ void Fields::assemble(const Model& model, const Scene& scene, std::size_t last, 
     file.close(path);
     synchronise(path);
     write_atomic(folder_ + "/fields.xdmf", xdmf_text(blocks, steps, scene.output.fields));
+    return rotation;
 }
 
 void Fields::remove_steps() const {

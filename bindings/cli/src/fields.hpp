@@ -23,7 +23,8 @@ public:
     // Step files so far to the disk, before a state that counts on them is written.
     void synchronise_steps();
     // Puts steps 0 .. last together as folder/fields.h5 and folder/fields.xdmf.
-    void assemble(const Model& model, const Scene& scene, std::size_t last, const std::string& problem_hash,
+    // Largest rotation of a cell in them, rad (0 where no step has displacements).
+    double assemble(const Model& model, const Scene& scene, std::size_t last, const std::string& problem_hash,
                   const Concept& named) const;
     void remove_steps() const;
 

@@ -96,6 +96,13 @@ inline void attribute(hid_t parent, const std::string& name, const std::string& 
     require(H5Awrite(out.get(), type.get(), value.c_str()), name);
 }
 
+inline double read_number(hid_t parent, const std::string& name) {
+    const Attribute in(H5Aopen(parent, name.c_str(), H5P_DEFAULT), name);
+    double value = 0;
+    require(H5Aread(in.get(), H5T_NATIVE_DOUBLE, &value), name);
+    return value;
+}
+
 inline hid_t new_group(hid_t parent, const std::string& name) {
     return H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
 }

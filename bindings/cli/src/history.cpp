@@ -24,9 +24,12 @@ constexpr const char* where_known[] = {"revisions", "search_candidates", "search
                                        "jumps",     "released",          "defect",        "defect_slides",
                                        "mixity_error"};
 
+// Of scenes in which something may break.
+constexpr const char* of_cracks[] = {"crack_length", "energy_release_rate", "front_mixity", "process_zone_pairs"};
+
 }  // namespace
 
-History::History(const Model& model, const delam_solver* solver, const Scene& scene) : context_(model.context.get()) {
+History::History(const Model& model, const delam_solver* solver, const Scene& scene) : model_(model), context_(model.context.get()) {
     std::int64_t count = 0;
     call(context_, delam_solver_value_count(solver, &count), std::string("history"));
     std::vector<std::string> known;
@@ -57,12 +60,19 @@ History::History(const Model& model, const delam_solver* solver, const Scene& sc
         add(key, key);
     for (const char* key : where_known)
         if (knows(key)) add(key, key);
+    const auto breaks = [](const InterfaceData& data) { return !data.bonded; };
+    if (std::any_of(scene.interfaces.begin(), scene.interfaces.end(), breaks))
+        for (const char* key : of_cracks)
+            if (knows(key)) add(key, key);
     if (!scene.forces.empty()) add("load_potential", "load_potential");
     for (const std::string& key : scene.output.columns) {
-        if (!knows(key))
+        const std::optional<AverageColumn> average = average_column(key, scene);
+        if (average) averages_[key] = *average;
+        if (!knows(key) && !average)
             throw SceneFailure(
                 scene.output.columns_place,
-                fmt::format("\"{}\": no such value{}; one of {}", key, suggestion(key, known), listing(known)));
+                fmt::format("\"{}\": no such value{}; one of {}, strain_xx or stress_xx (any component) and with :LAYER", key,
+                            suggestion(key, known), listing(known)));
         const auto same_key = [&key](const Column& column) { return column.key == key; };
         if (std::none_of(columns_.begin(), columns_.end(), same_key)) add(key, key);
     }
@@ -83,6 +93,7 @@ std::string History::header() const {
 
 double History::value(delam_solver* solver, const std::string& key) const {
     double out = 0;
+    if (const auto average = averages_.find(key); average != averages_.end()) return average_of(model_, solver, average->second);
     if (!key.empty()) call(context_, delam_solver_value(solver, key.c_str(), &out), "value " + key);
     return out;
 }

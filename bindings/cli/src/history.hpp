@@ -2,9 +2,11 @@
 // The columns of history.csv and its rows.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
+#include "averages.hpp"
 #include "build.hpp"
 
 namespace cli {
@@ -23,6 +25,7 @@ public:
     [[nodiscard]] double value(delam_solver* solver, const std::string& key) const;
 
 private:
+    const Model& model_;
     const delam_context* context_;
     struct Column {
         std::string title;
@@ -32,6 +35,7 @@ private:
     void add(const std::string& title, const std::string& key, const std::string& text = "");
 
     std::vector<Column> columns_;
+    std::map<std::string, AverageColumn> averages_;  // by key
     std::string first_load_;
 };
 

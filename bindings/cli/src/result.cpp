@@ -65,6 +65,8 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
         {"steps", scene.step_count()},
         {"not_converged", outcome.not_converged},
         {"estimate_violated", outcome.estimate_violated},
+        {"front_unresolved", outcome.front_unresolved},
+        {"rotation_max", outcome.rotation_max},
         {"scene",
          {{"file", scene.file},
           {"title", scene.title},

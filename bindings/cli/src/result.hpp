@@ -16,6 +16,8 @@ struct Outcome {
     std::int64_t steps_done = 0;
     std::vector<std::int64_t> not_converged;
     std::vector<std::int64_t> estimate_violated;
+    std::vector<std::int64_t> front_unresolved;  // steps in which a crack grew with too few pairs in its process zone
+    double rotation_max = 0;                     // rad, in the steps with fields
     std::int64_t resumed = 0;
     std::string started;
     std::string command;

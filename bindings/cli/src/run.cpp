@@ -21,6 +21,7 @@
 #include "notes.hpp"
 #include "output_folder.hpp"
 #include "progress.hpp"
+#include "resolution.hpp"
 #include "result.hpp"
 #include "revision.hpp"
 #include "row_file.hpp"
@@ -108,10 +109,11 @@ public:
         outcome.steps_done = state_.step;
         outcome.not_converged = state_.not_converged;
         outcome.estimate_violated = violated_steps(rows_->text(), estimate_tolerance(scene_));
+        outcome.front_unresolved = unresolved_steps(rows_->text(), solver_.get(), scene_);
         outcome.resumed = state_.resumed;
         outcome.started = state_.started;
         outcome.problem_hash = state_.problem_hash;
-        fields_.assemble(model_, scene_, static_cast<std::size_t>(state_.step), state_.problem_hash,
+        outcome.rotation_max = fields_.assemble(model_, scene_, static_cast<std::size_t>(state_.step), state_.problem_hash,
                          concept_of(solver_.get()));
         if (locates_jumps(solver_.get()))
             write_atomic(folder_.running() + "/jumps.csv", jumps_text(model_, solver_.get()));
@@ -280,6 +282,8 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
     const auto total = static_cast<std::int64_t>(scene.step_count());
     const double eta = estimate_tolerance(scene);
     say("{}", estimate_line(outcome.estimate_violated, eta));
+    say("{}", unresolved_line(outcome.front_unresolved));
+    say("{}", rotation_line(outcome.rotation_max));
     if (code == exit_interrupted || code == exit_numerical) {
         const std::int64_t done = work.state().step;
         const char* how = code == exit_interrupted ? "interrupted" : "stopped";

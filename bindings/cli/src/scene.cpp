@@ -222,8 +222,9 @@ void read_output(const Table& root, Scene& scene) {
     table.only({"fields", "every", "snapshots", "displacement_scale", "columns"});
     Output& output = scene.output;
     output.place = table.place();
-    const std::vector<std::string> known{"displacement", "stress", "zeta", "jump", "traction", "contact", "mixity"};
-    output.fields = {"displacement", "stress", "zeta", "jump", "traction", "contact"};
+    const std::vector<std::string> known{"displacement", "stress", "zeta", "jump", "traction", "contact", "mixity",
+                                         "rotation", "front"};
+    output.fields = {"displacement", "stress", "zeta", "jump", "traction", "contact", "front"};
     if (table.has("fields")) {
         output.fields = table.texts("fields");
         for (const std::string& field : output.fields)

@@ -41,6 +41,36 @@ bool wants(const Scene& scene, const std::string& name) {
     return std::find(scene.output.fields.begin(), scene.output.fields.end(), name) != scene.output.fields.end();
 }
 
+// The crack fronts of an interface; none: nothing is written.
+void write_front(const Model& model, const delam_solver* solver, hid_t group, std::int64_t index) {
+    std::int64_t fronts = 0;
+    std::int64_t count = 0;
+    const std::string what = "crack fronts";
+    call(model.context.get(), delam_solver_front_count(solver, index, &fronts, &count), what);
+    if (fronts == 0) return;
+    std::int32_t dimension = 0;
+    call(model.context.get(), delam_mesh_size(model.mesh.get(), &dimension, nullptr, nullptr, nullptr, nullptr), what);
+    const auto points = static_cast<std::size_t>(count);
+    const auto columns = static_cast<std::size_t>(dimension);
+    std::vector<std::int64_t> starts(static_cast<std::size_t>(fronts) + 1);
+    std::vector<std::int32_t> closed(static_cast<std::size_t>(fronts));
+    Field places{std::vector<double>(points * columns), points, columns};
+    Field directions = places;
+    std::vector<double> lengths(points), rates(3 * points), zones(points), pairs(points);
+    call(model.context.get(),
+         delam_solver_front(solver, index, fronts, count, starts.data(), closed.data(), places.values.data(),
+                            directions.values.data(), lengths.data(), rates.data(), zones.data(), pairs.data()),
+         what);
+    h5::write(group, "front_starts", starts, 0);
+    h5::write(group, "front_closed", closed, 0);
+    h5::write(group, "front_points", padded(places, 3).values, 3);
+    h5::write(group, "front_directions", padded(directions, 3).values, 3);
+    h5::write(group, "front_lengths", lengths, 0);
+    h5::write(group, "front_rates", rates, 3);
+    h5::write(group, "front_zone_lengths", zones, 0);
+    h5::write(group, "front_zone_pairs", pairs, 0);
+}
+
 void write_interface(const Model& model, delam_solver* solver, const Scene& scene, hid_t parent, std::int64_t index,
                      const Field& displacement) {
     const h5::Group group(h5::new_group(parent, "interface_" + std::to_string(index)), "fields.h5");
@@ -48,6 +78,7 @@ void write_interface(const Model& model, delam_solver* solver, const Scene& scen
         if (wants(scene, name)) h5::write(group.get(), name, fetch(model, solver, key, index).values, 0);
     for (const char* name : {"jump", "traction"})
         if (wants(scene, name)) h5::write(group.get(), name, padded(fetch(model, solver, name, index), 3).values, 3);
+    if (wants(scene, "front")) write_front(model, solver, group.get(), index);
     if (displacement.rows == 0) return;
     // Mean of the two faces, so that the block can be warped together with the bodies.
     std::int64_t pairs = 0;
@@ -83,6 +114,20 @@ std::string step_bytes(const Model& model, delam_solver* solver, const Scene& sc
         }
         if (wants(scene, "stress"))
             h5::write(group.get(), "stress", padded(fetch(model, solver, "stress", -1), 6).values, 6);
+        if (wants(scene, "rotation")) {
+            // In the plane it is about z.
+            Field rotation = fetch(model, solver, "rotation", -1);
+            if (rotation.columns == 1) {
+                Field about_z{std::vector<double>(rotation.rows * 3, 0.0), rotation.rows, 3};
+                for (std::size_t i = 0; i < rotation.rows; ++i) about_z.values[3 * i + 2] = rotation.values[i];
+                rotation = std::move(about_z);
+            }
+            h5::write(group.get(), "rotation", rotation.values, 3);
+        }
+        double largest = 0;
+        if (wants(scene, "displacement") || wants(scene, "stress") || wants(scene, "rotation"))
+            call(model.context.get(), delam_solver_value(solver, "rotation_max", &largest), std::string("rotation_max"));
+        h5::attribute(group.get(), "rotation_max", largest);
         for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
             write_interface(model, solver, scene, group.get(), static_cast<std::int64_t>(i), displacement);
     }

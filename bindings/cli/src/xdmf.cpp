@@ -77,6 +77,7 @@ std::string xdmf_text(const std::vector<XdmfBlock>& blocks, const std::vector<Xd
                     item(fmt::format("{}", block.cells), false, "/mesh/body", 4));
                 if (has("displacement"))
                     out += attribute("displacement", "Vector", "Node", block.points, 3, base + "/displacement");
+                if (has("rotation")) out += attribute("rotation", "Vector", "Cell", block.cells, 3, base + "/rotation");
                 if (has("stress")) out += attribute("stress", "Matrix", "Cell", block.cells, 6, base + "/stress");
             } else {
                 const std::string name = fmt::format("/interface_{}", i - 1);

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "averages.hpp"
+
+#include <array>
+
+#include "call.hpp"
+
+namespace cli {
+
+std::optional<AverageColumn> average_column(const std::string& key, const Scene& scene) {
+    AverageColumn column;
+    const std::size_t colon = key.find(':');
+    if (colon != std::string::npos) {
+        for (std::size_t i = 0; i < scene.layers.size(); ++i)
+            if (scene.layers[i].name == key.substr(colon + 1)) column.body = static_cast<std::int32_t>(i);
+        if (column.body < 0) return std::nullopt;
+    }
+    const std::string name = key.substr(0, colon);
+    constexpr std::array components{"xx", "yy", "zz", "xy", "yz", "zx"};
+    for (const bool stress : {false, true})
+        for (std::size_t i = 0; i < components.size(); ++i) {
+            column.stress = stress;
+            column.component = i;
+            if (name == std::string(stress ? "stress_" : "strain_") + components[i]) return column;
+        }
+    return std::nullopt;
+}
+
+double average_of(const Model& model, const delam_solver* solver, const AverageColumn& column) {
+    std::array<double, 6> values{};
+    call(model.context.get(),
+         delam_solver_average(solver, column.body, nullptr, column.stress ? nullptr : values.data(),
+                              column.stress ? values.data() : nullptr),
+         std::string("volume average"));
+    return values[column.component];
+}
+
+}  // namespace cli

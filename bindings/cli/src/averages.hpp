@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Columns of volume averages: strain_xx, stress_xy, ... of all bodies, strain_xx:NAME of one.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "build.hpp"
+
+namespace cli {
+
+struct AverageColumn {
+    bool stress = false;
+    std::size_t component = 0;
+    std::int32_t body = -1;
+};
+// None when the key is no such column, e.g. when there is no body of that name.
+std::optional<AverageColumn> average_column(const std::string& key, const Scene& scene);
+double average_of(const Model& model, const delam_solver* solver, const AverageColumn& column);
+
+}  // namespace cli

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "resolution.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "call.hpp"
+#include "rows.hpp"
+
+namespace cli {
+
+namespace {
+
+constexpr double resolving_pairs = 3.0;
+constexpr double small_rotation = 0.1;
+
+struct Prediction {
+    double length = 0;  // 0: nothing that softens
+    double spacing = 0;
+};
+
+Prediction prediction(const Model& model, std::size_t index) {
+    Prediction out;
+    call(model.context.get(),
+         delam_problem_process_zone(model.problem.get(), static_cast<std::int64_t>(index), &out.length, &out.spacing),
+         std::string("process zone"));
+    return out;
+}
+
+bool energetic(const delam_solver* solver) {
+    const char* solution = delam_solver_option(solver, "solution");
+    return solution != nullptr && std::string_view(solution) == "energetic";
+}
+
+}  // namespace
+
+std::vector<std::string> process_zones(const Model& model, const Scene& scene) {
+    std::vector<std::string> out;
+    for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+        const Prediction zone = prediction(model, i);
+        if (zone.length > 0 && zone.spacing > 0)
+            out.push_back(fmt::format("\"{}\", about {:.3g}, {:.2g} pairs of spacing {:.3g}", scene.interfaces[i].name,
+                                      zone.length, zone.length / zone.spacing, zone.spacing));
+    }
+    return out;
+}
+
+std::vector<std::string> resolution_warnings(const Model& model, const delam_solver* solver, const Scene& scene) {
+    std::vector<std::string> out;
+    if (energetic(solver)) return out;
+    for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+        const Prediction zone = prediction(model, i);
+        if (!(zone.length > 0) || zone.length >= resolving_pairs * zone.spacing) continue;
+        out.push_back(fmt::format("interface \"{}\": the process zone, about {:.2g}, is shorter than {:g} pairs of spacing "
+                                  "{:.2g}: a local solution then depends on the mesh; a spacing of {:.2g} would do, or "
+                                  "solution = \"energetic\"",
+                                  scene.interfaces[i].name, zone.length, resolving_pairs, zone.spacing,
+                                  zone.length / resolving_pairs));
+    }
+    return out;
+}
+
+std::vector<std::int64_t> unresolved_steps(std::string_view history, const delam_solver* solver, const Scene& scene) {
+    std::vector<std::int64_t> out;
+    const auto softens = [&scene](const InterfaceData& data) {
+        return !data.bonded && scene.laws[data.law].kind != "griffith";
+    };
+    if (energetic(solver) || std::none_of(scene.interfaces.begin(), scene.interfaces.end(), softens)) return out;
+    const std::vector<std::map<std::string, double>> rows = rows_of(history);
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        const auto best = [&](const char* key) {
+            const auto before = rows[i - 1].find(key);
+            const auto after = rows[i].find(key);
+            if (before == rows[i - 1].end() || after == rows[i].end()) return 0.0;
+            return std::max(before->second, after->second);
+        };
+        const bool grew = rows[i].at("debonded_length") > rows[i - 1].at("debonded_length");
+        if (grew && best("energy_release_rate") > 0 && best("process_zone_pairs") < resolving_pairs)
+            out.push_back(static_cast<std::int64_t>(rows[i].at("step")));
+    }
+    return out;
+}
+
+std::string unresolved_line(const std::vector<std::int64_t>& steps) {
+    if (steps.empty()) return "";
+    return fmt::format("warning: in {} (the first is step {}) a crack grew with fewer than {:g} pairs in its process zone: when and "
+                       "how far depends on the mesh\n",
+                       steps.size() == 1 ? "1 step" : fmt::format("{} steps", steps.size()), steps.front(), resolving_pairs);
+}
+
+std::string rotation_line(double largest) {
+    if (!(largest > small_rotation)) return "";
+    return fmt::format("warning: cells turn by up to {:.3g} rad: small strains are off by about {:.2g}\n", largest,
+                       0.5 * largest * largest);
+}
+
+}  // namespace cli

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Strain and stress of bodies on average over their volume.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "body/model.hpp"
+#include "mesh/mesh.hpp"
+
+namespace delam {
+
+// xx, yy, zz, xy, yz, zx, shear strains doubled.
+struct VolumeAverage {
+    double volume = 0.0;  // L2 or L3
+    std::array<double, 6> strain{};
+    std::array<double, 6> stress{};
+};
+// Over the cells of a body (-1: of all), exact: a cell's mean gradient is the quadrature's, to which internal modes add nothing, and the elasticity is
+// constant in a cell. What leaves the plane: no strain, or in plane stress no stress. models by body index; displacement: [mesh nodes][dimension].
+VolumeAverage volume_average(const Mesh& mesh, std::span<const BodyModel> models, std::span<const double> displacement, std::int32_t body);
+
+}  // namespace delam
