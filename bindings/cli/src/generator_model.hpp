@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the generators of periodic cells share: the model in Gmsh of a cell [0, size] in each direction, drawn in a unit
+// of length in which its parts are about 1 (OpenCASCADE compares lengths with 1e-7), and what comes out of it.
+#pragma once
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "error.hpp"
+#include "mesh_data.hpp"
+
+namespace cli {
+
+class GeneratorModel {
+public:
+    // lower: the corner of the cell, 0 along periodic axes.
+    GeneratorModel(int dimension, const std::array<double, 3>& lower, const std::array<double, 3>& upper);
+
+    // The mesh of the upper border along an axis is to be that of the lower one, moved. For all entities of one
+    // dimension less than the cell. Throws std::string where they do not correspond.
+    void tie_borders(int axis) const;
+
+    // Curves and points that bound nothing would be meshed too.
+    void drop_loose_parts() const;
+
+    void name_body(const std::vector<int>& entities, const std::string& name) const;
+    // left and right (x); bottom and top (y in 2D, z in 3D); front and back (y in 3D); corners; origin, the corner with
+    // the smallest coordinates.
+    void name_borders() const;
+
+    // What bodies measure, by label, curved sides included.
+    static std::vector<double> measures(const MeshData& mesh);
+
+private:
+    [[nodiscard]] std::vector<int> on_plane(int dimension, int axis, double at) const;
+
+    int dimension_;
+    std::array<double, 3> lower_;
+    std::array<double, 3> upper_;
+};
+
+// Refuses cells that are inverted, or flat: measure beside that of an equilateral one with edges as long, below `flattest`.
+// Names the place. key: of the parameter to change.
+void require_sound_cells(const MeshData& mesh, double flattest, const Place& place);
+
+// The place of a key of the table.
+inline Place key_of(const Place& table, const std::string& key) {
+    return {table.file, table.path.empty() ? key : table.path + "." + key, table.line};
+}
+
+}  // namespace cli
