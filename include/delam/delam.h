@@ -162,6 +162,31 @@ DELAM_API int32_t delam_mesh_add_interface(delam_mesh *mesh, int32_t body_a, int
  * bodies overlap without matching (the first place is named; the mesh is unchanged). Bodies whose faces are farther from each other than the
  * tolerance, such as the two sides of a curved interface meshed apart, do not touch in this sense and get no interface. */
 DELAM_API int32_t delam_mesh_add_all_interfaces(delam_mesh *mesh, double tolerance, int64_t *out_count);
+/* An interface of two bodies whose meshes do not match. The faces of b that lie on faces of a, within the distance `gap` (L; 0
+ * gives 1e-6 of the shortest edge) and looking against them within 60 degrees, are paired with their projections: each of b's nodes
+ * there with a tied node, appended to the mesh at the nearest point of a's faces, without cells, whose displacement is
+ * sum_i N_i u_i of the nodes of the face below it (delam_mesh_node_ties; N_i its shape functions, of curved faces too). node_a is the tied node,
+ * node_b that of b; weights, faces and normals (turned to point from a to b) are those of b's faces, as by
+ * delam_mesh_add_interface. Order of pairs likewise.
+ * Take the body with the finer mesh as b: linear displacements are continuous across a perfect bond whichever is finer, but the forces of
+ * a uniform traction reach a through the N_i at b's nodes, which is exact where a's nodes are among b's (b refines a) and else leaves an
+ * error at a's faces that falls with the square of the ratio of edges; with b coarser than a, nodes of a between those of b are not
+ * held at all. Choose `gap` as large as the chords of curved faces need and no larger: a rotation of both bodies by an angle makes a jump
+ * of that angle times the distance of a node from its projection.
+ * A face of b must lie on a as a whole or not at all (a may reach beyond b, faces of b may lie side by side with a's rim):
+ * DELAM_ERROR_MESH with the place where one lies on a in part only, where no face of b lies on a, or when the two are joined. */
+DELAM_API int32_t delam_mesh_add_projected_interface(delam_mesh *mesh, int32_t body_a, int32_t body_b, double gap,
+                                                     int64_t *out_interface);
+/* A rigid obstacle (loading nose, support, symmetry plane) that nodes of one body may touch; it moves as one translation, that of its
+ * control node: a node of the mesh without cells, the same for several obstacles if they move together (0-based). An interface is added with a
+ * pair for each node, in the order given: node_a is the control node, body_a is -1, node_b the node. Its jump is u_node - u_control.
+ *   nodes    [count] of one body, each once
+ *   normals  [count][dimension], of any length > 0, from the obstacle into the body
+ *   weights  [count] > 0, length (2D) or area (3D) that a pair stands for; NULL: the nodal weights (delam_mesh_add_interface) of the
+ *            body's boundary faces of which all nodes are listed and face the obstacle; a node on none is refused */
+DELAM_API int32_t delam_mesh_add_obstacle(delam_mesh *mesh, int64_t count, const int64_t *nodes, const double *normals,
+                                          const double *weights, int64_t control_node, int32_t index_base,
+                                          int64_t *out_interface);
 DELAM_API void delam_mesh_destroy(delam_mesh **mesh);
 
 /* Sizes: any pointer may be NULL. body labels are 0-based input labels; body_count counts distinct ones. */
@@ -173,11 +198,16 @@ DELAM_API int32_t delam_mesh_nodes(const delam_mesh *mesh, int64_t capacity, dou
 DELAM_API int32_t delam_mesh_node_bodies(const delam_mesh *mesh, int64_t capacity, int32_t *bodies);
 /* The node that each node was doubled from (delam_mesh_add_conforming_cells), itself otherwise: [node_count]. */
 DELAM_API int32_t delam_mesh_node_origins(const delam_mesh *mesh, int64_t capacity, int64_t *origins);
+/* Tied nodes (delam_mesh_add_projected_interface), ascending: u of nodes[i] is the sum of weights[e] u of of[e] over
+ * e = starts[i] .. starts[i+1]-1. *count tied nodes and *entries: sizes; nodes [count], starts [count+1], of and weights [entries]. Any pointer may
+ * be NULL. Weights sum to 1 and may be negative on quadratic faces. */
+DELAM_API int32_t delam_mesh_node_ties(const delam_mesh *mesh, int64_t *count, int64_t *entries, int64_t *nodes,
+                                       int64_t *starts, int64_t *of, double *weights);
 /* Cells in the order they were added: types, bodies [cell_count], offsets [cell_count+1] into connectivity. Any output may be
  * NULL; capacity counts entries of connectivity and *needed receives how many there are (may be NULL). */
 DELAM_API int32_t delam_mesh_cells(const delam_mesh *mesh, int32_t *types, int32_t *bodies, int64_t *offsets,
                                    int64_t capacity, int64_t *connectivity, int64_t *needed);
-/* Number of pairs and of paired faces of an interface; any pointer may be NULL. */
+/* Number of pairs and of paired faces of an interface; any pointer may be NULL. body_a is -1 for an obstacle. */
 DELAM_API int32_t delam_mesh_interface_size(const delam_mesh *mesh, int64_t interface_index, int32_t *body_a, int32_t *body_b,
                                             int64_t *pair_count, int64_t *face_count, int32_t *nodes_per_face);
 /* Pairs of an interface; any output may be NULL. nodes_a, nodes_b, weights: [pair_count] (weights L or L2);
@@ -187,7 +217,7 @@ DELAM_API int32_t delam_mesh_interface_pairs(const delam_mesh *mesh, int64_t int
 /* Faces as pair indices: [face_count][nodes_per_face], corners then mid-sides (2, 3, 4 nodes; 3, 6, 8 of quadratic cells).
  * Triangles among quadrilaterals repeat their last corner, also as the mid-side node of the side that has shrunk to it. */
 DELAM_API int32_t delam_mesh_interface_faces(const delam_mesh *mesh, int64_t interface_index, int64_t *faces);
-/* Nodes of a body (-1: of all) inside the closed box lower..upper ([dimension] each; widened by 1e-9 of the mesh's size).
+/* Nodes of a body (-1: of all, and those without cells that are not tied) inside the closed box lower..upper ([dimension] each; widened by 1e-9 of the mesh's size).
  * *count receives how many there are; the first `capacity` are written, ascending. */
 DELAM_API int32_t delam_mesh_find_nodes(const delam_mesh *mesh, int32_t body, const double *lower, const double *upper,
                                         int64_t capacity, int64_t *nodes, int64_t *count);

@@ -204,6 +204,36 @@ int32_t delam_mesh_add_all_interfaces(delam_mesh* mesh, double tolerance, int64_
     });
 }
 
+int32_t delam_mesh_add_projected_interface(delam_mesh* mesh, int32_t body_a, int32_t body_b, double gap,
+                                           int64_t* out_interface) {
+    return guard(mesh, [&] {
+        require_pointer(out_interface, "out_interface");
+        if (!(gap >= 0.0 && std::isfinite(gap)))
+            fail(DELAM_ERROR_ARGUMENT, "gap = ", gap, " must be >= 0 and finite");
+        require_two_bodies(*mesh->core, body_a, body_b);
+        *out_interface = mesh->core->add_projected_interface(body_a, body_b, gap);
+    });
+}
+
+int32_t delam_mesh_add_obstacle(delam_mesh* mesh, int64_t count, const int64_t* nodes, const double* normals,
+                                const double* weights, int64_t control_node, int32_t index_base,
+                                int64_t* out_interface) {
+    return guard(mesh, [&] {
+        Mesh& core = *mesh->core;
+        require_pointer(out_interface, "out_interface");
+        require_count(count, "count", 1);
+        require_array(nodes, count, "nodes");
+        require_array(normals, count, "normals");
+        require_base(index_base);
+        std::vector<std::int64_t> own(size(count));
+        for (std::int64_t i = 0; i < count; ++i)
+            own[size(i)] = require_index(nodes[i], core.node_count(), index_base, text("nodes[", i, "]"));
+        require_index(control_node, core.node_count(), 0, "control_node");
+        *out_interface = core.add_obstacle(own, view(normals, count * core.dimension()),
+                                           view(weights, weights == nullptr ? 0 : count), control_node);
+    });
+}
+
 void delam_mesh_destroy(delam_mesh** mesh) { destroy(mesh); }
 
 int32_t delam_mesh_size(const delam_mesh* mesh, int32_t* dimension, int64_t* node_count, int64_t* cell_count,
@@ -248,6 +278,26 @@ int32_t delam_mesh_node_origins(const delam_mesh* mesh, int64_t capacity, int64_
     });
 }
 
+int32_t delam_mesh_node_ties(const delam_mesh* mesh, int64_t* count, int64_t* entries, int64_t* nodes, int64_t* starts,
+                             int64_t* of, double* weights) {
+    return guard(mesh, [&] {
+        const std::vector<NodeTie>& ties = mesh->core->ties();
+        std::int64_t entry = 0;
+        for (std::size_t i = 0; i < ties.size(); ++i) {
+            if (nodes != nullptr) nodes[i] = ties[i].node;
+            if (starts != nullptr) starts[i] = entry;
+            for (const auto& [node, weight] : ties[i].of) {
+                if (of != nullptr) of[entry] = node;
+                if (weights != nullptr) weights[entry] = weight;
+                ++entry;
+            }
+        }
+        if (starts != nullptr) starts[ties.size()] = entry;
+        if (count != nullptr) *count = static_cast<std::int64_t>(ties.size());
+        if (entries != nullptr) *entries = entry;
+    });
+}
+
 int32_t delam_mesh_cells(const delam_mesh* mesh, int32_t* types, int32_t* bodies, int64_t* offsets, int64_t capacity,
                          int64_t* connectivity, int64_t* needed) {
     return guard(mesh, [&] {
@@ -273,7 +323,7 @@ int32_t delam_mesh_interface_size(const delam_mesh* mesh, int64_t interface_inde
                                   int64_t* pair_count, int64_t* face_count, int32_t* nodes_per_face) {
     return guard(mesh, [&] {
         const InterfaceGeometry& face = require_interface(*mesh->core, interface_index);
-        if (body_a != nullptr) *body_a = mesh->core->body_label(face.body_a);
+        if (body_a != nullptr) *body_a = face.body_a < 0 ? -1 : mesh->core->body_label(face.body_a);
         if (body_b != nullptr) *body_b = mesh->core->body_label(face.body_b);
         if (pair_count != nullptr) *pair_count = face.pair_count();
         if (face_count != nullptr) *face_count = face.face_count();

@@ -18,12 +18,13 @@ namespace {
 
 // Orders places by x, then y, then z, where coordinates closer than `distance` count as equal: rounding in the nodes
 // of a straight interface must not shuffle it.
-std::vector<std::size_t> spatial_order(const Mesh& mesh, std::span<const NodePair> pairs, double distance) {
+std::vector<std::size_t> spatial_order(const Mesh& mesh, std::span<const NodePair> pairs, FaceSide side,
+                                       double distance) {
     std::vector<std::size_t> order(pairs.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::vector<std::array<std::int64_t, 3>> rank(pairs.size(), {0, 0, 0});
     for (std::size_t axis = 0; axis < at(mesh.dimension()); ++axis) {
-        const auto x = [&](std::size_t i) { return mesh.node(pairs[i].first)[axis]; };
+        const auto x = [&](std::size_t i) { return mesh.node(side == FaceSide::a ? pairs[i].first : pairs[i].second)[axis]; };
         std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return x(i) < x(j); });
         for (std::size_t k = 1; k < order.size(); ++k)
             rank[order[k]][axis] = rank[order[k - 1]][axis] + (x(order[k]) - x(order[k - 1]) > distance ? 1 : 0);
@@ -97,15 +98,11 @@ BoundaryFace turned(const BoundaryFace& face) {
     return result;
 }
 
-InterfaceGeometry assemble_interface(const Mesh& mesh, std::span<const NodePair> pairs,
-                                     std::span<const BoundaryFace> faces_of_nodes, FaceSide side, double distance) {
-    InterfaceGeometry result;
+std::vector<Point> lay_faces(const Mesh& mesh, std::span<const BoundaryFace> faces_of_nodes, FaceSide side,
+                             InterfaceGeometry& interface) {
+    const std::vector<std::int64_t>& on_faces = side == FaceSide::a ? interface.node_a : interface.node_b;
     std::map<std::int64_t, std::int64_t> index;  // pair of a node of the faces
-    for (const std::size_t i : spatial_order(mesh, pairs, distance)) {
-        index.emplace(side == FaceSide::a ? pairs[i].first : pairs[i].second, result.pair_count());
-        result.node_a.push_back(pairs[i].first);
-        result.node_b.push_back(pairs[i].second);
-    }
+    for (std::size_t p = 0; p < on_faces.size(); ++p) index.emplace(on_faces[p], static_cast<std::int64_t>(p));
     std::size_t corners = 2;
     bool quadratic = false;
     std::vector<PairFace> faces;
@@ -116,26 +113,37 @@ InterfaceGeometry assemble_interface(const Mesh& mesh, std::span<const NodePair>
     }
     std::sort(faces.begin(), faces.end());
     const std::size_t nodes_per_face = !quadratic ? corners : corners == 2 ? 3 : 2 * corners;
-    result.nodes_per_face = static_cast<int>(nodes_per_face);
+    interface.nodes_per_face = static_cast<int>(nodes_per_face);
 
-    const std::vector<std::int64_t>& on_faces = side == FaceSide::a ? result.node_a : result.node_b;
-    const auto dim = at(mesh.dimension());
-    result.weight.assign(result.node_a.size(), 0.0);
-    std::vector<Point> area(result.node_a.size(), Point{});
+    interface.weight.assign(on_faces.size(), 0.0);
+    std::vector<Point> area(on_faces.size(), Point{});
     for (const PairFace& face : faces) {
         std::array<std::int64_t, most_face_nodes> nodes{};
         for (std::size_t k = 0; k < face.pair.size(); ++k) nodes[k] = on_faces[at(face.pair[k])];
         const NodalRule rule = nodal_rule(mesh, std::span<const std::int64_t>(nodes).first(face.pair.size()));
         for (std::size_t k = 0; k < face.pair.size(); ++k) {
-            result.weight[at(face.pair[k])] += rule.weight[k];
+            interface.weight[at(face.pair[k])] += rule.weight[k];
             for (std::size_t i = 0; i < 3; ++i) area[at(face.pair[k])][i] += rule.area[k][i];
         }
-        append_padded(face, corners, nodes_per_face, result.face);
+        append_padded(face, corners, nodes_per_face, interface.face);
     }
+    return area;
+}
+
+InterfaceGeometry assemble_interface(const Mesh& mesh, std::span<const NodePair> pairs,
+                                     std::span<const BoundaryFace> faces, FaceSide side, double distance) {
+    InterfaceGeometry result;
+    for (const std::size_t i : spatial_order(mesh, pairs, side, distance)) {
+        result.node_a.push_back(pairs[i].first);
+        result.node_b.push_back(pairs[i].second);
+    }
+    const std::vector<Point> area = lay_faces(mesh, faces, side, result);
+    const auto dim = at(mesh.dimension());
     result.frame.resize(result.node_a.size() * dim * dim);
     for (std::size_t p = 0; p < result.node_a.size(); ++p) {
         if (!(length(area[p]) > 1e-6 * result.weight[p]))
-            fail(DELAM_ERROR_MESH, "the faces that meet at ", place(mesh, on_faces[p]),
+            fail(DELAM_ERROR_MESH, "the faces that meet at ",
+                 place(mesh, side == FaceSide::a ? result.node_a[p] : result.node_b[p]),
                  " look in opposite directions: no normal");
         write_frame(mesh.dimension(), area[p], &result.frame[p * dim * dim]);
     }

@@ -2,8 +2,10 @@
 // From node pairs and the faces they lie on to an interface: order, weights, frames.
 #pragma once
 
+#include <array>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "mesh/mesh.hpp"
 
@@ -12,11 +14,16 @@ namespace delam {
 using NodePair = std::pair<std::int64_t, std::int64_t>;  // of a, of b
 
 // `faces` have the nodes that `side` picks from the pairs (all of them), and look from a to b. Pairs are ordered by the
-// places of their first nodes, where coordinates closer than `distance` count as equal; weights and normals are those
-// of the faces. Bodies are left to the caller.
+// places of these nodes, where coordinates closer than `distance` count as equal; weights and normals are those of the
+// faces. Bodies are left to the caller.
 enum class FaceSide { a, b };
 InterfaceGeometry assemble_interface(const Mesh& mesh, std::span<const NodePair> pairs,
                                      std::span<const BoundaryFace> faces, FaceSide side, double distance);
+
+// Weights and faces of an interface that has its pairs, from such faces; returns the sum of the area vectors at each
+// pair. Pairs on none have weight 0.
+std::vector<std::array<double, 3>> lay_faces(const Mesh& mesh, std::span<const BoundaryFace> faces, FaceSide side,
+                                             InterfaceGeometry& interface);
 
 // The same face looking the other way.
 BoundaryFace turned(const BoundaryFace& face);

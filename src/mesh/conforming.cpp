@@ -43,12 +43,12 @@ void Mesh::add_conforming_cells(CellType type, std::span<const std::int64_t> con
         for (std::size_t i = 0; i < own.size(); ++i) {
             const std::size_t c = i / per_cell;
             const std::int32_t label = c < labels.size() ? labels[c] : 0;
-            // What is out of range is left as it is, for add_cells to refuse; copies of this call cannot be meant.
+            // What else is wrong is left as it is, for add_cells to refuse.
             if (label < 0) continue;
             if (own[i] < 0 || own[i] >= before)
                 fail(DELAM_ERROR_ARGUMENT, "cell ", cell_type_.size() + c, " (body ", label, "): node ", own[i],
                      ": must be in 0..", before - 1);
-            own[i] = node_for(own[i], label, taken);
+            if (node_label_[at(own[i])] != reserved) own[i] = node_for(own[i], label, taken);
         }
         add_cells(type, own, labels);
     } catch (...) {

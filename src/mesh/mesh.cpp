@@ -50,7 +50,8 @@ void Mesh::add_cells(CellType type, std::span<const std::int64_t> connectivity, 
 
     std::vector<std::int32_t> joined;  // labels of bodies that an interface holds already, ascending
     for (const InterfaceGeometry& i : interfaces_)
-        for (const std::int32_t body : {i.body_a, i.body_b}) joined.push_back(body_label(body));
+        for (const std::int32_t body : {i.body_a, i.body_b})
+            if (body >= 0) joined.push_back(body_label(body));
     std::sort(joined.begin(), joined.end());
 
     std::vector<std::int64_t> taken;  // nodes that had no body before, given back on error
@@ -70,6 +71,9 @@ void Mesh::add_cells(CellType type, std::span<const std::int64_t> connectivity, 
                 fail(DELAM_ERROR_ARGUMENT, "cell ", number, " (body ", label, "): node ", node, ": must be in 0..",
                      node_count() - 1);
             std::int32_t& owner = node_label_[at(node)];
+            if (owner == reserved)
+                fail(DELAM_ERROR_MESH, "cell ", number, " (body ", label, "): node ", node,
+                     " is tied to an interface or the control node of an obstacle: it can have no cells");
             if (owner >= 0 && owner != label)
                 fail(DELAM_ERROR_MESH, "node ", node, " belongs to bodies ", owner, " and ", label,
                      "; each body needs nodes of its own");
@@ -106,6 +110,7 @@ void Mesh::add_cells(CellType type, std::span<const std::int64_t> connectivity, 
     // Nothing below can fail. A new label shifts the indices of the bodies above it.
     for (InterfaceGeometry& i : interfaces_) {
         for (std::int32_t* body : {&i.body_a, &i.body_b}) {
+            if (*body < 0) continue;
             const auto place = std::lower_bound(new_labels.begin(), new_labels.end(), body_label(*body));
             *body = static_cast<std::int32_t>(place - new_labels.begin());
         }

@@ -55,6 +55,13 @@ public:
     // Of every two bodies that share matching faces and have no interface yet, in the order of their labels; returns how
     // many were added.
     std::int64_t add_all_interfaces(double tolerance);
+    // Ties the nodes of b's faces to their projections on a's faces, within `gap`; appends a tied node for each
+    // (projected_interface.cpp).
+    std::int64_t add_projected_interface(std::int32_t label_a, std::int32_t label_b, double gap);
+    // Pairs of a control node without cells with nodes of one body (obstacle.cpp). normals: [nodes][dimension] into the
+    // body, any length; weights empty: those of the faces whose nodes are all there.
+    std::int64_t add_obstacle(std::span<const std::int64_t> nodes, std::span<const double> normals,
+                              std::span<const double> weights, std::int64_t control);
 
     int dimension() const { return dimension_; }
     std::int64_t node_count() const { return static_cast<std::int64_t>(nodes_.size()) / dimension_; }
@@ -106,7 +113,8 @@ private:
     std::vector<std::int64_t> cell_offset_{0};
     std::vector<std::int64_t> connectivity_;
     std::vector<std::int32_t> labels_;      // distinct labels, ascending
-    std::vector<std::int32_t> node_label_;  // -1: none
+    static constexpr std::int32_t reserved = -2;
+    std::vector<std::int32_t> node_label_;  // -1: none; reserved: tied, or the control node of an obstacle
     std::vector<std::int64_t> node_origin_;
     std::vector<std::int64_t> next_copy_;   // of the same origin, -1: none
     std::vector<InterfaceGeometry> interfaces_;

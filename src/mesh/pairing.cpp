@@ -235,7 +235,7 @@ std::int64_t Mesh::add_all_interfaces(double tolerance) {
               [](const Meeting& x, const Meeting& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
 
     std::set<std::pair<std::int32_t, std::int32_t>> joined;
-    for (const InterfaceGeometry& i : interfaces_) joined.insert(std::minmax(i.body_a, i.body_b));
+    for (const InterfaceGeometry& i : interfaces_) joined.insert(std::minmax(i.body_a, i.body_b));  // obstacles: none such
     const auto those = [&](std::vector<std::size_t> list) {
         std::sort(list.begin(), list.end());
         list.erase(std::unique(list.begin(), list.end()), list.end());

@@ -238,7 +238,12 @@ std::vector<std::int64_t> find_nodes(const Mesh& mesh, std::int32_t body, std::s
     check(mesh, body, lower, upper);
     const double slack = widening * mesh.size();
     std::vector<std::int64_t> found;
+    std::size_t tie = 0;  // tied nodes are no places to hold or load anything at
     for (std::int64_t n = 0; n < mesh.node_count(); ++n) {
+        if (tie < mesh.ties().size() && mesh.ties()[tie].node == n) {
+            ++tie;
+            continue;
+        }
         const auto p = mesh.node(n);
         bool inside = true;
         for (std::size_t i = 0; i < p.size(); ++i)

@@ -56,6 +56,15 @@ void add_mesh(Fnv& fnv, const Mesh& mesh) {
         fnv.add_all(face.weight);
         fnv.add_all(face.frame);
     }
+    fnv.add(static_cast<std::int64_t>(mesh.ties().size()));
+    for (const NodeTie& tie : mesh.ties()) {
+        fnv.add(tie.node);
+        fnv.add(static_cast<std::int64_t>(tie.of.size()));
+        for (const auto& [node, weight] : tie.of) {
+            fnv.add(node);
+            fnv.add(weight);
+        }
+    }
 }
 
 void add_material(Fnv& fnv, const std::optional<Material>& material) {

@@ -235,6 +235,48 @@ START_TEST(conforming_meshes) {
 }
 END_TEST
 
+START_TEST(projections_and_obstacles) {
+    /* One square below two halves of another, and a node without cells. */
+    const double nodes[22] = {0, 0, 1, 0, 1, 1, 0, 1, 0, 1, 0.5, 1, 1, 1, 0, 2, 0.5, 2, 1, 2, 5, 5};
+    const int64_t cells[12] = {0, 1, 2, 3, 4, 5, 8, 7, 5, 6, 9, 8};
+    const int32_t bodies[3] = {0, 1, 1};
+    const int64_t top[3] = {8, 9, 10};
+    const double down[6] = {0, -1, 0, -1, 0, -2};
+    int64_t index = -1;
+    int64_t count = -1;
+    int64_t entries = -1;
+    int64_t tied[3];
+    int64_t starts[4];
+    int64_t of[4];
+    double share[4];
+    double weights[3];
+    int32_t a = 5;
+    int32_t b = 5;
+    delam_mesh *other = NULL;
+    fine(delam_mesh_create(context, 2, 11, nodes, &other));
+    fine(delam_mesh_add_cells(other, DELAM_QUAD4, 3, cells, bodies, 0));
+    expect(delam_mesh_add_projected_interface(other, 0, 1, -1.0, &index), DELAM_ERROR_ARGUMENT, "gap = -1");
+    expect(delam_mesh_add_projected_interface(other, 0, 2, 0.0, &index), DELAM_ERROR_ARGUMENT, "body_b = 2");
+    fine(delam_mesh_add_projected_interface(other, 0, 1, 0.0, &index));
+    ck_assert_int_eq(index, 0);
+    fine(delam_mesh_node_ties(other, &count, &entries, NULL, NULL, NULL, NULL));
+    ck_assert(count == 3 && entries == 4);
+    fine(delam_mesh_node_ties(other, NULL, NULL, tied, starts, of, share));
+    ck_assert(tied[0] == 11 && tied[2] == 13 && starts[3] == 4);
+    ck_assert(starts[1] == 1 && starts[2] == 3 && of[1] == 2 && of[2] == 3 && share[1] == 0.5 && share[2] == 0.5);
+    expect(delam_mesh_add_obstacle(other, 3, top, down, NULL, 3, 1, &index), DELAM_ERROR_MESH, "control_node 3");
+    expect(delam_mesh_add_obstacle(other, 3, top, down, NULL, 99, 1, &index), DELAM_ERROR_ARGUMENT, "control_node = 99");
+    expect(delam_mesh_add_obstacle(other, 3, top, down, NULL, 10, 3, &index), DELAM_ERROR_ARGUMENT, "index_base = 3");
+    fine(delam_mesh_add_obstacle(other, 3, top, down, NULL, 10, 1, &index));
+    ck_assert_int_eq(index, 1);
+    fine(delam_mesh_interface_size(other, 1, &a, &b, &count, NULL, NULL));
+    ck_assert(a == -1 && b == 1 && count == 3);
+    fine(delam_mesh_interface_pairs(other, 1, starts, tied, weights, NULL));
+    ck_assert(starts[0] == 10 && tied[2] == 9 && weights[0] == 0.25 && weights[1] == 0.5);
+    delam_mesh_destroy(&other);
+}
+END_TEST
+
 START_TEST(laws) {
     const double half = 0.5;
     const double beyond = 1.5;
@@ -542,6 +584,7 @@ int main(void) {
     tcase_add_test(tests, meshes);
     tcase_add_test(tests, unpaired_faces);
     tcase_add_test(tests, conforming_meshes);
+    tcase_add_test(tests, projections_and_obstacles);
     tcase_add_test(tests, laws);
     tcase_add_test(tests, scenes);
     tcase_add_test(tests, loads);

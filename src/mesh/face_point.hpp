@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Points of a face, linear or curved, as combinations of its nodes.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesh/box_tree.hpp"
+#include "mesh/mesh.hpp"
+
+namespace delam {
+
+// x = sum_i N_i x_i; a field that is linear in space has the value sum_i N_i u_i there, on curved faces too.
+struct FacePoint {
+    std::array<double, most_face_nodes> weight{};  // N_i, summing to 1
+    Point place{};
+    Point normal{};  // outward, unit
+};
+
+// The point of a face that is nearest to x, found by Gauss-Newton steps on |x(xi) - x|^2: certain for x closer to the
+// face than its radius of curvature.
+FacePoint closest_point(const Mesh& mesh, const BoundaryFace& face, const Point& x);
+
+// Points spread over the inside of a face, some of them just off its nodes: where to look whether another face covers
+// it. The first one is the centre.
+std::vector<FacePoint> inner_points(const Mesh& mesh, const BoundaryFace& face);
+
+}  // namespace delam

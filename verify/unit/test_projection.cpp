@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Interfaces of unmatched meshes by projection, and obstacles: areas, normals, linear fields, and what is refused where.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+#include "mesh/face_point.hpp"
+#include "mesh/faces.hpp"
+#include "mesh/layers.hpp"
+#include "mesh/mesh.hpp"
+#include "mesh/points.hpp"
+
+#include <check.h>  // last: it has a macro named fail
+
+using namespace delam;
+
+namespace {
+
+using Labels = std::vector<std::int32_t>;
+using Indices = std::vector<std::int64_t>;
+using Numbers = std::vector<double>;
+
+constexpr CellType all_types[] = {CellType::tri3, CellType::quad4, CellType::tet4,  CellType::hex8, CellType::tri6,
+                                  CellType::quad8, CellType::quad9, CellType::tet10, CellType::hex20};
+bool quadratic(CellType type) { return topology(type).nodes > topology(type).corners; }
+
+// Text of the error that an action ends with; empty when there is none.
+std::string refusal(std::int32_t status, const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& e) {
+        ck_assert_msg(e.status() == status, "status %d: %s", e.status(), e.what());
+        return e.what();
+    }
+    return "";
+}
+#define ck_assert_refused(status, part, action)                                                     \
+    do {                                                                                            \
+        const std::string said = refusal(status, [&] { action; });                                  \
+        ck_assert_msg(said.find(part) != std::string::npos, "\"%s\" lacks \"%s\"", said.c_str(), part); \
+    } while (0)
+
+using Map = std::function<void(std::span<double>)>;
+
+// Blocks of cells of their own types, each from a corner with sides and divisions along x, (y,) and the last axis; body
+// by position in the list.
+struct Block {
+    CellType type;
+    Numbers corner, sides;
+    Indices divisions;
+};
+Mesh blocks(const std::vector<Block>& list, const Map& map = {}, const Numbers& extra = {}) {
+    const int dim = topology(list[0].type).dimension;
+    Numbers nodes;
+    std::vector<Mesh> parts;
+    for (const Block& b : list) {
+        parts.push_back(make_layers(dim, Numbers(b.sides.begin(), b.sides.end() - 1),
+                                    Indices(b.divisions.begin(), b.divisions.end() - 1), Numbers{b.sides.back()},
+                                    Indices{b.divisions.back()}, b.type));
+        for (std::int64_t n = 0; n < parts.back().node_count(); ++n) {
+            Numbers x(parts.back().node(n).begin(), parts.back().node(n).end());
+            for (std::size_t i = 0; i < x.size(); ++i) x[i] += b.corner[i];
+            if (map) map(x);
+            nodes.insert(nodes.end(), x.begin(), x.end());
+        }
+    }
+    nodes.insert(nodes.end(), extra.begin(), extra.end());
+    Mesh mesh(dim, nodes);
+    std::int64_t first = 0;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        for (std::int64_t c = 0; c < parts[k].cell_count(); ++c) {
+            Indices cell(parts[k].cell(c).begin(), parts[k].cell(c).end());
+            for (std::int64_t& n : cell) n += first;
+            mesh.add_cells(list[k].type, cell, Labels{static_cast<std::int32_t>(k)});
+        }
+        first += parts[k].node_count();
+    }
+    return mesh;
+}
+
+// A block of `lower` divisions below one of `upper`, which covers x from `start` on.
+std::vector<Block> stack(CellType lower_type, CellType upper_type, std::int64_t lower, std::int64_t upper, double start = 0.0,
+                         double length = 1.0) {
+    if (topology(lower_type).dimension == 2)
+        return {{lower_type, {0, 0}, {1, 0.5}, {lower, 2}}, {upper_type, {start, 0.5}, {length, 0.5}, {upper, 2}}};
+    return {{lower_type, {0, 0, 0}, {1, 1, 0.5}, {lower, lower + 1, 1}},
+            {upper_type, {start, 0, 0.5}, {length, 1, 0.5}, {upper, upper + 2, 1}}};
+}
+
+double linear(std::span<const double> x) {
+    double value = 0.7;
+    for (std::size_t i = 0; i < x.size(); ++i) value += (0.3 - 1.1 * static_cast<double>(i)) * x[i];
+    return value;
+}
+
+// Tied nodes sit where their weights say, sum to one, carry linear fields, belong to nobody, and hang on one body.
+void expect_ties(const Mesh& mesh, const InterfaceGeometry& i) {
+    ck_assert_uint_eq(mesh.ties().size(), i.node_a.size());
+    for (const NodeTie& tie : mesh.ties()) {
+        double sum = 0.0;
+        double value = 0.0;
+        for (const auto& [node, weight] : tie.of) {
+            ck_assert_int_eq(mesh.node_body(node), i.body_a);
+            sum += weight;
+            value += weight * linear(mesh.node(node));
+        }
+        ck_assert(std::abs(sum - 1.0) < 1e-14);
+        ck_assert(std::abs(value - linear(mesh.node(tie.node))) < 1e-14);
+        ck_assert_int_eq(mesh.node_body(tie.node), -1);
+        ck_assert_int_eq(mesh.node_origin(tie.node), tie.node);
+        ck_assert(std::find(i.node_a.begin(), i.node_a.end(), tie.node) != i.node_a.end());
+    }
+    for (std::size_t p = 0; p < i.node_b.size(); ++p) {
+        ck_assert_int_eq(mesh.node_body(i.node_b[p]), i.body_b);
+        ck_assert(i.weight[p] > 0.0);
+    }
+    ck_assert(std::is_sorted(mesh.ties().begin(), mesh.ties().end(),
+                             [](const NodeTie& x, const NodeTie& y) { return x.node < y.node; }));
+}
+
+double area(const InterfaceGeometry& i) {
+    double sum = 0.0;
+    for (const double w : i.weight) sum += w;
+    return sum;
+}
+
+START_TEST(flat) {
+    for (const CellType lower : all_types) {
+        for (const CellType upper : all_types) {
+            if (topology(lower).dimension != topology(upper).dimension) continue;
+            const auto dim = at(topology(lower).dimension);
+            Mesh mesh = blocks(stack(lower, upper, 3, 5));
+            const std::int64_t before = mesh.node_count();
+            ck_assert_int_eq(mesh.add_projected_interface(0, 1, 0.0), 0);
+            const InterfaceGeometry& i = mesh.interfaces()[0];
+            expect_ties(mesh, i);
+            ck_assert_int_eq(mesh.node_count(), before + i.pair_count());
+            ck_assert(std::abs(area(i) - 1.0) < 1e-13);
+            for (std::size_t p = 0; p < i.node_a.size(); ++p) {
+                for (std::size_t k = 0; k < dim; ++k)
+                    ck_assert(std::abs(mesh.node(i.node_a[p])[k] - mesh.node(i.node_b[p])[k]) < 1e-13);
+                ck_assert(std::abs(i.frame[p * dim * dim + dim - 1] - 1.0) < 1e-14);
+            }
+            // The other way round it is another interface, with the same area and the opposite normal.
+            Mesh back = blocks(stack(lower, upper, 3, 5));
+            back.add_projected_interface(1, 0, 0.0);
+            expect_ties(back, back.interfaces()[0]);
+            ck_assert(std::abs(area(back.interfaces()[0]) - 1.0) < 1e-13);
+            ck_assert(std::abs(back.interfaces()[0].frame[dim - 1] + 1.0) < 1e-14);
+        }
+    }
+}
+END_TEST
+
+// Faces that match anyway: each node is tied to its partner alone, and the interface is the matched one's.
+START_TEST(matching) {
+    for (const CellType type : all_types) {
+        Mesh mesh = blocks(stack(type, type, 4, 4));
+        if (topology(type).dimension == 3) {
+            auto list = stack(type, type, 4, 4);
+            list[1].divisions[1] = list[0].divisions[1];
+            mesh = blocks(list);
+        }
+        Mesh matched = mesh;
+        matched.add_interface(0, 1, 0.0);
+        mesh.add_projected_interface(0, 1, 0.0);
+        const InterfaceGeometry& i = mesh.interfaces()[0];
+        const InterfaceGeometry& m = matched.interfaces()[0];
+        ck_assert(i.node_b == m.node_b && i.face.size() == m.face.size() && i.nodes_per_face == m.nodes_per_face);
+        for (const NodeTie& tie : mesh.ties()) ck_assert_uint_eq(tie.of.size(), 1);
+        for (std::size_t p = 0; p < i.weight.size(); ++p) {
+            ck_assert_int_eq(mesh.ties()[at(i.node_a[p] - mesh.ties()[0].node)].of[0].first, m.node_a[p]);
+            ck_assert(std::abs(i.weight[p] - m.weight[p]) < 1e-14);
+        }
+        for (std::size_t k = 0; k < i.frame.size(); ++k) ck_assert(std::abs(i.frame[k] - m.frame[k]) < 1e-13);
+        for (std::size_t k = 0; k + 1 < i.face.size(); ++k) ck_assert(i.face[k] >= 0 && i.face[k] < i.pair_count());
+    }
+}
+END_TEST
+
+// Two rings around a quarter circle (a cylinder in 3D): b's nodes are off a's faces by what the chords are off the arc.
+START_TEST(curved) {
+    for (const CellType type : {CellType::quad4, CellType::quad8, CellType::tri6, CellType::hex8, CellType::hex20, CellType::tet10}) {
+        const std::size_t dim = at(topology(type).dimension);
+        // x runs around, the last axis is the radius, turned so that cells stay positive.
+        const Map bend = [&](std::span<double> x) {
+            const double angle = 0.5 * std::numbers::pi * (1.0 - x[0]);
+            const double r = 1.0 + x[dim - 1];
+            x[0] = r * std::cos(angle);
+            x[dim - 1] = r * std::sin(angle);
+        };
+        for (const std::int64_t n : {4, 8}) {
+            Mesh mesh = blocks(stack(type, type, n, 2 * n + 1), bend);
+            const double radius = 1.5;
+            const double turn = 0.5 * std::numbers::pi / static_cast<double>(n);
+            // Sagitta of the chords; of parabolas through three points of the arc, far less.
+            const double chord = radius * (1.0 - std::cos(0.5 * turn));
+            const double gap = quadratic(type) ? 0.05 * chord : 1.01 * chord;
+            mesh.add_projected_interface(0, 1, gap);
+            const InterfaceGeometry& i = mesh.interfaces()[0];
+            expect_ties(mesh, i);
+            const double exact = 0.5 * std::numbers::pi * radius;
+            ck_assert(std::abs(area(i) - exact) < 0.1 * turn * turn * exact);
+            for (std::size_t p = 0; p < i.node_a.size(); ++p) {
+                const auto a = mesh.node(i.node_a[p]);
+                const auto b = mesh.node(i.node_b[p]);
+                double off = 0.0;
+                double outward = 0.0;
+                for (std::size_t k = 0; k < dim; ++k) {
+                    off = std::max(off, std::abs(a[k] - b[k]));
+                    if (k == 0 || k == dim - 1) outward += i.frame[p * dim * dim + k] * b[k] / radius;
+                }
+                ck_assert(off <= gap);
+                ck_assert(outward > std::cos(0.6 * turn));
+            }
+            if (quadratic(type)) continue;
+            Mesh close = blocks(stack(type, type, n, 2 * n + 1), bend);
+            ck_assert_refused(DELAM_ERROR_MESH, "part only", close.add_projected_interface(0, 1, 0.5 * chord));
+            ck_assert_int_eq(close.node_count(), mesh.node_count() - i.pair_count());
+        }
+    }
+}
+END_TEST
+
+// b may end within a; beyond a's rim only whole faces of it may lie, side by side with a.
+START_TEST(partly_covered) {
+    for (const CellType type : all_types) {
+        Mesh within = blocks(stack(type, type, 3, 5, 0.1, 0.7));
+        within.add_projected_interface(0, 1, 0.0);
+        ck_assert(std::abs(area(within.interfaces()[0]) - 0.7) < 1e-13);
+        expect_ties(within, within.interfaces()[0]);
+        Mesh beside = blocks(stack(type, type, 3, 4, 0.5, 1.0));
+        beside.add_projected_interface(0, 1, 0.0);
+        ck_assert(std::abs(area(beside.interfaces()[0]) - 0.5) < 1e-13);
+        const struct {
+            double start, length;
+            std::int64_t upper;
+        } refused[] = {{0.5, 1.0, 5}, {0.9, 1.0, 2}, {-0.1, 1.2, 3}, {-0.5, 2.0, 1}, {-1.0, 3.0, 1}};
+        for (const auto& r : refused) {
+            Mesh mesh = blocks(stack(type, type, 4, r.upper, r.start, r.length));
+            const std::int64_t before = mesh.node_count();
+            ck_assert_refused(DELAM_ERROR_MESH, "in part only", mesh.add_projected_interface(0, 1, 0.0));
+            ck_assert(mesh.interfaces().empty() && mesh.ties().empty() && mesh.node_count() == before);
+        }
+        Mesh apart = blocks(stack(type, type, 4, 4, 1.25, 1.0));
+        ck_assert_refused(DELAM_ERROR_MESH, "come as close as 0.25", apart.add_projected_interface(0, 1, 0.0));
+        Mesh twice = blocks(stack(type, type, 3, 4));
+        twice.add_projected_interface(0, 1, 0.0);
+        ck_assert_refused(DELAM_ERROR_ARGUMENT, "interface 0 already", twice.add_projected_interface(1, 0, 0.0));
+        ck_assert_int_eq(twice.add_all_interfaces(0.0), 0);
+        for (const double bad : {-1e-3, std::nan(""), HUGE_VAL})
+            ck_assert_refused(DELAM_ERROR_ARGUMENT, "gap", apart.add_projected_interface(0, 1, bad));
+    }
+    // Tied nodes take no cells.
+    Mesh mesh = blocks(stack(CellType::quad4, CellType::quad4, 1, 2));
+    mesh.add_projected_interface(0, 1, 0.0);
+    const std::int64_t tied = mesh.ties()[0].node;
+    ck_assert_refused(DELAM_ERROR_MESH, "is tied", mesh.add_cells(CellType::tri3, Indices{tied, 0, 1}, Labels{7}));
+    ck_assert_refused(DELAM_ERROR_MESH, "is tied", mesh.add_conforming_cells(CellType::tri3, Indices{0, 1, tied}, Labels{7}));
+    ck_assert_int_eq(mesh.node_body(tied), -1);
+}
+END_TEST
+
+// The nearest point of a curved face is where the offset is along the normal.
+START_TEST(nearest_points) {
+    for (const CellType type : {CellType::quad8, CellType::hex20, CellType::tet10, CellType::hex8}) {
+        const std::size_t dim = at(topology(type).dimension);
+        const Mesh mesh = blocks({stack(type, type, 2, 2)[0]}, [&](std::span<double> x) {
+            const double y = dim == 3 ? x[1] : 0.0;
+            x[dim - 1] += 0.1 * x[0] * x[0] + 0.07 * y * (1.0 - x[0]);
+        });
+        for (const BoundaryFace& face : boundary_faces(mesh, 0)) {
+            for (const FacePoint& p : inner_points(mesh, face)) {
+                Point x = p.place;
+                for (std::size_t i = 0; i < 3; ++i) x[i] += 0.02 * p.normal[i];
+                const FacePoint found = closest_point(mesh, face, x);
+                ck_assert(length(found.place - p.place) < 1e-12);
+                ck_assert(length(found.normal - p.normal) < 1e-11);
+                for (std::size_t k = 0; k < most_face_nodes; ++k) ck_assert(std::abs(found.weight[k] - p.weight[k]) < 1e-11);
+            }
+        }
+    }
+}
+END_TEST
+
+START_TEST(obstacles) {
+    for (const CellType type : all_types) {
+        const std::size_t dim = at(topology(type).dimension);
+        Mesh mesh = blocks({stack(type, type, 4, 4)[0]}, {}, dim == 2 ? Numbers{0.5, 9.0} : Numbers{0.5, 0.5, 9.0});
+        const std::int64_t control = mesh.node_count() - 1;
+        Indices top;
+        Numbers down;
+        for (std::int64_t n = control - 1; n >= 0; --n) {  // the order is the host's
+            if (mesh.node(n)[dim - 1] != 0.5 || mesh.node(n)[0] > 0.5) continue;
+            top.push_back(n);
+            for (std::size_t i = 0; i < dim; ++i) down.push_back(i == dim - 1 ? -3.0 : 0.0);
+        }
+        ck_assert_int_eq(mesh.add_obstacle(top, down, {}, control), 0);
+        const InterfaceGeometry& i = mesh.interfaces()[0];
+        ck_assert(i.body_a == -1 && i.body_b == 0 && i.node_b == top);
+        ck_assert(std::all_of(i.node_a.begin(), i.node_a.end(), [&](std::int64_t n) { return n == control; }));
+        ck_assert(std::abs(area(i) - 0.5) < 1e-14);
+        for (std::size_t p = 0; p < top.size(); ++p) ck_assert(i.frame[p * dim * dim + dim - 1] == -1.0);
+        ck_assert(i.face_count() > 0);
+
+        // One node alone needs a weight.
+        const Indices one{top[0]};
+        const Numbers normal(down.begin(), down.begin() + static_cast<std::ptrdiff_t>(dim));
+        ck_assert_refused(DELAM_ERROR_MESH, "give weights", mesh.add_obstacle(one, normal, {}, control));
+        ck_assert_int_eq(mesh.add_obstacle(one, normal, Numbers{0.25}, control), 1);
+        ck_assert(mesh.interfaces()[1].weight == Numbers{0.25} && mesh.interfaces()[1].face_count() == 0);
+
+        // A body that comes later moves no index of the obstacle, and the control node takes no cells.
+        ck_assert_refused(DELAM_ERROR_MESH, "control node", mesh.add_cells(type, Indices(at(topology(type).nodes), control), Labels{3}));
+        ck_assert_refused(DELAM_ERROR_ARGUMENT, "length 0", mesh.add_obstacle(one, Numbers(dim, 0.0), Numbers{1.0}, control));
+        ck_assert_refused(DELAM_ERROR_ARGUMENT, "weights[0] = 0", mesh.add_obstacle(one, normal, Numbers{0.0}, control));
+        ck_assert_refused(DELAM_ERROR_MESH, "belongs to body 0", mesh.add_obstacle(one, normal, Numbers{1.0}, top[0]));
+        ck_assert_refused(DELAM_ERROR_ARGUMENT, "has no cells", mesh.add_obstacle(Indices{control}, normal, Numbers{1.0}, control));
+        ck_assert_refused(DELAM_ERROR_ARGUMENT, "control_node", mesh.add_obstacle(one, normal, Numbers{1.0}, control + 1));
+        Numbers both = normal;
+        both.insert(both.end(), normal.begin(), normal.end());
+        ck_assert_refused(DELAM_ERROR_ARGUMENT, "twice", mesh.add_obstacle(Indices{top[0], top[0]}, both, Numbers{1, 1}, control));
+        ck_assert_uint_eq(mesh.interfaces().size(), 2);
+    }
+    Mesh mesh = blocks(stack(CellType::quad4, CellType::quad4, 2, 2), {}, Numbers{0, 9});
+    mesh.add_all_interfaces(0.0);
+    ck_assert_refused(DELAM_ERROR_ARGUMENT, "an obstacle of its own",
+                      mesh.add_obstacle(Indices{0, 9}, Numbers{0, 1, 0, 1}, Numbers{1, 1}, mesh.node_count() - 1));
+}
+END_TEST
+
+}  // namespace
+
+int main() {
+    Suite* suite = suite_create("projection");
+    TCase* tests = tcase_create("interfaces");
+    tcase_add_test(tests, flat);
+    tcase_add_test(tests, matching);
+    tcase_add_test(tests, curved);
+    tcase_add_test(tests, partly_covered);
+    tcase_add_test(tests, nearest_points);
+    tcase_add_test(tests, obstacles);
+    suite_add_tcase(suite, tests);
+    SRunner* runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? 0 : 1;
+}
