@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The map from a reference cell to a cell: where it turns over, and what it measures. Simplices and plane quadrilaterals.
+// The map from a reference cell to a cell: where it turns over, and what it measures. Simplices and quadrilaterals.
 #pragma once
 
 #include <cstdint>

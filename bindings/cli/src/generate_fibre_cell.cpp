@@ -135,10 +135,14 @@ MeshData generate_fibre_cell(const FibreCell& cell) {
     const Packing packing = arrange(cell);
     const std::vector<Disc> discs = discs_of(packing);
     const std::string subject = fmt::format("generator fibre-cell with h = {:.6g}", h * cell.radius);
-    MeshData mesh = with_gmsh(place, subject, [&] {
+    MeshData mesh = with_gmsh(key_of(place, "h"), subject, [&] {
         draw(packing, discs);
         mesh_surfaces(h, quadrilaterals);
-        return read_gmsh_model(subject, place);
+        MeshData read = read_gmsh_model(subject, place);
+        std::vector<std::string> names{"matrix"};
+        for (std::size_t i = 0; i < packing.centres.size(); ++i) names.push_back(fmt::format("fibre-{}", i + 1));
+        GeneratorModel::order_bodies(read, names);
+        return read;
     });
     mesh.periods = {{packing.width, 0.0}, {0.0, packing.height}};
     align_borders(mesh, place);

@@ -21,7 +21,7 @@ struct FibreCell {
     std::uint64_t seed = 1;
     std::int64_t cells_around = 32;  // a fibre; >= 8
     double h = 0;              // L, instead: edge of a cell; 0: 2 pi radius / cells_around
-    std::int32_t cell = 0;     // DELAM_TRI3, TRI6, QUAD4, QUAD8: the quadrilaterals with triangles where they do not fit
+    std::int32_t cell = 0;     // DELAM_TRI3, TRI6, QUAD4, QUAD8 (with triangles where these do not fit)
     Place place;               // of the table, for messages
 };
 

@@ -271,18 +271,25 @@ MeshData generate_weave(const WeaveCell& cell) {
     const double fabric = 2 * (amplitude + section.half_thickness());
     const double height = cell.height == 0 ? fabric + 2 * gap : cell.height / unit;
     require(height >= (fabric + gap) * (1 - 1e-12) && height <= 20, place, "height",
-            fmt::format("must be in [{:.6g}, {:.6g}], the fabric (centre lines swing by {:.6g} either way) and a gap, to "
-                        "20 spacings, or 0; got {}",
+            fmt::format("must be in [{:.6g}, {:.6g}], the fabric (centre lines swing by {:.6g} either way) and a gap "
+                        "to 20 spacings, or 0; got {}",
                         (fabric + gap) * unit, 20 * unit, amplitude * unit, cell.height));
     const std::array<Yarn, yarns> all = weave(amplitude);
     const double h = cell.h / unit;
     const double middle_z = cell.stacked ? height / 2 : 0.0;
 
-    const std::string subject = fmt::format("generator weave with h = {}, gap = {}", cell.h, cell.gap);
-    MeshData mesh = with_gmsh(place, subject, [&] {
+    const std::string subject = 
+        fmt::format("generator weave with h = {}, gap = {} (a smaller h or a larger gap helps where straight sides of "
+                    "cells cross the gap)",
+                    cell.h, cell.gap);
+    MeshData mesh = with_gmsh(key_of(place, "h"), subject, [&] {
         draw(section, all, height, cell.stacked);
         mesh_volumes(h);
-        return read_gmsh_model(subject, place);
+        MeshData read = read_gmsh_model(subject, place);
+        std::vector<std::string> names{"matrix"};
+        names.insert(names.end(), yarn_names.begin(), yarn_names.end());
+        GeneratorModel::order_bodies(read, names);
+        return read;
     });
     mesh.periods = {{2, 0, 0}, {0, 2, 0}};
     if (cell.stacked) mesh.periods.push_back({0, 0, height});
@@ -306,7 +313,8 @@ MeshData generate_weave(const WeaveCell& cell) {
                                      "lines swing by {:.6g} either way",
                                      2 * unit, 2 * unit, height * unit, in_yarns / total, amplitude * unit));
     if (off_surface > 0)
-        mesh.notes.push_back(fmt::format("{} sides of cells are off the yarns' surfaces: on them they would squeeze a cell",
+        mesh.notes.push_back(fmt::format("{} sides of cells are off the yarns' surfaces: on them they would squeeze a "
+                                         "cell",
                                          off_surface));
     return mesh;
 }

@@ -27,9 +27,9 @@ struct WeaveCell {
 // The cell is [0, 2 spacing]^2 x [-height/2, height/2] ([0, height] if stacked). Warp yarns run along x at
 // y = spacing/2, 3 spacing/2; weft yarns along y. The centre line of a yarn is z = +- A sin(pi s/spacing), and its
 // sections across x (warp) or y (weft) are all the same. A is the least for which the gap is kept everywhere.
-// Bodies matrix, warp-1, warp-2, weft-1, weft-2. Opposite borders have the same nodes. Node sets left, right (x), front,
-// back (y), bottom, top (z), corners, origin. Axis 1 of a yarn is the tangent of its centre line at the cell's centroid,
-// axis 2 lies in the plane of the fabric; the axes of matrix are those of space. Throws SceneFailure.
+// Bodies matrix, warp-1, warp-2, weft-1, weft-2. Opposite borders have the same nodes. Node sets left, right (x),
+// front, back (y), bottom, top (z), corners, origin. Axis 1 of a yarn is the tangent of its centre line at the cell's
+// centroid, axis 2 lies in the plane of the fabric; the axes of matrix are those of space. Throws SceneFailure.
 MeshData generate_weave(const WeaveCell& cell);
 
 // A: the amplitude of the centre lines.

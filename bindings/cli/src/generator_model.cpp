@@ -146,6 +146,16 @@ void GeneratorModel::name_borders() const {
     gmsh::model::setPhysicalName(0, gmsh::model::addPhysicalGroup(0, origin), "origin");
 }
 
+void GeneratorModel::order_bodies(MeshData& mesh, const std::vector<std::string>& names) {
+    std::vector<std::int32_t> label;
+    for (const std::string& name : mesh.body_names)
+        label.push_back(static_cast<std::int32_t>(std::find(names.begin(), names.end(), name) - names.begin()));
+    for (CellBlock& block : mesh.blocks)
+        for (std::int32_t& body : block.bodies) body = label[static_cast<std::size_t>(body)];
+    if (names.size() != mesh.body_names.size()) throw std::string("a body has no cells");
+    mesh.body_names = names;
+}
+
 std::vector<double> GeneratorModel::measures(const MeshData& mesh) {
     std::vector<double> sum(mesh.body_names.size(), 0.0);
     for (const CellBlock& block : mesh.blocks) {
@@ -187,7 +197,8 @@ void require_sound_cells(const MeshData& mesh, double flattest, const Place& pla
                 at += fmt::format("{}{:.6g}", k == 0 ? "" : ", ", mean / static_cast<double>(shape.corners));
             }
             throw SceneFailure(
-                place, fmt::format("a {} of {} around ({}) is {}: {:.2g} of a regular one; a smaller h or larger gaps help",
+                place, fmt::format("a {} of {} around ({}) is {}: {:.2g} of a regular one; a smaller h or larger gaps "
+                                   "help",
                                    shape.name, mesh.body_names[static_cast<std::size_t>(block.bodies[c])], at,
                                    jacobian > 0.0 ? "too flat" : "inverted", quality));
         }

@@ -30,6 +30,9 @@ public:
     // the smallest coordinates.
     void name_borders() const;
 
+    // Labels as in `names`, which has all bodies.
+    static void order_bodies(MeshData& mesh, const std::vector<std::string>& names);
+
     // What bodies measure, by label, curved sides included.
     static std::vector<double> measures(const MeshData& mesh);
 
@@ -41,8 +44,8 @@ private:
     std::array<double, 3> upper_;
 };
 
-// Refuses cells that are inverted, or flat: measure beside that of an equilateral one with edges as long, below `flattest`.
-// Names the place. key: of the parameter to change.
+// Refuses cells that are inverted, or flat: beside a regular one with edges as long as the longest, their measure is
+// below `flattest`. Names where the cell is. place: of the parameter to change.
 void require_sound_cells(const MeshData& mesh, double flattest, const Place& place);
 
 // The place of a key of the table.

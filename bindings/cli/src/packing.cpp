@@ -131,10 +131,9 @@ std::vector<Point> drop(const Cell& cell, std::int64_t count, Random& random) {
     for (std::int64_t i = 0; i < count; ++i) {
         Point at = cell.anywhere(random);
         for (int k = 0; k < drops; ++k) {
-            const bool free = cell.clear_of_edges(at) && std::all_of(centres.begin(), centres.end(), [&](const Point& c) {
-                                  return cell.apart(c, at);
-                              });
-            if (free) break;
+            const bool free = std::all_of(centres.begin(), centres.end(),
+                                          [&](const Point& c) { return cell.apart(c, at); });
+            if (free && cell.clear_of_edges(at)) break;
             at = cell.anywhere(random);
         }
         centres.push_back(at);

@@ -171,7 +171,7 @@ void fibre_cell(cli::FibreCell cell, const std::string& what) {
     }
     const double circle = pi * cell.radius * cell.radius;
     const bool quadratic = cell.cell == DELAM_TRI6 || cell.cell == DELAM_QUAD8;
-    const double error = quadratic ? 3e-3 : 4e-2;
+    const double error = quadratic ? 3e-3 : 4e-2;  // where fibres nearly touch, sides are not bent
     std::printf("      %s: %zu nodes, fibres %.6f..%.6f of a circle\n", what.c_str(), mesh.nodes.size() / 2,
                 smallest / circle, largest / circle);
     for (const std::string& note : mesh.notes) std::printf("      %s\n", note.c_str());
@@ -226,8 +226,10 @@ void weave(cli::WeaveCell cell, const std::string& what) {
         if (mesh.body_names[i] != "matrix") error = std::max(error, std::abs(volumes[i] / yarn - 1));
     std::printf("      %s: %zu nodes, yarns off by %.2g\n", what.c_str(), mesh.nodes.size() / 3, error);
     for (const std::string& note : mesh.notes) std::printf("      %s\n", note.c_str());
-    expect(mesh.body_names.size() == 5 && std::abs(all / box - 1) < 1e-9, what + ": the block has its volume");
-    expect(error < (cell.cell == DELAM_TET10 ? 0.02 : 0.15), what + ": each yarn has its volume");
+    expect(mesh.body_names == std::vector<std::string>{"matrix", "warp-1", "warp-2", "weft-1", "weft-2"} &&
+               std::abs(all / box - 1) < 1e-9, what + ": the block has its volume");
+    // The tips of ellipses are sharper than cells are small.
+    expect(error < (cell.section == "lens" ? 5e-3 : 0.15), what + ": each yarn has its volume");
     bool borders = periodic(mesh, "left", "right", 0) && periodic(mesh, "front", "back", 1);
     if (cell.stacked) borders = borders && periodic(mesh, "bottom", "top", 2);
     expect(borders && mesh.periods.size() == (cell.stacked ? 3U : 2U), what + ": borders are periodic");
@@ -350,6 +352,7 @@ int main() {
     cell.thickness = 0.4e-3;
     cell.gap = 0.04e-3;
     cell.h = 0.44e-3;
+    cell.section = "ellipse";
     weave(cell, "ellipses, tet10");
     cell.stacked = true;
     weave(cell, "ellipses, stacked");

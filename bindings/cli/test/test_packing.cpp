@@ -76,7 +76,8 @@ void repeatable() {
     expect(packing.centres != cli::pack_discs(other).centres, "another seed gives another packing");
     // Recorded; the same on every machine with IEEE doubles.
     const cli::Packing dense = cli::pack_discs({7, 0.65, 0.06, 0.1, 1.0, 42});
-    expect(dense.centres[6][0] == 3.760328021423248 && dense.centres[6][1] == 5.1172241848915467, "the packing of a seed never changes");
+    expect(dense.centres[6][0] == 3.760328021423248 && dense.centres[6][1] == 5.1172241848915467,
+           "the packing of a seed never changes");
 }
 
 void regular() {

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// [mesh] with `generator` instead of `file`.
+#pragma once
+
+#include "mesh_data.hpp"
+#include "reader.hpp"
+
+namespace cli {
+
+// Reads the keys of the generator, refuses others but `plane`, and makes the mesh.
+MeshData read_generator(const Table& table);
+
+}  // namespace cli
