@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "body/assembly.hpp"
 #include "delam/delam.h"
+#include "scene/strain_loads.hpp"
 
 namespace delam {
 
@@ -54,7 +55,10 @@ std::vector<double> field(const Solver& solver, const std::string& key, std::int
     if (key == "stress") {
         std::vector<BodyModel> models;
         for (std::int32_t body = 0; body < problem.mesh->body_count(); ++body) models.push_back(problem.model(body));
-        return centre_stress(*problem.mesh, models, solver.displacement());
+        std::vector<Strain> eigenstrain;
+        for (std::int32_t body = 0; body < problem.mesh->body_count() && !problem.eigenstrains.empty(); ++body)
+            eigenstrain.push_back(strain_at(problem, body, state.theta));
+        return centre_stress(*problem.mesh, models, solver.displacement(), eigenstrain);
     }
     const auto first = static_cast<std::size_t>(pair_range(solver, part).first);
     const auto columns = static_cast<std::size_t>(shape.columns);
