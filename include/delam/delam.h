@@ -391,6 +391,12 @@ DELAM_API int32_t delam_problem_add_periodic(delam_problem *problem, int64_t per
 DELAM_API int32_t delam_problem_add_forces(delam_problem *problem, int64_t pattern, int64_t count, const int64_t *nodes,
                                            const double *forces, int32_t index_base);
 
+/* Eigenstrain (thermal expansion, swelling, cure shrinkage) of a body (-1: of all), in its material axes: strain [6] = xx, yy, zz, 2xy, 2yz,
+ * 2zx times the factor of the pattern, which drives nothing else. Stress = C (eps - factor strain); stored_bulk is the energy of that stress.
+ * Several add up. Plane strain: strain zz makes stress in the plane as well; plane stress: zz, 2yz, 2zx are free and do nothing.
+ * reaction:NAME of such a pattern is dE/dfactor = - int strain : stress, and `work` what the change of the eigenstrain has done on the bodies. */
+DELAM_API int32_t delam_problem_add_eigenstrain(delam_problem *problem, int64_t pattern, int32_t body, const double *strain);
+
 /* Options by key; see delam_option_info. Numbers of integer options must be whole. */
 DELAM_API int32_t delam_problem_set_number(delam_problem *problem, const char *key, double value);
 DELAM_API int32_t delam_problem_set_text(delam_problem *problem, const char *key, const char *value);
@@ -424,8 +430,11 @@ DELAM_API int32_t delam_problem_body_matrix(const delam_problem *problem, int32_
 DELAM_API int32_t delam_problem_constraints(const delam_problem *problem, int64_t *rows, int64_t *entries,
                                             int64_t *pattern_count, int64_t *row_starts, int64_t *columns, double *values,
                                             double *coefficients);
-/* Dead forces of a pattern at factor 1: [primal DOFs]. */
+/* Nodal forces of a pattern at factor 1, [primal DOFs]: dead forces, or int B^T C e* of its eigenstrains e*. */
 DELAM_API int32_t delam_problem_forces(const delam_problem *problem, int64_t pattern, int64_t capacity, double *forces);
+/* W[pattern_count][pattern_count] = int e*_p : C : e*_q of the eigenstrains, 0 for other patterns. With it the energy of the bodies is
+ * 1/2 u.K u - sum factor_p f_p.u + 1/2 sum factor_p W_pq factor_q, f_p as delam_problem_forces gives it. capacity: pattern_count^2. */
+DELAM_API int32_t delam_problem_eigenstrain_energy(const delam_problem *problem, int64_t capacity, double *matrix);
 /* Factors of all patterns at a time: [pattern_count]. */
 DELAM_API int32_t delam_problem_factors(const delam_problem *problem, double time, int64_t capacity, double *factors);
 DELAM_API int32_t delam_problem_pattern_count(const delam_problem *problem, int64_t *count);
@@ -500,7 +509,7 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   kkt_gap                deepest penetration of the recovered displacements, over the largest jump (0 = none)
  *   kkt_pressure           largest pull of a closed contact, over the largest force of a pair (0 = none)
  *   kkt_complementarity    largest |gap * force| of a closed contact, over (largest jump * largest force)
- *   kkt_equilibrium        largest out-of-balance nodal force of the recovered displacements, over the largest reaction
+ *   kkt_equilibrium        largest out-of-balance nodal force of the recovered displacements, over the largest reaction or nodal force of eigenstrains
  *                          (the kkt_ values recover the displacements: a sparse solve each)
  * of the fronts of all interfaces with a law, and with :I behind it (crack_length:0) of interface I:
  *   crack_length           L or L2: initially open part, in 2D up to the pair at the tip, in 3D the faces that touch an open pair, and
@@ -508,7 +517,7 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   energy_release_rate, front_mixity   G in F/L and (G_II + G_III)/G at the front point with the largest G; 0: there is no front
  *   process_zone_length, process_zone_pairs   L, and number of pairs, there (see delam_solver_front for all of these)
  * and per pattern load:NAME (its factor) and reaction:NAME (its conjugate: positive when the device does work; of a force
- * pattern, minus the conjugate displacement).
+ * pattern, minus the conjugate displacement; of an eigenstrain, minus the integral of stress times strain).
  * delam_solver_value_count counts all of them. */
 DELAM_API int32_t delam_solver_value(delam_solver *solver, const char *key, double *value);
 DELAM_API int32_t delam_solver_value_count(const delam_solver *solver, int64_t *count);

@@ -197,8 +197,9 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> 
     return k;
 }
 
+// Without eigenstrains the rows of the plane are enough, and isotropic bodies know their zz from the others.
 std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> models,
-                                  std::span<const double> displacement) {
+                                  std::span<const double> displacement, std::span<const Strain> eigenstrain) {
     const std::size_t dim = at(mesh.dimension());
     std::vector<CellElasticity> elasticity;
     for (const BodyModel& model : models) elasticity.emplace_back(model, mesh.dimension());
@@ -210,26 +211,48 @@ std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> m
         u.clear();
         for (const std::int64_t n : mesh.cell(c))
             for (std::size_t i = 0; i < dim; ++i) u.push_back(displacement[at(n) * dim + i]);
-        const std::vector<double> strain = centre_strain(mesh.cell_type(c), cell_coordinates(mesh, c).view(), u);
+        std::vector<double> strain = centre_strain(mesh.cell_type(c), cell_coordinates(mesh, c).view(), u);
         const std::size_t body = at(mesh.cell_body(c));
+        const BodyModel& model = models[body];
         const std::span<const double> matrix = elasticity[body].matrix(c);
+        if (!eigenstrain.empty()) {
+            const Axes* axes = elasticity[body].axes(c);
+            const Strain e = axes == nullptr ? eigenstrain[body] : rotated_strain(eigenstrain[body], *axes);
+            if (dim == 3) {
+                for (std::size_t i = 0; i < 6; ++i) strain[i] -= e[i];
+            } else {
+                strain[0] -= e[0];
+                strain[1] -= e[1];
+                strain[2] -= e[3];
+                if (model.plane == Plane::strain) {
+                    const SpaceElasticity& space = elasticity[body].space(c);
+                    const double all[] = {strain[0], strain[1], -e[2], strain[2], -e[4], -e[5]};
+                    for (std::size_t i = 0; i < 4; ++i) {
+                        double sum = 0.0;
+                        for (std::size_t j = 0; j < 6; ++j) sum += space[i * 6 + j] * all[j];
+                        stress.push_back(sum);
+                    }
+                    continue;
+                }
+            }
+        }
         std::array<double, 6> s{};
         for (std::size_t i = 0; i < strain.size(); ++i)
             for (std::size_t j = 0; j < strain.size(); ++j) s[i] += matrix[i * strain.size() + j] * strain[j];
         if (dim == 3) {
             stress.insert(stress.end(), s.begin(), s.end());
-        } else {
-            double zz = 0.0;
-            if (models[body].plane == Plane::strain) {
-                if (const auto* isotropic = std::get_if<Elastic>(&models[body].material)) {
-                    zz = isotropic->poisson * (s[0] + s[1]);
-                } else {
-                    const SpaceElasticity& space = elasticity[body].space(c);
-                    zz = space[12] * strain[0] + space[13] * strain[1] + space[15] * strain[2];
-                }
-            }
-            stress.insert(stress.end(), {s[0], s[1], zz, s[2]});
+            continue;
         }
+        double zz = 0.0;
+        if (model.plane == Plane::strain) {
+            if (const auto* isotropic = std::get_if<Elastic>(&model.material)) {
+                zz = isotropic->poisson * (s[0] + s[1]);
+            } else {
+                const SpaceElasticity& space = elasticity[body].space(c);
+                zz = space[12] * strain[0] + space[13] * strain[1] + space[15] * strain[2];
+            }
+        }
+        stress.insert(stress.end(), {s[0], s[1], zz, s[2]});
     }
     return stress;
 }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "body/eigenstrain.hpp"
 #include "body/model.hpp"
 #include "linalg/sparse.hpp"
 #include "mesh/mesh.hpp"
@@ -18,8 +19,9 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> 
                                 std::span<const std::int64_t> nodes, const BodyModel& model);
 
 // Stresses at cell centres, [cells][4 or 6]: xx, yy, zz, xy (2D, zz from the plane assumption) or xx, yy, zz, xy, yz,
-// zx. displacement: [mesh nodes][dimension]; models by body index.
+// zx: C (eps - e*). displacement: [mesh nodes][dimension]; models by body index; eigenstrains e* likewise, in material
+// axes (none where the list is empty).
 std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> models,
-                                  std::span<const double> displacement);
+                                  std::span<const double> displacement, std::span<const Strain> eigenstrain = {});
 
 }  // namespace delam

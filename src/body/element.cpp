@@ -155,6 +155,26 @@ void contract(const Products<nodes, dim>& product, const double* elasticity, dou
     each_pair<nodes, dim>(product, block, k);
 }
 
+template <std::size_t nodes, std::size_t dim>
+double gradient_integrals(CellType type, const double* coordinates, double* integral) {
+    double x[nodes * dim];
+    for (std::size_t i = 0; i < nodes * dim; ++i) x[i] = coordinates[i] - coordinates[i % dim];
+    std::fill_n(integral, nodes * dim, 0.0);
+    double volume = 0.0;
+    const Quadrature& gauss = quadrature(type);
+    for (std::size_t q = 0; q < gauss.points.size(); ++q) {
+        const double* reference = gauss.gradients[q].data();
+        const Matrix<dim> j = tangent<nodes, dim>(x, reference);
+        const Matrix<dim> cofactor = cofactors<dim>(j);
+        volume += gauss.weights[q] * determinant<dim>(j, cofactor);
+        for (std::size_t a = 0; a < nodes; ++a)
+            for (std::size_t i = 0; i < dim; ++i)
+                for (std::size_t c = 0; c < dim; ++c)
+                    integral[a * dim + i] += gauss.weights[q] * cofactor[i * dim + c] * reference[a * dim + c];
+    }
+    return volume;
+}
+
 // Static condensation of the last `modes` of `all` unknowns:  K_uu - K_ua K_aa^-1 K_au = K_uu - V^T V,  V = L^-1 K_au
 // with Cholesky's K_aa = L L^T.
 template <std::size_t all, std::size_t modes>
@@ -215,6 +235,23 @@ void element_stiffness(CellType type, std::span<const double> coordinates, std::
         case CellType::tet10: return standard<10, 3>(type, x, d, k);
         case CellType::hex20: return standard<20, 3>(type, x, d, k);
     }
+}
+
+double integrate_gradients(CellType type, std::span<const double> coordinates, std::span<double> integral) {
+    const double* x = coordinates.data();
+    double* g = integral.data();
+    switch (type) {
+        case CellType::tri3: return gradient_integrals<3, 2>(type, x, g);
+        case CellType::quad4: return gradient_integrals<4, 2>(type, x, g);
+        case CellType::tet4: return gradient_integrals<4, 3>(type, x, g);
+        case CellType::hex8: return gradient_integrals<8, 3>(type, x, g);
+        case CellType::tri6: return gradient_integrals<6, 2>(type, x, g);
+        case CellType::quad8: return gradient_integrals<8, 2>(type, x, g);
+        case CellType::quad9: return gradient_integrals<9, 2>(type, x, g);
+        case CellType::tet10: return gradient_integrals<10, 3>(type, x, g);
+        case CellType::hex20: return gradient_integrals<20, 3>(type, x, g);
+    }
+    return 0.0;
 }
 
 // eps_ij = (u_i,j + u_j,i)/2, the shear components doubled.

@@ -17,6 +17,9 @@ namespace delam {
 void element_stiffness(CellType type, std::span<const double> coordinates, std::span<const double> elasticity,
                        Formulation formulation, std::span<double> matrix);
 
+// int dN_a/dx_j dx into integral[nodes*dimension], and the cell's volume.
+double integrate_gradients(CellType type, std::span<const double> coordinates, std::span<double> integral);
+
 // Strains (engineering, order of elasticity_matrix) at the cell's centre from its nodal displacements
 // [nodes][dimension]. Internal modes are at rest there: it is the same in each formulation.
 std::vector<double> centre_strain(CellType type, std::span<const double> coordinates,

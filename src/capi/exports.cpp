@@ -7,6 +7,7 @@
 #include "capi/handles.hpp"
 #include "scene/problem.hpp"
 #include "scene/process_zone.hpp"
+#include "scene/strain_loads.hpp"
 
 namespace {
 
@@ -18,12 +19,21 @@ void give(const SparseMatrix& matrix, std::int64_t* row_starts, std::int64_t* co
     if (values != nullptr) std::copy(matrix.value.begin(), matrix.value.end(), values);
 }
 
+void require_material(const Problem& problem, std::int32_t body) {
+    if (!problem.material[static_cast<std::size_t>(body)])
+        fail(DELAM_ERROR_PROBLEM, "body ", problem.mesh->body_label(body),
+             ": no material (delam_problem_set_elastic or delam_problem_set_orthotropic)");
+}
+
+// Of the bodies with eigenstrains.
+void require_materials(const Problem& problem) {
+    for (const Eigenstrain& eigenstrain : problem.eigenstrains) require_material(problem, eigenstrain.body);
+}
+
 // The mesh of a problem is fixed; what its bodies are made of may change between two calls.
 const SparseMatrix& body_matrix(const delam_problem& problem, std::int32_t body) {
     const Problem& core = *problem.core;
-    if (!core.material[static_cast<std::size_t>(body)]) {
-        fail(DELAM_ERROR_PROBLEM, "body ", core.mesh->body_label(body), ": no material (delam_problem_set_elastic or delam_problem_set_orthotropic)");
-    }
+    require_material(core, body);
     const BodyModel model = core.model(body);
     delam_problem::BodyMatrix& last = problem.assembled;
     if (last.body != body || last.model != model) {
@@ -81,6 +91,22 @@ int32_t delam_problem_forces(const delam_problem* problem, int64_t pattern, int6
         for (const NodalForce& force : core.forces) {
             if (force.pattern == pattern) forces[force.dof] += force.value;
         }
+        if (core.patterns[static_cast<std::size_t>(pattern)].drives != Pattern::Drives::strain) return;
+        require_materials(core);
+        const std::vector<double> of_strains = strain_loads(core).force[static_cast<std::size_t>(pattern)];
+        for (std::size_t i = 0; i < of_strains.size(); ++i) forces[i] += of_strains[i];
+    });
+}
+
+int32_t delam_problem_eigenstrain_energy(const delam_problem* problem, int64_t capacity, double* matrix) {
+    return guard(problem, [&] {
+        const Problem& core = *problem->core;
+        const auto patterns = static_cast<std::int64_t>(core.patterns.size());
+        require_array(matrix, patterns * patterns, "matrix");
+        require_capacity(capacity, patterns * patterns, "matrix");
+        require_materials(core);
+        const std::vector<double> energy = strain_loads(core).energy;
+        std::copy(energy.begin(), energy.end(), matrix);
     });
 }
 

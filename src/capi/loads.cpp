@@ -83,6 +83,16 @@ private:
     std::map<std::int64_t, double> sum_;
 };
 
+const char* name_of(Pattern::Drives drives) {
+    switch (drives) {
+        case Pattern::Drives::nothing: return "nothing";
+        case Pattern::Drives::displacement: return "prescribed displacements";
+        case Pattern::Drives::force: return "forces";
+        case Pattern::Drives::strain: return "eigenstrains";
+    }
+    return "";
+}
+
 // Patterns as 0-based indices, none of which drives the other kind of load.
 std::vector<std::int64_t> require_patterns(const Problem& problem, std::int64_t count, const std::int64_t* patterns,
                                            std::int32_t index_base, Pattern::Drives drives) {
@@ -94,8 +104,7 @@ std::vector<std::int64_t> require_patterns(const Problem& problem, std::int64_t 
                                       text("patterns[", i, "]"));
         const Pattern& pattern = problem.patterns[size(list[size(i)])];
         if (pattern.drives != Pattern::Drives::nothing && pattern.drives != drives) {
-            fail(DELAM_ERROR_PROBLEM, "pattern '", pattern.name, "' drives ",
-                 drives == Pattern::Drives::force ? "prescribed displacements" : "forces",
+            fail(DELAM_ERROR_PROBLEM, "pattern '", pattern.name, "' drives ", name_of(pattern.drives),
                  " already, it cannot drive both");
         }
     }
@@ -344,5 +353,24 @@ int32_t delam_problem_add_forces(delam_problem* problem, int64_t pattern, int64_
         }
         core.forces.insert(core.forces.end(), added.begin(), added.end());
         if (count > 0) mark(core, list, Pattern::Drives::force);
+    });
+}
+
+int32_t delam_problem_add_eigenstrain(delam_problem* problem, int64_t pattern, int32_t body, const double* strain) {
+    return guard(problem, [&] {
+        Problem& core = *problem->core;
+        require_index(pattern, static_cast<std::int64_t>(core.patterns.size()), 0, "pattern");
+        const std::int32_t index = body < 0 ? -1 : core.mesh->body_of_label(body);
+        if (body != -1 && index < 0) fail(DELAM_ERROR_ARGUMENT, "body = ", body, ": no cell carries this label");
+        require_pointer(strain, "strain");
+        require_finite(strain, 6, "strain");
+        const auto list = require_patterns(core, 1, &pattern, 0, Pattern::Drives::strain);
+        Strain own{};
+        std::copy_n(strain, own.size(), own.begin());
+        std::vector<Eigenstrain> added;
+        for (std::int32_t i = 0; i < core.mesh->body_count(); ++i)
+            if (body == -1 || i == index) added.push_back({pattern, i, own});
+        core.eigenstrains.insert(core.eigenstrains.end(), added.begin(), added.end());
+        mark(core, list, Pattern::Drives::strain);
     });
 }

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "interface/contact_levels.hpp"
+#include "scene/strain_loads.hpp"
 
 namespace delam {
 
@@ -44,6 +45,11 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
         initial_adhesion_.insert(initial_adhesion_.end(), properties.adhesion.begin(), properties.adhesion.end());
     }
     contact_.level = contact_levels(mesh.interfaces());
+    if (!problem_.eigenstrains.empty()) {
+        StrainSizes sizes = strain_sizes(problem_);
+        contact_.strain_jump = std::move(sizes.displacement);
+        contact_.strain_force = std::move(sizes.force);
+    }
     rule_ = mixity_rule(pairs_, problem_.options.mixity_rule);
     ChosenOperator chosen = choose_operator(problem_, monitor_);
     operator_ = std::move(chosen.op);

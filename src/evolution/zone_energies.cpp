@@ -81,7 +81,8 @@ std::optional<double> ZoneEnergies::zone_energy(std::span<const double> adhesion
         std::vector<double> force(jump_.size());
         for (std::size_t z = 0; z < force.size(); ++z) force[z] = spring[z] * jump_[z];
         zone_->complete_forces(known_->theta, solution, force);
-        const double jump_scale = noise * largest(jump_), force_scale = noise * largest(force);
+        const double jump_scale = noise * std::max(largest(jump_), contact_.jump_floor(known_->theta));
+        const double force_scale = noise * std::max(largest(force), contact_.force_floor(known_->theta));
         one_at_a_time = one_at_a_time || !seen.insert(held_).second;
         settled = true;
         for (std::size_t z = 0; z < held_.size() && !(one_at_a_time && !settled); ++z) {

@@ -219,7 +219,8 @@ bool Leap::minimise(const Point& at, std::span<const double> adhesion, double fr
         for (const Zone::Coupling& c : couplings_)
             force[static_cast<std::size_t>(c.row)] += c.value * jump[static_cast<std::size_t>(c.column)];
         zone_.complete_forces(state_.theta, solution, force);
-        const double jump_scale = noise * largest(jump), force_scale = noise * largest(force);
+        const double jump_scale = noise * std::max(largest(jump), newton_.contact.jump_floor(state_.theta));
+        const double force_scale = noise * std::max(largest(force), newton_.contact.force_floor(state_.theta));
         bool settled = true;
         for (std::size_t z = 0; z < held_.size(); ++z) {
             if (normal_[z] == 0) continue;

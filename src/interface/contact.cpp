@@ -23,10 +23,11 @@ double largest(std::span<const double> values) {
 
 // Pairs that sit on the wrong side of the complementarity condition.
 std::vector<std::size_t> violators(const ContactScene& scene, std::span<const std::uint8_t> prescribed,
-                                   const std::vector<std::uint8_t>& closed, const Response& response, std::uint8_t level) {
+                                   const std::vector<std::uint8_t>& closed, const Response& response, std::uint8_t level,
+                                   std::span<const double> theta) {
     const auto dim = static_cast<std::size_t>(scene.dimension);
-    const double jump_scale = noise * largest(response.jump);
-    const double force_scale = noise * largest(response.force);
+    const double jump_scale = noise * std::max(largest(response.jump), scene.jump_floor(theta));
+    const double force_scale = noise * std::max(largest(response.force), scene.force_floor(theta));
     std::vector<std::size_t> found;
     for (std::size_t p = 0; p < closed.size(); ++p) {
         if (scene.bonded[p] != 0 || prescribed[p * dim] != 0 || scene.level[p] < level) continue;
@@ -36,9 +37,10 @@ std::vector<std::size_t> violators(const ContactScene& scene, std::span<const st
     return found;
 }
 
-void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> prescribed, const Response& response) {
+void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> prescribed, const Response& response,
+                    std::span<const double> theta) {
     const auto dim = static_cast<std::size_t>(scene.dimension);
-    const double deepest = -1e-9 * largest(response.jump);
+    const double deepest = -1e-9 * std::max(largest(response.jump), scene.jump_floor(theta));
     for (std::size_t p = 0; p < scene.bonded.size(); ++p)
         if (prescribed[p * dim] != 0 && scene.bonded[p] == 0 && response.jump[p * dim] < deepest)
             fail(DELAM_ERROR_PROBLEM, "prescribed displacements press two faces into each other at pair ", p, " (normal jump ",
@@ -79,10 +81,10 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
         result.linear_residual = std::max(result.linear_residual, response.residual);
         result.converged = result.converged && response.converged;
 
-        if (scene.always) refuse_pressed(scene, prescribed, response);
-        std::vector<std::size_t> wrong = violators(scene, prescribed, closed, response, level);
+        if (scene.always) refuse_pressed(scene, prescribed, response, theta);
+        std::vector<std::size_t> wrong = violators(scene, prescribed, closed, response, level, theta);
         while (wrong.empty() && level > scene.least_level) {
-            wrong = violators(scene, prescribed, closed, response, --level);
+            wrong = violators(scene, prescribed, closed, response, --level, theta);
             seen.clear();
             one_at_a_time = false;
         }
@@ -97,7 +99,7 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
             if (one_at_a_time) break;
         }
     }
-    refuse_pressed(scene, prescribed, response);
+    refuse_pressed(scene, prescribed, response, theta);
     return result;
 }
 

@@ -31,6 +31,18 @@ struct ContactScene {
     std::uint8_t least_level = 0;      // pairs below it are not tested and may pass through each other: less energy than any contact leaves
     std::int64_t limit = 200;
     bool always = false;  // in every step, also test pairs whose normal jump the device prescribes: they cannot close, only be pressed
+    // [patterns] What the eigenstrains at factor 1 move (L) and press (F) where they are not free: where they are, jumps and forces are the
+    // rounding of these, and no contact is to be read from it. Empty: no eigenstrains.
+    std::vector<double> strain_jump{}, strain_force{};
+    double jump_floor(std::span<const double> theta) const { return floor(strain_jump, theta); }
+    double force_floor(std::span<const double> theta) const { return floor(strain_force, theta); }
+
+private:
+    static double floor(std::span<const double> size, std::span<const double> theta) {
+        double sum = 0.0;
+        for (std::size_t p = 0; p < size.size(); ++p) sum += size[p] * (theta[p] < 0.0 ? -theta[p] : theta[p]);
+        return sum;
+    }
 };
 
 // spring stiffness: [rows]. closed: [pairs], the warm start in, the contact set out. Throws Error(DELAM_LIMIT) when no contact set balances

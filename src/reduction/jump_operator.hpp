@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The one question that the evolution asks of the mechanics: which jump minimises the energy of bodies and springs at given
-// loads?  E(theta, u) = 1/2 u^T K u - f(theta)^T u + sum_i (1/2 s_i j_i^2 - h_i j_i)  over u with B_e u = j, j_i = 0 on held rows, B_d u = c(theta).
+// loads?  E(theta, u) = 1/2 u^T K u - f(theta)^T u + 1/2 theta^T W theta + sum_i (1/2 s_i j_i^2 - h_i j_i)  over u with B_e u = j, j_i = 0 on held rows, B_d u = c(theta).
 //
 // Rows of the jump: interface after interface, pair after pair, normal first (Problem::jump_count of them). Nothing here
 // knows about damage or contact.
@@ -27,8 +27,8 @@ struct Response {
     std::vector<double> conjugate;    // [patterns] q = dE/dtheta
     std::vector<double> multipliers;  // the operator's own unknowns: warm start in, solution out (empty: cold)
     std::vector<double> rigid;        // the operator's rigid-body coefficients of the solution
-    double stored_bulk = 0.0;         // 1/2 u^T K u
-    double load_potential = 0.0;      // -f^T u
+    double stored_bulk = 0.0;         // 1/2 int (eps - e*) : C : (eps - e*) >= 0 with the eigenstrains e*(theta)
+    double load_potential = 0.0;      // -f^T u of the dead forces in f
     double residual = 0.0;            // relative residual of the linear solve (energy norm)
     std::int64_t iterations = 0;      // Krylov iterations of this solve
     bool balanced = true;             // false: a floating part carries an unbalanced load; the rest is then not set

@@ -124,6 +124,11 @@ void add_loads(Fnv& fnv, const Problem& problem) {
         fnv.add(force.dof);
         fnv.add(force.value);
     }
+    for (const Eigenstrain& eigenstrain : problem.eigenstrains) {
+        fnv.add(eigenstrain.pattern);
+        fnv.add(eigenstrain.body);
+        fnv.add_all(std::span<const double>(eigenstrain.strain));
+    }
 }
 
 void add_options(Fnv& fnv, const Options& options) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "body/eigenstrain.hpp"
 #include "body/model.hpp"
 #include "interface/law.hpp"
 #include "linalg/sparse.hpp"
@@ -21,7 +22,7 @@ struct Pattern {
     std::string name;
     std::vector<double> times;
     std::vector<double> values;
-    enum class Drives { nothing, displacement, force } drives = Drives::nothing;
+    enum class Drives { nothing, displacement, force, strain } drives = Drives::nothing;
 
     double at(double time) const;
 };
@@ -38,6 +39,13 @@ struct NodalForce {
     std::int64_t pattern;
     std::int64_t dof;
     double value;
+};
+
+// In the material axes of a body: strain times the factor.
+struct Eigenstrain {
+    std::int64_t pattern;
+    std::int32_t body;
+    Strain strain;
 };
 
 struct InterfaceProperties {
@@ -59,6 +67,7 @@ struct Problem {
     std::vector<Pattern> patterns;
     std::vector<Constraint> constraints;
     std::vector<NodalForce> forces;
+    std::vector<Eigenstrain> eigenstrains;
     Options options;
 
     // DOFs of all pairs: rows of the jump, interface after interface, pair after pair, normal first.

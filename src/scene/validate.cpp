@@ -59,7 +59,7 @@ void check_interfaces(const Problem& problem) {
 void check_loads(const Problem& problem) {
     for (const Pattern& pattern : problem.patterns) {
         if (pattern.drives == Pattern::Drives::nothing) {
-            fail(DELAM_ERROR_PROBLEM, "pattern '", pattern.name, "' drives neither a displacement nor a force");
+            fail(DELAM_ERROR_PROBLEM, "pattern '", pattern.name, "' drives neither a displacement nor a force or strain");
         }
     }
 }

@@ -239,6 +239,12 @@ State DirectReference::solve_linear(const std::vector<double>& values, const std
         bulk += 0.5L * u[i] * unbalance[i];
         unbalance[i] -= static_cast<long double>(force[i]);
     }
+    for (std::size_t p = 0; p < exported_.patterns; ++p) {
+        if (!exported_.strains(p)) continue;
+        for (std::size_t i = 0; i < u.size(); ++i) bulk -= static_cast<long double>(factor_[p]) * exported_.forces[p][i] * u[i];
+        for (std::size_t q = 0; q < exported_.patterns; ++q)
+            bulk += 0.5L * factor_[p] * exported_.strain_energy[p * exported_.patterns + q] * factor_[q];
+    }
     state.displacement.assign(u.begin(), u.end());
     state.jump.resize(j_of.size());
     state.traction.resize(j_of.size());
@@ -312,6 +318,8 @@ void DirectReference::recover_multipliers(const System& system, const std::vecto
         for (std::size_t i = 0; i < exported_.dofs; ++i) {
             conjugate -= static_cast<long double>(exported_.forces[p][i]) * state.displacement[i];
         }
+        for (std::size_t q = 0; q < exported_.patterns; ++q)
+            conjugate += static_cast<long double>(exported_.strain_energy[p * exported_.patterns + q]) * factor_[q];
         state.pattern[p] = static_cast<double>(conjugate);
     }
 }
@@ -348,6 +356,7 @@ State DirectReference::solve(double time, const std::vector<double>& adhesion) {
     std::vector<double> values;
     std::vector<double> force;
     exported_.load(*scene_, time, values, force);
+    factor_ = exported_.factors(*scene_, time);
     for (int iteration = 1; iteration <= simultaneous_limit + exchange_limit; ++iteration) {
         State state = solve_linear(values, force, adhesion);
         if (!update_contact(state, adhesion, iteration > simultaneous_limit)) {

@@ -95,12 +95,20 @@ Exported::Exported(const Scene& scene) : dimension(scene.dimension()), dofs(scen
                                            static_cast<std::int64_t>(dofs), forces.back().data()),
                       "delam_problem_forces");
     }
+    strain_energy.resize(patterns * patterns);
+    scene.require(delam_problem_eigenstrain_energy(scene.problem(), static_cast<std::int64_t>(strain_energy.size()), strain_energy.data()),
+                  "delam_problem_eigenstrain_energy");
 }
 
-void Exported::load(const Scene& scene, double time, std::vector<double>& values, std::vector<double>& force) const {
+std::vector<double> Exported::factors(const Scene& scene, double time) const {
     std::vector<double> factor(patterns);
     scene.require(delam_problem_factors(scene.problem(), time, static_cast<std::int64_t>(patterns), factor.data()),
                   "delam_problem_factors");
+    return factor;
+}
+
+void Exported::load(const Scene& scene, double time, std::vector<double>& values, std::vector<double>& force) const {
+    const std::vector<double> factor = factors(scene, time);
     values.assign(constraints.rows(), 0.0);
     force.assign(dofs, 0.0);
     for (std::size_t p = 0; p < patterns; ++p) {

@@ -27,10 +27,13 @@ struct Exported {
     Csr constraints;  // over mesh DOFs
     std::size_t patterns = 0;
     std::vector<double> prescribed;           // [constraints][patterns]
-    std::vector<std::vector<double>> forces;  // [patterns][dofs]
+    std::vector<std::vector<double>> forces;  // [patterns][dofs]: dead ones, or those of eigenstrains
+    std::vector<double> strain_energy;        // [patterns][patterns] W, of 1/2 factor.W factor
+    bool strains(std::size_t pattern) const { return strain_energy[pattern * patterns + pattern] > 0.0; }
 
-    // Load of a time: prescribed values [constraints] and dead forces [dofs].
+    // Load of a time: prescribed values [constraints] and forces [dofs].
     void load(const Scene& scene, double time, std::vector<double>& values, std::vector<double>& force) const;
+    std::vector<double> factors(const Scene& scene, double time) const;
 };
 
 }  // namespace reference

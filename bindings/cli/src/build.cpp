@@ -184,6 +184,10 @@ Model build(Context context, const Scene& scene) {
     }
     for (const Prescription& data : scene.prescriptions) prescribe(model, scene, data);
     for (const DeadForce& data : scene.forces) add_force(model, scene, data);
+    for (const EigenstrainData& data : scene.eigenstrains)
+        call(owner,
+             delam_problem_add_eigenstrain(problem, static_cast<std::int64_t>(data.pattern), data.body, data.strain.data()),
+             data.place);
     for (const SolverOption& option : scene.options) {
         const auto* number = std::get_if<double>(&option.value);
         call(owner,

@@ -277,7 +277,7 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& settin
     if (const auto schema = root.whole("schema", 1); schema != 1)
         root.fail("schema", fmt::format("{} is not known to this program: 1 is", schema));
     root.only({"schema", "title", "geometry", "layers", "materials", "laws", "interfaces", "patterns", "supports",
-               "loads", "forces", "time", "solver", "output", "units"});
+               "loads", "forces", "thermal", "eigenstrains", "time", "solver", "output", "units"});
     scene.title = root.text("title", "");
     read_geometry(root, scene);
     read_materials(root, scene);
@@ -287,6 +287,7 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& settin
     read_patterns(root, scene);
     read_supports_and_loads(root, scene);
     read_forces(root, scene);
+    read_eigenstrains(root, scene);
     read_time(root, scene);
     read_options(root, scene);
     read_output(root, scene);

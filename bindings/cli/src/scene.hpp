@@ -45,6 +45,7 @@ struct Material {
     std::string name;
     std::variant<Isotropic, std::array<double, 9>> elastic;  // or E1 E2 E3 nu12 nu13 nu23 G12 G13 G23
     std::string formulation;
+    std::optional<std::array<double, 3>> expansion;  // thermal, along the material's axes, per degree
     Place place;
 };
 
@@ -117,6 +118,14 @@ struct DeadForce {
     Place place;
 };
 
+// [[thermal]] and [[eigenstrains]]: what the factor of the pattern makes of a body, in its material's axes.
+struct EigenstrainData {
+    std::int32_t body = -1;
+    std::array<double, 6> strain{};
+    std::size_t pattern = 0;
+    Place place;
+};
+
 struct PatternData {
     std::string name;
     std::vector<double> times;
@@ -161,6 +170,7 @@ struct Scene {
     std::vector<PatternData> patterns;
     std::vector<Prescription> prescriptions;  // supports, then loads
     std::vector<DeadForce> forces;
+    std::vector<EigenstrainData> eigenstrains;
     std::vector<double> times;  // instants, the first is that of the initial state
     std::vector<SolverOption> options;
     Output output;

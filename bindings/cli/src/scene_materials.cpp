@@ -41,7 +41,7 @@ std::array<double, 9> read_constants(const Table& table) {
 
 void read_materials(const Table& root, Scene& scene) {
     for (const Table& table : root.tables("materials")) {
-        table.only({"name", "young", "poisson", "E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23", "formulation"});
+        table.only({"name", "young", "poisson", "E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23", "expansion", "formulation"});
         Material material;
         material.name = new_name(table, scene.materials, "material");
         if (std::any_of(std::begin(constants), std::end(constants), [&](const char* key) { return table.has(key); })) {
@@ -51,6 +51,14 @@ void read_materials(const Table& root, Scene& scene) {
             material.elastic = Isotropic{young, table.number("poisson", poisson_range)};
         }
         material.formulation = table.choice("formulation", {"standard", "incompatible"}, "standard");
+        if (table.has("expansion")) {
+            std::vector<double> along(3, 0.0);
+            if (table.is_list("expansion"))
+                along = table.numbers("expansion", any_number, 3);
+            else
+                along.assign(3, table.number("expansion", any_number));
+            material.expansion = std::array<double, 3>{along[0], along[1], along[2]};
+        }
         material.place = table.place();
         scene.materials.push_back(std::move(material));
     }

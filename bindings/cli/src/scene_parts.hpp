@@ -14,6 +14,7 @@ void read_laws(const Table& root, Scene& scene);
 void read_patterns(const Table& root, Scene& scene);
 void read_supports_and_loads(const Table& root, Scene& scene);
 void read_forces(const Table& root, Scene& scene);
+void read_eigenstrains(const Table& root, Scene& scene);
 
 // Index of the named entry (anything with .name), or an error at `key` that suggests near names. what: "layer", "law",
 // ...

@@ -153,6 +153,22 @@ refuse(changed(UPPER, UPPER + "\nangle = 45.0\naxes = [[1, 0, 0], [0, 1, 0]]", p
 refuse(changed(UPPER, UPPER + "\naxes = [[1, 0, 0]]", ply), r"layers\[1\]\.axes", "two are expected")
 refuse(changed(UPPER, UPPER + "\naxes = [[1, 0, 0], [2, 0, 0]]", ply), r"layers\[1\]", "parallel")
 
+HOT = changed("poisson = 0.3", "poisson = 0.3\nexpansion = 2.3e-5")
+WARM = '[[patterns]]\nname = "warm"\ntimes = [0, 1]\nvalues = [0, 50]\n'
+THERMAL = WARM + '[[thermal]]\npattern = "warm"\n'
+STRAIN = WARM + '[[eigenstrains]]\npattern = "warm"\nstrain = [2.3e-5, 2.3e-5, 2.3e-5]\n'
+warm = hash_of(changed("[time]", THERMAL + "[time]", HOT))
+expect(warm == hash_of(changed("[time]", STRAIN + "[time]")), "expansion times temperature is an eigenstrain")
+expect(warm == hash_of(changed("[time]", THERMAL + 'layers = ["lower", "upper"]\n[time]',
+                               changed("2.3e-5", "[2.3e-5, 2.3e-5, 2.3e-5]", HOT))), "the same along all axes")
+expect(warm != hash_of(changed("[time]", THERMAL + 'layers = ["upper"]\n[time]', HOT)), "one layer is heated")
+refuse(changed("[time]", THERMAL + "[time]"), r"thermal\[0\]\.pattern", 'material "arm" of layer "lower" has no expansion')
+refuse(changed("[time]", THERMAL + 'layers = ["uper"]\n[time]', HOT), r"thermal\[0\]\.layers", "did you mean 'upper'")
+refuse(changed("[time]", THERMAL.replace('pattern = "warm"', 'pattern = "press"') + "[time]", HOT), r"thermal\[0\]",
+       "drives prescribed displacements already")
+refuse(changed("[time]", STRAIN.replace(", 2.3e-5]", "]") + "[time]"), r"eigenstrains\[0\]\.strain", "2 entries", "3 .*or 6")
+refuse(changed("2.3e-5", "[2.3e-5, 0.0]", HOT), r"materials\[0\]\.expansion")
+
 with open("/dev/full", "w", encoding="utf-8") as full:
     for words in (("check", write(SCENE)), ("--help",)):
         done = subprocess.run([DELAM, *words], stdout=full, stderr=subprocess.PIPE, text=True, check=False)

@@ -10,6 +10,7 @@
 #include "body/assembly.hpp"
 #include "reduction/condensed/rigid_jumps.hpp"
 #include "scene/carriers.hpp"
+#include "scene/strain_loads.hpp"
 
 namespace delam {
 
@@ -194,6 +195,9 @@ void Bulk::condense(Monitor& monitor) {
         if (force.empty()) force.assign(index(dofs()), 0.0);
         force[index(f.dof)] += f.value;
     }
+    StrainLoads strained = strain_loads(problem_);
+    for (std::size_t p = 0; p < patterns; ++p)
+        if (!strained.force[p].empty()) force_[p] = std::move(strained.force[p]);
     energy_.load = DenseMatrix(trailing, static_cast<std::int64_t>(patterns));
     std::vector<double> nodal(index(dofs())), carried(index(variables_.count()));
     std::vector<std::vector<double>> bonded;  // displacements of the patterns with t = 0
@@ -212,7 +216,7 @@ void Bulk::condense(Monitor& monitor) {
     }
     resolve_equations();
 
-    // A_pq = u_p^T K u_q - f_p^T u_q - f_q^T u_p: no difference of large numbers, whatever the lift was.
+    // A_pq = u_p^T K u_q - f_p^T u_q - f_q^T u_p + W_pq, W of the eigenstrains: no difference of large numbers, whatever the lift was.
     const std::vector<double> closed(index(energy().rows()), 0.0);
     std::vector<std::vector<double>> stressed;
     for (std::size_t p = 0; p < patterns; ++p) {
@@ -227,7 +231,7 @@ void Bulk::condense(Monitor& monitor) {
     pattern_stiffness_ = DenseMatrix(static_cast<std::int64_t>(patterns), static_cast<std::int64_t>(patterns));
     for (std::size_t p = 0; p < patterns; ++p)
         for (std::size_t q = 0; q < patterns; ++q) {
-            double a = dot(bonded[p], stressed[q]);
+            double a = dot(bonded[p], stressed[q]) + strained.energy[p * patterns + q];
             if (!force_[p].empty()) a -= dot(force_[p], bonded[q]);
             if (!force_[q].empty()) a -= dot(force_[q], bonded[p]);
             pattern_stiffness_(static_cast<std::int64_t>(p), static_cast<std::int64_t>(q)) = a;
@@ -237,7 +241,23 @@ void Bulk::condense(Monitor& monitor) {
     rigid_ = DenseMatrix(energy().rows(), motions.columns);
     for (std::int64_t c = 0; c < motions.columns; ++c)
         for (std::int64_t i = 0; i < rigid_.rows; ++i) rigid_(i, c) = motions(row_of_unknown_[index(i)], c);
+    if (!base_) balance_strains();
     recoveries_ = 0;
+}
+
+// Eigenstrains do no work on rigid motions. Where nothing resists them their load may be all rounding, of which this leaves nothing on
+// a motion that is free.
+void Bulk::balance_strains() {
+    const auto rows = index(rigid_.rows);
+    for (std::size_t p = 0; p < problem_.patterns.size(); ++p) {
+        if (problem_.patterns[p].drives != Pattern::Drives::strain) continue;
+        const auto load = std::span<double>(energy_.load.value).subspan(p * rows, rows);
+        for (int pass = 0; pass < 2; ++pass)
+            for (std::int64_t c = 0; c < rigid_.columns; ++c) {
+                const auto motion = std::span<const double>(rigid_.value).subspan(index(c) * rows, rows);
+                add_scaled(-dot(motion, load), motion, load);
+            }
+    }
 }
 
 // Equations fix some trailing variables by the rest; the displacements among the rest are minimised out.

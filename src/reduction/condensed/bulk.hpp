@@ -63,6 +63,7 @@ public:
 
 private:
     void resolve_equations();
+    void balance_strains();
     // What no element balances: K u - f + B^T force.
     std::vector<double> residual(std::span<const double> theta, std::span<const double> displacement,
                                  std::span<const double> force) const;
@@ -78,7 +79,7 @@ private:
     FactorSize size_;
     std::int64_t factorisations_ = 0;
     mutable std::int64_t recoveries_ = 0;
-    std::vector<std::vector<double>> force_;  // [patterns][mesh DOFs], empty: none
+    std::vector<std::vector<double>> force_;  // [patterns][mesh DOFs], empty: none; dead ones and those of eigenstrains
 
     // Trailing variables: t = M r + d theta, r = [kept ones that no equation fixes | unknown jumps].
     std::vector<std::int64_t> rest_;    // trailing index of r

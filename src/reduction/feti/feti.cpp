@@ -8,6 +8,7 @@
 #include "mesh/partition.hpp"
 #include "reduction/feti/projected_cg.hpp"
 #include "scene/carriers.hpp"
+#include "scene/strain_loads.hpp"
 
 namespace delam {
 
@@ -76,7 +77,7 @@ Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monito
     for (double& f : flexibility_diagonal_)
         if (!(f > 0.0)) f = known > 0 ? sum / static_cast<double>(known) : 1.0;
     prescribed_ = problem_.prescribed_matrix();
-    precompute_forces();
+    precompute_forces(cells);
 }
 
 // Cells of each subdomain.
@@ -102,7 +103,7 @@ std::vector<std::vector<std::int64_t>> Feti::cut() {
     return cells;
 }
 
-void Feti::precompute_forces() {
+void Feti::precompute_forces(std::span<const std::vector<std::int64_t>> cells) {
     const std::size_t patterns = problem_.patterns.size();
     const int dim = problem_.mesh->dimension();
     force_.assign(patterns, std::vector<std::vector<double>>(subdomains_.size()));
@@ -112,11 +113,19 @@ void Feti::precompute_forces() {
         if (local.empty()) local.assign(index(subdomains_[index(copy.subdomain)].dofs()), 0.0);
         local[index(copy.local * dim + f.dof % dim)] += f.value;
     }
+    strain_energy_ = DenseMatrix(static_cast<std::int64_t>(patterns), static_cast<std::int64_t>(patterns));
+    for (std::size_t s = 0; s < subdomains_.size() && !problem_.eigenstrains.empty(); ++s) {
+        StrainLoads own = strain_loads(problem_, subdomains_[s].body, cells[s], subdomains_[s].nodes);
+        for (std::size_t p = 0; p < patterns; ++p)
+            if (!own.force[p].empty()) force_[p][s] = std::move(own.force[p]);
+        for (std::size_t i = 0; i < own.energy.size(); ++i) strain_energy_.value[i] += own.energy[i];
+    }
     force_jump_.assign(patterns, {});
     force_resultant_.assign(patterns, {});
     force_work_ = DenseMatrix(static_cast<std::int64_t>(patterns), static_cast<std::int64_t>(patterns));
     for (std::size_t p = 0; p < patterns; ++p) {
-        if (problem_.patterns[p].drives != Pattern::Drives::force) continue;
+        const bool strained = problem_.patterns[p].drives == Pattern::Drives::strain;
+        if (!strained && problem_.patterns[p].drives != Pattern::Drives::force) continue;
         std::vector<double> boundary(index(rows_.boundary_count()), 0.0);
         force_jump_[p].assign(index(rows_.count()), 0.0);
         force_resultant_[p].assign(index(coarse_->size()), 0.0);
@@ -129,7 +138,7 @@ void Feti::precompute_forces() {
                 std::vector<double> u(load.size());
                 multiply_symmetric(sub.flexibility, load, u);
                 std::copy(u.begin(), u.end(), boundary.begin() + rows_.offset[s]);
-                for (std::int64_t k = 0; k < sub.rigid_count; ++k)
+                for (std::int64_t k = 0; k < sub.rigid_count && !strained; ++k)  // eigenstrains have none
                     for (std::size_t i = 0; i < f.size(); ++i)
                         force_resultant_[p][first + index(k)] += sub.rigid(static_cast<std::int64_t>(i), k) * f[i];
                 for (std::size_t q = 0; q < patterns; ++q)
@@ -236,7 +245,9 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     };
     double load = 0.0;  // energy of the loads if nothing could give way: the scale of rounding
     for (std::size_t i = 0; i < rows; ++i) load += weight[i] * rhs[i] * rhs[i];
-    const CgResult cg = projected_cg(system, rhs, lambda, problem_.options.linear_tolerance, rounding * std::sqrt(load),
+    // Eigenstrains that are free to act cancel in B u: their rounding is that of larger numbers.
+    const double floor = (problem_.eigenstrains.empty() ? 1.0 : 100.0) * rounding * std::sqrt(load);
+    const CgResult cg = projected_cg(system, rhs, lambda, problem_.options.linear_tolerance, floor,
                                      problem_.options.linear_limit,
                                      [&](std::int64_t iteration) { monitor_.progress("linear solve", iteration, 0); });
     response.iterations = cg.iterations;
@@ -273,6 +284,7 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     for (std::size_t d = 0; d < prescribed.size(); ++d) work_of_multipliers += lambda[first_constraint + d] * prescribed[d];
     response.conjugate.assign(patterns, 0.0);
     response.load_potential = 0.0;
+    double stretched = 0.0;  // f.u of eigenstrains less theta^T W theta
     for (std::size_t p = 0; p < patterns; ++p) {
         if (force_jump_[p].empty()) {
             for (std::size_t d = 0; d < prescribed.size(); ++d)
@@ -283,9 +295,18 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
         for (std::size_t q = 0; q < patterns; ++q)
             displacement += force_work_(static_cast<std::int64_t>(p), static_cast<std::int64_t>(q)) * theta[q];
         response.conjugate[p] = -displacement;
-        response.load_potential -= theta[p] * displacement;
+        if (problem_.patterns[p].drives == Pattern::Drives::force) {
+            response.load_potential -= theta[p] * displacement;
+            continue;
+        }
+        for (std::size_t q = 0; q < patterns; ++q)
+            response.conjugate[p] += strain_energy_(static_cast<std::int64_t>(p), static_cast<std::int64_t>(q)) * theta[q];
+        stretched -= theta[p] * response.conjugate[p];
     }
-    response.stored_bulk = 0.5 * (-response.load_potential - work_of_multipliers);
+    // 1/2 int (eps - e*) : C : (eps - e*) = 1/2 (f_dead - f_strain).u - 1/2 lambda.B u + 1/2 theta^T W theta; zero but for rounding where
+    // the strains are free to follow e*.
+    response.stored_bulk = 0.5 * (-response.load_potential - stretched - work_of_multipliers);
+    if (!problem_.eigenstrains.empty()) response.stored_bulk = std::max(0.0, response.stored_bulk);
     response.multipliers = std::move(lambda);
 }
 

@@ -37,7 +37,7 @@ public:
 
 private:
     std::vector<std::vector<std::int64_t>> cut();
-    void precompute_forces();
+    void precompute_forces(std::span<const std::vector<std::int64_t>> cells);
     void apply_flexibility(std::span<const double> lambda, std::span<double> jumps) const;
     std::vector<double> local_displacement(std::size_t subdomain, std::span<const double> theta, const Response& response) const;
 
@@ -54,11 +54,12 @@ private:
 
     mutable std::int64_t recoveries_ = 0;
 
-    // Dead forces, per pattern: on the first copy of their nodes.
+    // Dead forces, per pattern, on the first copy of their nodes; those of eigenstrains, each on its own subdomain.
     std::vector<double> prescribed_;                     // [constraints][patterns]
     std::vector<std::vector<double>> force_jump_;        // B K^+ f, [rows]
     std::vector<std::vector<double>> force_resultant_;   // R^T f, [coarse]
     DenseMatrix force_work_;                             // f_p^T K^+ f_q
+    DenseMatrix strain_energy_;                          // W of 1/2 theta^T W theta, of the eigenstrains alone
     std::vector<std::vector<std::vector<double>>> force_; // [pattern][subdomain] local vector, empty where none
 };
 

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// [[thermal]]: a change of temperature acts through the expansions of the materials. [[eigenstrains]]: any other strain that is prescribed.
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "scene_parts.hpp"
+
+namespace cli {
+
+namespace {
+
+// Indices of the layers that `layers` names; all without it.
+std::vector<std::size_t> read_places(const Table& table, const Scene& scene) {
+    std::vector<std::size_t> places(scene.layers.size());
+    std::iota(places.begin(), places.end(), std::size_t{0});
+    if (!table.has("layers")) return places;
+    places.clear();
+    for (const std::string& name : table.texts("layers"))
+        places.push_back(find_named(table, "layers", name, scene.layers, "layer"));
+    return places;
+}
+
+}  // namespace
+
+void read_eigenstrains(const Table& root, Scene& scene) {
+    for (const Table& table : root.tables("thermal")) {
+        table.only({"pattern", "layers"});
+        const std::size_t pattern = find_named(table, "pattern", table.text("pattern"), scene.patterns, "pattern");
+        for (const std::size_t layer : read_places(table, scene)) {
+            const Material& material = scene.materials[scene.layers[layer].material];
+            if (!material.expansion)
+                table.fail(table.has("layers") ? "layers" : "pattern",
+                           fmt::format("material \"{}\" of layer \"{}\" has no expansion (0 is allowed); or name the layers that are heated",
+                                       material.name, scene.layers[layer].name));
+            const auto& along = *material.expansion;
+            scene.eigenstrains.push_back(
+                {static_cast<std::int32_t>(layer), {along[0], along[1], along[2], 0, 0, 0}, pattern, table.place()});
+        }
+    }
+    for (const Table& table : root.tables("eigenstrains")) {
+        table.only({"pattern", "layers", "strain"});
+        const std::size_t pattern = find_named(table, "pattern", table.text("pattern"), scene.patterns, "pattern");
+        const std::vector<double> given = table.numbers("strain", any_number);
+        if (given.size() != 3 && given.size() != 6)
+            table.fail("strain", fmt::format("has {} entries: 3 (xx, yy, zz) or 6 (and 2xy, 2yz, 2zx) are expected", given.size()));
+        std::array<double, 6> strain{};
+        std::copy(given.begin(), given.end(), strain.begin());
+        for (const std::size_t layer : read_places(table, scene))
+            scene.eigenstrains.push_back({static_cast<std::int32_t>(layer), strain, pattern, table.place()});
+    }
+}
+
+}  // namespace cli
