@@ -329,7 +329,9 @@ DELAM_API int32_t delam_problem_set_orientation(delam_problem *problem, int32_t 
 /* How the cells of a body (-1: of all) are computed: "standard" (default), or "incompatible" for bodies of quad4 or hex8 alone
  * (DELAM_ERROR_ARGUMENT names another cell): internal bending modes after Wilson, Taylor and Beresford, condensed in each
  * cell. Pure bending of rectangular cells is then exact, where standard ones are too stiff (by half for squares). The
- * displacement between nodes may gap or overlap a little. */
+ * displacement between nodes may gap or overlap a little. "mean-dilatation", for nearly incompressible bodies, where others lock: the dilatation
+ * of each cell is projected, onto constants (quad4, hex8, tri6, tet10) or linear functions (quad8, quad9, hex20). Plane strain and space
+ * only; tri3 and tet4 are refused, their dilatation is constant already. Source: T. Hughes, Int. J. Numer. Meth. Eng. 15 (1980) 1413-1418. */
 DELAM_API int32_t delam_problem_set_formulation(delam_problem *problem, int32_t body, const char *formulation);
 /* The law of an interface; its parameters are taken as they are now. Initial adhesion 1 everywhere. */
 DELAM_API int32_t delam_problem_set_law(delam_problem *problem, int64_t interface_index, const delam_law *law);

@@ -188,8 +188,12 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> 
     CellElasticity elasticity(model, mesh.dimension());
     std::vector<double> matrix(9 * most_cell_nodes * most_cell_nodes);
     for (std::size_t c = 0; c < cells.size(); ++c) {
-        element_stiffness(mesh.cell_type(cells[c]), cell_coordinates(mesh, cells[c]).view(), elasticity.matrix(cells[c]),
-                          model.formulation, matrix);
+        const Coordinates x = cell_coordinates(mesh, cells[c]);
+        const std::span<const double> own = elasticity.matrix(cells[c]);
+        if (model.formulation == Formulation::mean_dilatation)
+            mean_dilatation_stiffness(mesh.cell_type(cells[c]), x.view(), own, elasticity.dilatation(cells[c]), matrix);
+        else
+            element_stiffness(mesh.cell_type(cells[c]), x.view(), own, model.formulation, matrix);
         const Block block{std::span(local.node).subspan(local.start[c], local.start[c + 1] - local.start[c]),
                           &graph.place[graph.cell_start[c]], matrix.data()};
         dim == 2 ? add<2>(block, k) : add<3>(block, k);
@@ -215,9 +219,15 @@ std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> m
         const std::size_t body = at(mesh.cell_body(c));
         const BodyModel& model = models[body];
         const std::span<const double> matrix = elasticity[body].matrix(c);
-        if (!eigenstrain.empty()) {
+        const bool projected = model.formulation == Formulation::mean_dilatation;
+        if (!eigenstrain.empty() || projected) {
             const Axes* axes = elasticity[body].axes(c);
-            const Strain e = axes == nullptr ? eigenstrain[body] : rotated_strain(eigenstrain[body], *axes);
+            Strain e = eigenstrain.empty() ? Strain{} : eigenstrain[body];
+            if (axes != nullptr) e = rotated_strain(e, *axes);
+            if (projected) {
+                const double third = dilatation_correction(mesh.cell_type(c), cell_coordinates(mesh, c).view(), u) / 3.0;
+                for (std::size_t i = 0; i < 3; ++i) e[i] -= third;
+            }
             if (dim == 3) {
                 for (std::size_t i = 0; i < 6; ++i) strain[i] -= e[i];
             } else {

@@ -42,6 +42,16 @@ std::span<const double> CellElasticity::matrix(std::int64_t cell) {
     return matrix_;
 }
 
+Dilatation CellElasticity::dilatation(std::int64_t cell) {
+    turn(cell);
+    Dilatation d;
+    std::array<double, 6> stress{};
+    for (std::size_t i = 0; i < 6; ++i) stress[i] = space_[i * 6] + space_[i * 6 + 1] + space_[i * 6 + 2];
+    d.bulk = stress[0] + stress[1] + stress[2];
+    d.stress = dimension_ == 3 ? stress : std::array<double, 6>{stress[0], stress[1], stress[3]};
+    return d;
+}
+
 const SpaceElasticity& CellElasticity::space(std::int64_t cell) {
     turn(cell);
     return space_;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "body/element.hpp"
 #include "body/model.hpp"
 
 namespace delam {
@@ -16,6 +17,8 @@ public:
     CellElasticity(const BodyModel& model, int dimension);
     // Row-major, 3x3 in the plane, 6x6 in space. Valid until the next call with another cell.
     std::span<const double> matrix(std::int64_t cell);
+    // Stresses of a unit dilatation xx = yy = zz = 1.
+    Dilatation dilatation(std::int64_t cell);
     // All six strains, also in the plane.
     const SpaceElasticity& space(std::int64_t cell);
     // nullptr: the axes of space.

@@ -155,6 +155,114 @@ void contract(const Products<nodes, dim>& product, const double* elasticity, dou
     each_pair<nodes, dim>(product, block, k);
 }
 
+// Functions of the projected dilatation: constants for cells whose displacements are linear along their sides and for quadratic simplices,
+// linear functions of x for the other quadratic cells.
+template <std::size_t nodes, std::size_t dim>
+constexpr std::size_t function_count = dim == 2 ? (nodes >= 8 ? 3 : 1) : (nodes == 20 ? 4 : 1);
+
+// H_m,ai = int p_m dN_a/dx_i dx and the Cholesky factor of M_mn = int p_m p_n dx, in V = L^-1 H:  int (P dN_a/dx_i)(P dN_b/dx_j) = V^T V.
+// p = 1, (x - x_0)/s with the centre x_0 and the size s of the cell.
+template <std::size_t nodes, std::size_t dim, std::size_t functions>
+struct Projection {
+    double v[functions][nodes * dim] = {};
+    double lower[functions][functions] = {};
+
+    Projection(CellType type, const double* coordinates) {
+        double x[nodes * dim];
+        for (std::size_t i = 0; i < nodes * dim; ++i) x[i] = coordinates[i] - coordinates[i % dim];
+        const ShapeValues middle = shape_values(type, centre(type));
+        double origin[dim] = {}, size = 0.0;
+        for (std::size_t i = 0; i < nodes * dim; ++i) {
+            origin[i % dim] += middle[i / dim] * x[i];
+            size = std::max(size, std::abs(x[i]));
+        }
+        const Quadrature& gauss = quadrature(type);
+        for (std::size_t q = 0; q < gauss.points.size(); ++q) {
+            const double* reference = gauss.gradients[q].data();
+            const Matrix<dim> j = tangent<nodes, dim>(x, reference);
+            const Matrix<dim> cofactor = cofactors<dim>(j);
+            const double volume = gauss.weights[q] * determinant<dim>(j, cofactor);
+            double p[functions] = {1.0};
+            if constexpr (functions > 1) {
+                const ShapeValues n = shape_values(type, gauss.points[q]);
+                for (std::size_t i = 0; i < dim; ++i) {
+                    double place = -origin[i];
+                    for (std::size_t a = 0; a < nodes; ++a) place += n[a] * x[a * dim + i];
+                    p[i + 1] = place / size;
+                }
+            }
+            for (std::size_t m = 0; m < functions; ++m) {
+                for (std::size_t n = 0; n <= m; ++n) lower[m][n] += volume * p[m] * p[n];
+                for (std::size_t a = 0; a < nodes; ++a)
+                    for (std::size_t i = 0; i < dim; ++i)
+                        for (std::size_t c = 0; c < dim; ++c)
+                            v[m][a * dim + i] += gauss.weights[q] * p[m] * cofactor[i * dim + c] * reference[a * dim + c];
+            }
+        }
+        for (std::size_t m = 0; m < functions; ++m) {
+            for (std::size_t n = 0; n <= m; ++n) {
+                for (std::size_t k = 0; k < n; ++k) lower[m][n] -= lower[m][k] * lower[n][k];
+                lower[m][n] = m == n ? std::sqrt(lower[m][m]) : lower[m][n] / lower[n][n];
+            }
+            for (std::size_t i = 0; i < nodes * dim; ++i) {
+                for (std::size_t k = 0; k < m; ++k) v[m][i] -= lower[m][k] * v[k][i];
+                v[m][i] /= lower[m][m];
+            }
+        }
+    }
+
+    // Of a displacement, at x_0, where p = 1, 0, 0(, 0):  p^T L^-T V u.
+    double at_centre(const double* u) const {
+        double c[functions];  // L^-1 p
+        for (std::size_t m = 0; m < functions; ++m) {
+            c[m] = m == 0 ? 1.0 : 0.0;
+            for (std::size_t k = 0; k < m; ++k) c[m] -= lower[m][k] * c[k];
+            c[m] /= lower[m][m];
+        }
+        double sum = 0.0;
+        for (std::size_t m = 0; m < functions; ++m)
+            for (std::size_t i = 0; i < nodes * dim; ++i) sum += c[m] * v[m][i] * u[i];
+        return sum;
+    }
+};
+
+// B-bar (T. Hughes, Int. J. Numer. Meth. Eng. 15, 1980; J. Nagtegaal, D. Parks, J. Rice, CMAME 4, 1974):  eps + 1/3 (P div u - div u) I. With
+// the products T of the gradients, R = T - V^T V of what the projection leaves out of them, c = C I and its trace,
+//   K_ai,bm = D : T  - 1/3 (c_ij R_aj,bm + R_ai,bl c_lm) + 1/9 (I:C:I) R_ai,bm.
+template <std::size_t nodes, std::size_t dim>
+void mean_dilatation(CellType type, const double* x, const double* elasticity, const Dilatation& dilatation, double* k) {
+    constexpr std::size_t size = nodes * dim, functions = function_count<nodes, dim>;
+    Products<nodes, dim> product{};
+    gradient_products<nodes, dim, 0>(type, x, product);
+    contract<nodes, dim>(product, elasticity, k);
+    const Projection<nodes, dim, functions> projection(type, x);
+    double c[dim][dim];
+    for (std::size_t i = 0; i < dim; ++i)
+        for (std::size_t j = 0; j < dim; ++j) c[i][j] = dilatation.stress[voigt(dim, i, j)];
+    for (std::size_t a = 0; a < nodes; ++a)
+        for (std::size_t b = a; b < nodes; ++b) {
+            double r[dim][dim];
+            for (std::size_t i = 0; i < dim; ++i)
+                for (std::size_t m = 0; m < dim; ++m) {
+                    r[i][m] = product[(a * dim + i) * size + b * dim + m];
+                    for (std::size_t f = 0; f < functions; ++f) r[i][m] -= projection.v[f][a * dim + i] * projection.v[f][b * dim + m];
+                }
+            for (std::size_t i = 0; i < dim; ++i)
+                for (std::size_t m = (a == b ? i : 0); m < dim; ++m) {
+                    double sum = dilatation.bulk / 9.0 * r[i][m];
+                    for (std::size_t j = 0; j < dim; ++j) sum -= (c[i][j] * r[j][m] + r[i][j] * c[j][m]) / 3.0;
+                    const double entry = k[(a * dim + i) * size + b * dim + m] + sum;
+                    k[(a * dim + i) * size + b * dim + m] = entry;
+                    k[(b * dim + m) * size + a * dim + i] = entry;
+                }
+        }
+}
+
+template <std::size_t nodes, std::size_t dim>
+double projected_dilatation(CellType type, const double* x, const double* u) {
+    return Projection<nodes, dim, function_count<nodes, dim>>(type, x).at_centre(u);
+}
+
 template <std::size_t nodes, std::size_t dim>
 double gradient_integrals(CellType type, const double* coordinates, double* integral) {
     double x[nodes * dim];
@@ -235,6 +343,45 @@ void element_stiffness(CellType type, std::span<const double> coordinates, std::
         case CellType::tet10: return standard<10, 3>(type, x, d, k);
         case CellType::hex20: return standard<20, 3>(type, x, d, k);
     }
+}
+
+void mean_dilatation_stiffness(CellType type, std::span<const double> coordinates, std::span<const double> elasticity,
+                               const Dilatation& dilatation, std::span<double> matrix) {
+    const double* x = coordinates.data();
+    const double* d = elasticity.data();
+    double* k = matrix.data();
+    switch (type) {
+        case CellType::tri3:
+        case CellType::tet4: return element_stiffness(type, coordinates, elasticity, Formulation::standard, matrix);
+        case CellType::quad4: return mean_dilatation<4, 2>(type, x, d, dilatation, k);
+        case CellType::hex8: return mean_dilatation<8, 3>(type, x, d, dilatation, k);
+        case CellType::tri6: return mean_dilatation<6, 2>(type, x, d, dilatation, k);
+        case CellType::quad8: return mean_dilatation<8, 2>(type, x, d, dilatation, k);
+        case CellType::quad9: return mean_dilatation<9, 2>(type, x, d, dilatation, k);
+        case CellType::tet10: return mean_dilatation<10, 3>(type, x, d, dilatation, k);
+        case CellType::hex20: return mean_dilatation<20, 3>(type, x, d, dilatation, k);
+    }
+}
+
+double dilatation_correction(CellType type, std::span<const double> coordinates, std::span<const double> displacement) {
+    const double* x = coordinates.data();
+    const double* u = displacement.data();
+    const auto projected = [&]() -> double {
+        switch (type) {
+            case CellType::tri3: return projected_dilatation<3, 2>(type, x, u);
+            case CellType::tet4: return projected_dilatation<4, 3>(type, x, u);
+            case CellType::quad4: return projected_dilatation<4, 2>(type, x, u);
+            case CellType::hex8: return projected_dilatation<8, 3>(type, x, u);
+            case CellType::tri6: return projected_dilatation<6, 2>(type, x, u);
+            case CellType::quad8: return projected_dilatation<8, 2>(type, x, u);
+            case CellType::quad9: return projected_dilatation<9, 2>(type, x, u);
+            case CellType::tet10: return projected_dilatation<10, 3>(type, x, u);
+            case CellType::hex20: return projected_dilatation<20, 3>(type, x, u);
+        }
+        return 0.0;
+    };
+    const std::vector<double> strain = centre_strain(type, coordinates, displacement);
+    return projected() - strain[0] - strain[1] - (strain.size() == 6 ? strain[2] : 0.0);
 }
 
 double integrate_gradients(CellType type, std::span<const double> coordinates, std::span<double> integral) {

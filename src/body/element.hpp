@@ -3,6 +3,7 @@
 // functions, and with them smallest_jacobian(), are the mesh's (mesh/shape.hpp).
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -17,11 +18,22 @@ namespace delam {
 void element_stiffness(CellType type, std::span<const double> coordinates, std::span<const double> elasticity,
                        Formulation formulation, std::span<double> matrix);
 
+// The same with the dilatation replaced by its projection (element.cpp). elasticity: of the dimension, plane strain; dilatation: the stresses
+// xx, yy(, zz), xy(, yz, zx) of the strain xx = yy = zz = 1, in the order of elasticity; bulk: their part sigma_xx + sigma_yy + sigma_zz.
+struct Dilatation {
+    std::array<double, 6> stress{};
+    double bulk = 0.0;
+};
+void mean_dilatation_stiffness(CellType type, std::span<const double> coordinates, std::span<const double> elasticity,
+                               const Dilatation& dilatation, std::span<double> matrix);
+// The projected dilatation at the centre less the displacement's own there.
+double dilatation_correction(CellType type, std::span<const double> coordinates, std::span<const double> displacement);
+
 // int dN_a/dx_j dx into integral[nodes*dimension], and the cell's volume.
 double integrate_gradients(CellType type, std::span<const double> coordinates, std::span<double> integral);
 
 // Strains (engineering, order of elasticity_matrix) at the cell's centre from its nodal displacements
-// [nodes][dimension]. Internal modes are at rest there: it is the same in each formulation.
+// [nodes][dimension]. Internal modes are at rest there.
 std::vector<double> centre_strain(CellType type, std::span<const double> coordinates,
                                   std::span<const double> displacement);
 

@@ -5,13 +5,27 @@
 
 namespace delam {
 
+const char* name_of(Formulation formulation) {
+    switch (formulation) {
+        case Formulation::standard: return "standard";
+        case Formulation::incompatible: return "incompatible";
+        case Formulation::mean_dilatation: return "mean-dilatation";
+    }
+    return "";
+}
+
 void require_formulation(const Mesh& mesh, std::int32_t body, Formulation formulation, std::int32_t status) {
     if (formulation == Formulation::standard) return;
+    const bool modes = formulation == Formulation::incompatible;
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
+        if (mesh.cell_body(c) != body) continue;
         const CellType type = mesh.cell_type(c);
-        if (type == CellType::quad4 || type == CellType::hex8 || mesh.cell_body(c) != body) continue;
-        fail(status, "formulation 'incompatible' of body ", mesh.body_label(body), ": cell ", c, " is a ",
-             topology(type).name, ", it is for quad4 and hex8 only");
+        const bool has_modes = type == CellType::quad4 || type == CellType::hex8;
+        const bool has_one_strain = type == CellType::tri3 || type == CellType::tet4;
+        if (modes ? has_modes : !has_one_strain) continue;
+        fail(status, "formulation '", name_of(formulation), "' of body ", mesh.body_label(body), ": cell ", c, " is a ",
+             topology(type).name, modes ? ", it is for quad4 and hex8 only"
+                                        : ", whose dilatation is constant already: it locks all the same; use quadratic cells, quad4 or hex8");
     }
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -130,17 +131,18 @@ int32_t delam_problem_set_formulation(delam_problem* problem, int32_t body, cons
     return guard(problem, [&] {
         require_pointer(formulation, "formulation");
         const std::string word = formulation;
-        if (word != "standard" && word != "incompatible") {
-            fail(DELAM_ERROR_ARGUMENT, "formulation = '", word, "' is not known; known are standard, incompatible");
-        }
+        std::optional<Formulation> chosen;
+        for (const Formulation f : {Formulation::standard, Formulation::incompatible, Formulation::mean_dilatation})
+            if (word == name_of(f)) chosen = f;
+        if (!chosen)
+            fail(DELAM_ERROR_ARGUMENT, "formulation = '", word, "' is not known; known are standard, incompatible, mean-dilatation");
         Problem& core = *problem->core;
         const std::int32_t index = require_body(core, body);
-        const Formulation chosen = word == "standard" ? Formulation::standard : Formulation::incompatible;
         std::vector<Formulation> changed = core.formulation;
         for (std::int32_t i = 0; i < core.mesh->body_count(); ++i) {
             if (body != -1 && i != index) continue;
-            require_formulation(*core.mesh, i, chosen, DELAM_ERROR_ARGUMENT);
-            changed[static_cast<std::size_t>(i)] = chosen;
+            require_formulation(*core.mesh, i, *chosen, DELAM_ERROR_ARGUMENT);
+            changed[static_cast<std::size_t>(i)] = *chosen;
         }
         core.formulation = std::move(changed);
     });

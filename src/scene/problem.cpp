@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/error.hpp"
+#include "delam/delam.h"
+
 namespace delam {
 
 double Pattern::at(double time) const {
@@ -32,6 +35,9 @@ std::int64_t Problem::pair_count() const {
 
 BodyModel Problem::model(std::int32_t body) const {
     const auto i = static_cast<std::size_t>(body);
+    if (formulation[i] == Formulation::mean_dilatation && mesh->dimension() == 2 && plane == Plane::stress)
+        fail(DELAM_ERROR_PROBLEM, "body ", mesh->body_label(body),
+             ": formulation 'mean-dilatation' is for plane strain and space; in plane stress the thickness gives way and nothing locks");
     return {*material[i], plane, formulation[i], orientation};
 }
 

@@ -72,7 +72,7 @@ struct Problem {
 
     // DOFs of all pairs: rows of the jump, interface after interface, pair after pair, normal first.
     std::int64_t pair_count() const;
-    // Of a body whose material is there.
+    // Of a body whose material is there. Error(DELAM_ERROR_PROBLEM) where the plane does not go with the formulation.
     BodyModel model(std::int32_t body) const;
     std::int64_t jump_count() const { return pair_count() * mesh->dimension(); }
     std::vector<double> factors(double time) const;

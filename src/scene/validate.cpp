@@ -25,6 +25,7 @@ void check_bodies(const Problem& problem) {
             fail(DELAM_ERROR_PROBLEM, "body ", mesh.body_label(body), ": no material (delam_problem_set_elastic or delam_problem_set_orthotropic)");
         }
         require_formulation(mesh, body, problem.formulation[static_cast<std::size_t>(body)], DELAM_ERROR_PROBLEM);
+        (void)problem.model(body);
     }
 }
 

@@ -96,8 +96,8 @@ std::vector<std::string> notes_of(const Scene& scene) {
         const Material& material = scene.materials[layer.material];
         // Plane stress is free to change its thickness, so nothing locks.
         const auto* isotropic = std::get_if<Isotropic>(&material.elastic);
-        if (isotropic != nullptr && isotropic->poisson > 0.49 && geometry.plane != "plane-stress")
-            out.push_back(fmt::format("layer \"{}\": poisson = {} locks with full integration: far too stiff",
+        if (isotropic != nullptr && isotropic->poisson > 0.49 && material.formulation != "mean-dilatation" && geometry.plane != "plane-stress")
+            out.push_back(fmt::format("layer \"{}\": poisson = {} locks with full integration: far too stiff (use formulation = \"mean-dilatation\")",
                                       layer.name, isotropic->poisson));
         if (simplices && layer.divisions < 4)
             out.push_back(fmt::format("layer \"{}\": {} of {} across the thickness: far too stiff in bending (use {}, "

@@ -50,7 +50,7 @@ void read_materials(const Table& root, Scene& scene) {
             const double young = table.number("young", positive);
             material.elastic = Isotropic{young, table.number("poisson", poisson_range)};
         }
-        material.formulation = table.choice("formulation", {"standard", "incompatible"}, "standard");
+        material.formulation = table.choice("formulation", {"standard", "incompatible", "mean-dilatation"}, "standard");
         if (table.has("expansion")) {
             std::vector<double> along(3, 0.0);
             if (table.is_list("expansion"))
