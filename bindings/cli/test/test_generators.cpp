@@ -80,52 +80,30 @@ std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::vector<std::int
     return shared;
 }
 
-// Each body with nodes of its own; then an interface of every yarn or fibre with the matrix.
+// To the library as it is: nodes doubled, and one interface of each fibre or yarn, that with the matrix.
 void hand_over(const MeshData& mesh, const std::string& what) {
-    std::map<std::pair<std::int32_t, std::int64_t>, std::int64_t> own;
-    std::vector<double> nodes;
-    std::vector<cli::CellBlock> blocks = mesh.blocks;
-    for (cli::CellBlock& block : blocks) {
-        const std::size_t per_cell = cli::shape_of(block.type).nodes;
-        for (std::size_t i = 0; i < block.connectivity.size(); ++i) {
-            std::int64_t& node = block.connectivity[i];
-            const auto [at, added] = own.emplace(std::pair(block.bodies[i / per_cell], node),
-                                                 static_cast<std::int64_t>(own.size()));
-            if (added) {
-                const std::vector<double> x = place(mesh, node);
-                nodes.insert(nodes.end(), x.begin(), x.end());
-            }
-            node = at->second;
-        }
-    }
     delam_context* context = nullptr;
     delam_mesh* handle = nullptr;
     delam_context_create(&context);
-    std::int32_t status = delam_mesh_create(context, mesh.dimension, static_cast<std::int64_t>(own.size()),
-                                            nodes.data(), &handle);
-    for (const cli::CellBlock& block : blocks)
+    std::int32_t status =
+        delam_mesh_create(context, mesh.dimension,
+                          static_cast<std::int64_t>(mesh.nodes.size() / static_cast<std::size_t>(mesh.dimension)),
+                          mesh.nodes.data(), &handle);
+    for (const cli::CellBlock& block : mesh.blocks)
         if (status == DELAM_OK)
-            status = delam_mesh_add_cells(handle, block.type, static_cast<std::int64_t>(block.bodies.size()),
-                                          block.connectivity.data(), block.bodies.data(), 0);
+            status = delam_mesh_add_conforming_cells(handle, block.type,
+                                                     static_cast<std::int64_t>(block.bodies.size()),
+                                                     block.connectivity.data(), block.bodies.data(), 0);
     expect(status == DELAM_OK, what + ": the library takes all cells " + delam_context_message(context));
-    const auto matrix = static_cast<std::int32_t>(
-        std::find(mesh.body_names.begin(), mesh.body_names.end(), "matrix") - mesh.body_names.begin());
-    std::map<std::int32_t, std::size_t> sides;
-    for (const auto& [bodies, list] : interfaces(mesh))
-        if (bodies.first == matrix || bodies.second == matrix)
-            sides[bodies.first == matrix ? bodies.second : bodies.first] += list.size();
-    bool all = status == DELAM_OK && sides.size() + 1 == mesh.body_names.size();
-    for (const auto& [body, count] : sides) {
-        std::int64_t index = -1;
-        all = all && count > 0 && delam_mesh_add_interface(handle, matrix, body, 0.0, &index) == DELAM_OK;
-    }
-    expect(all, what + ": an interface of each with the matrix " + delam_context_message(context));
+    std::int64_t count = 0;
+    if (status == DELAM_OK) status = delam_mesh_add_all_interfaces(handle, 0.0, &count);
+    expect(status == DELAM_OK && count == static_cast<std::int64_t>(mesh.body_names.size()) - 1,
+           what + ": an interface of each with the matrix " + delam_context_message(context));
     delam_mesh_destroy(&handle);
     delam_context_destroy(&context);
 }
 
-// Of each body but the matrix: the measure of its interface times the outward normal is that of its cut sections, zero
-// once the periodic borders are put together; in 2D, where each node of the interface has two sides, seen periodically.
+// With opposite borders put together, two sides meet at every corner of an interface.
 bool closed_circles(const MeshData& mesh) {
     const auto fold = [&](std::int64_t node) {
         std::vector<double> at = place(mesh, node);
