@@ -140,10 +140,30 @@ void Stepper::book_step(State& next, const State& before) const {
 bool Stepper::minimise(State& next, const State& before) const {
     const bool converged = problem_.options.minimisation == "alternate" ? minimiser().alternate(next, before.adhesion)
                                                                         : minimiser().accelerate(next, before.adhesion);
+    refuse_runaway(next);
     next.loaded = before.loaded != 0 || any_jump(pairs_, next.response.jump) ? 1 : 0;
     book_step(next, before);
     next.memory = operator_->memory();
     return converged;
+}
+
+// Beyond the limit of a dead load alternation takes adhesion to zero by ever smaller steps, and displacements to infinity: what holds a part by no more
+// adhesion than the tolerance does not hold it. Without that adhesion the displacement step finds nothing that balances (DELAM_LIMIT).
+void Stepper::refuse_runaway(const State& state) const {
+    bool dead = false, faint = false;
+    for (std::size_t p = 0; p < state.theta.size(); ++p)
+        dead = dead || (problem_.patterns[p].drives == Pattern::Drives::force && state.theta[p] != 0.0);
+    State without;
+    for (std::size_t p = 0; dead && p < state.adhesion.size(); ++p) {
+        if (pairs_.law[p] == nullptr || !(state.adhesion[p] > 0.0) || state.adhesion[p] > problem_.options.damage_tolerance) continue;
+        if (!faint) without = state;
+        faint = true;
+        without.adhesion[p] = 0.0;
+    }
+    if (!faint) return;
+    const std::vector<double> memory = operator_->memory();
+    minimiser().displace(without);
+    operator_->recall(memory);
 }
 
 double Stepper::lower_excess(const State& state) const {

@@ -61,6 +61,7 @@ private:
     Minimiser minimiser() const;
     void begin(State& next, const State& before, double time) const;
     bool minimise(State& next, const State& before) const;
+    void refuse_runaway(const State& state) const;
     void book_energies(State& state) const;
     void book_step(State& next, const State& before) const;
     void keep_lower(Result& best, State other, const State& before) const;
