@@ -572,6 +572,13 @@ DELAM_API int32_t delam_solver_front(const delam_solver *solver, int64_t interfa
                                      int64_t *starts, int32_t *closed, double *places, double *directions, double *lengths,
                                      double *rates, double *zone_lengths, double *zone_pairs);
 
+/* Tangent of the load patterns at the adhesion and contact set of the pending state, else of the committed one, held: matrix
+ * [pattern_count][pattern_count], d2 E / d factor_p d factor_q, symmetric; row p is the change of reaction:p (of a force pattern: of minus its
+ * displacement). With the control nodes of a periodic cell driven by one pattern a component it is the homogenised stiffness times
+ * the volume. One displacement solve a pattern; the state does not change. DELAM_ERROR_STATE: a force pattern acts along a motion that
+ * nothing holds. */
+DELAM_API int32_t delam_solver_tangent(delam_solver *solver, int64_t capacity, double *matrix);
+
 /* What the scene needs and what was left out, each with its reason, its predicted cost and what the decision saves. In words, a line
  * each, "subject: decision, reason (cost ..., saves ...)\n". Valid until the next call with this solver. Never NULL. */
 DELAM_API const char *delam_solver_plan(delam_solver *solver);

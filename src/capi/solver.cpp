@@ -172,6 +172,14 @@ int32_t delam_solver_average(const delam_solver* solver, int32_t body, double* v
     });
 }
 
+int32_t delam_solver_tangent(delam_solver* solver, int64_t capacity, double* matrix) {
+    return guard(solver, [&] {
+        const auto patterns = static_cast<int64_t>(solver->core->problem().patterns.size());
+        require_capacity(capacity, patterns * patterns, "matrix");
+        copy_out(solver->core->tangent(), capacity, matrix, "matrix");
+    });
+}
+
 const char* delam_solver_plan(delam_solver* solver) {
     const std::int32_t status = guard(solver, [&] { solver->plan_words = plan_in_words(solver->plan); });
     return status == DELAM_OK ? solver->plan_words.c_str() : "";

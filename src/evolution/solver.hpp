@@ -59,6 +59,8 @@ public:
     const std::vector<double>& displacement() const;
     // Forces of the device, [constraints].
     std::vector<double> reaction() const { return stepper_.op().reaction(state().theta, state().response); }
+    // d2E / dtheta2 at the adhesion and contact set of state(), [patterns][patterns].
+    std::vector<double> tangent() const { return stepper_.tangent(state()); }
     // How often displacements were recovered.
     std::int64_t recoveries() const { return stepper_.op().recoveries(); }
     const JumpOperator& jump_operator() const { return stepper_.op(); }

@@ -140,10 +140,30 @@ void Stepper::book_step(State& next, const State& before) const {
 bool Stepper::minimise(State& next, const State& before) const {
     const bool converged = problem_.options.minimisation == "alternate" ? minimiser().alternate(next, before.adhesion)
                                                                         : minimiser().accelerate(next, before.adhesion);
+    refuse_runaway(next);
     next.loaded = before.loaded != 0 || any_jump(pairs_, next.response.jump) ? 1 : 0;
     book_step(next, before);
     next.memory = operator_->memory();
     return converged;
+}
+
+// Beyond the limit of a dead load alternation takes adhesion to zero by ever smaller steps, and displacements to infinity: what holds a part by no more
+// adhesion than the tolerance does not hold it. Without that adhesion the displacement step finds nothing that balances (DELAM_LIMIT).
+void Stepper::refuse_runaway(const State& state) const {
+    bool dead = false, faint = false;
+    for (std::size_t p = 0; p < state.theta.size(); ++p)
+        dead = dead || (problem_.patterns[p].drives == Pattern::Drives::force && state.theta[p] != 0.0);
+    State without;
+    for (std::size_t p = 0; dead && p < state.adhesion.size(); ++p) {
+        if (pairs_.law[p] == nullptr || !(state.adhesion[p] > 0.0) || state.adhesion[p] > problem_.options.damage_tolerance) continue;
+        if (!faint) without = state;
+        faint = true;
+        without.adhesion[p] = 0.0;
+    }
+    if (!faint) return;
+    const std::vector<double> memory = operator_->memory();
+    minimiser().displace(without);
+    operator_->recall(memory);
 }
 
 double Stepper::lower_excess(const State& state) const {
@@ -269,6 +289,32 @@ Stepper::Result Stepper::equilibrate(const State& before, double time, std::span
     next.ledger.initial_slides += next.ledger.energy_slides() - before.ledger.energy_slides();
     next.memory = operator_->memory();
     return result;
+}
+
+// With springs and held rows fixed all is linear: the conjugates of a unit load, pattern by pattern, are the columns.
+std::vector<double> Stepper::tangent(const State& state) const {
+    const auto dim = static_cast<std::size_t>(contact_.dimension);
+    const std::size_t patterns = state.theta.size();
+    Springs springs{spring_stiffness(pairs_, state.adhesion), {}, {}};
+    springs.held.assign(springs.stiffness.size(), 0);
+    for (std::size_t p = 0; p < state.closed.size(); ++p)
+        for (std::size_t c = 0; c < dim; ++c)
+            springs.held[p * dim + c] = contact_.bonded[p] != 0 || (c == 0 && state.closed[p] != 0) ? 1 : 0;
+    std::vector<double> matrix(patterns * patterns), unit(patterns, 0.0);
+    const std::vector<double> memory = operator_->memory();
+    for (std::size_t q = 0; q < patterns; ++q) {
+        unit[q] = 1.0;
+        Response response;
+        operator_->solve(springs, unit, response);
+        unit[q] = 0.0;
+        if (!response.balanced) {
+            operator_->recall(memory);
+            fail(DELAM_ERROR_STATE, "tangent: pattern '", problem_.patterns[q].name, "' acts along a motion that nothing holds at this contact set");
+        }
+        for (std::size_t p = 0; p < patterns; ++p) matrix[p * patterns + q] = response.conjugate[p];
+    }
+    operator_->recall(memory);
+    return matrix;
 }
 
 }  // namespace delam

@@ -41,6 +41,8 @@ public:
     Result step(const State& before, double time, std::span<const Start> also = {});
     // Displacements alone, at the state's adhesion and a time.
     Result equilibrate(const State& before, double time, std::span<const double> adhesion);
+    // d2E / dtheta2 at the state's adhesion and contact set, [patterns][patterns].
+    std::vector<double> tangent(const State& state) const;
     // Does the lower bound of a step fail by more than eta: is there a lower state than `before` at its own time?
     // Relative excess over the larger of energy and work.
     double lower_excess(const State& state) const;
@@ -59,6 +61,7 @@ private:
     Minimiser minimiser() const;
     void begin(State& next, const State& before, double time) const;
     bool minimise(State& next, const State& before) const;
+    void refuse_runaway(const State& state) const;
     void book_energies(State& state) const;
     void book_step(State& next, const State& before) const;
     void keep_lower(Result& best, State other, const State& before) const;

@@ -186,7 +186,7 @@ START_TEST(incomplete_scenes_are_refused_by_name) {
 
     problem = good;
     hold(problem, node_at(problem, 0, {0.0, 0.0}), 0);
-    expect(problem, "constraint 3 prescribes what other constraints do already");
+    expect(problem, "prescribes what other constraints do already");
 
     // A mean over nodes that are held already, and the same mean twice.
     problem = good;
