@@ -11,7 +11,7 @@ DELAM_PACKAGES=(
     python3 python3-numpy python3-matplotlib python3-h5py
 )
 # The long tier of the tests.
-DELAM_LONG_PACKAGES=(clang valgrind)
+DELAM_LONG_PACKAGES=(clang valgrind paraview python3-paraview)
 
 # delam_install PACKAGE...: installs what is missing, as root or through sudo; else prints the command and fails.
 delam_install() {

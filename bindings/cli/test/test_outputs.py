@@ -54,6 +54,27 @@ with h5py.File(os.path.join(out, "fields.h5")) as file:
             if path not in file:
                 expect(False, "fields.xdmf names " + path)
 
+# What an engineer looks at first: how long the crack is and what drives it. In growth G is the toughness.
+last = dict(zip(titles, rows[-1].split(",")))
+expect(abs(float(last["energy_release_rate"]) / 250 - 1) < 0.02 and 0.03 < float(last["crack_length"]) < 0.12 and
+       float(last["front_mixity"]) > 0.99 and float(last["process_zone_pairs"]) >= 3, "columns of the crack")
+expect(about["front_unresolved"] == [] and "warning: in " not in text, "a resolved process zone is not mentioned")
+expect(about["rotation_max"] > 0.1 and "cells turn by up to" in text, "large rotations are")
+with h5py.File(os.path.join(out, "fields.h5")) as file:
+    point = file["steps/00000020/interface_0"]
+    expect(point["front_points"].shape == (1, 3) and abs(point["front_points"][0, 0] - float(last["crack_length"])) < 1e-12 and
+           abs(point["front_rates"][0].sum() - float(last["energy_release_rate"])) < 1e-9, "the front in fields.h5")
+expect("zone        \"lower-upper\", about" in delam("check", scene)[1], "check predicts the process zone")
+weak = write(SCENE.replace("125e9", "125e13").replace("onset = 100.0", "onset = 1.0").replace("250.0", "25.0"))
+code, _, error = delam("check", weak)
+expect(code == 0 and "a spacing of" in error and '"lower-upper"' in error, "check warns of too few pairs in it")
+other = folder()
+code, closing, _ = delam("run", weak, "--out", other, "--set", 'output.columns=["stress_xx:upper", "strain_yy", "rotation_max"]')
+steps = json.loads(read(os.path.join(other, "result.json")))["front_unresolved"]
+expect(code == 0 and steps and "a crack grew with fewer than 3 pairs" in text, f"unresolved growth in {steps} closes the run")
+expect(",stress_xx:upper,strain_yy,rotation_max,solution" in read(os.path.join(other, "history.csv")).decode(), "columns of averages")
+expect_error(delam("check", write(changed("steps = 20", 'steps = 4\n[output]\ncolumns = ["stress_xx:middle"]'))), 2, "no such value")
+
 two = changed("[[loads]]", '[[patterns]]\nname = "side"\ntimes = [0, 2]\nvalues = [0, 1]\n[[forces]]\n'
               'point = [0.03, 0.006]\nforce = [0.0, -100.0]\npattern = "side"\n[[loads]]')
 two = changed("steps = 20", 'steps = 4\n[output]\nevery = 3\nsnapshots = [1.0]\ncolumns = ["front"]', two)

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Volume averages, rotations, predicted process zones, and the warnings that go with them.
+#include <array>
+#include <cmath>
+
+#include "mmf.hpp"
+
+#include "support.hpp"  // last: check.h has a macro named fail
+
+using namespace cases;
+
+namespace {
+
+constexpr double slope[3][3] = {{1e-3, 2e-3, -5e-4}, {3e-3, -2e-3, 1e-3}, {7e-4, 4e-4, 1.5e-3}};
+
+// Two stacked blocks, bonded, all nodes driven to u = G x times time.
+reference::Scene affine(int dimension, std::int32_t cell, const char* plane) {
+    const bool space = dimension == 3;
+    reference::Scene scene(dimension, space ? std::vector<double>{2.0, 1.0} : std::vector<double>{2.0},
+                           space ? std::vector<std::int64_t>{2, 2} : std::vector<std::int64_t>{2}, {1.0, 0.5}, {1, 1}, cell);
+    scene.interface(0, 1);
+    scene.begin();
+    scene.elastic(0, 10.0, 0.3);
+    scene.elastic(1, 20.0, 0.2);
+    if (!space) scene.require(delam_problem_set_plane(scene.problem(), plane), "delam_problem_set_plane");
+    scene.bonded(0);
+    const auto pattern = scene.pattern("stretch", {0.0, 1.0}, {0.0, 1.0});
+    const std::vector<std::int64_t> nodes = scene.find(0, std::vector<double>(static_cast<std::size_t>(dimension), -1.0),
+                                                       std::vector<double>(static_cast<std::size_t>(dimension), 9.0));
+    const std::vector<std::int64_t> upper = scene.find(1, std::vector<double>(static_cast<std::size_t>(dimension), -1.0),
+                                                       std::vector<double>(static_cast<std::size_t>(dimension), 9.0));
+    for (int i = 0; i < dimension; ++i) {
+        std::vector<double> direction(static_cast<std::size_t>(dimension), 0.0);
+        direction[static_cast<std::size_t>(i)] = 1.0;
+        for (const auto* list : {&nodes, &upper})
+            for (const std::int64_t node : *list) {
+                if (list == &upper && std::abs(scene.coordinate(node, dimension - 1) - 1.0) < 1e-9) continue;  // bonded to the ones below
+                double u = 0.0;
+                for (int j = 0; j < dimension; ++j) u += slope[i][j] * scene.coordinate(node, j);
+                scene.drive({node}, direction, pattern, {u});
+            }
+    }
+    return scene;
+}
+
+}  // namespace
+
+// Affine displacements: averages and rotations are those of the gradient, stresses those of Hooke's law, in every body and in all.
+CASE_TEST(affine_averages) {
+    struct { int dimension; std::int32_t cell; const char* plane; } const of[] = {
+        {2, DELAM_QUAD4, "plane-strain"}, {2, DELAM_QUAD8, "plane-stress"}, {2, DELAM_TRI6, "plane-stress"},
+        {3, DELAM_HEX8, ""}, {3, DELAM_TET10, ""}, {3, DELAM_HEX20, ""}};
+    const int dim = of[loop].dimension;
+    const reference::Scene scene = affine(dim, of[loop].cell, of[loop].plane);
+    reference::Solver solver(scene, 0.0);
+    solver.step(1.0);
+    const auto& g = slope;
+    std::array<double, 6> sum{};
+    double all = 0.0;
+    for (std::int32_t body = 0; body < 2; ++body) {
+        const double young = body == 0 ? 10.0 : 20.0, nu = body == 0 ? 0.3 : 0.2, mu = young / (2 * (1 + nu)), lambda = young * nu / ((1 + nu) * (1 - 2 * nu));
+        std::array<double, 6> exact{g[0][0], g[1][1], 0.0, g[0][1] + g[1][0], 0.0, 0.0};
+        if (dim == 3) exact = {g[0][0], g[1][1], g[2][2], g[0][1] + g[1][0], g[1][2] + g[2][1], g[0][2] + g[2][0]};
+        if (of[loop].plane == std::string("plane-stress")) exact[2] = -nu / (1 - nu) * (g[0][0] + g[1][1]);
+        std::array<double, 6> strain{}, stress{};
+        double volume = 0.0;
+        scene.require(delam_solver_average(solver.get(), body, &volume, strain.data(), stress.data()), "delam_solver_average");
+        expect_near(volume, body == 0 ? 2.0 : 1.0, 1e-12, 1.0, "volume");
+        for (std::size_t i = 0; i < 6; ++i) {
+            expect_near(strain[i], exact[i], 1e-12, 1.0, "strain");
+            const double trace = exact[0] + exact[1] + exact[2];
+            expect_near(stress[i], i < 3 ? lambda * trace + 2 * mu * exact[i] : mu * exact[i], 1e-11, 1.0, "stress");
+            sum[i] += volume * stress[i];
+        }
+        all += volume;
+    }
+    std::array<double, 6> stress{};
+    scene.require(delam_solver_average(solver.get(), -1, nullptr, nullptr, stress.data()), "delam_solver_average");
+    for (std::size_t i = 0; i < 6; ++i) expect_near(stress[i], sum[i] / all, 1e-12, 1.0, "stress of all bodies");
+    expect(delam_solver_average(solver.get(), 7, nullptr, nullptr, nullptr) == DELAM_ERROR_ARGUMENT, "no such body");
+
+    const double rotation[] = {0.5 * (g[2][1] - g[1][2]), 0.5 * (g[0][2] - g[2][0]), 0.5 * (g[1][0] - g[0][1])};
+    const std::vector<double> field = solver.field("rotation");
+    const std::size_t columns = dim == 2 ? 1 : 3;
+    for (std::size_t i = 0; i < field.size(); ++i) expect_near(field[i], rotation[dim == 2 ? 2 : i % columns], 1e-12, 1.0, "rotation");
+    expect_near(solver.value("rotation_max"), dim == 2 ? std::abs(rotation[2]) : std::hypot(rotation[0], rotation[1], rotation[2]), 1e-12, 1.0, "rotation_max");
+}
+
+// Said once: a rotation of more than 0.1, and only when somebody asks; a front that grows on too few pairs.
+CASE_TEST(warnings) {
+    const bool brittle = loop == 0;
+    const reference::Scene scene = make_mmf(1e-3, brittle ? mmf_brittle : mmf_ductile, "converged");
+    const Warnings heard(scene);
+    reference::Solver solver(scene, 0.0);
+    const auto count = [&](const char* word) {
+        return std::count_if(heard.lines.begin(), heard.lines.end(), [&](const std::string& line) { return line.find(word) != std::string::npos; });
+    };
+    for (int k = 1; k <= 40; ++k) {
+        expect(solver.advance(enf_end_time * k / 40) >= 0, "step");
+        solver.commit();
+    }
+    expect(count("process zone") == (brittle ? 1 : 0), "a warning of an unresolved front where there is one, once");
+    expect(count("rad") == 0 && solver.value("field_recoveries") == 0.0, "rotations are not computed unasked");
+    expect(solver.value("rotation_max") > 0.1 && solver.value("rotation_max") > 0.1, "large rotations");
+    expect(count("rad") == 1, "a warning of rotations, once");
+    double length = 0.0, spacing = 0.0;
+    scene.require(delam_problem_process_zone(scene.problem(), 0, &length, &spacing), "delam_problem_process_zone");
+    const double modulus = 75e9 / 0.91, thick = brittle ? modulus * 25.0 / (50e6 * 50e6) : modulus * 250.0 / (5e6 * 5e6);
+    const double exact = brittle ? thick : std::pow(thick, 0.25) * std::pow(3e-3, 0.75);
+    expect_near(length, exact, 1e-9, exact, "predicted process zone");
+    expect_near(spacing, 1e-3, 0.01, 1e-3, "spacing of the pairs");
+}
+
+int main() {
+    Suite* suite = suite_create("averages");
+    TCase* all = tcase_create("averages");
+    tcase_add_loop_test(all, affine_averages, 0, 6);
+    tcase_add_loop_test(all, warnings, 0, 2);
+    suite_add_tcase(suite, all);
+    return run_suite(suite);
+}
