@@ -542,7 +542,7 @@ DELAM_API int32_t delam_solver_field_shape(const delam_solver *solver, const cha
 DELAM_API int32_t delam_solver_field(delam_solver *solver, const char *key, int64_t part, int64_t capacity, double *values);
 
 /* Strain and stress on average over the volume of a body (label; -1: of all), of the state that values and fields speak of; exact. strain, stress: [6]
- * in the order xx, yy, zz, xy, yz, zx, shear strains doubled, stress in F/L2; volume in L2 or L3. Any output may be NULL. In 2D the rest follows from
+ * in the order xx, yy, zz, xy, yz, zx, shear strains doubled (prescribed strains are part of them), stress in F/L2; volume in L2 or L3. Any output may be NULL. In 2D the rest follows from
  * the plane assumption. What cracks open between bodies is not in it. Recovers the displacements. */
 DELAM_API int32_t delam_solver_average(const delam_solver *solver, int32_t body, double *volume, double *strain, double *stress);
 

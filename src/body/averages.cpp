@@ -57,7 +57,8 @@ void relax(const SpaceElasticity& c, std::array<double, 6>& strain) {
 
 }  // namespace
 
-VolumeAverage volume_average(const Mesh& mesh, std::span<const BodyModel> models, std::span<const double> displacement, std::int32_t body) {
+VolumeAverage volume_average(const Mesh& mesh, std::span<const BodyModel> models, std::span<const double> displacement,
+                             std::span<const Strain> eigenstrain, std::int32_t body) {
     std::vector<CellElasticity> elasticity;
     for (const BodyModel& model : models) elasticity.emplace_back(model, mesh.dimension());
     VolumeAverage sum;
@@ -65,12 +66,19 @@ VolumeAverage volume_average(const Mesh& mesh, std::span<const BodyModel> models
         const std::int32_t own = mesh.cell_body(c);
         if (body >= 0 && own != body) continue;
         std::array<double, 6> strain{};
-        sum.volume += integrate(mesh, c, displacement, strain);
+        const double volume = integrate(mesh, c, displacement, strain);
+        sum.volume += volume;
+        Strain prescribed{};
+        if (!eigenstrain.empty()) {
+            const Axes* axes = elasticity[at(own)].axes(c);
+            prescribed = axes == nullptr ? eigenstrain[at(own)] : rotated_strain(eigenstrain[at(own)], *axes);
+        }
+        for (std::size_t i = 0; i < 6; ++i) strain[i] -= volume * prescribed[i];
         const SpaceElasticity& space = elasticity[at(own)].space(c);
         const bool free = mesh.dimension() == 2 && models[at(own)].plane == Plane::stress;
         if (free) relax(space, strain);
         for (std::size_t i = 0; i < 6; ++i) {
-            sum.strain[i] += strain[i];
+            sum.strain[i] += strain[i] + volume * prescribed[i];
             for (std::size_t j = 0; j < 6; ++j) sum.stress[i] += space[i * 6 + j] * strain[j];
         }
     }

@@ -54,12 +54,7 @@ std::vector<double> field(const Solver& solver, const std::string& key, std::int
     const Problem& problem = solver.problem();
     if (key == "displacement") return solver.displacement();
     if (key == "reaction") return solver.reaction();
-    if (key == "stress") {
-        std::vector<Strain> eigenstrain;
-        for (std::int32_t body = 0; body < problem.mesh->body_count() && !problem.eigenstrains.empty(); ++body)
-            eigenstrain.push_back(strain_at(problem, body, state.theta));
-        return centre_stress(*problem.mesh, solver.models(), solver.displacement(), eigenstrain);
-    }
+    if (key == "stress") return centre_stress(*problem.mesh, solver.models(), solver.displacement(), solver.eigenstrains());
     if (key == "rotation") return centre_rotation(*problem.mesh, solver.displacement());
     const auto first = static_cast<std::size_t>(pair_range(solver, part).first);
     const auto columns = static_cast<std::size_t>(shape.columns);

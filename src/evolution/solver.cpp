@@ -8,6 +8,7 @@
 #include "body/rotation.hpp"
 #include "evolution/backtrack.hpp"
 #include "evolution/step_control.hpp"
+#include "scene/strain_loads.hpp"
 
 namespace delam {
 
@@ -208,7 +209,16 @@ std::vector<BodyModel> Solver::models() const {
     return models;
 }
 
-VolumeAverage Solver::average(std::int32_t body) const { return volume_average(*problem_.mesh, models(), displacement(), body); }
+std::vector<Strain> Solver::eigenstrains() const {
+    std::vector<Strain> strains;
+    for (std::int32_t body = 0; body < problem_.mesh->body_count() && !problem_.eigenstrains.empty(); ++body)
+        strains.push_back(strain_at(problem_, body, state().theta));
+    return strains;
+}
+
+VolumeAverage Solver::average(std::int32_t body) const {
+    return volume_average(*problem_.mesh, models(), displacement(), eigenstrains(), body);
+}
 
 const std::vector<CrackFront>& Solver::crack_fronts(std::int64_t interface) const {
     fronts_.resize(problem_.interfaces.size());

@@ -80,6 +80,8 @@ public:
     // Of a body (index), -1: of all; recovers the displacements.
     VolumeAverage average(std::int32_t body) const;
     std::vector<BodyModel> models() const;
+    // e* of the bodies at this state, in material axes; empty: there are none.
+    std::vector<Strain> eigenstrains() const;
     // What the last search looked at, in words.
     const std::string& searched() const { return stepper_.searched(); }
 

@@ -43,6 +43,13 @@ reference::Scene affine(int dimension, std::int32_t cell, const char* plane) {
     return scene;
 }
 
+std::int64_t scene_pattern(const reference::Scene& scene, const char* name) {
+    const double times[] = {0.0, 1.0};
+    std::int64_t pattern = 0;
+    scene.require(delam_problem_add_pattern(scene.problem(), name, 2, times, times, &pattern), "delam_problem_add_pattern");
+    return pattern;
+}
+
 }  // namespace
 
 // Affine displacements: averages and rotations are those of the gradient, stresses those of Hooke's law, in every body and in all.
@@ -86,6 +93,31 @@ CASE_TEST(affine_averages) {
     expect_near(solver.value("rotation_max"), dim == 2 ? std::abs(rotation[2]) : std::hypot(rotation[0], rotation[1], rotation[2]), 1e-12, 1.0, "rotation_max");
 }
 
+// A prescribed strain in a body that is held: the strain stays that of the displacements, the stress lacks C e*; out of the plane likewise.
+CASE_TEST(eigenstrains) {
+    const bool stress = loop == 1;
+    const int dim = loop == 2 ? 3 : 2;
+    const reference::Scene scene = affine(dim, dim == 3 ? DELAM_HEX8 : DELAM_QUAD4, stress ? "plane-stress" : "plane-strain");
+    const double warm = 2e-3, strain[] = {warm, warm, warm, 0.0, 0.0, 0.0};
+    const auto heat = scene_pattern(scene, "heat");
+    scene.require(delam_problem_add_eigenstrain(scene.problem(), heat, 0, strain), "delam_problem_add_eigenstrain");
+    std::array<double, 6> with{}, without{}, cold{}, all{};
+    reference::Solver solver(scene, 0.0);
+    solver.step(1.0);
+    scene.require(delam_solver_average(solver.get(), 0, nullptr, all.data(), with.data()), "delam_solver_average");
+    const reference::Scene plain = affine(dim, dim == 3 ? DELAM_HEX8 : DELAM_QUAD4, stress ? "plane-stress" : "plane-strain");
+    reference::Solver other(plain, 0.0);
+    other.step(1.0);
+    scene.require(delam_solver_average(other.get(), 0, nullptr, cold.data(), without.data()), "delam_solver_average");
+    const double young = 10.0, nu = 0.3, bulk = stress ? young / (1 - nu) : young / (1 - 2 * nu);
+    for (std::size_t i = 0; i < 6; ++i) {
+        const bool zero = i > 2 || (stress && i == 2);
+        expect_near(with[i], without[i] - (zero ? 0.0 : bulk * warm), 1e-11, 1.0, "stress with a prescribed strain");
+        const double zz = stress && i == 2 ? warm * (1 + 2 * nu / (1 - nu)) : 0.0;
+        expect_near(all[i], cold[i] + zz, 1e-12, 1.0, "strain with a prescribed strain");
+    }
+}
+
 // Said once: a rotation of more than 0.1, and only when somebody asks; a front that grows on too few pairs.
 CASE_TEST(warnings) {
     const bool brittle = loop == 0;
@@ -115,6 +147,7 @@ int main() {
     Suite* suite = suite_create("averages");
     TCase* all = tcase_create("averages");
     tcase_add_loop_test(all, affine_averages, 0, 6);
+    tcase_add_loop_test(all, eigenstrains, 0, 3);
     tcase_add_loop_test(all, warnings, 0, 2);
     suite_add_tcase(suite, all);
     return run_suite(suite);

@@ -71,7 +71,7 @@ expect(code == 0 and "a spacing of" in error and '"lower-upper"' in error, "chec
 other = folder()
 code, closing, _ = delam("run", weak, "--out", other, "--set", 'output.columns=["stress_xx:upper", "strain_yy", "rotation_max"]')
 steps = json.loads(read(os.path.join(other, "result.json")))["front_unresolved"]
-expect(code == 0 and steps and "a crack grew with fewer than 3 pairs" in text, f"unresolved growth in {steps} closes the run")
+expect(code == 0 and steps and "a crack grew with fewer than 3 pairs" in closing, f"unresolved growth in {steps} closes the run")
 expect(",stress_xx:upper,strain_yy,rotation_max,solution" in read(os.path.join(other, "history.csv")).decode(), "columns of averages")
 expect_error(delam("check", write(changed("steps = 20", 'steps = 4\n[output]\ncolumns = ["stress_xx:middle"]'))), 2, "no such value")
 
