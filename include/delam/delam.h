@@ -379,7 +379,7 @@ DELAM_API int32_t delam_problem_add_equation(delam_problem *problem, int64_t cou
 /* A periodic cell: u(x + period_k) - u(x) = u of control node k, for all nodes on opposite faces of the mesh, which must be a
  * parallelepiped along its periods (with fewer periods than dimensions it may have any shape across them). periods: [period_count][dimension] L,
  * independent, 1 <= period_count <= dimension; control_nodes: [period_count], distinct, without cells. tolerance: largest distance of
- * partners as a fraction of the mesh's size; 0 gives 1e-6. Partners are nodes of the same body; where bodies touch at a place and one node
+ * partners as a fraction of the cells' largest extent; 0 gives 1e-6. Partners are nodes of the same body; where bodies touch at a place and one node
  * is left over on each side (a fibre that the cell's edge cuts into two bodies), these. Edges and corners get no redundant
  * equations. DELAM_ERROR_MESH names nodes without a partner.
  * The displacement of control node k is the average displacement gradient along its period, <grad u> period_k, opening of interfaces

@@ -90,7 +90,6 @@ std::vector<PeriodicPair> periodic_pairs(const Mesh& mesh, std::span<const doubl
     for (std::size_t k = 0; k < periods.size(); ++k)
         for (std::size_t d = 0; d < at(dim); ++d) periods[k][d] = given[k * at(dim) + d];
     const std::vector<Point> dual = dual_basis(periods);
-    const double distance = tolerance * mesh.size();
     const auto place = [&](std::int64_t node) {
         Point x{};
         for (std::size_t d = 0; d < at(dim); ++d) x[d] = mesh.node(node)[d];
@@ -101,6 +100,12 @@ std::vector<PeriodicPair> periodic_pairs(const Mesh& mesh, std::span<const doubl
     std::vector<std::int64_t> nodes;
     for (std::int64_t n = 0; n < mesh.node_count(); ++n)
         if (mesh.node_body(n) >= 0) nodes.push_back(n);
+    double size = 0.0;  // largest extent of the cells: control nodes may lie anywhere
+    for (std::size_t d = 0; d < at(dim); ++d) {
+        const auto [low, high] = std::minmax_element(nodes.begin(), nodes.end(), [&](std::int64_t a, std::int64_t b) { return mesh.node(a)[d] < mesh.node(b)[d]; });
+        if (!nodes.empty()) size = std::max(size, mesh.node(*high)[d] - mesh.node(*low)[d]);
+    }
+    const double distance = tolerance * size;
     std::vector<unsigned> upper(at(mesh.node_count()), 0);
     for (std::size_t k = 0; k < periods.size(); ++k) {
         double low = INFINITY, high = -INFINITY;

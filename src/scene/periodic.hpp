@@ -17,7 +17,7 @@ struct PeriodicPair {
 };
 
 // The cell is a parallelepiped along its periods (where there are fewer than dimensions: with any extent across them). periods:
-// [count][dimension], independent. tolerance: largest distance of partners, as a fraction of the mesh's size. Where several nodes lie at one
+// [count][dimension], independent. tolerance: largest distance of partners, as a fraction of the cells' largest extent. Where several nodes lie at one
 // place (faces that touch), partners are of the same body; what is then left over on both sides, one node each, makes a pair
 // too. One pair for each node that is not on lower faces alone: edges and corners get no redundant ones. Throws Error(DELAM_ERROR_MESH) naming
 // nodes without partner, or the direction in which the mesh is not one period long.

@@ -467,4 +467,66 @@ inline Scene make_unglued(int d) {
     return scene;
 }
 
+// Plies whose faces do not match: b's nodes are paired with projections on a. Periodic along x where asked for, so that equations act on nodes
+// that others hang on. The middle ply is finer than its neighbours, so it is b once and a once.
+inline Scene make_unmatched(int d, bool periodic) {
+    Scene scene = make_blocks(d, {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {7, 1, 2}}, {{0.0, 0.003, 0.0}, {0.04, 0.006, 0.01}, {11, 1, 3}},
+                                  {{0.0, 0.006, 0.0}, {0.04, 0.009, 0.01}, {10, 1, 2}}}, nullptr, 1);
+    scene.projected(0, 1);
+    scene.projected(1, 2);
+    scene.begin();
+    scene.elastic(-1, 70e9, 0.3);
+    scene.elastic(1, 20e9, 0.2);
+    for (int i = 0; i < 2; ++i) scene.law(i, block_law);
+    const auto load = to_and_fro(scene, "pull", 4e-6);
+    if (periodic) {
+        std::vector<double> period(static_cast<std::size_t>(d), 0.0);
+        period[0] = 0.04;
+        scene.periodic(period, {0});
+        scene.drive({0}, unit(d, 0), load, {1.0});
+        for (int k = 1; k < d; ++k) scene.hold({0}, unit(d, k));
+        const auto held = body_nodes_where(scene, [](const double* x) { return x[1] < 1e-6 && x[0] > 0.01 && x[0] < 0.03; });
+        for (int k = 0; k < d; ++k) scene.hold(held, unit(d, k));
+    } else {
+        clamp_left(scene);
+        const auto tip = body_nodes_where(scene, [](const double* x) { return x[0] > 0.0399 && x[1] < 1e-6; });
+        scene.drive(tip, unit(d, 0), load, std::vector<double>(tip.size(), 1.0));
+    }
+    const auto top = body_nodes_where(scene, [](const double* x) { return x[1] > 0.0089 && x[0] > 0.031 && x[0] < 0.0399; });
+    scene.drive(top, unit(d, 1), to_and_fro(scene, "bend", 5e-6), std::vector<double>(top.size(), 1.0));
+    return scene;
+}
+
+// Two glued plies between obstacles: below one that is at rest, above one that a pattern moves, or a dead force.
+inline Scene make_obstacles(int d, bool dead) {
+    Scene scene = make_blocks(d, {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {10, 1, 2}}, {{0.0, 0.003, 0.0}, {0.04, 0.006, 0.01}, {10, 1, 2}}}, nullptr, 2);
+    scene.interface(0, 1);
+    const auto below = body_nodes_where(scene, [](const double* x) { return x[1] < 1e-6 && x[0] > 0.0119 && x[0] < 0.0281; });
+    const auto above = body_nodes_where(scene, [](const double* x) { return x[1] > 0.0059 && x[0] > 0.0279; });
+    const auto normals = [d](std::size_t n, double sign) {
+        std::vector<double> list(n * static_cast<std::size_t>(d), 0.0);
+        for (std::size_t i = 0; i < n; ++i) list[i * static_cast<std::size_t>(d) + 1] = sign;
+        return list;
+    };
+    scene.obstacle(below, normals(below.size(), 1.0), 0);
+    scene.obstacle(above, normals(above.size(), -1.0), 1);
+    scene.begin();
+    scene.elastic(-1, 70e9, 0.3);
+    scene.law(0, block_law);
+    scene.contact(1);
+    scene.contact(2);
+    clamp_left(scene);
+    for (int k = 0; k < d; ++k) {
+        scene.hold({0}, unit(d, k));
+        if (k != 1) scene.hold({1}, unit(d, k));
+    }
+    if (dead)
+        forces(scene, scene.pattern("press", {-1.0, 0.0, 1.0}, {-2e3, -1e2, -2e3}), {1}, unit(d, 1));
+    else
+        scene.drive({1}, unit(d, 1), scene.pattern("press", {-1.0, 0.0, 1.0}, {-1e-5, 0.0, -2e-5}), {1.0});
+    const auto tip = body_nodes_where(scene, [](const double* x) { return x[0] > 0.0399 && x[1] < 1e-6; });
+    scene.drive(tip, unit(d, 0), to_and_fro(scene, "slide", 2e-6), std::vector<double>(tip.size(), 1.0));
+    return scene;
+}
+
 }  // namespace cases

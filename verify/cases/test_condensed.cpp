@@ -99,6 +99,14 @@ const Entry entries[] = {
     {"periodic, dead force 3D", [] { return cases::make_periodic_plies(3, true); }, false},
     {"unglued", [] { return cases::make_unglued(2); }},
     {"unglued 3D", [] { return cases::make_unglued(3); }},
+    {"unmatched", [] { return cases::make_unmatched(2, false); }},
+    {"unmatched 3D", [] { return cases::make_unmatched(3, false); }},
+    {"unmatched, periodic", [] { return cases::make_unmatched(2, true); }, false},
+    {"unmatched, periodic 3D", [] { return cases::make_unmatched(3, true); }, false},
+    {"obstacles", [] { return cases::make_obstacles(2, false); }},
+    {"obstacles 3D", [] { return cases::make_obstacles(3, false); }},
+    {"obstacles, dead force", [] { return cases::make_obstacles(2, true); }},
+    {"obstacles, dead force 3D", [] { return cases::make_obstacles(3, true); }},
 };
 constexpr int entry_count = static_cast<int>(std::size(entries));
 

@@ -123,6 +123,14 @@ Acceptance accept(const Solver& solver, const Exported& exported) {
         }
     }
 
+    // What acts on a tied node acts on what it is tied to.
+    for (const Exported::Tie& tie : exported.ties)
+        for (std::size_t k = 0; k < d; ++k) {
+            long double& own = unbalance[static_cast<std::size_t>(tie.node) * d + k];
+            for (const auto& [node, weight] : tie.of) unbalance[static_cast<std::size_t>(node) * d + k] += static_cast<long double>(weight) * own;
+            own = 0.0L;
+        }
+
     double worst = 0.0;
     for (const long double r : unbalance) worst = std::max(worst, std::abs(static_cast<double>(r)));
     const double scale = largest(reaction) > 0.0 ? largest(reaction) : std::max(largest_force, largest(force));

@@ -79,6 +79,20 @@ std::int64_t Scene::interface(std::int32_t body_a, std::int32_t body_b) {
     return index;
 }
 
+std::int64_t Scene::projected(std::int32_t body_a, std::int32_t body_b, double gap) {
+    std::int64_t index = -1;
+    require(delam_mesh_add_projected_interface(mesh(), body_a, body_b, gap, &index), "delam_mesh_add_projected_interface");
+    adopt_mesh();
+    return index;
+}
+
+std::int64_t Scene::obstacle(const std::vector<std::int64_t>& nodes, const std::vector<double>& normals, std::int64_t control_node) {
+    std::int64_t index = -1;
+    require(delam_mesh_add_obstacle(mesh(), length(nodes), nodes.data(), normals.data(), nullptr, control_node, 0, &index),
+            "delam_mesh_add_obstacle");
+    return index;
+}
+
 void Scene::begin() {
     delam_problem* raw = nullptr;
     require(delam_problem_create(context(), mesh(), &raw), "delam_problem_create");

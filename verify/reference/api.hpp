@@ -73,6 +73,8 @@ public:
                             const std::vector<std::int64_t>& cells, const std::vector<std::int32_t>& bodies);
 
     std::int64_t interface(std::int32_t body_a, std::int32_t body_b);
+    std::int64_t projected(std::int32_t body_a, std::int32_t body_b, double gap = 0.0);
+    std::int64_t obstacle(const std::vector<std::int64_t>& nodes, const std::vector<double>& normals, std::int64_t control_node);
     // Between all bodies that touch; returns how many.
     std::int64_t all_interfaces();
     void begin();

@@ -164,6 +164,13 @@ State DirectReference::solve_linear(const std::vector<double>& values, const std
     for (std::size_t i = 0; i < exported_.dofs; ++i) {
         if (!exported_.alive[i]) elimination.add(displacement_[i], 0.0);
     }
+    for (const Exported::Tie& tie : exported_.ties) {
+        for (int k = 0; k < d; ++k) {
+            std::vector<std::pair<std::int64_t, double>> row{{d * tie.node + k, 1.0}};
+            for (const auto& [node, weight] : tie.of) row.emplace_back(d * node + k, -weight);
+            if (elimination.add(combination(row), 0.0) == Outcome::added) keep(std::move(row), -1, -1);
+        }
+    }
     for (std::size_t c = 0; c < exported_.constraints.rows(); ++c) {
         std::vector<std::pair<std::int64_t, double>> row;
         for (auto e = exported_.constraints.start[c]; e < exported_.constraints.start[c + 1]; ++e) {

@@ -65,6 +65,19 @@ Exported::Exported(const Scene& scene) : dimension(scene.dimension()), dofs(scen
     for (std::size_t i = 0; i < scene.stiffness().size(); ++i)
         interfaces.push_back(scene.pairs(static_cast<std::int64_t>(i)));
 
+    std::int64_t tied = 0;
+    std::int64_t tie_entries = 0;
+    scene.require(delam_mesh_node_ties(scene.mesh(), &tied, &tie_entries, nullptr, nullptr, nullptr, nullptr), "delam_mesh_node_ties");
+    std::vector<std::int64_t> tie_nodes(static_cast<std::size_t>(tied)), starts(tie_nodes.size() + 1), of(static_cast<std::size_t>(tie_entries));
+    std::vector<double> weights(of.size());
+    scene.require(delam_mesh_node_ties(scene.mesh(), &tied, &tie_entries, tie_nodes.data(), starts.data(), of.data(), weights.data()),
+                  "delam_mesh_node_ties");
+    for (std::size_t i = 0; i < tie_nodes.size(); ++i) {
+        ties.push_back({tie_nodes[i], {}});
+        for (auto e = static_cast<std::size_t>(starts[i]); e < static_cast<std::size_t>(starts[i + 1]); ++e)
+            ties.back().of.emplace_back(of[e], weights[e]);
+    }
+
     std::int64_t rows = 0;
     std::int64_t entries = 0;
     std::int64_t pattern_count = 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "api.hpp"
@@ -24,6 +25,11 @@ struct Exported {
     Csr stiffness;            // all bodies over mesh DOFs, both triangles
     std::vector<bool> alive;  // DOFs that some cell touches, and those of control nodes
     std::vector<Pairs> interfaces;
+    struct Tie {  // u of node = sum of weight u
+        std::int64_t node;
+        std::vector<std::pair<std::int64_t, double>> of;
+    };
+    std::vector<Tie> ties;
     Csr constraints;  // over mesh DOFs
     std::size_t patterns = 0;
     std::vector<double> prescribed;           // [constraints][patterns]

@@ -194,11 +194,11 @@ START_TEST(incomplete_scenes_are_refused_by_name) {
     const std::int64_t right = node_at(problem, 0, {4.0, 0.0});
     const std::int64_t middle = node_at(problem, 0, {2.0, 0.0});
     problem.constraints.push_back({{2 * left + 1, 2 * right + 1}, {0.5, 0.5}, {}});
-    expect(problem, "constraint 3 (a mean)");
+    expect(problem, "constraint 3 (of 2 displacements");
     problem.constraints.back() = {{2 * left + 1, 2 * middle + 1}, {0.5, 0.5}, {}};
     expect_valid(problem);
     problem.constraints.push_back(problem.constraints.back());
-    expect(problem, "constraint 4 (a mean)");
+    expect(problem, "constraint 4 (of 2 displacements");
 }
 END_TEST
 
