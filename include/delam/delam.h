@@ -170,8 +170,9 @@ DELAM_API int32_t delam_mesh_add_all_interfaces(delam_mesh *mesh, double toleran
  * delam_mesh_add_interface. Order of pairs likewise.
  * Take the body with the finer mesh as b: linear displacements are continuous across a perfect bond whichever is finer, but the forces of
  * a uniform traction reach a through the N_i at b's nodes, which is exact where a's nodes are among b's (b refines a) and else leaves an
- * error at a's faces that falls with the square of the ratio of edges; with b coarser than a, nodes of a between those of b are not
- * held at all. Choose `gap` as large as the chords of curved faces need and no larger: a rotation of both bodies by an angle makes a jump
+ * error in the cells at the interface that falls with the square of the ratio of edges. Measured as the largest error of a stress in a
+ * patch test, edges of a to b as 3:4, 3:7, 3:13: 0.6, 0.18, 0.05 % (quad4), 7.5, 2.3, 0.6 % (hex8). With b coarser than a, nodes of a between
+ * those of b are held by nothing: 3:2 gives 2.4 and 36 %. Choose `gap` as large as the chords of curved faces need and no larger: a rotation of both bodies by an angle makes a jump
  * of that angle times the distance of a node from its projection.
  * A face of b must lie on a as a whole or not at all (a may reach beyond b, faces of b may lie side by side with a's rim):
  * DELAM_ERROR_MESH with the place where one lies on a in part only, where no face of b lies on a, or when the two are joined. */

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Two blocks whose meshes do not match, tied by projection, under a linear displacement on their outside: exact where
+// one mesh refines the other and is b; else an error that stays at the interface, and falls as b gets finer. Both
+// realisations find the same.
+#include <algorithm>
+#include <cmath>
+
+#include "api.hpp"
+#include "support.hpp"
+
+namespace {
+
+using reference::Scene;
+using reference::Solver;
+
+constexpr double gradient[3][3] = {{1.0e-3, 0.4e-3, -0.3e-3}, {-0.7e-3, -0.5e-3, 0.2e-3}, {0.6e-3, 0.9e-3, 0.8e-3}};
+
+// Blocks of 1 (x 1) x 0.5 upon each other, `lower` and `upper` cells along x (and y).
+Scene blocks(int d, std::int64_t lower, std::int64_t upper) {
+    const std::int32_t cell = d == 2 ? DELAM_QUAD4 : DELAM_HEX8;
+    std::vector<double> nodes;
+    std::vector<std::int64_t> cells;
+    std::vector<std::int32_t> bodies;
+    const std::size_t per_cell = d == 2 ? 4 : 8;
+    for (const std::int64_t n : {lower, upper}) {
+        const Scene part(d, d == 2 ? std::vector<double>{1.0} : std::vector<double>{1.0, 1.0},
+                         d == 2 ? std::vector<std::int64_t>{n} : std::vector<std::int64_t>{n, n}, {0.5}, {3}, cell);
+        const auto first = static_cast<std::int64_t>(nodes.size()) / d;
+        for (std::size_t i = 0; i < part.nodes().size(); ++i)
+            nodes.push_back(part.nodes()[i] + (!bodies.empty() && i % static_cast<std::size_t>(d) + 1 == static_cast<std::size_t>(d) ? 0.5 : 0.0));
+        std::int64_t needed = 0;
+        part.require(delam_mesh_cells(part.mesh(), nullptr, nullptr, nullptr, 0, nullptr, &needed), "cells");
+        const auto begin = cells.size();
+        cells.resize(begin + static_cast<std::size_t>(needed));
+        part.require(delam_mesh_cells(part.mesh(), nullptr, nullptr, nullptr, needed, &cells[begin], nullptr), "cells");
+        for (std::size_t i = begin; i < cells.size(); ++i) cells[i] += first;
+        bodies.resize(cells.size() / per_cell, bodies.empty() ? 0 : 1);
+    }
+    return Scene(d, nodes, cell, cells, bodies);
+}
+
+// Largest error of a stress component, over the largest one.
+double stress_error(int d, std::int64_t lower, std::int64_t upper, const char* reduction) {
+    Scene scene = blocks(d, lower, upper);
+    std::int64_t index = -1;
+    scene.require(delam_mesh_add_projected_interface(scene.mesh(), 0, 1, 0.0, &index), "delam_mesh_add_projected_interface");
+    scene.begin();
+    scene.elastic(-1, 10e9, 0.3);
+    scene.bonded(0);
+    const auto load = scene.pattern("stretch", {0.0, 1.0}, {0.0, 1.0});
+    std::vector<std::int64_t> outer;
+    const auto paired = scene.pairs(0).node_b;
+    for (std::int64_t n = 0; n < static_cast<std::int64_t>(scene.node_count()); ++n) {
+        bool surface = false;
+        for (int k = 0; k < d; ++k) surface = surface || scene.coordinate(n, k) == 0.0 || scene.coordinate(n, k) == 1.0;
+        if (surface && std::find(paired.begin(), paired.end(), n) == paired.end()) outer.push_back(n);
+    }
+    const auto exact = [&](std::int64_t n, int c) {
+        double u = 0.0;
+        for (int k = 0; k < d; ++k) u += gradient[c][k] * scene.coordinate(n, k);
+        return u;
+    };
+    for (int c = 0; c < d; ++c) {
+        std::vector<double> direction(static_cast<std::size_t>(d), 0.0), values;
+        direction[static_cast<std::size_t>(c)] = 1.0;
+        for (const auto n : outer) values.push_back(exact(n, c));
+        scene.drive(outer, direction, load, values);
+    }
+    scene.text("reduction", reduction);
+    Solver solver(scene, 0.0);
+    solver.equilibrate(1.0, {});
+    const auto stress = solver.field("stress");
+    const std::size_t components = d == 2 ? 4 : 6;
+    double trace = 0.0;
+    for (int k = 0; k < d; ++k) trace += gradient[k][k];
+    const double lambda = 10e9 * 0.3 / (1.3 * 0.4), mu = 10e9 / 2.6;
+    const auto normal = [&](int k) { return lambda * trace + (k < d ? 2.0 * mu * gradient[k][k] : 0.0); };
+    const auto shear = [&](int i, int j) { return mu * (gradient[i][j] + gradient[j][i]); };
+    const std::vector<double> expected =
+        d == 2 ? std::vector<double>{normal(0), normal(1), normal(2), shear(0, 1)}
+               : std::vector<double>{normal(0), normal(1), normal(2), shear(0, 1), shear(1, 2), shear(2, 0)};
+    double largest = 0.0, error = 0.0;
+    for (const double s : expected) largest = std::max(largest, std::abs(s));
+    for (std::size_t i = 0; i < stress.size(); ++i) error = std::max(error, std::abs(stress[i] - expected[i % components]));
+    return error / largest;
+}
+
+CASE_TEST(patch) {
+    const int d = loop / 2 == 0 ? 2 : 3;
+    const char* reduction = loop % 2 == 0 ? "condensed" : "feti";
+    const std::string where = std::to_string(d) + "D, " + reduction;
+    cases::expect_below(stress_error(d, 2, 4, reduction), 1e-9, where + ", b refines a");
+    cases::expect_below(stress_error(d, 3, 3, reduction), 1e-9, where + ", matching");
+    double before = 1.0;
+    std::string table;
+    for (const std::int64_t n : {4, 5, 7}) {
+        const double error = stress_error(d, 3, n, reduction);
+        table += " 1:" + std::to_string(static_cast<double>(n) / 3.0) + " " + std::to_string(error);
+        cases::expect(error < 0.9 * before, where + ": errors" + table);
+        before = error;
+    }
+    cases::expect_below(before, d == 2 ? 0.002 : 0.025, where + ": errors" + table);
+    const double coarser = stress_error(d, 3, 2, reduction);
+    cases::expect(coarser > 10.0 * before, where + ": b coarser than a, error " + std::to_string(coarser));
+}
+
+}  // namespace
+
+int main() {
+    Suite* suite = suite_create("unmatched");
+    TCase* tests = tcase_create("projected interfaces");
+    tcase_add_loop_test(tests, patch, 0, 4);
+    suite_add_tcase(suite, tests);
+    return cases::run_suite(suite);
+}
