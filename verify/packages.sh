@@ -6,7 +6,7 @@
 DELAM_PACKAGES=(
     g++ gcc make cmake ninja-build pkg-config git ca-certificates
     libsuitesparse-dev libmetis-dev libopenblas-dev liblapack-dev
-    libcli11-dev libtomlplusplus-dev libfmt-dev libhdf5-dev nlohmann-json3-dev
+    libcli11-dev libtomlplusplus-dev libfmt-dev libhdf5-dev nlohmann-json3-dev libgmsh-dev
     libgsl-dev check
     python3 python3-numpy python3-matplotlib python3-h5py
 )

@@ -118,24 +118,46 @@ def plot_energies(result):
     result.save(figure, "energies.png")
 
 
-def boundary_edges(cells):
-    """Edges of plane cells that belong to one cell only, and all edges; quadratic ones as two lines each."""
+def cell_blocks(file):
+    """The cells of each type; rows of a mixed mesh end with -1."""
+    cells = file["mesh/cells"][()]
+    number = (cells >= 0).sum(1)
+    return [cells[number == n][:, :n] for n in np.unique(number)]
+
+
+def ring_edges(cells):
+    """The edges of each plane cell; quadratic ones as two lines each."""
     corners = {3: 3, 4: 4, 6: 3, 8: 4, 9: 4}[cells.shape[1]]
     ring = [[i, (i + 1) % corners] for i in range(corners)]
     if cells.shape[1] > 4:
         ring = [pair for i, (a, b) in enumerate(ring) for pair in ([a, corners + i], [corners + i, b])]
-    edges = np.concatenate([cells[:, pair] for pair in ring])
+    return np.concatenate([cells[:, pair] for pair in ring])
+
+
+def boundary_edges(blocks):
+    """Edges of plane cells that belong to one cell only, and all edges."""
+    edges = np.concatenate([ring_edges(cells) for cells in blocks])
     _, index, count = np.unique(np.sort(edges, 1), axis=0, return_index=True, return_counts=True)
     return edges[index[count == 1]], edges[index]
 
 
-def boundary_faces(cells):
-    """Faces of solid cells that belong to one cell only, by their corners."""
+def cell_faces(cells):
+    """The faces of each solid cell by their corners; the last corner of a triangle is there twice."""
     cells = cells[:, :{4: 4, 8: 8, 10: 4, 20: 8}[cells.shape[1]]]
     local = {8: [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]],
-             4: [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]}[cells.shape[1]]
-    faces = np.concatenate([cells[:, f] for f in local])
-    _, index, count = np.unique(np.sort(faces, 1), axis=0, return_index=True, return_counts=True)
+             4: [[0, 2, 1, 1], [0, 1, 3, 3], [1, 2, 3, 3], [2, 0, 3, 3]]}[cells.shape[1]]
+    return np.concatenate([cells[:, f] for f in local])
+
+
+def boundary_faces(blocks):
+    """Faces of solid cells that belong to one cell only, by their corners."""
+    faces = np.concatenate([cell_faces(cells) for cells in blocks])
+    # A triangle is found again whichever of its corners is there twice.
+    key = np.sort(faces, 1)
+    triangle = faces[:, 2] == faces[:, 3]
+    if triangle.any():
+        key[triangle] = np.concatenate([np.full((triangle.sum(), 1), -1), np.sort(faces[triangle][:, :3], 1)], 1)
+    _, index, count = np.unique(key, axis=0, return_index=True, return_counts=True)
     return faces[index[count == 1]]
 
 
@@ -166,9 +188,8 @@ def load_text(result, time):
 
 def draw_plane(ax, file, step, scale, light_mesh):
     points = file["mesh/points"][:, :2]
-    cells = file["mesh/cells"][()]
     moved = points + scale * step["displacement"][:, :2]
-    outline, edges = boundary_edges(cells)
+    outline, edges = boundary_edges(cell_blocks(file))
     if light_mesh:
         ax.add_collection(LineCollection(moved[edges], colors="#d3d7dd", linewidths=0.25))
     ax.add_collection(LineCollection(moved[outline], colors="#50555c", linewidths=0.7))
@@ -217,13 +238,23 @@ def plot_plane(result, file, shots, scale):
     return figure, axes, drawn
 
 
+def seen_along_normal(points):
+    """Where the points of an interface are drawn: from above, or along its normal where it does not lie."""
+    spread = np.linalg.svd(points - points.mean(0), full_matrices=False)[2]
+    if abs(spread[2, 2]) > 0.5:
+        return points[:, :2]
+    return (points - points.mean(0)) @ spread[:2].T
+
+
 def plot_solid(result, file, shots, scale):
     """Bodies as a transparent skin above; the adhesion of the interfaces as maps seen from above below it."""
     columns = min(len(shots), 5)
     rows = -(-len(shots) // columns)
     points = file["mesh/points"][()]
-    skin = boundary_faces(file["mesh/cells"][()])
-    names = sorted(file["interfaces"])
+    skin = boundary_faces(cell_blocks(file))
+    names = sorted(file["interfaces"], key=lambda name: int(name.rsplit("_", 1)[1]))
+    # Of many the largest alone.
+    names = sorted(names, key=lambda name: -file["interfaces"][name]["weights"][()].sum())[:6] if len(names) > 6 else names
     figure = plt.figure(figsize=(4.0 * columns, rows * (2.9 + 1.3 * len(names)) + 1.0), layout="constrained")
     grid = figure.add_gridspec(rows * (1 + len(names)), columns, height_ratios=([2.4] + [1.0] * len(names)) * rows)
     drawn = None
@@ -244,7 +275,7 @@ def plot_solid(result, file, shots, scale):
         for n, name in enumerate(names):
             flat = figure.add_subplot(grid[row * (1 + len(names)) + 1 + n, column])
             axes.append(flat)
-            at = file["interfaces"][name]["points"][:, :2]
+            at = seen_along_normal(file["interfaces"][name]["points"][()])
             zeta = step[name]["zeta"][()]
             faces = file["interfaces"][name]["faces"][()]
             pieces = {3: [[0, 1, 2]], 4: [[0, 1, 2], [0, 2, 3]], 6: [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]],

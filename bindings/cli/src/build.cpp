@@ -6,36 +6,13 @@
 #include <numeric>
 
 #include "build_materials.hpp"
+#include "build_mesh.hpp"
 #include "call.hpp"
 #include "selection.hpp"
 
 namespace cli {
 
 namespace {
-
-Mesh build_mesh(const delam_context* owner, delam_context* context, const Scene& scene) {
-    std::vector<double> thickness;
-    std::vector<std::int64_t> divisions;
-    for (const Layer& layer : scene.layers) {
-        thickness.push_back(layer.thickness);
-        divisions.push_back(layer.divisions);
-    }
-    const Geometry& geometry = scene.geometry;
-    delam_mesh* handle = nullptr;
-    const std::int32_t status = delam_mesh_create_layers(
-        context, geometry.dimension, geometry.lengths.data(), geometry.divisions.data(),
-        static_cast<std::int64_t>(thickness.size()), thickness.data(), divisions.data(), geometry.cell_type, &handle);
-    Mesh mesh(handle);
-    call(owner, status, geometry.place);
-    for (const InterfaceData& interface : scene.interfaces) {
-        std::int64_t index = 0;
-        call(owner,
-             delam_mesh_add_interface(mesh.get(), static_cast<std::int32_t>(interface.lower),
-                                      static_cast<std::int32_t>(interface.upper), 0.0, &index),
-             interface.place);
-    }
-    return mesh;
-}
 
 // Inside, or on an end that the interface itself ends at: an end within the interface is a tip, and its pair stays
 // bonded.
@@ -83,12 +60,17 @@ bool set_adhesion(const Model& model, const Scene& scene, std::int64_t index, co
 }
 
 void set_interfaces(Model& model, const Scene& scene) {
-    for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
-        const InterfaceData& data = scene.interfaces[i];
+    for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
+        const InterfaceData& data = model.interfaces[i];
         const auto index = static_cast<std::int64_t>(i);
         const delam_context* context = model.context.get();
         if (data.bonded) {
             call(context, delam_problem_set_bonded(model.problem.get(), index), data.place);
+            model.adheres.push_back(true);
+            continue;
+        }
+        if (data.contact) {
+            call(context, delam_problem_set_contact(model.problem.get(), index), data.place);
             model.adheres.push_back(true);
             continue;
         }
@@ -109,12 +91,14 @@ void set_interfaces(Model& model, const Scene& scene) {
                  at("softening"));
         call(context, delam_law_check(law.get()), from.place);
         call(context, delam_problem_set_law(model.problem.get(), index, law.get()), data.place);
-        model.adheres.push_back(set_adhesion(model, scene, index, data));
+        model.adheres.push_back(scene.mesh ? set_mesh_adhesion(model, scene, index, data)
+                                           : set_adhesion(model, scene, index, data));
     }
 }
 
 void prescribe(const Model& model, const Scene& scene, const Prescription& data) {
-    const Selected at = select(model.context.get(), model.mesh.get(), scene, data.where);
+    const Selected at = select(model.context.get(), model.mesh.get(), scene, data.where, data.mean);
+    if (data.mean && at.weights.empty()) throw SceneFailure(data.place, "mean: a single node has no face");
     std::vector<std::int64_t> patterns;
     std::vector<double> coefficients;
     for (const Term& term : data.terms) {
@@ -138,12 +122,21 @@ void prescribe(const Model& model, const Scene& scene, const Prescription& data)
 }
 
 void add_force(const Model& model, const Scene& scene, const DeadForce& data) {
-    const Selected at = select(model.context.get(), model.mesh.get(), scene, data.where);
+    const Selected at = select(model.context.get(), model.mesh.get(), scene, data.where, true);
+    if (data.kind != ForceKind::total && at.weights.empty())
+        throw SceneFailure(data.place, "a single node has no face: give force instead of a force per area");
     const double total = std::accumulate(at.weights.begin(), at.weights.end(), 0.0);
+    const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
     std::vector<double> forces;
     for (std::size_t i = 0; i < at.nodes.size(); ++i)
-        for (const double component : data.force)
-            forces.push_back(at.weights.empty() ? component : component * at.weights[i] / total);
+        for (std::size_t a = 0; a < dimension; ++a) {
+            if (data.kind == ForceKind::pressure)
+                forces.push_back(-data.force[0] * at.normals[i * dimension + a]);
+            else if (data.kind == ForceKind::traction)
+                forces.push_back(data.force[a] * at.weights[i]);
+            else
+                forces.push_back(at.weights.empty() ? data.force[a] : data.force[a] * at.weights[i] / total);
+        }
     call(model.context.get(),
          delam_problem_add_forces(model.problem.get(), static_cast<std::int64_t>(data.pattern),
                                   static_cast<std::int64_t>(at.nodes.size()), at.nodes.data(), forces.data(), 0),
@@ -162,7 +155,7 @@ Model build(Context context, const Scene& scene) {
     Model model;
     model.context = std::move(context);
     const delam_context* owner = model.context.get();
-    model.mesh = build_mesh(owner, model.context.get(), scene);
+    build_mesh(model, scene);
     delam_problem* handle = nullptr;
     const std::int32_t status = delam_problem_create(model.context.get(), model.mesh.get(), &handle);
     model.problem.reset(handle);
@@ -172,7 +165,10 @@ Model build(Context context, const Scene& scene) {
         call(owner, delam_problem_set_plane(problem, scene.geometry.plane.c_str()), scene.geometry.place);
     for (std::size_t i = 0; i < scene.layers.size(); ++i) {
         const Material& material = scene.materials[scene.layers[i].material];
-        set_material(owner, problem, static_cast<std::int32_t>(i), material, scene.layers[i].axes, scene.layers[i].place);
+        set_material(owner, problem, static_cast<std::int32_t>(i), material, scene.layers[i]);
+        const bool directed = !std::holds_alternative<Isotropic>(material.elastic);
+        if (scene.mesh && directed && !scene.layers[i].axes && !scene.mesh->orientation.empty())
+            set_cell_axes(owner, problem, static_cast<std::int32_t>(i), *scene.mesh, scene.layers[i].place);
     }
     set_interfaces(model, scene);
     for (const PatternData& pattern : scene.patterns) {

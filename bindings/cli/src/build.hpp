@@ -14,6 +14,7 @@ struct Model {
     Context context;
     Mesh mesh;
     Problem problem;
+    std::vector<InterfaceData> interfaces;  // as the mesh has them, in its order
     std::vector<bool> adheres;  // per interface: some pair does at the start
 };
 

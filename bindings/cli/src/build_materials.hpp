@@ -7,8 +7,11 @@
 
 namespace cli {
 
-// place: of the layer or body in the scene. axes: of all its cells.
+// made_of_it: the layer or body, with its axes and formulation.
 void set_material(const delam_context* owner, delam_problem* problem, std::int32_t body, const Material& material,
-                  const std::optional<std::array<double, 6>>& axes, const Place& place);
+                  const Layer& made_of_it);
+// The axes that the mesh has for each cell of the body.
+void set_cell_axes(const delam_context* owner, delam_problem* problem, std::int32_t body, const MeshData& mesh,
+                   const Place& place);
 
 }  // namespace cli

@@ -13,6 +13,26 @@
 
 namespace cli {
 
+namespace {
+
+void say_mesh(const MeshData& mesh, const Scene& scene) {
+    std::vector<std::int64_t> cells(mesh.body_names.size());
+    for (const CellBlock& block : mesh.blocks)
+        for (const std::int32_t body : block.bodies) ++cells[static_cast<std::size_t>(body)];
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        say("body        \"{}\", {}, material \"{}\", formulation {}\n", mesh.body_names[i], counted(cells[i], "cell"),
+            scene.materials[scene.layers[i].material].name, scene.layers[i].formulation);
+    for (const auto& [name, nodes] : mesh.node_sets) {
+        const auto faces = mesh.face_sets.find(name);
+        say("set         \"{}\", {}{}\n", name, counted(static_cast<std::int64_t>(nodes.size()), "node"),
+            faces == mesh.face_sets.end()
+                ? ""
+                : ", " + counted(static_cast<std::int64_t>(faces->second.size()), "face"));
+    }
+}
+
+}  // namespace
+
 int check(const std::string& scene_file, const std::vector<std::string>& settings) {
     const Scene scene = read_scene(scene_file, settings);
     Context context = new_context();
@@ -31,18 +51,21 @@ int check(const std::string& scene_file, const std::vector<std::string>& setting
     say("concept     {}\n", concept_text(concept_of(solver.get())));
     say("scene hash  {}\n", hash_of(model));
     say("unknowns    {} primal, {} dual\n", primal, dual);
-    for (const Layer& layer : scene.layers)
-        say("layer       \"{}\", thickness {}, material \"{}\"\n", layer.name, layer.thickness,
-                   scene.materials[layer.material].name);
-    for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
-        const InterfaceData& data = scene.interfaces[i];
+    if (scene.mesh)
+        say_mesh(*scene.mesh, scene);
+    else
+        for (const Layer& layer : scene.layers)
+            say("layer       \"{}\", thickness {}, material \"{}\"\n", layer.name, layer.thickness,
+                scene.materials[layer.material].name);
+    for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
+        const InterfaceData& data = model.interfaces[i];
         std::int64_t pairs = 0;
         call(model.context.get(),
              delam_mesh_interface_size(model.mesh.get(), static_cast<std::int64_t>(i), nullptr, nullptr, &pairs,
                                        nullptr, nullptr),
              data.place);
         say("interface   \"{}\", {}, {}, {} with adhesion of their own\n", data.name, counted(pairs, "pair"),
-            data.bonded ? "bonded for ever" : "law \"" + scene.laws[data.law].name + "\"",
+            data.bonded ? "bonded for ever" : data.contact ? "contact alone" : "law \"" + scene.laws[data.law].name + "\"",
             counted(static_cast<std::int64_t>(data.regions.size()), "region"));
     }
     std::int64_t constraints = 0;
@@ -59,10 +82,10 @@ int check(const std::string& scene_file, const std::vector<std::string>& setting
                    pattern.times.front(), pattern.times.back());
     say("time        {} to {} in {}\n", scene.times.front(), scene.times.back(),
         counted(static_cast<std::int64_t>(scene.step_count()), "step"));
-    for (const std::string& text : process_zones(model, scene)) say("zone        {}\n", text);
+    for (const std::string& text : process_zones(model)) say("zone        {}\n", text);
     say("\n{}", delam_solver_plan(solver.get()));
     for (const std::string& text : notes_of(scene)) say("note: {}\n", text);
-    for (const std::string& text : resolution_warnings(model, solver.get(), scene)) complain("warning: {}\n", text);
+    for (const std::string& text : resolution_warnings(model, solver.get())) complain("warning: {}\n", text);
     // Not beside the output, where it is lost when that goes to a file.
     for (const std::string& text : warnings_of(model, scene)) complain("warning: {}\n", text);
     if (!converged) complain("warning: the displacement of the initial state did not converge\n");

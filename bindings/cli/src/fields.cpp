@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -24,18 +25,23 @@ std::vector<double> points_3d(const std::vector<double>& nodes, std::size_t dime
     return out;
 }
 
-// XDMF's names; its node orders are VTK's.
-const char* topology_name(std::int32_t cell_type) {
+// XDMF's names and numbers (those of the topology Mixed); its node orders are VTK's.
+struct Topology {
+    const char* name;
+    std::int64_t number;
+};
+
+Topology topology(std::int32_t cell_type) {
     switch (cell_type) {
-        case DELAM_TRI3: return "Triangle";
-        case DELAM_TET4: return "Tetrahedron";
-        case DELAM_HEX8: return "Hexahedron";
-        case DELAM_TRI6: return "Triangle_6";
-        case DELAM_QUAD8: return "Quadrilateral_8";
-        case DELAM_QUAD9: return "Quadrilateral_9";
-        case DELAM_TET10: return "Tetrahedron_10";
-        case DELAM_HEX20: return "Hexahedron_20";
-        default: return "Quadrilateral";
+        case DELAM_TRI3: return {"Triangle", 4};
+        case DELAM_TET4: return {"Tetrahedron", 6};
+        case DELAM_HEX8: return {"Hexahedron", 9};
+        case DELAM_TRI6: return {"Triangle_6", 36};
+        case DELAM_QUAD8: return {"Quadrilateral_8", 37};
+        case DELAM_QUAD9: return {"Quadrilateral_9", 35};
+        case DELAM_TET10: return {"Tetrahedron_10", 38};
+        case DELAM_HEX20: return {"Hexahedron_20", 48};
+        default: return {"Quadrilateral", 5};
     }
 }
 
@@ -75,7 +81,7 @@ XdmfBlock write_interface(const Model& model, const InterfaceData& data, std::in
     if (per_face == 4) topology = "Quadrilateral";
     if (per_face == 6) topology = "Triangle_6";
     if (per_face == 8) topology = "Quadrilateral_8";
-    return {data.name, pairs, faces, per_face, topology};
+    return {data.name, pairs, faces, per_face, topology, 0};
 }
 
 // Mesh and interfaces; returns what the XDMF file has to say about them.
@@ -90,22 +96,46 @@ std::vector<XdmfBlock> write_mesh(const Model& model, const Scene& scene, hid_t 
     std::vector<double> coordinates(static_cast<std::size_t>(nodes * dimension));
     call(model.context.get(), delam_mesh_nodes(mesh, nodes * dimension, coordinates.data()), what);
     call(model.context.get(), delam_mesh_cells(mesh, nullptr, nullptr, nullptr, 0, nullptr, &entries), what);
-    std::vector<std::int32_t> bodies(static_cast<std::size_t>(cells));
+    std::vector<std::int32_t> types(static_cast<std::size_t>(cells));
+    std::vector<std::int32_t> bodies(types.size());
+    std::vector<std::int64_t> offsets(types.size() + 1);
     std::vector<std::int64_t> connectivity(static_cast<std::size_t>(entries));
     call(model.context.get(),
-         delam_mesh_cells(mesh, nullptr, bodies.data(), nullptr, entries, connectivity.data(), &entries), what);
+         delam_mesh_cells(mesh, types.data(), bodies.data(), offsets.data(), entries, connectivity.data(), &entries),
+         what);
     const std::vector<double> points = points_3d(coordinates, static_cast<std::size_t>(dimension));
-    const std::int64_t per_cell = entries / std::max<std::int64_t>(1, cells);
+    const bool mixed = std::adjacent_find(types.begin(), types.end(), std::not_equal_to<>()) != types.end();
+    std::int64_t per_cell = 0;
+    for (std::size_t c = 0; c < types.size(); ++c) per_cell = std::max(per_cell, offsets[c + 1] - offsets[c]);
+    std::vector<XdmfBlock> blocks{
+        {"bodies", nodes, cells, per_cell, mixed ? "Mixed" : topology(types.front()).name, 0}};
     {
         const h5::Group group(h5::new_group(file, "mesh"), "fields.h5");
         h5::write(group.get(), "points", points, 3);
-        h5::write(group.get(), "cells", connectivity, static_cast<std::size_t>(per_cell));
         h5::write(group.get(), "body", bodies, 0);
+        if (mixed) {
+            // A row for each cell, with -1 behind its last node; and the list that XDMF reads: type, nodes, type, ..
+            std::vector<std::int64_t> rows(types.size() * static_cast<std::size_t>(per_cell), -1);
+            std::vector<std::int64_t> list;
+            for (std::size_t c = 0; c < types.size(); ++c) {
+                const auto begin = connectivity.begin() + offsets[c];
+                const auto end = connectivity.begin() + offsets[c + 1];
+                std::copy(begin, end, rows.begin() + static_cast<std::ptrdiff_t>(c) * per_cell);
+                list.push_back(topology(types[c]).number);
+                list.insert(list.end(), begin, end);
+            }
+            blocks.front().entries = static_cast<std::int64_t>(list.size());
+            h5::write(group.get(), "cells", rows, static_cast<std::size_t>(per_cell));
+            h5::write(group.get(), "mixed", list, 0);
+        } else {
+            h5::write(group.get(), "cells", connectivity, static_cast<std::size_t>(per_cell));
+        }
+        for (std::size_t i = 0; i < scene.layers.size(); ++i)
+            h5::attribute(group.get(), ("body_" + std::to_string(i)).c_str(), scene.layers[i].name);
     }
-    std::vector<XdmfBlock> blocks{{"bodies", nodes, cells, per_cell, topology_name(scene.geometry.cell_type)}};
     const h5::Group group(h5::new_group(file, "interfaces"), "fields.h5");
-    for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
-        blocks.push_back(write_interface(model, scene.interfaces[i], static_cast<std::int64_t>(i), group.get(), points,
+    for (std::size_t i = 0; i < model.interfaces.size(); ++i)
+        blocks.push_back(write_interface(model, model.interfaces[i], static_cast<std::int64_t>(i), group.get(), points,
                                          static_cast<std::size_t>(dimension)));
     return blocks;
 }

@@ -60,8 +60,8 @@ History::History(const Model& model, const delam_solver* solver, const Scene& sc
         add(key, key);
     for (const char* key : where_known)
         if (knows(key)) add(key, key);
-    const auto breaks = [](const InterfaceData& data) { return !data.bonded; };
-    if (std::any_of(scene.interfaces.begin(), scene.interfaces.end(), breaks))
+    const auto breaks = [](const InterfaceData& data) { return !data.bonded && !data.contact; };
+    if (std::any_of(model.interfaces.begin(), model.interfaces.end(), breaks))
         for (const char* key : of_cracks)
             if (knows(key)) add(key, key);
     if (!scene.forces.empty()) add("load_potential", "load_potential");

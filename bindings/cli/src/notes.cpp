@@ -26,10 +26,11 @@ void beyond(const Region& region, const Geometry& geometry, std::vector<std::str
 }
 
 void interface_warnings(const Model& model, const Scene& scene, std::vector<std::string>& out) {
-    for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
-        const InterfaceData& data = scene.interfaces[i];
+    for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
+        const InterfaceData& data = model.interfaces[i];
         bool said = model.adheres[i];
         for (const Region& region : data.regions) {
+            if (scene.mesh) break;
             std::vector<std::string> texts;
             beyond(region, scene.geometry, texts);
             for (const std::string& text : texts) {
@@ -43,7 +44,7 @@ void interface_warnings(const Model& model, const Scene& scene, std::vector<std:
 
 void patch_warnings(const Scene& scene, const Selection& where, std::vector<std::string>& out) {
     const auto* patch = std::get_if<Patch>(&where.shape);
-    if (patch == nullptr) return;
+    if (patch == nullptr || scene.mesh) return;
     const Geometry& geometry = scene.geometry;
     const double slack = 1e-6 * geometry.smallest_edge;
     for (std::size_t axis = 0; axis < patch->lower.size(); ++axis) {
@@ -91,14 +92,17 @@ std::vector<std::string> warnings_of(const Model& model, const Scene& scene) {
 std::vector<std::string> notes_of(const Scene& scene) {
     std::vector<std::string> out;
     const Geometry& geometry = scene.geometry;
+    if (scene.mesh) out = scene.mesh->notes;
     const bool simplices = geometry.cell_type == DELAM_TRI3 || geometry.cell_type == DELAM_TET4;
     for (const Layer& layer : scene.layers) {
         const Material& material = scene.materials[layer.material];
         // Plane stress is free to change its thickness, so nothing locks.
         const auto* isotropic = std::get_if<Isotropic>(&material.elastic);
-        if (isotropic != nullptr && isotropic->poisson > 0.49 && material.formulation != "mean-dilatation" && geometry.plane != "plane-stress")
-            out.push_back(fmt::format("layer \"{}\": poisson = {} locks with full integration: far too stiff (use formulation = \"mean-dilatation\")",
-                                      layer.name, isotropic->poisson));
+        if (isotropic != nullptr && isotropic->poisson > 0.49 && material.formulation != "mean-dilatation" &&
+            geometry.plane != "plane-stress")
+            out.push_back(fmt::format("{} \"{}\": poisson = {} locks with full integration: far too stiff (use formulation = "
+                                      "\"mean-dilatation\")",
+                                      scene.mesh ? "body" : "layer", layer.name, isotropic->poisson));
         if (simplices && layer.divisions < 4)
             out.push_back(fmt::format("layer \"{}\": {} of {} across the thickness: far too stiff in bending (use {}, "
                                       "or 4 cells and more)",

@@ -36,38 +36,39 @@ bool energetic(const delam_solver* solver) {
 
 }  // namespace
 
-std::vector<std::string> process_zones(const Model& model, const Scene& scene) {
+std::vector<std::string> process_zones(const Model& model) {
     std::vector<std::string> out;
-    for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+    for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
         const Prediction zone = prediction(model, i);
         if (zone.length > 0 && zone.spacing > 0)
-            out.push_back(fmt::format("\"{}\", about {:.3g}, {:.2g} pairs of spacing {:.3g}", scene.interfaces[i].name,
+            out.push_back(fmt::format("\"{}\", about {:.3g}, {:.2g} pairs of spacing {:.3g}", model.interfaces[i].name,
                                       zone.length, zone.length / zone.spacing, zone.spacing));
     }
     return out;
 }
 
-std::vector<std::string> resolution_warnings(const Model& model, const delam_solver* solver, const Scene& scene) {
+std::vector<std::string> resolution_warnings(const Model& model, const delam_solver* solver) {
     std::vector<std::string> out;
     if (energetic(solver)) return out;
-    for (std::size_t i = 0; i < scene.interfaces.size(); ++i) {
+    for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
         const Prediction zone = prediction(model, i);
         if (!(zone.length > 0) || zone.length >= resolving_pairs * zone.spacing) continue;
         out.push_back(fmt::format("interface \"{}\": the process zone, about {:.2g}, is shorter than {:g} pairs of spacing "
                                   "{:.2g}: a local solution then depends on the mesh; a spacing of {:.2g} would do, or "
                                   "solution = \"energetic\"",
-                                  scene.interfaces[i].name, zone.length, resolving_pairs, zone.spacing,
+                                  model.interfaces[i].name, zone.length, resolving_pairs, zone.spacing,
                                   zone.length / resolving_pairs));
     }
     return out;
 }
 
-std::vector<std::int64_t> unresolved_steps(std::string_view history, const delam_solver* solver, const Scene& scene) {
+std::vector<std::int64_t> unresolved_steps(std::string_view history, const Model& model, const delam_solver* solver,
+                                           const Scene& scene) {
     std::vector<std::int64_t> out;
     const auto softens = [&scene](const InterfaceData& data) {
-        return !data.bonded && scene.laws[data.law].kind != "griffith";
+        return !data.bonded && !data.contact && scene.laws[data.law].kind != "griffith";
     };
-    if (energetic(solver) || std::none_of(scene.interfaces.begin(), scene.interfaces.end(), softens)) return out;
+    if (energetic(solver) || std::none_of(model.interfaces.begin(), model.interfaces.end(), softens)) return out;
     const std::vector<std::map<std::string, double>> rows = rows_of(history);
     for (std::size_t i = 1; i < rows.size(); ++i) {
         const auto best = [&](const char* key) {

@@ -13,12 +13,13 @@
 namespace cli {
 
 // One line for each interface with a softening law: predicted process zone and the pairs in it.
-std::vector<std::string> process_zones(const Model& model, const Scene& scene);
+std::vector<std::string> process_zones(const Model& model);
 // Interfaces where these are fewer than 3, with the spacing that would do. None for energetic solutions.
-std::vector<std::string> resolution_warnings(const Model& model, const delam_solver* solver, const Scene& scene);
+std::vector<std::string> resolution_warnings(const Model& model, const delam_solver* solver);
 // Steps in which a crack grew with fewer than 3 pairs in its process zone, before and after. None for energetic
 // solutions and for scenes whose laws do not soften. history: history.csv.
-std::vector<std::int64_t> unresolved_steps(std::string_view history, const delam_solver* solver, const Scene& scene);
+std::vector<std::int64_t> unresolved_steps(std::string_view history, const Model& model, const delam_solver* solver,
+                                           const Scene& scene);
 std::string unresolved_line(const std::vector<std::int64_t>& steps);
 // "" below 0.1 rad.
 std::string rotation_line(double largest);

@@ -109,7 +109,7 @@ public:
         outcome.steps_done = state_.step;
         outcome.not_converged = state_.not_converged;
         outcome.estimate_violated = violated_steps(rows_->text(), estimate_tolerance(scene_));
-        outcome.front_unresolved = unresolved_steps(rows_->text(), solver_.get(), scene_);
+        outcome.front_unresolved = unresolved_steps(rows_->text(), model_, solver_.get(), scene_);
         outcome.resumed = state_.resumed;
         outcome.started = state_.started;
         outcome.problem_hash = state_.problem_hash;

@@ -97,6 +97,7 @@ void read_layers(const Table& root, Scene& scene) {
         }
         layer.material = find_named(table, "material", table.text("material"), scene.materials, "material");
         layer.axes = read_axes(table, scene.geometry.dimension);
+        layer.formulation = scene.materials[layer.material].formulation;
         layer.place = table.place();
         scene.geometry.smallest_edge =
             std::min(scene.geometry.smallest_edge, layer.thickness / static_cast<double>(layer.divisions));
@@ -276,14 +277,26 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& settin
     if (!root.has("schema")) root.fail("schema", "is missing: schema = 1 is expected");
     if (const auto schema = root.whole("schema", 1); schema != 1)
         root.fail("schema", fmt::format("{} is not known to this program: 1 is", schema));
-    root.only({"schema", "title", "geometry", "layers", "materials", "laws", "interfaces", "patterns", "supports",
-               "loads", "forces", "thermal", "eigenstrains", "time", "solver", "output", "units"});
+    root.only({"schema", "title", "geometry", "layers", "mesh", "bodies", "materials", "laws", "interfaces", "patterns",
+               "supports", "loads", "forces", "thermal", "eigenstrains", "time", "solver", "output", "units"});
     scene.title = root.text("title", "");
-    read_geometry(root, scene);
-    read_materials(root, scene);
-    read_layers(root, scene);
+    if (root.has("mesh")) {
+        for (const char* key : {"geometry", "layers"})
+            if (root.has(key)) root.fail(key, "is not for a scene with [mesh]: give either");
+        read_mesh_table(root, scene);
+        read_materials(root, scene);
+        read_bodies(root, scene);
+    } else {
+        if (root.has("bodies")) root.fail("bodies", "is for a scene with [mesh]: layers are described in [[layers]]");
+        read_geometry(root, scene);
+        read_materials(root, scene);
+        read_layers(root, scene);
+    }
     read_laws(root, scene);
-    read_interfaces(root, scene);
+    if (scene.mesh)
+        read_mesh_interfaces(root, scene);
+    else
+        read_interfaces(root, scene);
     read_patterns(root, scene);
     read_supports_and_loads(root, scene);
     read_forces(root, scene);

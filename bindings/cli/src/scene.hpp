@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,18 +14,22 @@
 #include <vector>
 
 #include "error.hpp"
+#include "mesh_data.hpp"
 
 namespace cli {
 
+// A layer of the block, or a body of a mesh, which has no thickness and divisions.
 struct Layer {
     std::string name;
     double thickness = 0;
     std::int64_t divisions = 1;
     std::size_t material = 0;
     std::optional<std::array<double, 6>> axes;  // of the material, 1 and 2, in space
+    std::string formulation;
     Place place;
 };
 
+// Of the block of layers; of a mesh `dimension`, `plane` and `smallest_edge` alone.
 struct Geometry {
     std::int32_t dimension = 2;
     std::int32_t cell_type = 0;
@@ -59,20 +64,26 @@ struct LawData {
     Place place;
 };
 
-// Adhesion of the pairs of an interface inside an in-plane box. Ends inside the interface are open: the pair there
-// keeps its bond.
+// Adhesion of the pairs of an interface inside a box, in-plane between layers, in space in a mesh, or of a set of nodes
+// of the mesh. Ends inside the interface are open: the pair there keeps its bond.
 struct Region {
-    std::array<double, 2> lower{};
-    std::array<double, 2> upper{};
+    std::array<double, 3> lower{};
+    std::array<double, 3> upper{};
+    std::string set;
     double adhesion = 0;
     Place place;
 };
 
 struct InterfaceData {
-    std::size_t lower = 0;  // layers
+    std::size_t lower = 0;  // layers, or bodies of a mesh (a, b)
     std::size_t upper = 0;
+    std::string a, b;  // of a mesh: names of bodies, with * for any characters; empty: all that touch
+    bool projected = false;
+    double gap = 0;
+    double tolerance = 0;
     std::string name;
     bool bonded = false;
+    bool contact = false;  // alone, no adhesion
     std::size_t law = 0;
     std::vector<Region> regions;
     Place place;
@@ -90,9 +101,13 @@ struct Patch {
     std::vector<double> upper;
     std::vector<double> normal;
 };
+// A set of nodes or faces of a mesh; without a name all of the body's nodes.
+struct NamedSet {
+    std::string name;
+};
 
 struct Selection {
-    std::variant<Point, Box, Patch> shape;
+    std::variant<Point, Box, Patch, NamedSet> shape;
     std::int32_t body = -1;
     double tolerance = 0;
     Place place;
@@ -108,12 +123,16 @@ struct Prescription {
     Selection where;
     std::vector<std::vector<double>> directions;
     std::vector<Term> terms;
+    bool mean = false;  // of a set of faces: the mean over them alone
     Place place;
 };
 
+enum class ForceKind { total, traction, pressure };
+
 struct DeadForce {
     Selection where;
-    std::vector<double> force;
+    ForceKind kind = ForceKind::total;
+    std::vector<double> force;  // of a pressure its one value
     std::size_t pattern = 0;
     Place place;
 };
@@ -163,7 +182,8 @@ struct Scene {
     std::string content_hash;  // of the content, settings included: comments, order and layout do not matter
     std::vector<std::string> settings;  // KEY=VALUE of the command line
     Geometry geometry;
-    std::vector<Layer> layers;
+    std::shared_ptr<const MeshData> mesh;  // null: a block of layers
+    std::vector<Layer> layers;             // by label of the body
     std::vector<Material> materials;
     std::vector<LawData> laws;
     std::vector<InterfaceData> interfaces;

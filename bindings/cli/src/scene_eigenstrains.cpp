@@ -6,19 +6,31 @@
 #include <fmt/format.h>
 
 #include "scene_parts.hpp"
+#include "wildcard.hpp"
 
 namespace cli {
 
 namespace {
 
-// Indices of the layers that `layers` names; all without it.
+std::string key_of_places(const Scene& scene) { return scene.mesh ? "bodies" : "layers"; }
+
+// Indices of the layers that `layers` names, or of the bodies that `bodies` does; all without it.
 std::vector<std::size_t> read_places(const Table& table, const Scene& scene) {
     std::vector<std::size_t> places(scene.layers.size());
     std::iota(places.begin(), places.end(), std::size_t{0});
-    if (!table.has("layers")) return places;
+    const std::string key = key_of_places(scene);
+    if (!table.has(key)) return places;
     places.clear();
-    for (const std::string& name : table.texts("layers"))
-        places.push_back(find_named(table, "layers", name, scene.layers, "layer"));
+    for (const std::string& name : table.texts(key)) {
+        if (!is_pattern(name)) {
+            places.push_back(find_named(table, key, name, scene.layers, scene.mesh ? "body" : "layer"));
+            continue;
+        }
+        const std::size_t before = places.size();
+        for (std::size_t i = 0; i < scene.layers.size(); ++i)
+            if (fits(name, scene.layers[i].name)) places.push_back(i);
+        if (places.size() == before) table.fail(key, fmt::format("\"{}\": no body has such a name", name));
+    }
     return places;
 }
 
@@ -26,21 +38,21 @@ std::vector<std::size_t> read_places(const Table& table, const Scene& scene) {
 
 void read_eigenstrains(const Table& root, Scene& scene) {
     for (const Table& table : root.tables("thermal")) {
-        table.only({"pattern", "layers"});
+        table.only(std::vector<std::string>{"pattern", key_of_places(scene)});
         const std::size_t pattern = find_named(table, "pattern", table.text("pattern"), scene.patterns, "pattern");
         for (const std::size_t layer : read_places(table, scene)) {
             const Material& material = scene.materials[scene.layers[layer].material];
             if (!material.expansion)
-                table.fail(table.has("layers") ? "layers" : "pattern",
-                           fmt::format("material \"{}\" of layer \"{}\" has no expansion (0 is allowed); or name the layers that are heated",
-                                       material.name, scene.layers[layer].name));
+                table.fail(table.has(key_of_places(scene)) ? key_of_places(scene) : "pattern",
+                           fmt::format("material \"{}\" of \"{}\" has no expansion (0 is allowed); or name the {} that are heated",
+                                       material.name, scene.layers[layer].name, key_of_places(scene)));
             const auto& along = *material.expansion;
             scene.eigenstrains.push_back(
                 {static_cast<std::int32_t>(layer), {along[0], along[1], along[2], 0, 0, 0}, pattern, table.place()});
         }
     }
     for (const Table& table : root.tables("eigenstrains")) {
-        table.only({"pattern", "layers", "strain"});
+        table.only(std::vector<std::string>{"pattern", key_of_places(scene), "strain"});
         const std::size_t pattern = find_named(table, "pattern", table.text("pattern"), scene.patterns, "pattern");
         const std::vector<double> given = table.numbers("strain", any_number);
         if (given.size() != 3 && given.size() != 6)

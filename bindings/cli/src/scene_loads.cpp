@@ -12,8 +12,14 @@ namespace cli {
 namespace {
 
 // Keys that say where something acts, common to supports, loads and forces.
-std::vector<std::string> with_selection(std::vector<std::string> keys) {
-    for (const char* key : {"name", "point", "box", "patch", "layer", "tolerance"}) keys.emplace_back(key);
+std::vector<std::string> with_selection(const Scene& scene, std::vector<std::string> keys) {
+    for (const char* key : {"name", "point", "box", "patch", "tolerance"}) keys.emplace_back(key);
+    if (scene.mesh) {
+        keys.emplace_back("set");
+        keys.emplace_back("body");
+    } else {
+        keys.emplace_back("layer");
+    }
     return keys;
 }
 
@@ -55,11 +61,20 @@ Selection read_selection(const Table& table, const Scene& scene) {
     Selection out;
     out.place = table.place();
     out.tolerance = table.number("tolerance", positive, 1e-3 * scene.geometry.smallest_edge);
-    if (table.has("layer"))
-        out.body = static_cast<std::int32_t>(find_named(table, "layer", table.text("layer"), scene.layers, "layer"));
-    const int shapes = int{table.has("point")} + int{table.has("box")} + int{table.has("patch")};
-    if (shapes != 1) table.fail("point", fmt::format("give one of point, box and patch ({} are given)", shapes));
-    if (table.has("point")) {
+    const std::string body = scene.mesh ? "body" : "layer";
+    if (table.has(body))
+        out.body = static_cast<std::int32_t>(find_named(table, body, table.text(body), scene.layers, body));
+    const int shapes =
+        int{table.has("point")} + int{table.has("box")} + int{table.has("patch")} + int{table.has("set")};
+    const bool whole = scene.mesh && shapes == 0 && table.has("body");
+    if (shapes != 1 && !whole)
+        table.fail("point", fmt::format("give one of point, box{} ({} are given)",
+                                        scene.mesh ? ", patch, set and body" : " and patch", shapes));
+    if (whole) {
+        out.shape = NamedSet{};
+    } else if (table.has("set")) {
+        out.shape = NamedSet{set_name(table, "set", scene)};
+    } else if (table.has("point")) {
         out.shape = Point{table.numbers("point", any_number, dimension)};
     } else if (table.has("box")) {
         const Table box = table.table("box");
@@ -117,6 +132,39 @@ std::vector<Term> read_terms(const Table& table, const Scene& scene) {
     return out;
 }
 
+// Of a set of faces a mean may be prescribed, as of a patch.
+std::vector<std::string> with_mean(const Scene& scene, std::vector<std::string> keys) {
+    if (scene.mesh) keys.emplace_back("mean");
+    return keys;
+}
+
+bool read_mean(const Table& table) {
+    const bool mean = table.flag("mean", false);
+    if (mean && !table.has("set")) table.fail("mean", "is for a set of faces (a patch has it by itself)");
+    return mean;
+}
+
+// A total force, or one per area.
+void read_force(const Table& table, const Scene& scene, DeadForce& force) {
+    const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
+    const int kinds = int{table.has("force")} + int{table.has("traction")} + int{table.has("pressure")};
+    if (kinds != 1) table.fail("force", fmt::format("give one of force, traction and pressure ({} are given)", kinds));
+    if (table.has("force")) {
+        force.force = table.numbers("force", any_number, dimension);
+        return;
+    }
+    const char* key = table.has("traction") ? "traction" : "pressure";
+    if (table.has("point")) table.fail(key, "is force per area: a point has none, give force");
+    if (table.has("traction")) {
+        force.kind = ForceKind::traction;
+        force.force = table.numbers("traction", any_number, dimension);
+        return;
+    }
+    if (!table.has("set")) table.fail("pressure", "is for a set of faces; on a patch give traction");
+    force.kind = ForceKind::pressure;
+    force.force = {table.number("pressure", any_number)};
+}
+
 }  // namespace
 
 void read_patterns(const Table& root, Scene& scene) {
@@ -142,25 +190,32 @@ void read_patterns(const Table& root, Scene& scene) {
 
 void read_supports_and_loads(const Table& root, Scene& scene) {
     for (const Table& table : root.tables("supports")) {
-        table.only(with_selection({"fix", "direction"}));
-        scene.prescriptions.push_back(
-            {read_selection(table, scene), read_directions(table, "fix", scene.geometry), {}, table.place()});
+        table.only(with_selection(scene, with_mean(scene, {"fix", "direction"})));
+        scene.prescriptions.push_back({read_selection(table, scene),
+                                       read_directions(table, "fix", scene.geometry),
+                                       {},
+                                       read_mean(table),
+                                       table.place()});
     }
     for (const Table& table : root.tables("loads")) {
-        table.only(with_selection({"component", "direction", "pattern", "coefficient", "terms"}));
+        table.only(
+            with_selection(scene, with_mean(scene, {"component", "direction", "pattern", "coefficient", "terms"})));
         scene.prescriptions.push_back({read_selection(table, scene),
                                        read_directions(table, "component", scene.geometry), read_terms(table, scene),
-                                       table.place()});
+                                       read_mean(table), table.place()});
     }
 }
 
 void read_forces(const Table& root, Scene& scene) {
     for (const Table& table : root.tables("forces")) {
-        table.only(with_selection({"force", "pattern"}));
+        table.only(with_selection(scene, {"force", "traction", "pressure", "pattern"}));
         if (table.has("box")) table.fail("box", "is not for forces: give point or patch");
         DeadForce force;
         force.where = read_selection(table, scene);
-        force.force = table.numbers("force", any_number, static_cast<std::size_t>(scene.geometry.dimension));
+        const auto* set = std::get_if<NamedSet>(&force.where.shape);
+        if (set != nullptr && set->name.empty())
+            table.fail("body", "is not for forces alone: a point, patch or set is");
+        read_force(table, scene, force);
         force.pattern = find_named(table, "pattern", table.text("pattern"), scene.patterns, "pattern");
         force.place = table.place();
         scene.forces.push_back(std::move(force));

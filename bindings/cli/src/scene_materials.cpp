@@ -39,6 +39,10 @@ std::array<double, 9> read_constants(const Table& table) {
 
 }  // namespace
 
+std::string read_formulation(const Table& table) {
+    return table.choice("formulation", {"standard", "incompatible", "mean-dilatation"}, "standard");
+}
+
 void read_materials(const Table& root, Scene& scene) {
     for (const Table& table : root.tables("materials")) {
         table.only({"name", "young", "poisson", "E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23", "expansion", "formulation"});
@@ -50,7 +54,7 @@ void read_materials(const Table& root, Scene& scene) {
             const double young = table.number("young", positive);
             material.elastic = Isotropic{young, table.number("poisson", poisson_range)};
         }
-        material.formulation = table.choice("formulation", {"standard", "incompatible", "mean-dilatation"}, "standard");
+        material.formulation = read_formulation(table);
         if (table.has("expansion")) {
             std::vector<double> along(3, 0.0);
             if (table.is_list("expansion"))

@@ -10,6 +10,13 @@ namespace cli {
 void read_materials(const Table& root, Scene& scene);
 // Material axes by `angle` or `axes` of a layer.
 std::optional<std::array<double, 6>> read_axes(const Table& table, std::int32_t dimension);
+// [mesh], [[bodies]] and the [[interfaces]] of a mesh. The mesh's hash joins that of the scene's content.
+void read_mesh_table(const Table& root, Scene& scene);
+void read_bodies(const Table& root, Scene& scene);
+void read_mesh_interfaces(const Table& root, Scene& scene);
+// The name of a set of the mesh, which must be there.
+std::string set_name(const Table& table, std::string_view key, const Scene& scene);
+std::string read_formulation(const Table& table);
 void read_laws(const Table& root, Scene& scene);
 void read_patterns(const Table& root, Scene& scene);
 void read_supports_and_loads(const Table& root, Scene& scene);

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "call.hpp"
+#include "set_faces.hpp"
 
 namespace cli {
 
@@ -30,7 +31,10 @@ Nodes all_nodes(const delam_context* context, const delam_mesh* mesh, const Plac
     return out;
 }
 
+const char* noun(const Scene& scene) { return scene.mesh ? "body" : "layer"; }
+
 std::string layer_name(const Scene& scene, std::int32_t body) {
+    if (body < 0) return "(none)";
     return scene.layers[static_cast<std::size_t>(body)].name;
 }
 
@@ -57,18 +61,19 @@ Selected select_point(const delam_context* context, const delam_mesh* mesh, cons
     if (hits.empty()) {
         const auto* at = nodes.coordinates.data() + nearest_node * dimension;
         throw SceneFailure(where,
-                           fmt::format("{}: no node within {:.3g}; the nearest is at [{}] in layer \"{}\", {:.3g} away",
-                                       point.at, selection.tolerance, fmt::join(at, at + dimension, ", "),
+                           fmt::format("{}: no node within {:.3g}; the nearest is at [{}] in {} \"{}\", {:.3g} away",
+                                       point.at, selection.tolerance, fmt::join(at, at + dimension, ", "), noun(scene),
                                        layer_name(scene, nodes.bodies[nearest_node]), nearest));
     }
     if (hits.size() > 1) {
         std::vector<std::string> names;
         for (const std::int64_t node : hits)
             names.push_back(layer_name(scene, nodes.bodies[static_cast<std::size_t>(node)]));
-        throw SceneFailure(where, fmt::format("{}: {} nodes are there, of layers {}; name one with layer = \"..\"",
-                                              point.at, hits.size(), fmt::join(names, ", ")));
+        throw SceneFailure(where, fmt::format("{}: {} nodes are there, of {} {}; name one with {} = \"..\"",
+                                              point.at, hits.size(), scene.mesh ? "bodies" : "layers",
+                                              fmt::join(names, ", "), noun(scene)));
     }
-    return {hits, {}};
+    return {hits, {}, {}};
 }
 
 Selected select_box(const delam_context* context, const delam_mesh* mesh, const Selection& selection, const Box& box) {
@@ -116,13 +121,42 @@ Selected select_patch(const delam_context* context, const delam_mesh* mesh, cons
     const Place where{selection.place.file, selection.place.path + ".patch", selection.place.line};
     if (bodies == 0) throw SceneFailure(where, "no boundary face with this outward normal is there");
     if (bodies > 1 && selection.body < 0)
-        throw SceneFailure(where, fmt::format("{} layers have faces there; name one with layer = \"..\"", bodies));
+        throw SceneFailure(where, fmt::format("{} {} have faces there; name one with {} = \"..\"", bodies,
+                                              scene.mesh ? "bodies" : "layers", noun(scene)));
+    return out;
+}
+
+// All nodes of the set, those that were doubled with each of their copies; of a body alone, if one is named.
+Selected select_set(const delam_context* context, const delam_mesh* mesh, const Scene& scene,
+                    const Selection& selection, const std::string& name) {
+    const Nodes nodes = all_nodes(context, mesh, selection.place);
+    const auto count = static_cast<std::int64_t>(nodes.bodies.size());
+    std::vector<std::int64_t> origins(nodes.bodies.size());
+    call(context, delam_mesh_node_origins(mesh, count, origins.data()), selection.place);
+    std::vector<bool> in(nodes.bodies.size(), name.empty());
+    if (!name.empty()) {
+        const auto set = scene.mesh->node_sets.find(name);
+        if (set != scene.mesh->node_sets.end())
+            for (const std::int64_t node : set->second) in[static_cast<std::size_t>(node)] = true;
+    }
+    Selected out;
+    for (std::size_t i = 0; i < nodes.bodies.size(); ++i)
+        if (in[static_cast<std::size_t>(origins[i])] && (selection.body < 0 || nodes.bodies[i] == selection.body))
+            out.nodes.push_back(static_cast<std::int64_t>(i));
+    if (out.nodes.empty())
+        throw SceneFailure(selection.place, fmt::format("no node of the set \"{}\" is in body \"{}\"", name,
+                                                        layer_name(scene, selection.body)));
     return out;
 }
 
 }  // namespace
 
-Selected select(const delam_context* context, const delam_mesh* mesh, const Scene& scene, const Selection& selection) {
+Selected select(const delam_context* context, const delam_mesh* mesh, const Scene& scene, const Selection& selection,
+                bool faces) {
+    if (const auto* set = std::get_if<NamedSet>(&selection.shape)) {
+        if (faces) return select_faces(context, mesh, scene, selection, set->name);
+        return select_set(context, mesh, scene, selection, set->name);
+    }
     if (const auto* point = std::get_if<Point>(&selection.shape))
         return select_point(context, mesh, scene, selection, *point);
     if (const auto* box = std::get_if<Box>(&selection.shape)) return select_box(context, mesh, selection, *box);

@@ -12,10 +12,13 @@ namespace cli {
 
 struct Selected {
     std::vector<std::int64_t> nodes;
-    std::vector<double> weights;  // of a patch; empty otherwise
+    std::vector<double> weights;  // of a patch or of faces; empty otherwise
+    std::vector<double> normals;  // of faces: [nodes][dimension] integrals of shape function times outward normal
 };
 
 // Throws SceneFailure when nothing is there: of a point it names the nearest node.
-Selected select(const delam_context* context, const delam_mesh* mesh, const Scene& scene, const Selection& selection);
+// faces: of a set its faces with their weights are asked for, not its nodes.
+Selected select(const delam_context* context, const delam_mesh* mesh, const Scene& scene, const Selection& selection,
+                bool faces = false);
 
 }  // namespace cli

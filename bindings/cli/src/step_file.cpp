@@ -128,7 +128,7 @@ std::string step_bytes(const Model& model, delam_solver* solver, const Scene& sc
         if (wants(scene, "displacement") || wants(scene, "stress") || wants(scene, "rotation"))
             call(model.context.get(), delam_solver_value(solver, "rotation_max", &largest), std::string("rotation_max"));
         h5::attribute(group.get(), "rotation_max", largest);
-        for (std::size_t i = 0; i < scene.interfaces.size(); ++i)
+        for (std::size_t i = 0; i < model.interfaces.size(); ++i)
             write_interface(model, solver, scene, group.get(), static_cast<std::int64_t>(i), displacement);
     }
     h5::require(H5Fflush(file.get(), H5F_SCOPE_GLOBAL), "fields.h5");

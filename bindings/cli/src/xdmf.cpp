@@ -39,7 +39,8 @@ std::string attribute(const std::string& name, const char* type, const char* cen
                        type, centre, item(dimensions, true, path));
 }
 
-std::string mesh(const XdmfBlock& block, const std::string& points, const std::string& cells) {
+std::string mesh(const XdmfBlock& block, const std::string& points, const std::string& cells,
+                 const std::string& mixed = "") {
     // Lines need their number of nodes; ParaView wants it beside the number of elements.
     const std::string nodes_per_element =
         block.topology == "Polyline" ? fmt::format(" NodesPerElement=\"{}\"", block.points_per_cell) : "";
@@ -47,7 +48,8 @@ std::string mesh(const XdmfBlock& block, const std::string& points, const std::s
         "          <Topology TopologyType=\"{}\" NumberOfElements=\"{}\"{}>{}</Topology>\n"
         "          <Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
         block.topology, block.cells, nodes_per_element,
-        item(fmt::format("{} {}", block.cells, block.points_per_cell), false, cells),
+        block.entries > 0 ? item(fmt::format("{}", block.entries), false, mixed)
+                          : item(fmt::format("{} {}", block.cells, block.points_per_cell), false, cells),
         item(fmt::format("{} 3", block.points), true, points));
 }
 
@@ -71,7 +73,7 @@ std::string xdmf_text(const std::vector<XdmfBlock>& blocks, const std::vector<Xd
             const XdmfBlock& block = blocks[i];
             out += fmt::format("        <Grid Name=\"{}\" GridType=\"Uniform\">\n", escaped(block.name));
             if (i == 0) {
-                out += mesh(block, "/mesh/points", "/mesh/cells");
+                out += mesh(block, "/mesh/points", "/mesh/cells", "/mesh/mixed");
                 out += fmt::format(
                     "          <Attribute Name=\"body\" AttributeType=\"Scalar\" Center=\"Cell\">{}</Attribute>\n",
                     item(fmt::format("{}", block.cells), false, "/mesh/body", 4));

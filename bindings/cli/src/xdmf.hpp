@@ -14,6 +14,7 @@ struct XdmfBlock {
     std::int64_t cells = 0;
     std::int64_t points_per_cell = 0;
     std::string topology;
+    std::int64_t entries = 0;  // of the list of a mixed topology
 };
 
 struct XdmfStep {

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "build_mesh.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "call.hpp"
+#include "wildcard.hpp"
+
+namespace cli {
+
+namespace {
+
+void build_layers(Model& model, const Scene& scene) {
+    std::vector<double> thickness;
+    std::vector<std::int64_t> divisions;
+    for (const Layer& layer : scene.layers) {
+        thickness.push_back(layer.thickness);
+        divisions.push_back(layer.divisions);
+    }
+    const Geometry& geometry = scene.geometry;
+    delam_mesh* handle = nullptr;
+    const std::int32_t status = delam_mesh_create_layers(
+        model.context.get(), geometry.dimension, geometry.lengths.data(), geometry.divisions.data(),
+        static_cast<std::int64_t>(thickness.size()), thickness.data(), divisions.data(), geometry.cell_type, &handle);
+    model.mesh.reset(handle);
+    call(model.context.get(), status, geometry.place);
+    for (const InterfaceData& interface : scene.interfaces) {
+        std::int64_t index = 0;
+        call(model.context.get(),
+             delam_mesh_add_interface(handle, static_cast<std::int32_t>(interface.lower),
+                                      static_cast<std::int32_t>(interface.upper), 0.0, &index),
+             interface.place);
+    }
+    model.interfaces = scene.interfaces;
+}
+
+std::size_t body_named(const Scene& scene, const std::string& name) {
+    const auto& names = scene.mesh->body_names;
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+void push_interface(Model& model, const Scene& scene, InterfaceData data, std::size_t a, std::size_t b) {
+    data.lower = a;
+    data.upper = b;
+    data.name = scene.layers[a].name + "-" + scene.layers[b].name;
+    model.interfaces.push_back(std::move(data));
+}
+
+// Those between two bodies by name.
+void add_named_interfaces(Model& model, const Scene& scene) {
+    for (const InterfaceData& data : scene.interfaces) {
+        if (data.a.empty() || is_pattern(data.a) || is_pattern(data.b)) continue;
+        const std::size_t a = body_named(scene, data.a);
+        const std::size_t b = body_named(scene, data.b);
+        for (const InterfaceData& other : model.interfaces)
+            if (std::minmax(other.lower, other.upper) == std::minmax(a, b))
+                throw SceneFailure(data.place, "there is another interface between these bodies");
+        std::int64_t index = 0;
+        const auto label_a = static_cast<std::int32_t>(a);
+        const auto label_b = static_cast<std::int32_t>(b);
+        call(model.context.get(),
+             data.projected
+                 ? delam_mesh_add_projected_interface(model.mesh.get(), label_a, label_b, data.gap, &index)
+                 : delam_mesh_add_interface(model.mesh.get(), label_a, label_b, data.tolerance, &index),
+             data.place);
+        push_interface(model, scene, data, a, b);
+    }
+}
+
+// How two bodies that touch hold together: the one entry whose names fit, else the one for all.
+const InterfaceData* entry_for(const Scene& scene, const std::string& a, const std::string& b) {
+    const InterfaceData* found = nullptr;
+    for (const InterfaceData& data : scene.interfaces) {
+        const bool either = (fits(data.a, a) && fits(data.b, b)) || (fits(data.a, b) && fits(data.b, a));
+        if (!is_pattern(data.a + data.b) || !either) continue;
+        if (found != nullptr)
+            throw SceneFailure(data.place, fmt::format("fits \"{}\" and \"{}\", as {} does", a, b, found->place.path));
+        found = &data;
+    }
+    for (const InterfaceData& data : scene.interfaces) {
+        if (found != nullptr || !data.a.empty()) continue;
+        found = &data;
+    }
+    return found;
+}
+
+// Those of bodies that touch and have none yet. Every one needs an entry: a forgotten one would come apart unnoticed.
+void add_other_interfaces(Model& model, const Scene& scene) {
+    std::int64_t added = 0;
+    double tolerance = 0;
+    for (const InterfaceData& data : scene.interfaces)
+        if (data.a.empty() || is_pattern(data.a + data.b)) tolerance = std::max(tolerance, data.tolerance);
+    call(model.context.get(), delam_mesh_add_all_interfaces(model.mesh.get(), tolerance, &added), scene.geometry.place);
+    std::set<const InterfaceData*> used;
+    for (auto index = static_cast<std::int64_t>(model.interfaces.size()); added > 0; ++index, --added) {
+        std::int32_t a = 0;
+        std::int32_t b = 0;
+        call(model.context.get(),
+             delam_mesh_interface_size(model.mesh.get(), index, &a, &b, nullptr, nullptr, nullptr),
+             scene.geometry.place);
+        const std::string& name_a = scene.layers[static_cast<std::size_t>(a)].name;
+        const std::string& name_b = scene.layers[static_cast<std::size_t>(b)].name;
+        const InterfaceData* entry = entry_for(scene, name_a, name_b);
+        if (entry == nullptr)
+            throw SceneFailure({scene.file, "interfaces", 0},
+                               fmt::format("bodies \"{}\" and \"{}\" touch, but none says how they hold together; add "
+                                           "a = \"{}\", b = \"{}\", or all = true for all that are left",
+                                           name_a, name_b, name_a, name_b));
+        used.insert(entry);
+        push_interface(model, scene, *entry, static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+    }
+    for (const InterfaceData& data : scene.interfaces)
+        if ((data.a.empty() || is_pattern(data.a + data.b)) && !used.contains(&data))
+            throw SceneFailure(data.place, "there are no bodies that touch and have no interface yet" +
+                                               std::string(data.a.empty() ? "" : " of these names"));
+}
+
+void build_from(Model& model, const Scene& scene) {
+    const MeshData& data = *scene.mesh;
+    const Place& place = scene.geometry.place;
+    delam_mesh* handle = nullptr;
+    const std::int32_t status =
+        delam_mesh_create(model.context.get(), data.dimension,
+                          static_cast<std::int64_t>(data.nodes.size()) / data.dimension, data.nodes.data(), &handle);
+    model.mesh.reset(handle);
+    call(model.context.get(), status, place);
+    for (const CellBlock& block : data.blocks)
+        call(model.context.get(),
+             delam_mesh_add_conforming_cells(handle, block.type, static_cast<std::int64_t>(block.bodies.size()),
+                                             block.connectivity.data(), block.bodies.data(), 0),
+             place);
+    add_named_interfaces(model, scene);
+    add_other_interfaces(model, scene);
+}
+
+// Which of an interface's pairs a region holds.
+class RegionPairs {
+public:
+    RegionPairs(const Model& model, const Scene& scene, std::int64_t index, const Place& place)
+        : dimension_(static_cast<std::size_t>(scene.geometry.dimension)),
+          slack_(1e-6 * scene.geometry.smallest_edge),
+          sets_(scene.mesh->node_sets) {
+        const delam_context* context = model.context.get();
+        const delam_mesh* mesh = model.mesh.get();
+        std::int64_t pairs = 0;
+        std::int64_t nodes = 0;
+        std::int64_t faces = 0;
+        std::int32_t per_face = 0;
+        call(context, delam_mesh_interface_size(mesh, index, nullptr, nullptr, &pairs, &faces, &per_face), place);
+        call(context, delam_mesh_size(mesh, nullptr, &nodes, nullptr, nullptr, nullptr), place);
+        node_b_.resize(static_cast<std::size_t>(pairs));
+        coordinates_.resize(static_cast<std::size_t>(nodes) * dimension_);
+        origins_.resize(static_cast<std::size_t>(nodes));
+        faces_.resize(static_cast<std::size_t>(faces * per_face));
+        per_face_ = static_cast<std::size_t>(per_face);
+        // Face b's nodes are there whatever the interface: face a's may be points within faces.
+        call(context, delam_mesh_interface_pairs(mesh, index, nullptr, node_b_.data(), nullptr, nullptr), place);
+        call(context, delam_mesh_interface_faces(mesh, index, faces_.data()), place);
+        call(context, delam_mesh_nodes(mesh, nodes * scene.geometry.dimension, coordinates_.data()), place);
+        call(context, delam_mesh_node_origins(mesh, nodes, origins_.data()), place);
+    }
+
+    [[nodiscard]] std::vector<std::int64_t> in(const Region& region) const {
+        std::vector<Where> where(node_b_.size(), Where::outside);
+        if (region.set.empty()) {
+            for (std::size_t i = 0; i < node_b_.size(); ++i) where[i] = in_box(region, i);
+        } else {
+            const std::vector<std::int64_t>& set = sets_.at(region.set);
+            for (std::size_t i = 0; i < node_b_.size(); ++i)
+                if (std::binary_search(set.begin(), set.end(), origins_[static_cast<std::size_t>(node_b_[i])]))
+                    where[i] = Where::edge;
+        }
+        // A pair on the edge is the region's only where no face leads out of it.
+        std::vector<bool> tip(node_b_.size(), false);
+        for (std::size_t f = 0; f < faces_.size(); f += per_face_) {
+            const auto begin = faces_.begin() + static_cast<std::ptrdiff_t>(f);
+            const auto end = begin + static_cast<std::ptrdiff_t>(per_face_);
+            if (std::all_of(begin, end,
+                            [&](std::int64_t pair) { return where[static_cast<std::size_t>(pair)] != Where::outside; }))
+                continue;
+            std::for_each(begin, end, [&](std::int64_t pair) { tip[static_cast<std::size_t>(pair)] = true; });
+        }
+        std::vector<std::int64_t> out;
+        for (std::size_t i = 0; i < where.size(); ++i)
+            if (where[i] == Where::inside || (where[i] == Where::edge && !tip[i]))
+                out.push_back(static_cast<std::int64_t>(i));
+        return out;
+    }
+
+private:
+    enum class Where { outside, edge, inside };
+
+    [[nodiscard]] Where in_box(const Region& region, std::size_t pair) const {
+        const double* at = coordinates_.data() + static_cast<std::size_t>(node_b_[pair]) * dimension_;
+        Where out = Where::inside;
+        for (std::size_t a = 0; a < dimension_; ++a) {
+            if (at[a] < region.lower[a] - slack_ || at[a] > region.upper[a] + slack_) return Where::outside;
+            if (at[a] <= region.lower[a] + slack_ || at[a] >= region.upper[a] - slack_) out = Where::edge;
+        }
+        return out;
+    }
+
+    std::size_t dimension_;
+    double slack_;
+    const std::map<std::string, std::vector<std::int64_t>>& sets_;
+    std::size_t per_face_ = 1;
+    std::vector<std::int64_t> node_b_;
+    std::vector<std::int64_t> faces_;
+    std::vector<std::int64_t> origins_;
+    std::vector<double> coordinates_;
+};
+
+}  // namespace
+
+void build_mesh(Model& model, const Scene& scene) {
+    if (scene.mesh)
+        build_from(model, scene);
+    else
+        build_layers(model, scene);
+}
+
+bool set_mesh_adhesion(const Model& model, const Scene& scene, std::int64_t index, const InterfaceData& data) {
+    const RegionPairs pairs(model, scene, index, data.place);
+    std::int64_t count = 0;
+    call(model.context.get(),
+         delam_mesh_interface_size(model.mesh.get(), index, nullptr, nullptr, &count, nullptr, nullptr), data.place);
+    std::vector<double> initial(static_cast<std::size_t>(count), 1.0);
+    for (const Region& region : data.regions) {
+        const std::vector<std::int64_t> chosen = pairs.in(region);
+        // One of an entry for several interfaces may well be on some of them alone.
+        if (chosen.empty() && (data.a.empty() || is_pattern(data.a + data.b))) continue;
+        if (chosen.empty())
+            throw SceneFailure(region.place, "no pair of the interface is in this region (pairs at its edge are its "
+                                             "own only where no face of the interface leads out of it)");
+        const std::vector<double> adhesion(chosen.size(), region.adhesion);
+        call(model.context.get(),
+             delam_problem_set_adhesion(model.problem.get(), index, static_cast<std::int64_t>(chosen.size()),
+                                        chosen.data(), adhesion.data(), 0),
+             region.place);
+        for (const std::int64_t pair : chosen) initial[static_cast<std::size_t>(pair)] = region.adhesion;
+    }
+    return std::any_of(initial.begin(), initial.end(), [](double zeta) { return zeta > 0; });
+}
+
+}  // namespace cli

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "inp_cards.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "file.hpp"
+#include "reader.hpp"
+
+namespace cli {
+
+namespace {
+
+constexpr std::size_t deepest_include = 8;
+
+std::string trimmed(std::string_view text) {
+    const auto blank = [](unsigned char c) { return std::isspace(c) != 0; };
+    while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+    return std::string(text);
+}
+
+std::string unquoted(const std::string& text) {
+    return text.size() >= 2 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
+}
+
+// Fields between commas outside quotes; the last is left out when it is empty.
+std::vector<std::string> split(const std::string& line) {
+    std::vector<std::string> out;
+    std::string field;
+    bool quoted = false;
+    for (const char c : line) {
+        if (c == '"') quoted = !quoted;
+        if (c == ',' && !quoted) {
+            out.push_back(trimmed(field));
+            field.clear();
+        } else {
+            field += c;
+        }
+    }
+    if (!trimmed(field).empty()) out.push_back(trimmed(field));
+    return out;
+}
+
+void parse_keyword_line(const std::string& line, InpCard& card) {
+    std::vector<std::string> fields = split(line);
+    std::string keyword;
+    for (const char c : fields.at(0).substr(1))
+        if (std::isspace(static_cast<unsigned char>(c)) == 0)
+            keyword += c;
+        else if (!keyword.empty() && keyword.back() != ' ')
+            keyword += ' ';
+    card.keyword = upper(trimmed(keyword));
+    if (card.keyword.empty()) throw SceneFailure(card.place, "a keyword is expected after *");
+    for (std::size_t i = 1; i < fields.size(); ++i) {
+        if (fields[i].empty()) continue;
+        const std::size_t equals = fields[i].find('=');
+        const std::string name = upper(trimmed(fields[i].substr(0, equals)));
+        card.parameters.emplace_back(
+            name, equals == std::string::npos ? "" : unquoted(trimmed(fields[i].substr(equals + 1))));
+    }
+}
+
+class CardReader {
+public:
+    std::vector<InpCard> cards;
+    std::string bytes;
+
+    void read(const std::string& path, const Place& from, std::size_t depth) {
+        std::string text;
+        try {
+            text = read_bytes(path);
+        } catch (const Failure& e) {
+            throw SceneFailure(from, e.what());
+        }
+        bytes += text;
+        std::istringstream lines(text);
+        std::string line;
+        int number = 0;
+        while (std::getline(lines, line)) {
+            ++number;
+            const Place place{path, "", number};
+            if (line.find('\0') != std::string::npos) throw SceneFailure(place, "not a text file");
+            if (trimmed(line).empty() || line.rfind("**", 0) == 0) continue;
+            if (line.front() == '*') {
+                while (trimmed(line).back() == ',') {
+                    std::string next;
+                    if (!std::getline(lines, next)) throw SceneFailure(place, "the keyword line goes on in no line");
+                    ++number;
+                    line = trimmed(line) + next;
+                }
+                InpCard card;
+                card.place = place;
+                parse_keyword_line(line, card);
+                card.place.path = "*" + card.keyword;
+                if (card.keyword == "INCLUDE")
+                    include(card, path, depth);
+                else
+                    cards.push_back(std::move(card));
+                continue;
+            }
+            if (cards.empty()) throw SceneFailure(place, "a keyword line (*NAME) is expected first");
+            InpLine data{split(line), trimmed(line).back() == ',', place};
+            data.place.path = "*" + cards.back().keyword;
+            cards.back().lines.push_back(std::move(data));
+        }
+    }
+
+private:
+    // The lines of the file stand where the card stood; its name is relative to the file that asks for it.
+    void include(const InpCard& card, const std::string& path, std::size_t depth) {
+        card.only({"INPUT"});
+        if (depth == deepest_include)
+            throw SceneFailure(card.place, fmt::format("files include each other more than {} deep", deepest_include));
+        const std::filesystem::path beside = std::filesystem::path(path).parent_path();
+        read((beside / card.required("INPUT")).string(), card.place, depth + 1);
+    }
+};
+
+}  // namespace
+
+std::string upper(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return text;
+}
+
+bool InpCard::has(const std::string& name) const {
+    return std::any_of(parameters.begin(), parameters.end(), [&](const auto& p) { return p.first == name; });
+}
+
+std::string InpCard::parameter(const std::string& name) const {
+    for (const auto& [key, value] : parameters)
+        if (key == name) return value;
+    return "";
+}
+
+std::string InpCard::required(const std::string& name) const {
+    const std::string value = parameter(name);
+    if (value.empty()) throw SceneFailure(place, name + "= is missing");
+    return value;
+}
+
+void InpCard::only(const std::vector<std::string>& names) const {
+    for (const auto& [key, value] : parameters)
+        if (std::find(names.begin(), names.end(), key) == names.end())
+            throw SceneFailure(place, fmt::format("the parameter {} is not read{}; these are: {}", key,
+                                                  suggestion(key, names), listing(names)));
+}
+
+std::vector<InpCard> read_cards(const std::string& path, const Place& place, std::string& bytes) {
+    CardReader reader;
+    reader.read(path, place, 0);
+    bytes = std::move(reader.bytes);
+    return std::move(reader.cards);
+}
+
+double inp_number(const std::string& field, const Place& place) {
+    std::string text = field;
+    for (char& c : text)
+        if (c == 'd' || c == 'D') c = 'e';
+    if (!text.empty() && text.front() == '+') text.erase(0, 1);
+    double value = 0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+        throw SceneFailure(place, fmt::format("\"{:.40}\": a finite number is expected", field));
+    return value;
+}
+
+std::optional<std::int64_t> inp_whole(const std::string& field) {
+    std::int64_t value = 0;
+    const auto [end, code] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (code != std::errc() || end != field.data() + field.size()) return std::nullopt;
+    return value;
+}
+
+std::int64_t inp_whole(const std::string& field, const Place& place) {
+    const auto value = inp_whole(field);
+    if (!value) throw SceneFailure(place, fmt::format("\"{:.40}\": a whole number is expected", field));
+    return *value;
+}
+
+}  // namespace cli

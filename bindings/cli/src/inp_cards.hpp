@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An Abaqus input file as cards: keyword lines with their data lines, includes taken in.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "error.hpp"
+
+namespace cli {
+
+struct InpLine {
+    std::vector<std::string> fields;  // between the commas, trimmed
+    bool continues = false;           // ends with a comma
+    Place place;
+};
+
+struct InpCard {
+    std::string keyword;                                          // upper case, single blanks: "SOLID SECTION"
+    std::vector<std::pair<std::string, std::string>> parameters;  // names in upper case; "" where there is no value
+    std::vector<InpLine> lines;
+    Place place;
+
+    [[nodiscard]] bool has(const std::string& name) const;
+    // "" when it is missing.
+    [[nodiscard]] std::string parameter(const std::string& name) const;
+    [[nodiscard]] std::string required(const std::string& name) const;
+    // Refuses any parameter that is not listed.
+    void only(const std::vector<std::string>& names) const;
+};
+
+// "**" begins a comment; keywords and parameters are in any case; a keyword line that ends with a comma goes on in the
+// next. files: the bytes of all files read, one after another. Throws SceneFailure with file and line.
+std::vector<InpCard> read_cards(const std::string& path, const Place& place, std::string& bytes);
+
+std::string upper(std::string text);
+// Throw SceneFailure at `place`. Numbers may be written 1.d0.
+double inp_number(const std::string& field, const Place& place);
+std::optional<std::int64_t> inp_whole(const std::string& field);
+std::int64_t inp_whole(const std::string& field, const Place& place);
+
+}  // namespace cli

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+/** Cells of one type. */
+struct CellBlock {
+    std::int32_t type;                       ///< a delam_cell_type
+    std::vector<std::int64_t> connectivity;  ///< [cells][nodes per cell] in delam's node order, 0-based
+    std::vector<std::int32_t> bodies;        ///< [cells] label of each cell's body, an index of MeshData::body_names
+};
+
+/**
+ * A mesh as files and generators give it: bodies that touch share their nodes, and what is wanted of a part of
+ * the mesh later is said by names.
+ */
+struct MeshData {
+    std::int32_t dimension = 2;
+    std::vector<double> nodes;  ///< [n][dimension], in the unit of length of the file
+    std::vector<CellBlock> blocks;
+    std::vector<std::string> body_names;                         ///< by label
+    std::map<std::string, std::vector<std::int64_t>> node_sets;  ///< named nodes, each once and ascending
+    std::map<std::string, std::vector<std::array<std::int64_t, 9>>> face_sets;  ///< faces as node lists, -1 padded
+    std::vector<std::array<double, 6>> orientation;  ///< [cells, block after block] material axes 1, 2; empty: none
+    std::vector<std::vector<double>> periods;        ///< [n][dimension] periods of a cell; empty: not periodic
+    std::vector<std::string> formulations;  ///< by label, what the element types of the file ask for; empty: standard
+    std::string plane;                      ///< "plane-strain" or "plane-stress" where the file says so; else empty
+    std::vector<std::string> notes;         ///< what was decided on the way, for people
+};
+
+}  // namespace cli

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh_file.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "cell_shape.hpp"
+#include "read_abaqus.hpp"
+#include "read_gmsh.hpp"
+#include "say.hpp"
+
+namespace cli {
+
+namespace {
+
+void drop_orphans(MeshData& mesh) {
+    const auto dimension = static_cast<std::size_t>(mesh.dimension);
+    std::vector<std::int64_t> number(mesh.nodes.size() / dimension, -1);
+    const auto keep = [&](std::int64_t node) { number[static_cast<std::size_t>(node)] = 0; };
+    for (const CellBlock& block : mesh.blocks)
+        for (const std::int64_t node : block.connectivity) keep(node);
+    for (const auto& [name, nodes] : mesh.node_sets)
+        for (const std::int64_t node : nodes) keep(node);
+    std::int64_t kept = 0;
+    for (std::size_t i = 0; i < number.size(); ++i) {
+        if (number[i] < 0) continue;
+        std::copy_n(mesh.nodes.begin() + static_cast<std::ptrdiff_t>(i * dimension), dimension,
+                    mesh.nodes.begin() + kept * static_cast<std::ptrdiff_t>(dimension));
+        number[i] = kept++;
+    }
+    const auto dropped = static_cast<std::int64_t>(number.size()) - kept;
+    if (dropped == 0) return;
+    mesh.notes.push_back(fmt::format("{} without cells dropped", counted(dropped, "node")));
+    mesh.nodes.resize(static_cast<std::size_t>(kept) * dimension);
+    const auto renumber = [&](std::int64_t& node) { node = number[static_cast<std::size_t>(node)]; };
+    for (CellBlock& block : mesh.blocks) std::for_each(block.connectivity.begin(), block.connectivity.end(), renumber);
+    for (auto& [name, nodes] : mesh.node_sets) std::for_each(nodes.begin(), nodes.end(), renumber);
+    for (auto& [name, faces] : mesh.face_sets)
+        for (auto& face : faces)
+            for (std::int64_t& node : face)
+                if (node >= 0) renumber(node);
+}
+
+// Twice the area of the polygon of the corners, positive when they run counter-clockwise.
+double twice_area(const MeshData& mesh, const std::int64_t* cell, std::size_t corners) {
+    double sum = 0;
+    for (std::size_t i = 0; i < corners; ++i) {
+        const double* a = &mesh.nodes[2 * static_cast<std::size_t>(cell[i])];
+        const double* b = &mesh.nodes[2 * static_cast<std::size_t>(cell[(i + 1) % corners])];
+        sum += a[0] * b[1] - a[1] * b[0];
+    }
+    return sum;
+}
+
+// A surface of Gmsh runs round as its boundary loop does, so each cell is looked at by itself.
+void turn_clockwise_cells(MeshData& mesh) {
+    std::int64_t turned = 0;
+    for (CellBlock& block : mesh.blocks) {
+        const CellShape& shape = shape_of(block.type);
+        for (std::size_t c = 0; c < block.bodies.size(); ++c) {
+            std::int64_t* cell = block.connectivity.data() + c * shape.nodes;
+            if (!(twice_area(mesh, cell, shape.corners) < 0)) continue;
+            std::reverse(cell + 1, cell + shape.corners);
+            if (shape.nodes > shape.corners) std::reverse(cell + shape.corners, cell + 2 * shape.corners);
+            ++turned;
+        }
+    }
+    if (turned > 0) mesh.notes.push_back(fmt::format("{} clockwise: turned round", counted(turned, "cell")));
+}
+
+}  // namespace
+
+void tidy(MeshData& mesh) {
+    drop_orphans(mesh);
+    if (mesh.dimension == 2) turn_clockwise_cells(mesh);
+}
+
+MeshFile read_mesh(const std::string& path, const std::vector<std::string>& bodies, const Place& place) {
+    const auto ends = [&path](std::string_view ending) {
+        return path.size() > ending.size() && std::string_view(path).substr(path.size() - ending.size()) == ending;
+    };
+    const bool abaqus = ends(".inp") || ends(".INP");
+    if (!abaqus && !ends(".msh"))
+        throw SceneFailure(place, path + ": a mesh of Gmsh (.msh) or of Abaqus (.inp) is expected");
+    if (!abaqus && !bodies.empty())
+        throw SceneFailure(place, "bodies is for .inp alone: in a .msh physical groups are the bodies");
+    MeshFile out = abaqus ? read_abaqus(path, bodies, place) : read_gmsh(path, place);
+    tidy(out.mesh);
+    return out;
+}
+
+}  // namespace cli

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// [mesh], its [[bodies]] and their [[interfaces]].
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "cell_shape.hpp"
+#include "hash.hpp"
+#include "mesh_file.hpp"
+#include "scene_generators.hpp"
+#include "scene_parts.hpp"
+#include "wildcard.hpp"
+
+namespace cli {
+
+namespace {
+
+// From corner to corner along the sides of cells.
+double shortest_edge(const MeshData& mesh) {
+    const auto dimension = static_cast<std::size_t>(mesh.dimension);
+    double least = std::numeric_limits<double>::infinity();
+    for (const CellBlock& block : mesh.blocks) {
+        const CellShape& shape = shape_of(block.type);
+        const std::size_t corners_2d = 2;
+        for (std::size_t c = 0; c < block.bodies.size(); ++c)
+            for (const auto& side : shape.sides) {
+                const std::size_t corners = dimension == 2 ? corners_2d : (shape.corners == 4 ? 3 : 4);
+                for (std::size_t i = 0; i < corners; ++i) {
+                    const auto node = [&](std::size_t k) {
+                        return mesh.nodes.data() + dimension * static_cast<std::size_t>(
+                                                                   block.connectivity[c * shape.nodes + side[k]]);
+                    };
+                    double square = 0;
+                    for (std::size_t a = 0; a < dimension; ++a)
+                        square += std::pow(node(i)[a] - node((i + 1) % corners)[a], 2);
+                    least = std::min(least, std::sqrt(square));
+                }
+            }
+    }
+    return least;
+}
+
+void require_body(const Table& table, std::string_view key, const std::string& name, const Scene& scene) {
+    const auto& names = scene.mesh->body_names;
+    if (std::none_of(names.begin(), names.end(), [&](const std::string& n) { return fits(name, n); }))
+        table.fail(key, fmt::format("\"{}\": no body of the mesh {}{}; it has: {}", name,
+                                    is_pattern(name) ? "fits" : "has this name", suggestion(name, names),
+                                    listing(names)));
+}
+
+Region read_region(const Table& table, const Scene& scene, bool with_value) {
+    table.only(with_value ? std::vector<std::string>{"lower", "upper", "set", "value"}
+                          : std::vector<std::string>{"lower", "upper", "set"});
+    Region region;
+    region.place = table.place();
+    region.adhesion = with_value ? table.number("value", fraction) : 0;
+    const bool box = table.has("lower") || table.has("upper");
+    if (box == table.has("set")) table.fail("set", "give either set = \"NAME\" or lower and upper");
+    if (!box) {
+        region.set = set_name(table, "set", scene);
+        return region;
+    }
+    const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
+    const std::vector<double> lower = table.numbers("lower", any_number, dimension);
+    const std::vector<double> upper = table.numbers("upper", any_number, dimension);
+    for (std::size_t a = 0; a < dimension; ++a) {
+        if (upper[a] < lower[a])
+            table.fail("upper", fmt::format("entry {} is {}: >= {} is expected", a, upper[a], lower[a]));
+        region.lower[a] = lower[a];
+        region.upper[a] = upper[a];
+    }
+    return region;
+}
+
+MeshFile mesh_of_file(const Table& table, const Scene& scene) {
+    table.only({"file", "bodies", "plane"});
+    const std::string name = table.text("file");
+    if (name.empty()) table.fail("file", "is empty: the name of a mesh is expected, relative to the scene file");
+    const std::string path = (std::filesystem::path(scene.file).parent_path() / name).string();
+    return read_mesh(path, table.has("bodies") ? table.texts("bodies") : std::vector<std::string>{},
+                     table.place("file"));
+}
+
+}  // namespace
+
+std::string set_name(const Table& table, std::string_view key, const Scene& scene) {
+    if (!scene.mesh) table.fail(key, "is for a scene with [mesh]");
+    const std::string name = table.text(key);
+    std::vector<std::string> known;
+    for (const auto& [set, nodes] : scene.mesh->node_sets) known.push_back(set);
+    for (const auto& [set, faces] : scene.mesh->face_sets)
+        if (!scene.mesh->node_sets.contains(set)) known.push_back(set);
+    if (std::find(known.begin(), known.end(), name) == known.end())
+        table.fail(key, fmt::format("\"{}\": no such set in the mesh{}{}", name, suggestion(name, known),
+                                    known.empty() ? "; it has none" : "; it has: " + listing(known)));
+    return name;
+}
+
+void read_mesh_table(const Table& root, Scene& scene) {
+    const Table table = root.table("mesh");
+    if (table.has("file") == table.has("generator")) table.fail("file", "give either file or generator");
+    MeshFile file = table.has("file") ? mesh_of_file(table, scene) : MeshFile{read_generator(table), ""};
+    MeshData& mesh = file.mesh;
+    Geometry& geometry = scene.geometry;
+    geometry.place = table.place();
+    geometry.dimension = mesh.dimension;
+    if (mesh.dimension == 2)
+        geometry.plane = table.choice("plane", {"plane-strain", "plane-stress"},
+                                      mesh.plane.empty() ? "plane-strain" : mesh.plane);
+    else if (table.has("plane"))
+        table.fail("plane", "is for plane meshes only");
+    geometry.smallest_edge = shortest_edge(mesh);
+    if (!(geometry.smallest_edge > 0)) table.fail("file", "a cell has an edge of no length");
+    // What a generator makes follows from its keys.
+    if (!file.hash.empty()) scene.content_hash = hash_text(scene.content_hash + file.hash);
+    scene.mesh = std::make_shared<const MeshData>(std::move(mesh));
+}
+
+void read_bodies(const Table& root, Scene& scene) {
+    const std::vector<Table> tables = root.tables("bodies");
+    const std::vector<Table> materials = root.tables("materials");
+    const auto& names = scene.mesh->body_names;
+    std::vector<const Table*> chosen(names.size(), nullptr);
+    // A name that is spelt out goes before one with *.
+    for (const bool spelt : {true, false})
+        for (const Table& table : tables) {
+            const std::string name = table.text("name");
+            if (is_pattern(name) == spelt) continue;
+            require_body(table, "name", name, scene);
+            for (std::size_t i = 0; i < names.size(); ++i) {
+                if (!fits(name, names[i])) continue;
+                if (chosen[i] != nullptr && is_pattern(chosen[i]->text("name")) == is_pattern(name))
+                    table.fail("name", fmt::format("\"{}\" is described by {} already", names[i],
+                                                   chosen[i]->place().path));
+                if (chosen[i] == nullptr) chosen[i] = &table;
+            }
+        }
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (chosen[i] == nullptr)
+            root.fail("bodies", fmt::format("there is none for \"{}\"; the mesh has: {}", names[i], listing(names)));
+        const Table& table = *chosen[i];
+        table.only({"name", "material", "formulation", "angle", "axes"});
+        Layer body;
+        body.name = names[i];
+        body.place = table.place();
+        body.material = find_named(table, "material", table.text("material"), scene.materials, "material");
+        body.formulation = scene.materials[body.material].formulation;
+        if (!materials[body.material].has("formulation") && !scene.mesh->formulations.empty() &&
+            !scene.mesh->formulations[i].empty())
+            body.formulation = scene.mesh->formulations[i];
+        body.axes = read_axes(table, scene.geometry.dimension);
+        if (table.has("formulation")) body.formulation = read_formulation(table);
+        scene.layers.push_back(std::move(body));
+    }
+}
+
+void read_mesh_interfaces(const Table& root, Scene& scene) {
+    for (const Table& table : root.tables("interfaces")) {
+        table.only({"a", "b", "all", "law", "bonded", "contact", "projected", "gap", "tolerance", "notch", "adhesion"});
+        InterfaceData interface;
+        interface.place = table.place();
+        const bool all = table.flag("all", false);
+        if (all == (table.has("a") || table.has("b"))) table.fail("a", "give either a and b or all = true");
+        if (!all) {
+            interface.a = table.text("a");
+            interface.b = table.text("b");
+            require_body(table, "a", interface.a, scene);
+            require_body(table, "b", interface.b, scene);
+            if (interface.a == interface.b && !is_pattern(interface.a))
+                table.fail("b", fmt::format("\"{}\" is a too: two bodies are expected", interface.b));
+        }
+        interface.projected = table.flag("projected", false);
+        if (table.has("gap") && !interface.projected) table.fail("gap", "is for projected = true");
+        if (interface.projected) {
+            if (all || is_pattern(interface.a) || is_pattern(interface.b))
+                table.fail("projected", "needs two bodies by name");
+            interface.gap = table.number("gap", not_negative, 0.0);
+        }
+        interface.tolerance = table.number("tolerance", pairing_tolerance, 0.0);
+        interface.bonded = table.flag("bonded", false);
+        interface.contact = table.flag("contact", false);
+        if (int{interface.bonded} + int{interface.contact} + int{table.has("law")} != 1)
+            table.fail("law", "give one of law = \"NAME\", bonded = true and contact = true");
+        if (!table.has("law") && (table.has("notch") || table.has("adhesion")))
+            table.fail(table.has("notch") ? "notch" : "adhesion", "is for interfaces with a law");
+        if (table.has("law")) interface.law = find_named(table, "law", table.text("law"), scene.laws, "law");
+        for (const Table& notch : table.tables("notch")) interface.regions.push_back(read_region(notch, scene, false));
+        for (const Table& part : table.tables("adhesion")) interface.regions.push_back(read_region(part, scene, true));
+        scene.interfaces.push_back(std::move(interface));
+    }
+}
+
+}  // namespace cli
