@@ -266,6 +266,90 @@ void weave(cli::WeaveCell cell, const std::string& what) {
     hand_over(mesh, what);
 }
 
+// Stored energy of the periodic cell under the average strain exx = 1, 2 W/V: the modulus C11. -1: failed.
+double modulus(const MeshData& mesh, double matrix, double inclusion) {
+    const auto d = static_cast<std::size_t>(mesh.dimension);
+    const auto count = static_cast<std::int64_t>(mesh.nodes.size() / d);
+    const auto periods = static_cast<std::int64_t>(mesh.periods.size());
+    std::vector<double> nodes = mesh.nodes;
+    double height = 0;  // of a weave that is not stacked
+    for (std::size_t i = d - 1; i < mesh.nodes.size(); i += d) height = std::max(height, 2 * mesh.nodes[i]);
+    double volume = mesh.periods.size() < d ? height : 1.0;
+    std::vector<double> flat;
+    std::vector<std::int64_t> control;
+    for (std::size_t k = 0; k < mesh.periods.size(); ++k) {
+        volume *= mesh.periods[k][k];
+        flat.insert(flat.end(), mesh.periods[k].begin(), mesh.periods[k].end());
+        control.push_back(count + static_cast<std::int64_t>(k));
+        nodes.insert(nodes.end(), d, -static_cast<double>(k + 1) * mesh.periods[0][0]);
+    }
+    delam_context* context = nullptr;
+    delam_mesh* made = nullptr;
+    delam_problem* problem = nullptr;
+    delam_solver* solver = nullptr;
+    delam_context_create(&context);
+    bool fine = true;
+    const auto run = [&](std::int32_t status) {
+        if (fine && status != DELAM_OK) std::printf("      %s\n", delam_context_message(context));
+        fine = fine && status == DELAM_OK;
+        return fine;
+    };
+    run(delam_mesh_create(context, mesh.dimension, count + periods, nodes.data(), &made));
+    for (const cli::CellBlock& block : mesh.blocks)
+        run(delam_mesh_add_conforming_cells(made, block.type, static_cast<std::int64_t>(block.bodies.size()),
+                                            block.connectivity.data(), block.bodies.data(), 0));
+    std::int64_t interface_count = 0;
+    run(delam_mesh_add_all_interfaces(made, 0.0, &interface_count));
+    run(delam_problem_create(context, made, &problem));
+    for (std::size_t b = 0; b < mesh.body_names.size(); ++b)
+        run(delam_problem_set_elastic(problem, static_cast<std::int32_t>(b), b == 0 ? matrix : inclusion, 0.3));
+    for (std::int64_t i = 0; i < interface_count; ++i) run(delam_problem_set_bonded(problem, i));
+    run(delam_problem_add_periodic(problem, periods, flat.data(), control.data(), 0.0, 0));
+    constexpr double instants[] = {0, 1};
+    std::int64_t pattern = 0;
+    run(delam_problem_add_pattern(problem, "strain", 2, instants, instants, &pattern));
+    for (std::size_t i = 0; i < d; ++i) {
+        std::vector<double> direction(d, 0.0);
+        direction[i] = 1;
+        for (std::size_t k = 0; k < control.size(); ++k) {
+            const double stretch = i == 0 ? mesh.periods[k][0] : 0.0;
+            run(delam_problem_prescribe_nodes(problem, 1, &control[k], direction.data(), 1, &pattern, &stretch, 0));
+        }
+        run(delam_problem_prescribe_nodes(problem, 1, &mesh.node_sets.at("origin")[0], direction.data(), 0, nullptr,
+                                          nullptr, 0));
+    }
+    run(delam_solver_create(problem, 0.0, &solver));
+    if (fine) run(delam_solver_advance(solver, 1.0));
+    double energy = 0;
+    if (fine) run(delam_solver_value(solver, "stored_bulk", &energy));
+    delam_solver_destroy(&solver);
+    delam_problem_destroy(&problem);
+    delam_mesh_destroy(&made);
+    delam_context_destroy(&context);
+    return fine ? 2 * energy / volume : -1;
+}
+
+// C11/E at nu = 0.3: without other strains, and without stress across the fabric.
+constexpr double uniaxial_strain = 0.7 / (1.3 * 0.4);
+constexpr double free_surfaces = 1 / (1 - 0.3 * 0.3);
+
+// A cell of one material strains uniformly, whatever its mesh; stiff inclusions lie between the bounds of
+// Reuss and Voigt.
+void homogenised(const MeshData& mesh, double exact_factor, const std::string& what) {
+    constexpr double matrix = 3;
+    constexpr double stiff = 70;
+    const double uniform = modulus(mesh, matrix, matrix);
+    expect(std::abs(uniform / (exact_factor * matrix) - 1) < 1e-9, what + ": one material is uniform");
+    const double stiffened = modulus(mesh, matrix, stiff);
+    const std::vector<double> volumes = cli::GeneratorModel::measures(mesh);
+    double all = 0;
+    for (const double v : volumes) all += v;
+    const double f = 1 - volumes[0] / all;
+    expect(stiffened > exact_factor / ((1 - f) / matrix + f / stiff) &&
+               stiffened < uniaxial_strain * ((1 - f) * matrix + f * stiff),
+           what + ": stiff inclusions lie between the bounds");
+}
+
 void refused(const std::string& text, const std::function<void()>& call) {
     try {
         call();
@@ -335,6 +419,7 @@ int main() {
         fibres.seed = seed;
         fibre_cell(fibres, "12 fibres, seed " + std::to_string(seed));
     }
+    homogenised(cli::generate_fibre_cell(fibres), uniaxial_strain, "12 fibres");
     fibres.cell = DELAM_QUAD4;
     fibre_cell(fibres, "12 fibres, quad4");
     fibres.cell = DELAM_QUAD8;
@@ -362,6 +447,10 @@ int main() {
     cell.section = "lens";
     cell.cell = DELAM_TET10;
     weave(cell, "lenses, tet10");
+    cell.h = 0.55e-3;
+    homogenised(cli::generate_weave(cell), free_surfaces, "weave");
+    cell.stacked = true;
+    homogenised(cli::generate_weave(cell), uniaxial_strain, "stacked weave");
     refusals();
     return failures == 0 ? 0 : 1;
 }
