@@ -21,8 +21,8 @@ std::int32_t cell_type(const std::string& name) {
 }
 
 MeshData fibre_cell(const Table& table) {
-    table.only({"generator", "plane", "fibres", "fraction", "radius", "arrangement", "aspect", "gap", "edge_gap", "seed",
-                "cells_around", "h", "cell"});
+    table.only({"generator", "plane", "fibres", "fraction", "radius", "arrangement", "aspect", "gap", "edge_gap",
+                "seed", "cells_around", "h", "cell"});
     FibreCell cell;
     cell.place = table.place();
     cell.arrangement = table.choice("arrangement", {"random", "square", "hexagonal"}, cell.arrangement);
