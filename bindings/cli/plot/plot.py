@@ -254,7 +254,8 @@ def plot_solid(result, file, shots, scale):
     skin = boundary_faces(cell_blocks(file))
     names = sorted(file["interfaces"], key=lambda name: int(name.rsplit("_", 1)[1]))
     # Of many the largest alone.
-    names = sorted(names, key=lambda name: -file["interfaces"][name]["weights"][()].sum())[:6] if len(names) > 6 else names
+    if len(names) > 6:
+        names = sorted(names, key=lambda name: -file["interfaces"][name]["weights"][()].sum())[:6]
     figure = plt.figure(figsize=(4.0 * columns, rows * (2.9 + 1.3 * len(names)) + 1.0), layout="constrained")
     grid = figure.add_gridspec(rows * (1 + len(names)), columns, height_ratios=([2.4] + [1.0] * len(names)) * rows)
     drawn = None

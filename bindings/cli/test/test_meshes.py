@@ -74,7 +74,8 @@ def stretched(place, mesh, axis, area, height, what, text=BONDED, keys=""):
     force = YOUNG * area * STRETCH / height
     # The reaction is conjugate to the factor: force times coefficient.
     expect(row is not None and near(row["reaction"], force * STRETCH) and
-           near(row["stored_bulk"], force * STRETCH / 2), f"{what}: {row and row['reaction']}, {force * STRETCH} is expected")
+           near(row["stored_bulk"], force * STRETCH / 2),
+           f"{what}: {row and row['reaction']}, {force * STRETCH} is expected")
 
 
 # ---- every cell type through Gmsh's library, in every format; two blocks 4 x 1 (x 1) on each other ----
@@ -107,16 +108,19 @@ for cell in ("quad4", "quad8", "tri6", "tet10", "hex20", "hex8"):
     stretched(blocks, cell + "-cut.inp", "z" if cell in SOLID else "y", 4, 2, cell + ".inp of Gmsh's")
 
 code, out, _ = delam("check", scene(blocks, "quad4-41a.msh", BONDED + pulled("y")))
-for line in ('body        "lower", 4 cells, material "m", formulation standard', 'set         "bottom", 5 nodes, 4 faces',
-             'set         "corner", 1 node\n', 'interface   "lower-upper", 5 pairs', "note: 4 cells clockwise: turned round"):
+for line in ('body        "lower", 4 cells, material "m", formulation standard',
+             'set         "bottom", 5 nodes, 4 faces', 'set         "corner", 1 node\n',
+             'interface   "lower-upper", 5 pairs', "note: 4 cells clockwise: turned round"):
     expect(line in out, f"check says: {line.strip()}")
 
 # ---- forces: a total, per area, along the normal ----
 # A bar under tension t stores t^2 A h / (2 E).
-for name, axis, zeros in (("quad4-41a.msh", "y", "0.0, "), ("tet10-22a.msh", "z", "0.0, 0.0, "), ("hex20-41a.msh", "z", "0.0, 0.0, ")):
+for name, axis, zeros in (("quad4-41a.msh", "y", "0.0, "), ("tet10-22a.msh", "z", "0.0, 0.0, "),
+                          ("hex20-41a.msh", "z", "0.0, 0.0, ")):
     hold = f'[[supports]]\nset = "bottom"\nfix = ["x", "y"{", " + chr(34) + "z" + chr(34) if axis == "z" else ""}]\n'
     for words in (f"force = [{zeros}2.0]", f"traction = [{zeros}0.5]", "pressure = -0.5"):
-        row = last_row(blocks, scene(blocks, name, BONDED + hold + f'[[forces]]\nset = "top"\n{words}\npattern = "p"\n'))
+        pull = f'[[forces]]\nset = "top"\n{words}\npattern = "p"\n'
+        row = last_row(blocks, scene(blocks, name, BONDED + hold + pull))
         expect(row is not None and near(row["stored_bulk"], 0.5 ** 2 * 4 * 2 / (2 * YOUNG), 1e-8),
                f"{name}, {words}: {row and row['stored_bulk']}")
 force = '[[forces]]\nset = "{}"\n{}\npattern = "p"\n'
@@ -126,17 +130,20 @@ for text, words in ((force.format("seam", "pressure = 1.0"), 'between "lower" an
                     (force.format("top", "pressure = 1.0\ntraction = [0, 1]"), "one of force, traction and pressure"),
                     (force.format("tip", "pressure = 1.0"), r'forces\[0\]\.set: "tip": no such set.* \(did you mean')):
     expect_error(delam("check", scene(blocks, "quad4-41a.msh", BONDED + hold + text)), 2, words)
-held = last_row(blocks, scene(blocks, "quad4-41a.msh", BONDED + hold + force.format("seam", 'body = "lower"\npressure = -0.5')))
+held = last_row(blocks, scene(blocks, "quad4-41a.msh",
+                              BONDED + hold + force.format("seam", 'body = "lower"\npressure = -0.5')))
 expect(held is not None and near(held["stored_bulk"], 0.5 ** 2 * 4 * 1 / (2 * YOUNG)), "pressure on one side of a seam")
 mean = pulled("y").replace('set = "top"', 'set = "top"\nmean = true')
 stretched_by_mean = last_row(blocks, scene(blocks, "quad4-41a.msh", BONDED + mean))
-expect(stretched_by_mean is not None and near(stretched_by_mean["reaction"], YOUNG * 4 * STRETCH ** 2 / 2), "a mean over faces")
+expect(stretched_by_mean is not None and near(stretched_by_mean["reaction"], YOUNG * 4 * STRETCH ** 2 / 2),
+       "a mean over faces")
 
 # ---- interfaces and notches: what breaks is what adhered ----
 LAW = '[[interfaces]]\na = "lower"\nb = "upper"\nlaw = "law"\n'
 torn = pulled("y", 10.0) + '[[supports]]\nset = "top"\nfix = ["x"]\n'
 for text, adhered, what in ((LAW, 4.0, "no notch"),
-                            (LAW + "notch = [{ lower = [0, 1], upper = [2, 1] }]\n", 2.5, "the tip of a box stays bonded"),
+                            (LAW + "notch = [{ lower = [0, 1], upper = [2, 1] }]\n", 2.5,
+                             "the tip of a box stays bonded"),
                             (LAW + "notch = [{ lower = [0, 0.5], upper = [1.9, 1.5] }]\n", 2.5, "a box between pairs"),
                             (LAW + "notch = [{ lower = [0, 1], upper = [4, 1] }]\n", 0.0, "a box over all"),
                             (LAW + 'notch = [{ set = "seam" }]\n', 0.0, "a notch by set"),
@@ -156,6 +163,33 @@ for text, words in (("", '"lower" and "upper" touch, but none says how they hold
                     (LAW + BONDED, "there are no bodies that touch and have no interface yet")):
     expect_error(delam("check", scene(blocks, "quad4-41a.msh", text + torn)), 2, words)
 
+# ---- meshes that do not match, contact alone, a generator ----
+stretched(blocks, "quad4-41a.msh", "y", 4, 2, "a projected bond",
+          '[[interfaces]]\na = "lower"\nb = "upper"\nprojected = true\nbonded = true\n')
+pushed = pulled("y", -STRETCH) + '[[supports]]\nset = "top"\nfix = ["x"]\n'
+CONTACT = '[[interfaces]]\na = "lower"\nb = "upper"\ncontact = true\n'
+row = last_row(blocks, scene(blocks, "quad4-41a.msh", CONTACT + pushed))
+expect(row is not None and near(row["stored_bulk"], YOUNG * 4 * STRETCH ** 2 / 4), "contact presses")
+row = last_row(blocks, scene(blocks, "quad4-41a.msh",
+                             CONTACT + pulled("y") + '[[supports]]\nset = "top"\nfix = ["x"]\n'))
+expect(row is not None and abs(row["stored_bulk"]) < 1e-12, "contact does not pull")
+expect_error(delam("check", scene(blocks, "quad4-41a.msh", CONTACT + "bonded = true\n" + pulled("y"))), 2,
+             "one of law = .NAME., bonded = true and contact = true")
+with open(scene(blocks, "x", '[[interfaces]]\na = "fibre-*"\nb = "matrix"\nlaw = "law"\n'
+                '[[supports]]\nset = "left"\nfix = ["x", "y"]\n[[loads]]\nset = "right"\ncomponent = ["x"]\n'
+                'pattern = "p"\n'), encoding="utf-8") as file:
+    text = file.read()
+generated = text.replace('file = "x"', 'generator = "fibre-cell"\nfraction = 0.3\nradius = 1.0\nfibres = 2\n'
+                         'cells_around = 12\ncell = "tri3"')
+path = os.path.join(blocks, "generated.toml")
+with open(path, "w", encoding="utf-8") as file:
+    file.write(generated)
+code, out, error = delam("check", path)
+expect(code == 0 and 'interface   "matrix-fibre-2"' in out and 'body        "fibre-1"' in out, f"a generator: {error}")
+with open(path, "w", encoding="utf-8") as file:
+    file.write(generated.replace("[mesh]", '[mesh]\nfile = "x"'))
+expect_error(delam("check", path), 2, r"mesh\.file: give either file or generator")
+
 # ---- small meshes as text ----
 NODES = {1: (0, 0), 2: (1, 0), 3: (0, 1), 4: (1, 1), 5: (0, 2), 6: (1, 2)}
 NAMES = {(2, 1): "quad", (2, 2): "tris", (1, 3): "bottom", (1, 4): "top", (0, 5): "control"}
@@ -166,7 +200,8 @@ CELLS = [(1, 3, 1, (1, 2)), (1, 4, 2, (5, 6)), (3, 1, 1, (1, 2, 4, 3)), (2, 2, 2
 def msh22(nodes, cells, names):
     out = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat"]
     if names:
-        out += ["$PhysicalNames", str(len(names))] + [f'{d} {t} "{n}"' for (d, t), n in names.items()] + ["$EndPhysicalNames"]
+        out += ["$PhysicalNames", str(len(names))]
+        out += [f'{d} {t} "{n}"' for (d, t), n in names.items()] + ["$EndPhysicalNames"]
     out += ["$Nodes", str(len(nodes))]
     out += [f"{i} " + " ".join(str(x) for x in (tuple(at) + (0,))[:3]) for i, at in nodes.items()] + ["$EndNodes"]
     out += ["$Elements", str(len(cells))]
@@ -244,7 +279,8 @@ with h5py.File(os.path.join(small, "out", "fields.h5"), "r") as file:
     cells = file["mesh/cells"][()].tolist()
     expect(sorted(len([n for n in cell if n >= 0]) for cell in cells) == [3, 3, 4], f"cells of two types: {cells}")
     expect(sorted(file["mesh/mixed"][()].tolist())[-1] >= 5 and len(file["mesh/mixed"]) == 13, "the list for XDMF")
-    expect(len(file["mesh/body"]) == 3 and file["steps/00000001/stress"].shape == (3, 6), "bodies and stress of each cell")
+    expect(len(file["mesh/body"]) == 3 and file["steps/00000001/stress"].shape == (3, 6),
+           "bodies and stress of each cell")
     written = sorted(file["mesh"].attrs[f"body_{i}"].decode() if isinstance(file["mesh"].attrs[f"body_{i}"], bytes)
                      else file["mesh"].attrs[f"body_{i}"] for i in range(2))
     expect(written == ["quad", "tris"], f"names of bodies {written}")
@@ -267,11 +303,13 @@ expect_error(delam("run", scene(small, put("mixed.msh", msh22(NODES, CELLS, NAME
 
 bare = [(t, 0, e, of) for t, _, e, of in CELLS if t > 1]
 code, out, error = delam("check", scene(small, put("bare.msh", msh22({**NODES, 9: (7, 7)}, bare, {})),
-                                        '[[interfaces]]\nall = true\nlaw = "law"\n[[supports]]\nbody = "surface-1"\nfix = ["x", "y"]\n[[loads]]\n'
+                                        '[[interfaces]]\nall = true\nlaw = "law"\n[[supports]]\nbody = "surface-1"\n'
+                                        'fix = ["x", "y"]\n[[loads]]\n'
                                         'body = "surface-2"\ncomponent = ["y"]\npattern = "p"\n'))
 expect(code == 0 and 'body        "surface-1", 1 cell' in out and 'body        "surface-2", 2 cells' in out,
        f"entities are bodies where there are no groups: {error}")
-refused("half.msh", msh22(NODES, [*CELLS[:3], (2, 0, 2, (3, 4, 6))], NAMES), "element 4 of surface 2 is in no physical group")
+refused("half.msh", msh22(NODES, [*CELLS[:3], (2, 0, 2, (3, 4, 6))], NAMES),
+        "element 4 of surface 2 is in no physical group")
 refused("tilted.msh", msh22({**NODES, 6: (1, 2, 0.5)}, CELLS, NAMES), r"node 6 is at z = 0\.5", "z = 0")
 refused("missing.msh", msh22(NODES, [*CELLS[:4], (2, 2, 2, (3, 6, 77))], NAMES), "missing.msh: Gmsh says: .*77")
 refused("prism.msh", msh22({i: (*at, 0) for i, at in NODES.items()}, [(6, 1, 1, (1, 2, 3, 4, 5, 6))], {}), "Prism 6")
@@ -342,7 +380,8 @@ LID, S2
 """
 stretched(small, put("flat.inp", FLAT), "y", 1, 2, "a flat .inp")
 code, out, error = delam("check", scene(small, "flat.inp", BONDED + pulled("y")))
-expect(code == 0 and all(w in out for w in ('"Lower", 1 cell', '"Upper", 2 cells', '"all", 7 nodes', '"bottom", 2 nodes',
+expect(code == 0 and all(w in out for w in ('"Lower", 1 cell', '"Upper", 2 cells', '"all", 7 nodes',
+                                            '"bottom", 2 nodes',
                                             '"lidtop", 2 nodes, 1 face', '"wall", 4 nodes, 2 faces', '"hook", 1 node',
                                             "CPE4R: integrated fully here", "passed over: *ELASTIC, *MATERIAL, *STEP")),
        f"check of a flat .inp: {error}")
@@ -352,7 +391,8 @@ expect(row is not None and near(row["stored_bulk"], 0.5 ** 2 * 2 / (2 * YOUNG)),
 code, out, error = delam("check", scene(small, put("cps.inp", FLAT.replace("CPE", "CPS").replace("CPS4R", "CPS4I")),
                                         BONDED + pulled("y")))
 expect(code == 0 and '"Lower", 1 cell, material "m", formulation incompatible' in out, "CPS4I has incompatible modes")
-code, out, _ = delam("check", scene(small, "cps.inp", BONDED + pulled("y")), "--set", "materials[0].formulation=standard")
+code, out, _ = delam("check", scene(small, "cps.inp", BONDED + pulled("y")), "--set",
+                     "materials[0].formulation=standard")
 expect(code == 0 and "formulation incompatible" not in out, "the scene says otherwise")
 
 PARTS = """*PART, NAME=Brick
