@@ -44,8 +44,9 @@ void read_eigenstrains(const Table& root, Scene& scene) {
             const Material& material = scene.materials[scene.layers[layer].material];
             if (!material.expansion)
                 table.fail(table.has(key_of_places(scene)) ? key_of_places(scene) : "pattern",
-                           fmt::format("material \"{}\" of \"{}\" has no expansion (0 is allowed); or name the {} that are heated",
-                                       material.name, scene.layers[layer].name, key_of_places(scene)));
+                           fmt::format("material \"{}\" of {} \"{}\" has no expansion (0 is allowed); or name the {} that are heated",
+                                       material.name, scene.mesh ? "body" : "layer", scene.layers[layer].name,
+                                       key_of_places(scene)));
             const auto& along = *material.expansion;
             scene.eigenstrains.push_back(
                 {static_cast<std::int32_t>(layer), {along[0], along[1], along[2], 0, 0, 0}, pattern, table.place()});
