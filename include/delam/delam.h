@@ -503,7 +503,7 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   released               F L: energy that these set free and nothing stores or dissipates
  *   bulk_factorisations    sparse factorisations of the bodies since the solver was made: condensed 1, FETI one a subdomain
  *   field_recoveries       how often displacements were recovered from the interfaces since then: by the fields displacement,
- *                          stress and (condensed) reaction and by the kkt_ values; no other value needs them
+ *                          stress, rotation and (condensed) reaction, by rotation_max, delam_solver_average and the kkt_ values; no other value needs them
  *                          (both count over the solver's life; they are no part of its state, nor of saved bytes)
  *   damage_change          what a further damage step would change at this state, max norm: <= damage_tolerance when converged
  *   linear_residual        worst relative residual of the iterative linear solves of the step; 0 where they are direct

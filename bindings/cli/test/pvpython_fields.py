@@ -73,6 +73,40 @@ fields = ["displacement", "stress", "zeta", "jump", "traction", "contact", "mixi
 """
 
 
+def mixed_mesh():
+    """The same beam in Gmsh's words: 20 quadrilaterals below, 40 triangles above."""
+    number, nodes, cells = {}, [], []
+
+    def node(i, j):
+        if (i, j) not in number:
+            number[i, j] = len(nodes) + 1
+            nodes.append(f"{len(nodes) + 1} {0.002 * i} {0.002 * j} 0")
+        return number[i, j]
+
+    def cell(kind, body, *corners):
+        cells.append(f"{len(cells) + 1} {kind} 2 {body} {body} " + " ".join(map(str, corners)))
+
+    for i in range(20):
+        a, b, c, d, e, f = (node(i + k, j) for j in range(3) for k in range(2))
+        cell(3, 1, a, b, d, c)
+        cell(2, 2, c, d, f)
+        cell(2, 2, c, f, e)
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "2", '2 1 "lower"', '2 2 "upper"', "$EndPhysicalNames",
+             "$Nodes", str(len(nodes)), *nodes, "$EndNodes", "$Elements", str(len(cells)), *cells, "$EndElements", ""]
+    return "\n".join(lines)
+
+
+def mixed_scene():
+    """That of quad4, with the mesh from a file."""
+    text = scene("quad4")
+    begin, end = text.index("[geometry]"), text.index("[[materials]]")
+    text = text[:begin] + '[mesh]\nfile = "mixed.msh"\n' + text[end:]
+    begin, end = text.index("[[layers]]"), text.index("[[laws]]")
+    text = text[:begin] + '[[bodies]]\nname = "*"\nmaterial = "arm"\n' + text[end:]
+    text = text.replace('lower = "lower"\nupper = "upper"', 'a = "lower"\nb = "upper"')
+    return text.replace("notch = [{ from = 0.0, to = 0.012 }]", "notch = [{ lower = [-1.0, -1.0], upper = [0.011, 1.0] }]")
+
+
 def blocks_of(data):
     """Leaves of whatever tree a reader makes."""
     found = []
@@ -98,7 +132,7 @@ def size_of(block):
 def view(folder, cell):
     """In pvpython."""
     from paraview import servermanager, simple
-    dimension = 2 if cell in ("tri3", "quad4", "tri6", "quad8", "quad9") else 3
+    dimension = 2 if cell in ("tri3", "quad4", "tri6", "quad8", "quad9", "mixed") else 3
     failures = 0
 
     def expect(condition, what):
@@ -125,8 +159,10 @@ def view(folder, cell):
             opening.append(bodies.GetPointData().GetArray("displacement").GetRange(dimension - 1)[1])
             expect(0.0 <= zeta[0] <= zeta[1] <= 1.0, f"{name}: zeta from {zeta[0]:.3g} to {zeta[1]:.3g} at {time:.3g}")
         expect(all(abs(u - 1e-3 * t) < 1e-6 for u, t in zip(opening, times)), f"{name}: the opening follows the load: {opening}")
-        faces = LINES if CELLS[cell][1] == 3 else (CELLS[cell][1],)
-        expect(bodies.GetCellType(0) == CELLS[cell][0] and face.GetCellType(0) in faces, f"{name}: types of cells")
+        kind = CELLS.get(cell, (0, 3))[1]
+        faces = LINES if kind == 3 else (kind,)
+        kinds = {bodies.GetCellType(i) for i in range(bodies.GetNumberOfCells())}
+        expect(kinds == ({5, 9} if cell == "mixed" else {CELLS[cell][0]}) and face.GetCellType(0) in faces, f"{name}: types of cells")
         expect([bodies.GetPointData().GetArray(i).GetName() for i in range(bodies.GetPointData().GetNumberOfArrays())] == ["displacement"]
                and {"body", "stress", "rotation"} == {bodies.GetCellData().GetArray(i).GetName() for i in range(bodies.GetCellData().GetNumberOfArrays())},
                f"{name}: arrays of the bodies")
@@ -146,9 +182,13 @@ def view(folder, cell):
 
 def main():
     from support import delam, expect, finish, folder, write
-    for cell in CELLS:
+    for cell in [*CELLS, "mixed"]:
         out = folder()
-        code, _, error = delam("run", write(scene(cell)), "--out", out)
+        path = write(mixed_scene() if cell == "mixed" else scene(cell))
+        if cell == "mixed":
+            with open(os.path.join(os.path.dirname(path), "mixed.msh"), "w", encoding="utf-8") as file:
+                file.write(mixed_mesh())
+        code, _, error = delam("run", path, "--out", out)
         expect(code == 0, f"a run with {cell} {error.strip()}")
         done = subprocess.run(["pvpython", "--force-offscreen-rendering", os.path.abspath(__file__), out, cell], capture_output=True, text=True,
                               timeout=300, check=False)
