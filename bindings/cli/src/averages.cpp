@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "build_constraints.hpp"
 #include "call.hpp"
 
 namespace cli {
@@ -15,7 +16,12 @@ std::optional<AverageColumn> average_column(const std::string& key, const Scene&
             if (scene.layers[i].name == key.substr(colon + 1)) column.body = static_cast<std::int32_t>(i);
         if (column.body < 0) return std::nullopt;
     }
-    const std::string name = key.substr(0, colon);
+    std::string name = key.substr(0, colon);
+    const std::string cell = "cell_";
+    if (scene.cell && column.body < 0 && name.rfind(cell, 0) == 0) {
+        column.cell = true;
+        name.erase(0, cell.size());
+    }
     constexpr std::array components{"xx", "yy", "zz", "xy", "yz", "zx"};
     for (const bool stress : {false, true})
         for (std::size_t i = 0; i < components.size(); ++i) {
@@ -26,13 +32,17 @@ std::optional<AverageColumn> average_column(const std::string& key, const Scene&
     return std::nullopt;
 }
 
-double average_of(const Model& model, const delam_solver* solver, const AverageColumn& column) {
+double average_of(const Model& model, const Scene& scene, delam_solver* solver, const AverageColumn& column) {
+    if (column.cell && !column.stress) return cell_strain(model, scene, solver)[column.component];
     std::array<double, 6> values{};
+    double volume = 0;
     call(model.context.get(),
-         delam_solver_average(solver, column.body, nullptr, column.stress ? nullptr : values.data(),
+         delam_solver_average(solver, column.body, &volume, column.stress ? nullptr : values.data(),
                               column.stress ? values.data() : nullptr),
          std::string("volume average"));
-    return values[column.component];
+    // Tractions across interfaces balance: the stress of the cell is the integral over its bodies.
+    const double share = column.cell ? volume / cell_volume(model, scene) : 1.0;
+    return share * values[column.component];
 }
 
 }  // namespace cli

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "build_constraints.hpp"
 #include "build_materials.hpp"
 #include "build_mesh.hpp"
 #include "call.hpp"
@@ -180,6 +181,7 @@ Model build(Context context, const Scene& scene) {
     }
     for (const Prescription& data : scene.prescriptions) prescribe(model, scene, data);
     for (const DeadForce& data : scene.forces) add_force(model, scene, data);
+    add_constraints(model, scene);
     for (const EigenstrainData& data : scene.eigenstrains)
         call(owner,
              delam_problem_add_eigenstrain(problem, static_cast<std::int64_t>(data.pattern), data.body, data.strain.data()),

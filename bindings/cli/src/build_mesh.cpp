@@ -7,11 +7,77 @@
 #include <fmt/format.h>
 
 #include "call.hpp"
+#include "selection.hpp"
 #include "wildcard.hpp"
 
 namespace cli {
 
 namespace {
+
+// The same mesh with the control nodes after its own nodes.
+delam_mesh* append_controls(Model& model, const Scene& scene) {
+    const delam_context* context = model.context.get();
+    const Place& place = scene.geometry.place;
+    const Mesh layers = std::move(model.mesh);
+    std::int64_t nodes = 0;
+    std::int64_t cells = 0;
+    std::int64_t entries = 0;
+    call(context, delam_mesh_size(layers.get(), nullptr, &nodes, &cells, nullptr, nullptr), place);
+    call(context, delam_mesh_cells(layers.get(), nullptr, nullptr, nullptr, 0, nullptr, &entries), place);
+    std::vector<double> coordinates(static_cast<std::size_t>(nodes * scene.geometry.dimension));
+    std::vector<std::int32_t> types(static_cast<std::size_t>(cells));
+    std::vector<std::int32_t> bodies(types.size());
+    std::vector<std::int64_t> offsets(types.size() + 1);
+    std::vector<std::int64_t> connectivity(static_cast<std::size_t>(entries));
+    call(context, delam_mesh_nodes(layers.get(), nodes * scene.geometry.dimension, coordinates.data()), place);
+    call(context,
+         delam_mesh_cells(layers.get(), types.data(), bodies.data(), offsets.data(), entries, connectivity.data(), nullptr),
+         place);
+    for (const ControlData& control : scene.controls)
+        coordinates.insert(coordinates.end(), control.at.begin(), control.at.end());
+    delam_mesh* handle = nullptr;
+    const std::int32_t status =
+        delam_mesh_create(model.context.get(), scene.geometry.dimension,
+                          nodes + static_cast<std::int64_t>(scene.controls.size()), coordinates.data(), &handle);
+    model.mesh.reset(handle);
+    call(context, status, place);
+    // All layers have cells of one type.
+    call(context, delam_mesh_add_cells(handle, scene.geometry.cell_type, cells, connectivity.data(), bodies.data(), 0), place);
+    return handle;
+}
+
+// Contact alone, between what lies on a plane and the control node that carries the plane.
+void add_obstacles(Model& model, const Scene& scene) {
+    const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
+    for (const ObstacleData& data : scene.obstacles) {
+        const Selected at = select(model.context.get(), model.mesh.get(), scene, data.where, true);
+        if (at.weights.empty()) throw SceneFailure(data.place, "a patch, or a set of faces, is needed");
+        // Into the body: against the outward normal.
+        std::vector<std::int64_t> nodes;
+        std::vector<double> normals;
+        for (std::size_t i = 0; i < at.nodes.size(); ++i) {
+            nodes.push_back(at.nodes[i]);
+            const auto* patch = std::get_if<Patch>(&data.where.shape);
+            for (std::size_t a = 0; a < dimension; ++a)
+                normals.push_back(patch != nullptr ? -patch->normal[a] : -at.normals[i * dimension + a]);
+        }
+        std::int64_t index = 0;
+        call(model.context.get(),
+             delam_mesh_add_obstacle(
+                 model.mesh.get(), static_cast<std::int64_t>(nodes.size()), nodes.data(), normals.data(), nullptr,
+                 control_node(model.context.get(), model.mesh.get(), scene, data.control, data.place), 0, &index),
+             data.place);
+        std::int32_t body = 0;
+        call(model.context.get(),
+             delam_mesh_interface_size(model.mesh.get(), index, nullptr, &body, nullptr, nullptr, nullptr), data.place);
+        InterfaceData interface;
+        interface.lower = interface.upper = static_cast<std::size_t>(body);
+        interface.name = data.name;
+        interface.contact = true;
+        interface.place = data.place;
+        model.interfaces.push_back(std::move(interface));
+    }
+}
 
 void build_layers(Model& model, const Scene& scene) {
     std::vector<double> thickness;
@@ -27,6 +93,7 @@ void build_layers(Model& model, const Scene& scene) {
         static_cast<std::int64_t>(thickness.size()), thickness.data(), divisions.data(), geometry.cell_type, &handle);
     model.mesh.reset(handle);
     call(model.context.get(), status, geometry.place);
+    if (!scene.controls.empty()) handle = append_controls(model, scene);
     for (const InterfaceData& interface : scene.interfaces) {
         std::int64_t index = 0;
         call(model.context.get(),
@@ -121,10 +188,12 @@ void add_other_interfaces(Model& model, const Scene& scene) {
 void build_from(Model& model, const Scene& scene) {
     const MeshData& data = *scene.mesh;
     const Place& place = scene.geometry.place;
+    std::vector<double> nodes = data.nodes;
+    for (const ControlData& control : scene.controls) nodes.insert(nodes.end(), control.at.begin(), control.at.end());
     delam_mesh* handle = nullptr;
     const std::int32_t status =
         delam_mesh_create(model.context.get(), data.dimension,
-                          static_cast<std::int64_t>(data.nodes.size()) / data.dimension, data.nodes.data(), &handle);
+                          static_cast<std::int64_t>(nodes.size()) / data.dimension, nodes.data(), &handle);
     model.mesh.reset(handle);
     call(model.context.get(), status, place);
     for (const CellBlock& block : data.blocks)
@@ -220,6 +289,7 @@ void build_mesh(Model& model, const Scene& scene) {
         build_from(model, scene);
     else
         build_layers(model, scene);
+    add_obstacles(model, scene);
 }
 
 bool set_mesh_adhesion(const Model& model, const Scene& scene, std::int64_t index, const InterfaceData& data) {

@@ -52,7 +52,9 @@ XdmfBlock write_interface(const Model& model, const InterfaceData& data, std::in
     std::int64_t faces = 0;
     std::int32_t per_face = 0;
     const delam_mesh* mesh = model.mesh.get();
-    call(model.context.get(), delam_mesh_interface_size(mesh, index, nullptr, nullptr, &pairs, &faces, &per_face),
+    std::int32_t body_a = 0;
+    std::int32_t body_b = 0;
+    call(model.context.get(), delam_mesh_interface_size(mesh, index, &body_a, &body_b, &pairs, &faces, &per_face),
          what);
     std::vector<std::int64_t> a(static_cast<std::size_t>(pairs));
     std::vector<std::int64_t> b(a.size());
@@ -63,13 +65,15 @@ XdmfBlock write_interface(const Model& model, const InterfaceData& data, std::in
          delam_mesh_interface_pairs(mesh, index, a.data(), b.data(), weights.data(), frames.data()), what);
     call(model.context.get(), delam_mesh_interface_faces(mesh, index, connectivity.data()), what);
     std::vector<double> at(3 * a.size());
+    // An obstacle's node a is the control node, wherever that lies.
+    const std::vector<std::int64_t>& place = body_a < 0 ? b : a;
     for (std::size_t i = 0; i < a.size(); ++i)
-        std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(3 * a[i]), 3,
+        std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(3 * place[i]), 3,
                     at.begin() + static_cast<std::ptrdiff_t>(3 * i));
     const h5::Group group(h5::new_group(parent, "interface_" + std::to_string(index)), "fields.h5");
     h5::attribute(group.get(), "name", data.name);
-    h5::attribute(group.get(), "body_a", static_cast<std::int64_t>(data.lower));
-    h5::attribute(group.get(), "body_b", static_cast<std::int64_t>(data.upper));
+    h5::attribute(group.get(), "body_a", std::int64_t{body_a});
+    h5::attribute(group.get(), "body_b", std::int64_t{body_b});
     h5::write(group.get(), "points", at, 3);
     h5::write(group.get(), "faces", connectivity, static_cast<std::size_t>(per_face));
     h5::write(group.get(), "nodes_a", a, 0);

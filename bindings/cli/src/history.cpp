@@ -29,7 +29,7 @@ constexpr const char* of_cracks[] = {"crack_length", "energy_release_rate", "fro
 
 }  // namespace
 
-History::History(const Model& model, const delam_solver* solver, const Scene& scene) : model_(model), context_(model.context.get()) {
+History::History(const Model& model, const delam_solver* solver, const Scene& scene) : model_(model), scene_(scene), context_(model.context.get()) {
     std::int64_t count = 0;
     call(context_, delam_solver_value_count(solver, &count), std::string("history"));
     std::vector<std::string> known;
@@ -64,7 +64,7 @@ History::History(const Model& model, const delam_solver* solver, const Scene& sc
     if (std::any_of(model.interfaces.begin(), model.interfaces.end(), breaks))
         for (const char* key : of_cracks)
             if (knows(key)) add(key, key);
-    if (!scene.forces.empty()) add("load_potential", "load_potential");
+    if (const auto forces = force_patterns(scene); std::find(forces.begin(), forces.end(), true) != forces.end()) add("load_potential", "load_potential");
     for (const std::string& key : scene.output.columns) {
         const std::optional<AverageColumn> average = average_column(key, scene);
         if (average) averages_[key] = *average;
@@ -93,7 +93,7 @@ std::string History::header() const {
 
 double History::value(delam_solver* solver, const std::string& key) const {
     double out = 0;
-    if (const auto average = averages_.find(key); average != averages_.end()) return average_of(model_, solver, average->second);
+    if (const auto average = averages_.find(key); average != averages_.end()) return average_of(model_, scene_, solver, average->second);
     if (!key.empty()) call(context_, delam_solver_value(solver, key.c_str(), &out), "value " + key);
     return out;
 }

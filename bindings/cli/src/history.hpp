@@ -26,6 +26,7 @@ public:
 
 private:
     const Model& model_;
+    const Scene& scene_;
     const delam_context* context_;
     struct Column {
         std::string title;

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "build_constraints.hpp"
 #include "call.hpp"
 #include "concept.hpp"
 
@@ -44,10 +45,9 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
     call(model.context.get(), delam_problem_dofs(model.problem.get(), &primal, &dual),
          std::string("numbers of unknowns"));
     Json patterns = Json::array();
+    const std::vector<bool> force = force_patterns(scene);
     for (std::size_t i = 0; i < scene.patterns.size(); ++i) {
-        bool force = false;
-        for (const DeadForce& data : scene.forces) force = force || data.pattern == i;
-        patterns.push_back({{"name", scene.patterns[i].name}, {"drives", force ? "force" : "displacement"}});
+        patterns.push_back({{"name", scene.patterns[i].name}, {"drives", force[i] ? "force" : "displacement"}});
     }
     Json layers = Json::array();
     for (const Layer& layer : scene.layers) layers.push_back(layer.name);
@@ -81,6 +81,7 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
         {"unknowns", {{"primal", primal}, {"dual", dual}}},
         {"layers", layers},
         {"patterns", patterns},
+        {"cell", scene.cell ? Json{{"volume", cell_volume(model, scene)}, {"periods", scene.cell->periods}} : Json(nullptr)},
         {"output",
          {{"snapshots", scene.output.snapshots},
           {"displacement_scale", scene.output.displacement_scale},

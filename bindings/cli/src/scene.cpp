@@ -278,7 +278,8 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& settin
     if (const auto schema = root.whole("schema", 1); schema != 1)
         root.fail("schema", fmt::format("{} is not known to this program: 1 is", schema));
     root.only({"schema", "title", "geometry", "layers", "mesh", "bodies", "materials", "laws", "interfaces", "patterns",
-               "supports", "loads", "forces", "thermal", "eigenstrains", "time", "solver", "output", "units"});
+               "supports", "loads", "forces", "thermal", "eigenstrains", "controls", "equations", "couplings", "obstacles",
+               "cell", "time", "solver", "output", "units"});
     scene.title = root.text("title", "");
     if (root.has("mesh")) {
         for (const char* key : {"geometry", "layers"})
@@ -298,14 +299,25 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& settin
     else
         read_interfaces(root, scene);
     read_patterns(root, scene);
+    read_controls(root, scene);
     read_supports_and_loads(root, scene);
     read_forces(root, scene);
     read_eigenstrains(root, scene);
+    read_constraints(root, scene);
     read_time(root, scene);
     read_options(root, scene);
     read_output(root, scene);
     read_units(root, scene);
     return scene;
+}
+
+std::vector<bool> force_patterns(const Scene& scene) {
+    std::vector<bool> out(scene.patterns.size(), false);
+    for (const DeadForce& data : scene.forces) out[data.pattern] = true;
+    if (scene.cell)
+        for (const CellComponent& component : scene.cell->components)
+            for (const Term& term : component.terms) out[term.pattern] = out[term.pattern] || component.stress;
+    return out;
 }
 
 }  // namespace cli

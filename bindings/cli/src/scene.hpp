@@ -106,8 +106,13 @@ struct NamedSet {
     std::string name;
 };
 
+// A node without cells, by its index in [[controls]].
+struct ControlNode {
+    std::size_t index = 0;
+};
+
 struct Selection {
-    std::variant<Point, Box, Patch, NamedSet> shape;
+    std::variant<Point, Box, Patch, NamedSet, ControlNode> shape;
     std::int32_t body = -1;
     double tolerance = 0;
     Place place;
@@ -124,6 +129,57 @@ struct Prescription {
     std::vector<std::vector<double>> directions;
     std::vector<Term> terms;
     bool mean = false;  // of a set of faces: the mean over them alone
+    Place place;
+};
+
+// A node without cells that carries displacements or forces of others.
+struct ControlData {
+    std::string name;
+    std::vector<double> at;
+    Place place;
+};
+
+// One side of an equation: coefficient * direction . u of a node, or of the weighted mean over a patch.
+struct EquationTerm {
+    Selection where;
+    std::vector<double> direction;
+    double coefficient = 1;
+};
+struct EquationData {
+    std::vector<EquationTerm> left;
+    std::vector<Term> right;  // empty: 0
+    Place place;
+};
+
+// Nodes that move with a control node along some directions.
+struct CouplingData {
+    Selection where;
+    std::vector<std::vector<double>> directions;
+    std::size_t control = 0;
+    Place place;
+};
+
+// A rigid plane that a control node carries; what lies on it can leave it.
+struct ObstacleData {
+    Selection where;  // patch or set
+    std::string name;
+    std::size_t control = 0;
+    Place place;
+};
+
+// A periodic cell: which components of average strain (shears doubled) or stress follow which patterns.
+struct CellComponent {
+    std::size_t i = 0, j = 0;
+    bool stress = false;
+    std::vector<Term> terms;
+    Place place;
+};
+struct CellData {
+    std::vector<std::vector<double>> periods;
+    std::vector<std::size_t> axes;      // that the periods lie along, as many
+    std::vector<std::size_t> controls;  // of each period
+    std::vector<CellComponent> components;
+    double tolerance = 0;
     Place place;
 };
 
@@ -191,6 +247,11 @@ struct Scene {
     std::vector<Prescription> prescriptions;  // supports, then loads
     std::vector<DeadForce> forces;
     std::vector<EigenstrainData> eigenstrains;
+    std::vector<ControlData> controls;
+    std::vector<EquationData> equations;
+    std::vector<CouplingData> couplings;
+    std::vector<ObstacleData> obstacles;
+    std::optional<CellData> cell;
     std::vector<double> times;  // instants, the first is that of the initial state
     std::vector<SolverOption> options;
     Output output;
@@ -202,5 +263,7 @@ struct Scene {
 // settings: KEY=VALUE, applied in turn (setting.hpp). Throws SceneFailure with file, line, key, value and allowed
 // range.
 Scene read_scene(const std::string& file, const std::vector<std::string>& settings);
+// Per pattern: whether it drives forces, of [[forces]] or as a stress of the cell.
+std::vector<bool> force_patterns(const Scene& scene);
 
 }  // namespace cli

@@ -9,11 +9,10 @@
 
 namespace cli {
 
-namespace {
-
 // Keys that say where something acts, common to supports, loads and forces.
 std::vector<std::string> with_selection(const Scene& scene, std::vector<std::string> keys) {
     for (const char* key : {"name", "point", "box", "patch", "tolerance"}) keys.emplace_back(key);
+    if (!scene.controls.empty()) keys.emplace_back("control");
     if (scene.mesh) {
         keys.emplace_back("set");
         keys.emplace_back("body");
@@ -22,6 +21,8 @@ std::vector<std::string> with_selection(const Scene& scene, std::vector<std::str
     }
     return keys;
 }
+
+namespace {
 
 std::size_t axis_of(const Table& table, std::string_view key, char letter, const Geometry& geometry) {
     const std::string axes = geometry.dimension == 2 ? "xy" : "xyz";
@@ -56,7 +57,9 @@ Patch read_patch(const Table& table, const Geometry& geometry) {
     return patch;
 }
 
-Selection read_selection(const Table& table, const Scene& scene) {
+}  // namespace
+
+Selection read_selection(const Table& table, const Scene& scene, bool control) {
     const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
     Selection out;
     out.place = table.place();
@@ -64,13 +67,15 @@ Selection read_selection(const Table& table, const Scene& scene) {
     const std::string body = scene.mesh ? "body" : "layer";
     if (table.has(body))
         out.body = static_cast<std::int32_t>(find_named(table, body, table.text(body), scene.layers, body));
-    const int shapes =
-        int{table.has("point")} + int{table.has("box")} + int{table.has("patch")} + int{table.has("set")};
+    const int shapes = int{table.has("point")} + int{table.has("box")} + int{table.has("patch")} +
+                       int{table.has("set")} + int{control && table.has("control")};
     const bool whole = scene.mesh && shapes == 0 && table.has("body");
     if (shapes != 1 && !whole)
         table.fail("point", fmt::format("give one of point, box{} ({} are given)",
                                         scene.mesh ? ", patch, set and body" : " and patch", shapes));
-    if (whole) {
+    if (control && table.has("control")) {
+        out.shape = ControlNode{find_named(table, "control", table.text("control"), scene.controls, "control node")};
+    } else if (whole) {
         out.shape = NamedSet{};
     } else if (table.has("set")) {
         out.shape = NamedSet{set_name(table, "set", scene)};
@@ -90,6 +95,8 @@ Selection read_selection(const Table& table, const Scene& scene) {
     return out;
 }
 
+namespace {
+
 std::vector<double> read_direction(const Table& table, const Geometry& geometry) {
     std::vector<double> direction =
         table.numbers("direction", any_number, static_cast<std::size_t>(geometry.dimension));
@@ -97,6 +104,8 @@ std::vector<double> read_direction(const Table& table, const Geometry& geometry)
         table.fail("direction", "is zero: any length > 0");
     return direction;
 }
+
+}  // namespace
 
 // Either `direction` or components by letter under `key`.
 std::vector<std::vector<double>> read_directions(const Table& table, std::string_view key, const Geometry& geometry) {
@@ -132,6 +141,8 @@ std::vector<Term> read_terms(const Table& table, const Scene& scene) {
     return out;
 }
 
+namespace {
+
 // Of a set of faces a mean may be prescribed, as of a patch.
 std::vector<std::string> with_mean(const Scene& scene, std::vector<std::string> keys) {
     if (scene.mesh) keys.emplace_back("mean");
@@ -154,7 +165,8 @@ void read_force(const Table& table, const Scene& scene, DeadForce& force) {
         return;
     }
     const char* key = table.has("traction") ? "traction" : "pressure";
-    if (table.has("point")) table.fail(key, "is force per area: a point has none, give force");
+    if (table.has("point") || table.has("control"))
+        table.fail(key, "is force per area: a single node has none, give force");
     if (table.has("traction")) {
         force.kind = ForceKind::traction;
         force.force = table.numbers("traction", any_number, dimension);

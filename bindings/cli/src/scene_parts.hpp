@@ -22,6 +22,17 @@ void read_patterns(const Table& root, Scene& scene);
 void read_supports_and_loads(const Table& root, Scene& scene);
 void read_forces(const Table& root, Scene& scene);
 void read_eigenstrains(const Table& root, Scene& scene);
+// [[controls]], before anything that may name one; the periods of a [cell] have control nodes of their own.
+void read_controls(const Table& root, Scene& scene);
+// [[equations]], [[couplings]], [[obstacles]] and [cell].
+void read_constraints(const Table& root, Scene& scene);
+
+// Where something acts, and along which components: common to supports, loads, forces and constraints (scene_loads.cpp).
+std::vector<std::string> with_selection(const Scene& scene, std::vector<std::string> keys);
+// control: whether the key `control` is such a place; couplings and obstacles name by it whom they move with.
+Selection read_selection(const Table& table, const Scene& scene, bool control = true);
+std::vector<std::vector<double>> read_directions(const Table& table, std::string_view key, const Geometry& geometry);
+std::vector<Term> read_terms(const Table& table, const Scene& scene);
 
 // Index of the named entry (anything with .name), or an error at `key` that suggests near names. what: "layer", "law",
 // ...

@@ -46,7 +46,7 @@ Selected select_point(const delam_context* context, const delam_mesh* mesh, cons
     double nearest = std::numeric_limits<double>::infinity();
     std::size_t nearest_node = 0;
     for (std::size_t i = 0; i < nodes.bodies.size(); ++i) {
-        if (selection.body >= 0 && nodes.bodies[i] != selection.body) continue;
+        if (nodes.bodies[i] < 0 || (selection.body >= 0 && nodes.bodies[i] != selection.body)) continue;
         double square = 0;
         for (std::size_t a = 0; a < dimension; ++a)
             square += std::pow(nodes.coordinates[i * dimension + a] - point.at[a], 2);
@@ -87,12 +87,17 @@ Selected select_box(const delam_context* context, const delam_mesh* mesh, const 
     std::int64_t count = 0;
     call(context, delam_mesh_find_nodes(mesh, selection.body, lower.data(), upper.data(), 0, nullptr, &count),
          selection.place);
-    if (count == 0)
-        throw SceneFailure(selection.place, fmt::format("no node is in the box {} .. {}", box.lower, box.upper));
     out.nodes.resize(static_cast<std::size_t>(count));
     call(context,
          delam_mesh_find_nodes(mesh, selection.body, lower.data(), upper.data(), count, out.nodes.data(), &count),
          selection.place);
+    // Control nodes and tied nodes may lie there too.
+    const std::vector<std::int32_t> bodies = all_nodes(context, mesh, selection.place).bodies;
+    out.nodes.erase(std::remove_if(out.nodes.begin(), out.nodes.end(),
+                                   [&](std::int64_t node) { return bodies[static_cast<std::size_t>(node)] < 0; }),
+                    out.nodes.end());
+    if (out.nodes.empty())
+        throw SceneFailure(selection.place, fmt::format("no node is in the box {} .. {}", box.lower, box.upper));
     return out;
 }
 
@@ -151,12 +156,25 @@ Selected select_set(const delam_context* context, const delam_mesh* mesh, const 
 
 }  // namespace
 
+// Those of a mesh that was read follow its own nodes, before all copies; those of layers come last.
+std::int64_t control_node(const delam_context* context, const delam_mesh* mesh, const Scene& scene, std::size_t index,
+                          const Place& place) {
+    if (scene.mesh)
+        return static_cast<std::int64_t>(scene.mesh->nodes.size()) / scene.mesh->dimension +
+               static_cast<std::int64_t>(index);
+    std::int64_t count = 0;
+    call(context, delam_mesh_size(mesh, nullptr, &count, nullptr, nullptr, nullptr), place);
+    return count - static_cast<std::int64_t>(scene.controls.size()) + static_cast<std::int64_t>(index);
+}
+
 Selected select(const delam_context* context, const delam_mesh* mesh, const Scene& scene, const Selection& selection,
                 bool faces) {
     if (const auto* set = std::get_if<NamedSet>(&selection.shape)) {
         if (faces) return select_faces(context, mesh, scene, selection, set->name);
         return select_set(context, mesh, scene, selection, set->name);
     }
+    if (const auto* control = std::get_if<ControlNode>(&selection.shape))
+        return {{control_node(context, mesh, scene, control->index, selection.place)}, {}, {}};
     if (const auto* point = std::get_if<Point>(&selection.shape))
         return select_point(context, mesh, scene, selection, *point);
     if (const auto* box = std::get_if<Box>(&selection.shape)) return select_box(context, mesh, selection, *box);

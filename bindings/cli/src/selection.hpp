@@ -21,4 +21,8 @@ struct Selected {
 Selected select(const delam_context* context, const delam_mesh* mesh, const Scene& scene, const Selection& selection,
                 bool faces = false);
 
+// Node of a control node.
+std::int64_t control_node(const delam_context* context, const delam_mesh* mesh, const Scene& scene, std::size_t index,
+                          const Place& place);
+
 }  // namespace cli

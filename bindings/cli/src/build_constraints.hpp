@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Equations, couplings and periodic cells, from the scene into the problem.
+#pragma once
+
+#include <array>
+
+#include "build.hpp"
+
+namespace cli {
+
+// After the patterns.
+void add_constraints(const Model& model, const Scene& scene);
+
+// Volume (2D: area) of the cell: that of its periods, times the extent of the mesh across them.
+double cell_volume(const Model& model, const Scene& scene);
+// Average strain of the cell, openings of interfaces included: xx, yy, zz, xy, yz, zx, shears doubled. From the control
+// nodes alone.
+std::array<double, 6> cell_strain(const Model& model, const Scene& scene, delam_solver* solver);
+
+}  // namespace cli
