@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "body/rotation.hpp"
 #include "evolution/backtrack.hpp"
+#include "evolution/fronts.hpp"
 #include "evolution/step_control.hpp"
 #include "scene/strain_loads.hpp"
 
@@ -169,7 +170,8 @@ std::optional<CrackedInterface> Solver::cracked(const State& state, std::int64_t
                             std::span(state.response.jump).subspan(first * dim, count * dim)};
 }
 
-// A zone that is cut short where a front comes to rest was longer before it ran: the better of both states counts. The energetic solution knows the
+// A front has grown where a pair broke: until the first one does, the zone is still forming. A zone that is cut short where a front comes
+// to rest was longer before it ran: the better of both states counts. The energetic solution knows the
 // front by its energy, which needs no resolved zone; Griffith's law has none.
 void Solver::warn_of_unresolved_front(const State& before, const State& after) {
     if (warned_of_front_ || problem_.options.solution == "energetic") return;
@@ -178,7 +180,7 @@ void Solver::warn_of_unresolved_front(const State& before, const State& after) {
         if (!now || std::holds_alternative<GriffithSoftening>(now->law.softening)) continue;
         bool grown = false;
         for (std::size_t p = 0; p < now->adhesion.size(); ++p)
-            grown = grown || (then->adhesion[p] >= front_adhesion && now->adhesion[p] < front_adhesion);
+            grown = grown || (then->adhesion[p] > debonded_below && now->adhesion[p] <= debonded_below);
         if (!grown) continue;
         double pairs = -1.0;
         for (const CrackedInterface* state : {&*then, &*now})
