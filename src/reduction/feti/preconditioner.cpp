@@ -43,24 +43,36 @@ FetiPreconditioner::FetiPreconditioner(const DualRows& rows, const std::vector<S
     if (kind_ == Kind::series) build_pattern();
 }
 
-// base = E^T S~ E, assembled subdomain by subdomain from the jump rows that meet it.
+// base = E^T S~ E, assembled subdomain by subdomain from the jump rows that meet it: W S W^T with W the subdomain's part of E^T B_D. A row
+// has one entry in W where two nodes are paired, but all of a face's where nodes are tied to faces: two products, not a double sum.
 void FetiPreconditioner::build_pattern() {
     struct Touch {
-        std::int64_t row;
+        std::int64_t row;  // position among the rows that meet the subdomain
         std::int64_t dof;
         double value;
     };
     std::vector<Triplet> triplets;
     for (std::size_t s = 0; s < subdomains_.size(); ++s) {
         std::vector<Touch> touches;
+        std::vector<std::int64_t> met;
         for (std::int64_t d = rows_.offset[s]; d < rows_.offset[s + 1]; ++d)
             for (std::int64_t e = scaled_transposed_.start[index(d)]; e < scaled_transposed_.start[index(d) + 1]; ++e)
-                if (scaled_transposed_.column[index(e)] < rows_.jump_count)
+                if (scaled_transposed_.column[index(e)] < rows_.jump_count) {
                     touches.push_back({scaled_transposed_.column[index(e)], d - rows_.offset[s], scaled_transposed_.value[index(e)]});
-        triplets.reserve(triplets.size() + touches.size() * touches.size());
-        for (const Touch& i : touches)
-            for (const Touch& j : touches)
-                triplets.push_back({i.row, j.row, i.value * j.value * subdomains_[s].schur(i.dof, j.dof)});
+                    met.push_back(touches.back().row);
+                }
+        std::sort(met.begin(), met.end());
+        met.erase(std::unique(met.begin(), met.end()), met.end());
+        for (Touch& t : touches) t.row = std::lower_bound(met.begin(), met.end(), t.row) - met.begin();
+        const auto rows = static_cast<std::int64_t>(met.size());
+        DenseMatrix half(subdomains_[s].schur.rows, rows), block(rows, rows);  // S W^T, W S W^T
+        for (const Touch& t : touches)
+            for (std::int64_t i = 0; i < half.rows; ++i) half(i, t.row) += t.value * subdomains_[s].schur(i, t.dof);
+        for (std::int64_t j = 0; j < rows; ++j)
+            for (const Touch& t : touches) block(t.row, j) += t.value * half(t.dof, j);
+        triplets.reserve(triplets.size() + met.size() * met.size());
+        for (std::int64_t j = 0; j < rows; ++j)
+            for (std::int64_t i = 0; i < rows; ++i) triplets.push_back({met[index(i)], met[index(j)], block(i, j)});
     }
     for (const auto& dependency : scaling_.dependencies)  // room for z z^T
         for (const std::int64_t i : dependency.row)

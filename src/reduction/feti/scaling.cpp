@@ -71,6 +71,13 @@ struct ClusterBlock {
     }
 };
 
+DenseMatrix transposed(const DenseMatrix& a) {
+    DenseMatrix out(a.columns, a.rows);
+    for (std::int64_t j = 0; j < a.columns; ++j)
+        for (std::int64_t i = 0; i < a.rows; ++i) out(j, i) = a(i, j);
+    return out;
+}
+
 // A^+ from the eigenpairs of A >= 0.
 DenseMatrix pseudo_inverse(const Eigen& eigen) {
     const std::int64_t n = eigen.vector.rows;
@@ -81,10 +88,7 @@ DenseMatrix pseudo_inverse(const Eigen& eigen) {
         const double inverse = value > dependence * largest ? 1.0 / value : 0.0;
         for (std::int64_t i = 0; i < n; ++i) scaled(i, j) *= inverse;
     }
-    DenseMatrix transposed(n, n);
-    for (std::int64_t j = 0; j < n; ++j)
-        for (std::int64_t i = 0; i < n; ++i) transposed(i, j) = eigen.vector(j, i);
-    return multiply(scaled, transposed);
+    return multiply(scaled, transposed(eigen.vector));
 }
 
 // Which of the jump rows (they come first in a cluster) lie in the span of the other kinds of rows?
@@ -144,11 +148,7 @@ Scaling make_scaling(const DualRows& rows, const std::vector<Subdomain>& subdoma
         for (std::int64_t d = 0; d < weighted.columns; ++d)
             for (std::int64_t i = 0; i < n; ++i)
                 weighted(i, d) *= inverse_weight[static_cast<std::size_t>(block.dof[static_cast<std::size_t>(d)])];
-        DenseMatrix gram(n, n);
-        for (std::int64_t i = 0; i < n; ++i)
-            for (std::int64_t j = 0; j < n; ++j)
-                for (std::int64_t d = 0; d < weighted.columns; ++d) gram(i, j) += weighted(i, d) * block.b(j, d);
-        const Eigen eigen = eigen_symmetric(gram);
+        const Eigen eigen = eigen_symmetric(multiply(weighted, transposed(block.b)));
         const DenseMatrix b_d = multiply(pseudo_inverse(eigen), weighted);
         for (std::int64_t i = 0; i < n; ++i)
             for (std::int64_t d = 0; d < b_d.columns; ++d)
