@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""examples/run.sh: which names it knows, what it would run for each, and that every scene it knows is correct."""
+"""examples/run.sh: which names it knows, what it would run for each; the slides' families are checked, the other scenes are
+run at a coarse size."""
 import os
 import subprocess
 
+from coarse_scenes import COARSE, coarse_run, sound
 from support import delam, expect, finish
 
 EXAMPLES = os.environ["DELAM_EXAMPLES"]
@@ -19,7 +21,7 @@ def script(*words):
 
 code, out, _ = script("--list")
 names = out.split()
-expected = {"enf", "enf-modified", "enf-modified-h0.1", *FAMILIES, *(f"{f}-h{h}" for f in FAMILIES for h in SIZES)}
+expected = {"enf", "enf-modified", "enf-modified-h0.1", *COARSE, *FAMILIES, *(f"{f}-h{h}" for f in FAMILIES for h in SIZES)}
 expect(code == 0 and len(names) == len(set(names)) and set(names) == expected, "--list names all scenes, each once")
 
 code, out, _ = script("--dry-run")
@@ -53,4 +55,9 @@ for family in (*FAMILIES, "enf-modified", "enf"):
             concept = "energetic" if "energetic" in family or "modified" in family else "local"
             rule = "converged" if "converged" in family or family == "mmf-brittle-energetic" else "frozen"
             expect(f"solution = {concept}, mixity_rule = {rule}" in out, f"{family}: {concept}, {rule}")
+
+for name, (settings, checks) in COARSE.items():
+    run = coarse_run(os.path.join(EXAMPLES, name, name + ".toml"), settings)
+    for check in (sound, *checks) if run else ():
+        check(name, run)
 finish()

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scenes of examples/ at a size that takes seconds, and what has to hold of their results. A new scene is a row of COARSE."""
+import csv
+import json
+import os
+
+import h5py
+import numpy as np
+
+from support import delam, expect, folder
+
+
+class Run:
+    """A result: `history` by column, `about` is result.json, `fields()` the open fields.h5."""
+
+    def __init__(self, out):
+        self.out = out
+        with open(os.path.join(out, "history.csv"), newline="", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+        self.history = {name: np.array([float(row[i]) for row in rows[1:]]) for i, name in enumerate(rows[0])
+                        if name not in ("solution", "mixity_rule")}
+        with open(os.path.join(out, "result.json"), encoding="utf-8") as file:
+            self.about = json.load(file)
+
+    def fields(self):
+        return h5py.File(os.path.join(self.out, "fields.h5"), "r")
+
+
+def coarse_run(scene, settings):
+    """None, and a failure noted, where the march does not come to its end with every step converged."""
+    out = os.path.join(folder(), "result")
+    words = [word for setting in settings for word in ("--set", setting)]
+    code, _, error = delam("run", scene, "--out", out, *words)
+    # Of the progress only what says how it ended.
+    expect(code == 0, f"{os.path.basename(scene)} runs, every step converged {error.strip().splitlines()[-3:] if code else ''}")
+    return Run(out) if code == 0 else None
+
+
+def last_step(file):
+    return file["steps"][sorted(file["steps"])[-1]]
+
+
+def sound(name, run):
+    """Of every scene: energies within their bounds, no energy out of nothing, damage that only grows."""
+    h = run.history
+    size = max(np.abs(h["stored_bulk"]).max(), np.abs(h["work"]).max())
+    expect(np.all(h["lower"] <= h["increment"] + 1e-3 * size) and np.all(h["increment"] <= h["upper"] + 1e-3 * size),
+           f"{name}: the two-sided estimate holds")
+    stored = h["stored_bulk"] + h["stored_interface"] + h.get("load_potential", 0)
+    gain = (stored - stored[0] + h["dissipated"] - h["work"]).max() / size
+    expect(gain < 0.01, f"{name}: no more is stored and dissipated than work was done: excess {gain:.1e} of the work")
+    expect(np.all(np.diff(h["dissipated"]) >= -1e-9 * size), f"{name}: dissipated energy never falls")
+
+
+def grows(name, run):
+    """A crack that advances while the load is on."""
+    h = run.history
+    start, end = h["crack_length"][0], h["crack_length"][-1]
+    expect(end > 1.05 * start and h["dissipated"][-1] > 0.1 * h["work"][-1],
+           f"{name}: the crack grows, {start:.4g} to {end:.4g}")
+
+
+def softens(name, run):
+    """The load passes a peak and falls from it."""
+    reaction = run.history["reaction"]
+    peak = int(reaction.argmax())
+    expect(0 < peak < len(reaction) - 1 and reaction[-1] < 0.9 * reaction[peak],
+           f"{name}: peak {reaction[peak]:.4g} in step {peak}, {reaction[-1]:.4g} at the end")
+
+
+def mirrored(name, run):
+    """Equal arms pulled apart: displacements are mirrored about the interface."""
+    with run.fields() as file:
+        x, u = file["mesh/points"][()], last_step(file)["displacement"][()]
+        up = 1 if run.about["scene"]["dimension"] == 2 else 2
+        body = np.zeros(len(x), dtype=int)
+        cells, of = file["mesh/cells"][()], file["mesh/body"][()]
+        body[cells[of == 1].ravel()] = 1
+    flip = np.array([-1.0 if i == up else 1.0 for i in range(3)])
+    middle = x[body == 1][:, up].min()
+    lower, upper = np.flatnonzero(body == 0), np.flatnonzero(body == 1)
+    seen = x[lower] * flip
+    seen[:, up] += 2 * middle
+    # The same order on both sides, by rounded place.
+    key = np.round(1e9 * seen).astype(np.int64), np.round(1e9 * x[upper]).astype(np.int64)
+    first, second = lower[np.lexsort(key[0].T)], upper[np.lexsort(key[1].T)]
+    worst = np.abs(u[first] * flip - u[second]).max() / np.abs(u).max()
+    expect(worst < 1e-6, f"{name}: the arms mirror each other, to {worst:.1e} of the largest displacement")
+
+
+def both_open(name, run):
+    """Two delaminations: both grow, and what lies between them touches where a crack is shut."""
+    with run.fields() as file:
+        first, last = file["steps"][sorted(file["steps"])[0]], last_step(file)
+        for interface in sorted(file["interfaces"]):
+            weights = file["interfaces"][interface]["weights"][()]
+            before, after = ((weights * (1 - step[interface]["zeta"][()])).sum() for step in (first, last))
+            expect(after > before + 0.01, f"{name}: {interface} loses {after - before:.3g} of adhesion")
+            gap = last[interface]["jump"][()][:, 0]
+            expect(gap.min() >= -1e-9, f"{name}: {interface} does not overlap, gap >= {gap.min():.1e}")
+    expect(run.history["contact_pairs"].max() > 10, f"{name}: shut cracks touch")
+
+
+def front_of(run, interface="interface_0"):
+    """The front of the last step as x over y, [points][2], sorted by y; None where there is none."""
+    with run.fields() as file:
+        group = last_step(file)[interface]
+        if "front_points" not in group:
+            return None
+        points = group["front_points"][()][:, :2]
+    return points[np.argsort(points[:, 1])]
+
+
+def ahead_in_the_middle(name, run):
+    """The front in space: ahead at mid-width (y = 0), behind at the free edge."""
+    front = front_of(run)
+    bow = front[0, 0] - front[-1, 0]
+    expect(bow > 0 and front[:, 0].argmax() < len(front) // 2, f"{name}: at mid-width the front is ahead by {bow:.3g}")
+
+
+# Scene: settings of its coarse size, and what must hold of its result besides `sound`.
+COARSE = {
+    "dcb-alfano": (["geometry.divisions=400", "time.steps=50"], [grows, softens, mirrored]),
+    "dcb-krueger": (["geometry.divisions=600", "time.steps=70"], [grows, softens, mirrored]),
+    "dcb-double": (["geometry.divisions=200"], [grows, softens, both_open]),
+    "dcb-3d": (["geometry.divisions=[40, 6]", "time.steps=28"], [grows, softens, mirrored, ahead_in_the_middle]),
+    "enf-3d": (["geometry.divisions=[68, 6]", "time.steps=20"], [grows]),
+}
