@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of a result of `delam run`: plot.py DIR writes DIR/load-displacement.png, energies.png and snapshots.png.
+"""Pictures of a result of `delam run`: plot.py DIR writes DIR/load-displacement.png, energies.png and snapshots.png,
+stress-strain.png where the history has averages of both.
 
 Reads DIR/history.csv, fields.h5 and result.json. Needs Debian's python3-numpy, python3-matplotlib and python3-h5py.
 """
@@ -10,11 +11,13 @@ import sys
 import h5py
 import matplotlib
 import numpy as np
-from matplotlib.collections import LineCollection
+from matplotlib.collections import LineCollection, PolyCollection
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from result import BLUE, GREEN, GREY, ORANGE, RED, Result, axis, early_end, plt, zoom
 
+# Pale tones of the bodies: the first has the first, the others the rest by turns.
+BODIES = ["#f4f1e8", "#dde5ee", "#e6ebdf"]
 ZETA = matplotlib.colors.LinearSegmentedColormap.from_list(
     "zeta", ["#b3122a", "#f2a541", "#f5e9b8", "#2b6cb0", "#0b2e59"])
 
@@ -51,6 +54,31 @@ def plot_load(result):
     figure.suptitle(result.title("load and displacement"), fontsize=11)
     result.stamp(figure)
     result.save(figure, "load-displacement.png")
+
+
+def plot_averages(result):
+    """Average stress over average strain."""
+    averages = result.averages()
+    if not averages:
+        return
+    factor, unit = result.stress_unit()
+    figure, ax = plt.subplots(figsize=(6.8, 4.4), layout="constrained")
+    for component, strain, stress in averages:
+        line, = ax.plot(100 * strain, stress / factor, label=component)
+        # The stiffness of the beginning, as far as the picture is high.
+        if strain[1] != strain[0]:
+            slope = (stress[1] - stress[0]) / (strain[1] - strain[0])
+            end = min(np.abs(strain).max(), 1.05 * np.abs(stress).max() / abs(slope)) if slope else 0
+            ax.plot([0, 100 * end], [0, slope * end / factor], color=line.get_color(), linewidth=0.8, linestyle=":")
+    ax.set_xlabel("average strain [%]")
+    ax.set_ylabel(axis("average stress", unit))
+    if len(averages) > 1:
+        ax.legend()
+    else:
+        ax.set_title(averages[0][0], fontsize=10, loc="left")
+    figure.suptitle(result.title("average stress and strain"), fontsize=11)
+    result.stamp(figure)
+    result.save(figure, "stress-strain.png")
 
 
 def draw_energies(ax, result):
@@ -134,6 +162,16 @@ def ring_edges(cells):
     return np.concatenate([cells[:, pair] for pair in ring])
 
 
+def cell_outlines(file):
+    """The corners of all plane cells of one kind and one tone, and the tone."""
+    cells, body = file["mesh/cells"][()], file["mesh/body"][()]
+    number = (cells >= 0).sum(1)
+    tone = np.where(body == 0, 0, 1 + (body + 1) % 2)
+    for n in np.unique(number):
+        for t in np.unique(tone[number == n]):
+            yield cells[(number == n) & (tone == t)][:, :{3: 3, 4: 4, 6: 3, 8: 4, 9: 4}[n]], BODIES[t]
+
+
 def boundary_edges(blocks):
     """Edges of plane cells that belong to one cell only, and all edges."""
     edges = np.concatenate([ring_edges(cells) for cells in blocks])
@@ -179,8 +217,13 @@ def four_digits(value):
 
 
 def load_text(result, time):
-    """Load and reaction at the row of this time."""
+    """Load and reaction at the row of this time; of a cell the average strain and stress that it prints."""
     row = int(np.argmin(np.abs(result.history["time"] - time)))
+    averages = result.averages()
+    if result.cell and averages:
+        component, strain, stress = averages[0]
+        factor, unit = result.stress_unit()
+        return (f"strain {component} {100 * strain[row]:.3g} %, stress {four_digits(stress[row] / factor)} {unit}")
     _, drives, load, reaction = result.patterns()[0]
     return (f"load {four_digits(result.history[load][row])}" + (f" {result.length}" if drives != "force" else "") +
             (f", reaction {four_digits(result.history[reaction][row])} {result.force}" if drives != "force" else ""))
@@ -189,6 +232,8 @@ def load_text(result, time):
 def draw_plane(ax, file, step, scale, light_mesh):
     points = file["mesh/points"][:, :2]
     moved = points + scale * step["displacement"][:, :2]
+    for outlines, colour in cell_outlines(file):
+        ax.add_collection(PolyCollection(moved[outlines], facecolors=colour, edgecolors="none", antialiased=False))
     outline, edges = boundary_edges(cell_blocks(file))
     if light_mesh:
         ax.add_collection(LineCollection(moved[edges], colors="#d3d7dd", linewidths=0.25))
@@ -327,6 +372,7 @@ def main():
         print(f"plot.py: {folder} holds no result: {error.filename} is missing", file=sys.stderr)
         return 2
     plot_load(result)
+    plot_averages(result)
     plot_energies(result)
     plot_snapshots(result)
     return 0

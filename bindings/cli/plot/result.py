@@ -62,6 +62,7 @@ class Result:
         # The last columns are words: which solution the row belongs to.
         self.history = {name: np.array([float(row[i]) for row in rows[1:]]) for i, name in enumerate(rows[0])
                         if name not in ("solution", "mixity_rule")}
+        self.cell = self.about.get("cell")
         units = self.about["units"]
         flat = self.about["scene"]["dimension"] == 2
         self.length, self.time = units["length"], units["time"]
@@ -88,6 +89,23 @@ class Result:
             return [(first["name"], first["drives"], "load", "reaction")]
         return [(p["name"], p["drives"], "load_" + p["name"], "reaction_" + p["name"]) for p in names]
 
+    def averages(self):
+        """(component, strain, stress) of those in the history: of the periodic cell, else of all bodies."""
+        h = self.history
+        for prefix in ("cell_", ""):
+            found = [(c, h[f"{prefix}strain_{c}"], h[f"{prefix}stress_{c}"]) for c in ("xx", "yy", "zz", "xy", "yz", "zx")
+                     if {f"{prefix}strain_{c}", f"{prefix}stress_{c}"} <= h.keys()]
+            if found:
+                return found
+        return []
+
+    def stress_unit(self):
+        """What to divide stresses by, and the unit they have then."""
+        units = self.about["units"]
+        if (units["force"], units["length"]) == ("N", "m"):
+            return 1e6, "MPa"
+        return 1.0, f"{units['force']}/{units['length']}²" if units["force"] and units["length"] else ""
+
     def load_curve(self, pattern=0):
         """Displacement and load. Of a dead force the factor is the load and minus the reaction the displacement of its
         points."""
@@ -97,6 +115,11 @@ class Result:
         return self.history[load], self.history[reaction]
 
     def label_load(self, axes, pattern=0):
+        if self.cell:
+            for ax in axes:
+                ax.set_xlabel("load factor")
+            axes[0].set_ylabel(axis("conjugate of the factor", self.energy))
+            return
         force = self.patterns()[pattern][1] == "force"
         for ax in axes:
             ax.set_xlabel(axis("conjugate displacement" if force else "prescribed displacement", self.length))
