@@ -91,6 +91,8 @@ CASE_TEST(patch) {
     const std::string where = std::to_string(d) + "D, " + reduction;
     cases::expect_below(stress_error(d, 2, 4, reduction), 1e-9, where + ", b refines a");
     cases::expect_below(stress_error(d, 3, 3, reduction), 1e-9, where + ", matching");
+    // Many nodes on faces of one body: rows of FETI that all hang together.
+    cases::expect_below(stress_error(d, 6, 12, reduction), 1e-9, where + ", 12 faces on 6");
     double before = 1.0;
     std::string table;
     for (const std::int64_t n : {4, 5, 7}) {
