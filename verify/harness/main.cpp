@@ -18,6 +18,10 @@ int main(int argc, char** argv) {
         } else if (std::strcmp(argv[i], "--finest") == 0 && i + 1 < argc) {
             options.finest = 1e-3 * std::strtod(argv[++i], nullptr);
             understood = understood && options.finest > 0.0;
+        } else if (std::strcmp(argv[i], "--scene") == 0 && i + 1 < argc) {
+            options.scene = argv[++i];
+        } else if (std::strcmp(argv[i], "--set") == 0 && i + 1 < argc) {
+            options.settings.emplace_back(argv[++i]);
         } else if (name == nullptr && argv[i][0] != '-') {
             name = argv[i];
         } else {
@@ -35,6 +39,9 @@ int main(int argc, char** argv) {
                   {"jump-instant", harness::jump_instant},
                   {"estimate", harness::estimate},
                   {"convergence", harness::convergence},
+#ifdef DELAM_SCENE_FILES
+                  {"scene-direct", harness::scene_direct},
+#endif
                   {"sets", harness::sets}};
     for (const auto& table : tables) {
         if (!understood || name == nullptr || std::strcmp(name, table.name) != 0) continue;
@@ -48,7 +55,8 @@ int main(int argc, char** argv) {
         }
     }
     std::fprintf(stderr,
-                 "usage: delam_harness [--json] [--quick] [--finest MM] TABLE\n"
-                 "tables: pcg, contact, balance, feti-direct, energetic, jump-instant, estimate, convergence, sets\n");
+                 "usage: delam_harness [--json] [--quick] [--finest MM] [--scene FILE [--set KEY=VALUE ...]] TABLE\n"
+                 "tables: pcg, contact, balance, feti-direct, energetic, jump-instant, estimate, convergence, sets, "
+                 "scene-direct (of --scene)\n");
     return 1;
 }

@@ -32,6 +32,8 @@ struct Options {
     bool json = false;
     bool quick = false;
     double finest = 0.0;  // m: finer meshes are left out
+    std::string scene;    // a scene file
+    std::vector<std::string> settings;  // KEY=VALUE for it
 };
 
 Table pcg(const Options& options);
@@ -43,6 +45,9 @@ Table jump_instant(const Options& options);
 Table estimate(const Options& options);
 Table convergence(const Options& options);
 Table sets(const Options& options);
+#ifdef DELAM_SCENE_FILES
+Table scene_direct(const Options& options);
+#endif
 
 // One line on stderr, so that long tables show where they are.
 void progress(const std::string& text);

@@ -54,6 +54,19 @@ Scene Scene::conforming(int dimension, const std::vector<double>& nodes, std::in
     return scene;
 }
 
+Scene Scene::adopt(Context context, Mesh mesh, Problem problem, std::vector<InterfaceStiffness> stiffness) {
+    Scene scene;
+    scene.context_ = std::move(context);
+    scene.mesh_ = std::move(mesh);
+    scene.problem_ = std::move(problem);
+    scene.stiffness_ = std::move(stiffness);
+    std::int32_t dimension = 0;
+    scene.require(delam_mesh_size(scene.mesh(), &dimension, nullptr, nullptr, nullptr, nullptr), "delam_mesh_size");
+    scene.dimension_ = dimension;
+    scene.adopt_mesh();
+    return scene;
+}
+
 void Scene::adopt_mesh() {
     std::int64_t count = 0;
     require(delam_mesh_size(mesh(), nullptr, &count, nullptr, nullptr, nullptr), "delam_mesh_size");

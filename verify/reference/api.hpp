@@ -72,6 +72,9 @@ public:
     static Scene conforming(int dimension, const std::vector<double>& nodes, std::int32_t cell_type,
                             const std::vector<std::int64_t>& cells, const std::vector<std::int32_t>& bodies);
 
+    // Of handles that are there already, with the stiffness of each interface: nothing is left to add but options.
+    static Scene adopt(Context context, Mesh mesh, Problem problem, std::vector<InterfaceStiffness> stiffness);
+
     std::int64_t interface(std::int32_t body_a, std::int32_t body_b);
     std::int64_t projected(std::int32_t body_a, std::int32_t body_b, double gap = 0.0);
     std::int64_t obstacle(const std::vector<std::int64_t>& nodes, const std::vector<double>& normals, std::int64_t control_node);
@@ -117,10 +120,11 @@ public:
     const std::vector<InterfaceStiffness>& stiffness() const { return stiffness_; }
 
 private:
+    Scene() = default;
     Scene(int dimension, const std::vector<double>& nodes);
     void adopt_mesh();
 
-    int dimension_;
+    int dimension_ = 0;
     Context context_;
     Mesh mesh_;
     std::vector<double> nodes_;

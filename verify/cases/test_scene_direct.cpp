@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Scene files of examples/ at a coarse size: condensed and FETI against the direct reference, at states of their marches.
+#include <string>
+#include <vector>
+
+#include "scene_file.hpp"
+#include "support.hpp"
+
+namespace {
+
+struct Case {
+    const char* name;
+    std::vector<std::string> settings;
+    std::vector<std::size_t> steps;
+    std::int64_t subdomains;  // 0: those of the library's choice
+    double bound = 1e-8;
+    bool stalls = false;      // FETI may stop above its linear tolerance, for rounding
+};
+
+const Case scenes[] = {
+    {"mmb", {"geometry.divisions=200", "time.steps=40"}, {10, 24, 40}, 0},
+    {"4enf", {"geometry.divisions=100", "time.steps=22"}, {5, 14, 22}, 6},
+    // A strip of 200 mm by 0.265 mm: its rows of the stiffness cancel to nine digits in FETI's subdomains.
+    {"dcb-double", {"geometry.divisions=100", "time.steps=20"}, {5, 12, 20}, 0, 1e-6, true},
+    {"enf-3d", {"geometry.divisions=[34, 4]", "time.steps=10"}, {4, 10}, 0},
+    {"fibres-30", {"mesh.fibres=6", "mesh.cells_around=16", "mesh.gap=0.3", "time.steps=10"}, {2, 5, 10}, 0, 1e-7},
+};
+
+CASE_TEST(scene_files) {
+    const Case& scene = scenes[loop];
+    reference::SceneFile file =
+        reference::read_scene_file(std::string(DELAM_EXAMPLES) + "/" + scene.name + "/" + scene.name + ".toml", scene.settings);
+    for (const reference::Judged& row : reference::judge(file, scene.steps, scene.subdomains)) {
+        const std::string where = std::string(scene.name) + " at " + std::to_string(row.time) + ", " +
+                                  std::to_string(100.0 * row.debonded) + " % debonded, " + std::to_string(row.closed) + " closed, ";
+        cases::expect(scene.stalls || !row.stalled, where + "FETI converges");
+        cases::expect_below(row.condensed.worst(), scene.bound, where + "condensed: " + row.condensed.text());
+        cases::expect_below(row.feti.worst(), scene.bound, where + "FETI: " + row.feti.text());
+    }
+}
+
+}  // namespace
+
+int main() {
+    Suite* suite = suite_create("scene files");
+    TCase* tests = tcase_create("direct reference");
+    tcase_add_loop_test(tests, scene_files, 0, static_cast<int>(std::size(scenes)));
+    suite_add_tcase(suite, tests);
+    return cases::run_suite(suite);
+}
