@@ -248,7 +248,7 @@ def draw_plane(ax, file, step, scale, light_mesh):
         for side in ("nodes_a", "nodes_b"):
             at = moved[file["interfaces"][name][side][()]]
             lines = faces if faces.shape[1] == 2 else np.concatenate([faces[:, [0, 2]], faces[:, [2, 1]]])
-            drawn = LineCollection(at[lines], cmap=ZETA, linewidths=2.0, norm=plt.Normalize(0, 1))
+            drawn = LineCollection(at[lines], cmap=ZETA, linewidths=2.0, norm=plt.Normalize(0, 1), snap=False)
             drawn.set_array(zeta[lines].mean(axis=1))
             ax.add_collection(drawn)
     return drawn
@@ -284,8 +284,17 @@ def plot_plane(result, file, shots, scale):
     return figure, axes, drawn
 
 
+def lit(faces):
+    """Colours of faces [n][4][3] in light from above, in front and the right, by their normals."""
+    normal = np.cross(faces[:, 2] - faces[:, 0], faces[:, 3] - faces[:, 1])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    light = np.array([0.35, -0.5, 0.8])
+    shade = 0.72 + 0.28 * np.clip(normal @ light / np.linalg.norm(light), -0.6, 1.0)
+    return np.column_stack([shade[:, None] * np.array([0.80, 0.84, 0.89]), np.ones(len(shade))])
+
+
 def plot_solid(result, file, shots, scale):
-    """Bodies as a transparent skin above; the adhesion of the interfaces as maps seen from above below it."""
+    """Bodies above; the adhesion of the interfaces as maps seen from above below it."""
     columns = min(len(shots), 5)
     rows = -(-len(shots) // columns)
     points = file["mesh/points"][()]
@@ -299,12 +308,12 @@ def plot_solid(result, file, shots, scale):
         row, column = divmod(i, columns)
         moved = points + scale * step["displacement"][()]
         ax = figure.add_subplot(grid[row * (1 + len(names)), column], projection="3d")
-        ax.add_collection3d(Poly3DCollection(moved[skin], facecolor=(0.75, 0.79, 0.84, 0.25), edgecolor="#8b9199",
-                                                linewidths=0.15))
+        ax.add_collection3d(Poly3DCollection(moved[skin], facecolors=lit(moved[skin]), edgecolors="#50555c",
+                                                linewidths=min(0.3, 400 / len(skin)), clip_on=False))
         extent = np.ptp(moved, axis=0)
         for setter, a in ((ax.set_xlim, 0), (ax.set_ylim, 1), (ax.set_zlim, 2)):
             setter(moved[:, a].min(), moved[:, a].max())
-        ax.set_box_aspect(np.maximum(extent, 0.05 * extent.max()), zoom=1.35)
+        ax.set_box_aspect(np.maximum(extent, 0.05 * extent.max()), zoom=1.15)
         ax.view_init(elev=18, azim=-62)
         ax.set_axis_off()
         ax.set_title(f"t = {time:.6g}\n{load_text(result, time)}", fontsize=8)

@@ -85,8 +85,8 @@ formulation = "incompatible"
 name = "resin"
 normal_stiffness = 1e14
 tangential_stiffness = 1e14
-normal_onset = 1.125
-tangential_onset = 1.125
+normal_onset = 0.32
+tangential_onset = 0.32
 normal_toughness = 170.3
 tangential_toughness = 170.3
 [[interfaces]]
@@ -123,8 +123,8 @@ def front_in_plane(of):
 
 
 # Without strain across the width a slab in space is the plane one, whatever its width: discretised the same way, so to rounding and what the
-# tolerance of the damage leaves. A wide beam with a free edge differs by that edge: the load per width by about (1 arm)/(half of the
-# width), and the front at mid-width by no more than a cell, 0.75 mm.
+# tolerance of the damage leaves. A wide beam with a free edge differs by that edge: little as long as nothing breaks, then by no more than the
+# rows of cells (0.75 mm) that one of them breaks earlier, 3 % of the load each, and much less on average.
 plane = coarse_run(beam(2, 80, 0.0, ""), [])
 slab = coarse_run(beam(3, "[80, 2]", 0.004, side(0.004, 1)), [])
 wide = coarse_run(beam(3, "[80, 8]", 0.025, side(0.025, 0)), [])
@@ -134,12 +134,16 @@ if plane and slab and wide:
         expect(np.abs(solid - flat).max() < 1e-4 * np.abs(flat).max(),
                f"plane strain in space: {key} differs by {np.abs(solid - flat).max() / np.abs(flat).max():.1e}")
     flat, solid = plane.history["reaction"], wide.history["reaction"] / 0.025
-    off = np.abs(solid - flat).max() / flat.max()
-    expect(off < 0.05, f"wide beam: load per width within {100 * off:.2f} % of the plane one, in all steps")
+    off, peak = solid[1:] / flat[1:] - 1, int(flat.argmax())
+    mean = solid[peak:].mean() / flat[peak:].mean() - 1
+    expect(np.abs(off[:peak - 1]).max() < 3e-3 and np.abs(off).max() < 0.035 and abs(mean) < 0.01,
+           f"wide beam: load per width within {100 * np.abs(off[:peak - 1]).max():.2f} % of the plane one before the peak, "
+           f"{100 * np.abs(off).max():.2f} % in all steps, {100 * mean:+.2f} % on average after it")
     front = front_of(wide)
-    off = front[0, 0] - front_in_plane(plane)
-    expect(abs(off) <= 0.75e-3 and front_in_plane(plane) > 0.036,
+    off = front[0, 0] + 0.375e-3 - front_in_plane(plane)  # half a cell: what is called front in space and in the plane
+    expect(abs(off) <= 0.375e-3 and front_in_plane(plane) > 0.036,
            f"wide beam: front at mid-width {1e3 * front[0, 0]:.2f} mm, in the plane {1e3 * front_in_plane(plane):.2f} mm")
+    resolved("plane beam", plane)
     expect(0 < front[0, 0] - front[-1, 0] < 2.5e-3 and np.all(np.abs(front[front[:, 1] < 0.02, 0] - front[0, 0]) < 0.75e-3),
            f"wide beam: straight but for the edge, where the front is {1e3 * (front[0, 0] - front[-1, 0]):.2f} mm behind")
 finish()
