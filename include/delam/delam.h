@@ -488,7 +488,7 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   contact_pairs          pairs in contact
  *   debonded_length        L (2D) or L2 (3D): weight of the pairs that adhered at first and now have zeta <= 1e-3
  *   front                  L or L2: advance of the front, sum of weight (1 - zeta) over the pairs that adhered at first
- *   process_zone           L or L2: weight of the pairs with 1e-3 < zeta < 1 - 1e-3
+ *   process_zone           L or L2: weight of the pairs in the process zone (see delam_solver_front)
  *   backtracks             returns to an earlier step that this step has made (option backtracking)
  *   revisions              how often this step has been replaced after a return
  *   revised_from           first step that the returns of this step have replaced; its own number: none
@@ -563,8 +563,9 @@ DELAM_API int32_t delam_solver_front_count(const delam_solver *solver, int64_t i
  *                             over the interface from the open crack to beyond the process zone, plus the energy that the layer holds where that ends
  *                             (Rice 1968); in all, int Y dzeta/dx dx. On a stiff interface with a sharp front this is virtual crack closure, 1/2 traction times
  *                             opening behind; it equals Gc where a front grows steadily. The end of the path and closed contact have no influence.
- *   zone_lengths, zone_pairs  [points]  process zone, 1e-3 < zeta < (1 - 1e-3) of the initial adhesion: extent along the direction, and
- *                             pairs in it; below about 3 its traction, and with it the load of a local march, depends on the mesh
+ *   zone_lengths, zone_pairs  [points]  process zone, the pairs that have lost 1e-3 of their adhesion and have 1e-3 of their toughness, at the mixity
+ *                             of their jump, left to spend: extent along the direction, and pairs in it; below about 3 its traction, and with it the load
+ *                             of a local march, depends on the mesh
  * Exact in the limit of fine pairs for straight interfaces between bodies that do not vary along them, without eigenstrains; on curved interfaces
  * (radius not much larger than the process zone), with thermal strains or where materials change along the interface it is approximate. 3D: each part
  * of the integral goes to the nearest point of a front; on a single point it scatters more than along the front. Unresolved fronts on the pairs of

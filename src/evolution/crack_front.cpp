@@ -4,13 +4,40 @@
 #include <algorithm>
 #include <cmath>
 
-#include "evolution/fronts.hpp"
+#include "interface/mixity.hpp"
 #include "mesh/faces.hpp"
 
 namespace delam {
 
-bool in_process_zone(double initial, double adhesion) {
-    return adhesion > debonded_below && adhesion < (1.0 - debonded_below) * initial;
+namespace {
+
+constexpr double zone_ends = 1e-3;
+
+double mixity_of(const CrackedInterface& interface, std::int64_t pair) {
+    const SpaceJump jump = jump_of(interface, pair);
+    double shear = 0.0;
+    for (const double component : jump.tangential) shear += component * component;
+    return mode_mixity(0.5 * interface.law.normal_stiffness * jump.normal * jump.normal, 0.5 * interface.law.tangential_stiffness * shear);
+}
+
+}  // namespace
+
+bool in_process_zone(const CrackedInterface& interface, std::int64_t pair) {
+    return interface.adhesion[at(pair)] < (1.0 - zone_ends) * interface.initial[at(pair)] && !spent(interface, pair);
+}
+
+bool spent(const CrackedInterface& interface, std::int64_t pair) {
+    const double adhesion = interface.adhesion[at(pair)];
+    if (!(adhesion > 0.0)) return true;
+    const Toughness toughness = interface.law.toughness(mixity_of(interface, pair));
+    return interface.law.dissipated(toughness, adhesion) >= (1.0 - zone_ends) * toughness.total;
+}
+
+double process_zone(const CrackedInterface& interface) {
+    double zone = 0.0;
+    for (std::size_t p = 0; p < interface.adhesion.size(); ++p)
+        if (in_process_zone(interface, static_cast<std::int64_t>(p))) zone += interface.geometry.weight[p];
+    return zone;
 }
 
 std::vector<PairPiece> pair_pieces(const InterfaceGeometry& geometry, int dimension) {

@@ -54,8 +54,13 @@ struct CrackedInterface {
 
 // Adhesion where a front lies.
 inline constexpr double front_adhesion = 0.5;
-// Does a pair lie in the process zone? Its ends are a thousandth of the adhesion.
-bool in_process_zone(double initial, double adhesion);
+// Does a pair lie in the process zone? It has lost a thousandth of its adhesion, and a thousandth of its toughness is left to spend. The adhesion
+// alone does not tell where the zone ends: past the onset it is below (onset jump)/(jump), little throughout the zone of a stiff interface.
+bool in_process_zone(const CrackedInterface& interface, std::int64_t pair);
+// Behind it: all but a thousandth of the toughness is spent, or it never adhered.
+bool spent(const CrackedInterface& interface, std::int64_t pair);
+// Weight of these pairs, L or L2.
+double process_zone(const CrackedInterface& interface);
 // Neither damaged nor open from the start: where the adhesion of two such pairs differs, it is no work of a crack.
 inline bool undamaged(double initial, double adhesion) { return initial > 0.0 && adhesion >= initial; }
 

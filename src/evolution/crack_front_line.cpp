@@ -110,7 +110,7 @@ public:
         const std::int64_t step = front.adhering - front.open;
         for (std::int64_t i = front.from; i != front.to; i += step) add_links(i, i + step, out);
         for (std::int64_t i = front.from;; i += step) {
-            if (in_process_zone(initial(i), adhesion(i))) {
+            if (in_process_zone(interface_, pair(i))) {
                 out.zone += weight(i);
                 out.zone_pairs += 1.0;
             }

@@ -272,7 +272,7 @@ std::vector<CrackFront> crack_fronts_on_faces(const CrackedInterface& interface)
             give(triangle.centre(), [&](FrontPoint& point, double share) { triangle.add_to(point, part * share); });
         }
     for (std::size_t p = 0; p < interface.adhesion.size(); ++p)
-        if (in_process_zone(interface.initial[p], interface.adhesion[p]))
+        if (in_process_zone(interface, static_cast<std::int64_t>(p)))
             give(place_of(interface, static_cast<std::int64_t>(p)),
                  [&](FrontPoint& point, double share) { point.zone += share * interface.geometry.weight[p]; });
     for (std::size_t f = 0; f < fronts.size(); ++f)

@@ -180,7 +180,7 @@ void Solver::warn_of_unresolved_front(const State& before, const State& after) {
         if (!now || std::holds_alternative<GriffithSoftening>(now->law.softening)) continue;
         bool grown = false;
         for (std::size_t p = 0; p < now->adhesion.size(); ++p)
-            grown = grown || (then->adhesion[p] > debonded_below && now->adhesion[p] <= debonded_below);
+            grown = grown || (!spent(*then, static_cast<std::int64_t>(p)) && spent(*now, static_cast<std::int64_t>(p)));
         if (!grown) continue;
         double pairs = -1.0;
         for (const CrackedInterface* state : {&*then, &*now})
@@ -235,6 +235,11 @@ const std::vector<CrackFront>& Solver::crack_fronts(std::int64_t interface) cons
 double Solver::crack_length(std::int64_t interface) const {
     const std::optional<CrackedInterface> of = cracked(state(), interface);
     return of ? delam::crack_length(*of) : 0.0;
+}
+
+double Solver::process_zone(std::int64_t interface) const {
+    const std::optional<CrackedInterface> of = cracked(state(), interface);
+    return of ? delam::process_zone(*of) : 0.0;
 }
 
 const std::vector<double>& Solver::displacement() const {

@@ -75,6 +75,7 @@ public:
     const std::vector<CrackFront>& crack_fronts(std::int64_t interface) const;
     // L or L2; 0 where it has no law.
     double crack_length(std::int64_t interface) const;
+    double process_zone(std::int64_t interface) const;
     // rad; recovers the displacements. Warns once of more than 0.1.
     double largest_rotation() const;
     // Of a body (index), -1: of all; recovers the displacements.

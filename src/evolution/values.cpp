@@ -11,9 +11,6 @@ namespace delam {
 
 namespace {
 
-// Above it adhesion counts as intact; between debonded_below and this lies the process zone.
-constexpr double intact_above = 1.0 - 1e-3;
-
 double count(std::int64_t n) { return static_cast<double>(n); }
 std::int64_t count_of_interfaces(const Problem& problem) { return static_cast<std::int64_t>(problem.interfaces.size()); }
 
@@ -157,7 +154,9 @@ constexpr Entry table[] = {
     {"front", [](const Solver& s) { return over_bond(s, [](double zeta) { return 1.0 - zeta; }); }},
     {"process_zone",
      [](const Solver& s) {
-         return over_bond(s, [](double zeta) { return zeta > debonded_below && zeta < intact_above ? 1.0 : 0.0; });
+         double sum = 0.0;
+         for (std::int64_t i = 0; i < count_of_interfaces(s.problem()); ++i) sum += s.process_zone(i);
+         return sum;
      }},
     {"backtracks", [](const Solver& s) { return count(s.state().counts.backtracks); }},
     {"revisions", [](const Solver& s) { return count(s.state().counts.revisions); }},

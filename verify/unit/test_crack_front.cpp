@@ -27,6 +27,8 @@ struct Bed {
     explicit Bed(Mesh made) : mesh(std::move(made)) {
         law.normal_stiffness = 3.0;
         law.tangential_stiffness = 5.0;
+        law.normal_onset = law.tangential_onset = 1.0;
+        law.normal_toughness = law.tangential_toughness = 2.0;
         initial.assign(geometry().weight.size(), 1.0);
         adhesion = initial;
         jump.assign(adhesion.size() * static_cast<std::size_t>(mesh.dimension()), 0.0);
@@ -158,6 +160,33 @@ struct Kind {
 };
 constexpr Kind kinds[] = {{CellType::hex8, 20}, {CellType::tet4, 20}, {CellType::hex20, 10}, {CellType::tet10, 10}};
 
+// A stiff interface: the jump rises by unit steps from the onset s_0 = 1e-5 s_c to s_c = 8, where the adhesion is (s_0/s)(s_c - s)/(s_c - s_0),
+// at most 1e-5 in between. Its process zone is where the traction falls, not where the adhesion is far from 0 and 1.
+START_TEST(zone_of_a_stiff_interface) {
+    const double s_c = 8.0, s_0 = 1e-5 * s_c;
+    for (const bool space : {false, true}) {
+        Bed bed = space ? Bed::layers({20.0, 2.0}, {20, 2}, CellType::hex8) : Bed::layers({20.0}, {20}, CellType::quad4);
+        bed.law.normal_onset = 0.5 * bed.law.normal_stiffness * s_0 * s_0;
+        bed.law.normal_toughness = 0.5 * bed.law.normal_stiffness * s_0 * s_c;
+        bed.law.tangential_onset = bed.law.normal_onset;
+        bed.law.tangential_toughness = bed.law.normal_toughness;
+        const auto jump = [](double x, double) { return std::max(12.5 - x, 0.0); };  // onset ahead of x = 12, end at 4.5
+        bed.open(jump, none);
+        bed.set(bed.adhesion, [&](double x, double y) {
+            const double s = jump(x, y);
+            return s <= s_0 ? 1.0 : std::max(s_0 / s * (s_c - s) / (s_c - s_0), 0.0);
+        });
+        const std::vector<CrackFront> fronts = bed.fronts();
+        ck_assert_uint_eq(fronts.size(), 1);
+        for (const FrontPoint& point : fronts[0].points) {
+            near(point.zone, 8.0, 1e-9);  // 5 .. 12
+            near(point.zone_pairs, 8.0, 1e-9);
+        }
+        near(process_zone(bed.interface()), space ? 16.0 : 8.0, 1e-9);
+    }
+}
+END_TEST
+
 // A straight front across the width, a blister inside: an open line and a loop on one interface.
 START_TEST(contours) {
     const Kind kind = kinds[_i];
@@ -239,6 +268,7 @@ int main() {
     tcase_add_loop_test(fronts, ring, 0, 4);
     tcase_add_loop_test(fronts, contours, 0, 4);
     tcase_add_test(fronts, zones_in_space);
+    tcase_add_test(fronts, zone_of_a_stiff_interface);
     tcase_add_test(fronts, saddles);
     suite_add_tcase(suite, fronts);
     SRunner* runner = srunner_create(suite);

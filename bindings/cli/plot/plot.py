@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of a result of `delam run`: plot.py DIR writes DIR/load-displacement.png, energies.png and snapshots.png,
-stress-strain.png where the history has averages of both.
+stress-strain.png where the history has averages of both, fronts.png of fronts in space.
 
 Reads DIR/history.csv, fields.h5 and result.json. Needs Debian's python3-numpy, python3-matplotlib and python3-h5py.
 """
@@ -14,6 +14,7 @@ import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
+from fronts import chosen_interfaces, plan_of, plot_fronts, triangles_of
 from result import BLUE, GREEN, GREY, ORANGE, RED, Result, axis, early_end, plt, zoom
 
 # Pale tones of the bodies: the first has the first, the others the rest by turns.
@@ -237,7 +238,7 @@ def draw_plane(ax, file, step, scale, light_mesh):
     outline, edges = boundary_edges(cell_blocks(file))
     if light_mesh:
         ax.add_collection(LineCollection(moved[edges], colors="#d3d7dd", linewidths=0.25))
-    ax.add_collection(LineCollection(moved[outline], colors="#50555c", linewidths=0.7))
+    ax.add_collection(LineCollection(moved[outline], colors="#50555c", linewidths=0.7, snap=False))
     drawn = None
     for name in sorted(k for k in step if k.startswith("interface_")):
         if "zeta" not in step[name]:
@@ -247,7 +248,7 @@ def draw_plane(ax, file, step, scale, light_mesh):
         for side in ("nodes_a", "nodes_b"):
             at = moved[file["interfaces"][name][side][()]]
             lines = faces if faces.shape[1] == 2 else np.concatenate([faces[:, [0, 2]], faces[:, [2, 1]]])
-            drawn = LineCollection(at[lines], cmap=ZETA, linewidths=2.0, norm=plt.Normalize(0, 1))
+            drawn = LineCollection(at[lines], cmap=ZETA, linewidths=2.0, norm=plt.Normalize(0, 1), snap=False)
             drawn.set_array(zeta[lines].mean(axis=1))
             ax.add_collection(drawn)
     return drawn
@@ -283,24 +284,22 @@ def plot_plane(result, file, shots, scale):
     return figure, axes, drawn
 
 
-def seen_along_normal(points):
-    """Where the points of an interface are drawn: from above, or along its normal where it does not lie."""
-    spread = np.linalg.svd(points - points.mean(0), full_matrices=False)[2]
-    if abs(spread[2, 2]) > 0.5:
-        return points[:, :2]
-    return (points - points.mean(0)) @ spread[:2].T
+def lit(faces):
+    """Colours of faces [n][4][3] in light from above, in front and the right, by their normals."""
+    normal = np.cross(faces[:, 2] - faces[:, 0], faces[:, 3] - faces[:, 1])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    light = np.array([0.35, -0.5, 0.8])
+    shade = 0.72 + 0.28 * np.clip(normal @ light / np.linalg.norm(light), -0.6, 1.0)
+    return np.column_stack([shade[:, None] * np.array([0.80, 0.84, 0.89]), np.ones(len(shade))])
 
 
 def plot_solid(result, file, shots, scale):
-    """Bodies as a transparent skin above; the adhesion of the interfaces as maps seen from above below it."""
+    """Bodies above; the adhesion of the interfaces as maps seen from above below it."""
     columns = min(len(shots), 5)
     rows = -(-len(shots) // columns)
     points = file["mesh/points"][()]
     skin = boundary_faces(cell_blocks(file))
-    names = sorted(file["interfaces"], key=lambda name: int(name.rsplit("_", 1)[1]))
-    # Of many the largest alone.
-    if len(names) > 6:
-        names = sorted(names, key=lambda name: -file["interfaces"][name]["weights"][()].sum())[:6]
+    names = chosen_interfaces(file)
     figure = plt.figure(figsize=(4.0 * columns, rows * (2.9 + 1.3 * len(names)) + 1.0), layout="constrained")
     grid = figure.add_gridspec(rows * (1 + len(names)), columns, height_ratios=([2.4] + [1.0] * len(names)) * rows)
     drawn = None
@@ -309,25 +308,22 @@ def plot_solid(result, file, shots, scale):
         row, column = divmod(i, columns)
         moved = points + scale * step["displacement"][()]
         ax = figure.add_subplot(grid[row * (1 + len(names)), column], projection="3d")
-        ax.add_collection3d(Poly3DCollection(moved[skin], facecolor=(0.75, 0.79, 0.84, 0.25), edgecolor="#8b9199",
-                                                linewidths=0.15))
+        ax.add_collection3d(Poly3DCollection(moved[skin], facecolors=lit(moved[skin]), edgecolors="#50555c",
+                                                linewidths=min(0.3, 400 / len(skin)), clip_on=False))
         extent = np.ptp(moved, axis=0)
         for setter, a in ((ax.set_xlim, 0), (ax.set_ylim, 1), (ax.set_zlim, 2)):
             setter(moved[:, a].min(), moved[:, a].max())
-        ax.set_box_aspect(np.maximum(extent, 0.05 * extent.max()), zoom=1.35)
+        ax.set_box_aspect(np.maximum(extent, 0.05 * extent.max()), zoom=1.15)
         ax.view_init(elev=18, azim=-62)
         ax.set_axis_off()
         ax.set_title(f"t = {time:.6g}\n{load_text(result, time)}", fontsize=8)
         for n, name in enumerate(names):
             flat = figure.add_subplot(grid[row * (1 + len(names)) + 1 + n, column])
             axes.append(flat)
-            at = seen_along_normal(file["interfaces"][name]["points"][()])
+            at = file["interfaces"][name]["points"][()]
+            at = plan_of(at)(at)
             zeta = step[name]["zeta"][()]
-            faces = file["interfaces"][name]["faces"][()]
-            pieces = {3: [[0, 1, 2]], 4: [[0, 1, 2], [0, 2, 3]], 6: [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]],
-                      8: [[0, 4, 7], [4, 1, 5], [5, 2, 6], [6, 3, 7], [4, 5, 6], [4, 6, 7]]}[faces.shape[1]]
-            triangles = np.concatenate([faces[:, piece] for piece in pieces])
-            triangles = triangles[[len(set(t)) == 3 for t in triangles]]
+            triangles = triangles_of(file["interfaces"][name]["faces"][()])
             drawn = flat.tripcolor(at[:, 0], at[:, 1], triangles, zeta, cmap=ZETA, vmin=0, vmax=1, shading="gouraud")
             if zeta.min() < 0.5 < zeta.max():
                 flat.tricontour(at[:, 0], at[:, 1], triangles, zeta, levels=[0.5], colors="black", linewidths=0.9)
@@ -361,6 +357,17 @@ def plot_snapshots(result):
         result.save(figure, "snapshots.png")
 
 
+def plot_plan(result):
+    """Fronts in space, where there are some."""
+    if result.about["scene"]["dimension"] == 2:
+        return
+    with h5py.File(os.path.join(result.folder, "fields.h5"), "r") as file:
+        figure = plot_fronts(result, file, lambda interface: text_of(interface.attrs["name"]), ZETA)
+    if figure is not None:
+        result.stamp(figure)
+        result.save(figure, "fronts.png")
+
+
 def main():
     if len(sys.argv) != 2 or sys.argv[1] in ("-h", "--help"):
         print("usage: plot.py DIR", file=sys.stderr)
@@ -375,6 +382,8 @@ def main():
     plot_averages(result)
     plot_energies(result)
     plot_snapshots(result)
+    plot_plan(result)
+    plot_plan(result)
     return 0
 
 

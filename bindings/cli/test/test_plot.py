@@ -22,6 +22,7 @@ def draws(scene, what):
     expect(done.returncode == 0, f"{what}: plot.py {done.stderr.strip()[-300:]}")
     expect(all(read(os.path.join(out, name)).startswith(b"\x89PNG") for name in PICTURES if name in os.listdir(out)) and
            set(PICTURES) <= set(os.listdir(out)), f"{what}: three pictures")
+    return out
 
 
 draws(SCENE, "2D")
@@ -35,7 +36,8 @@ solid = changed("point = [0.120, 0.0]\nfix = [\"x\", \"y\"]",
 solid = changed('fix = ["y"]', 'fix = ["y", "z"]', solid)
 solid = changed("point = [0.060, 0.006]\ndirection = [0.0, -1.0]",
                 "box = { lower = [0.06, 0, 0.006], upper = [0.06, 0.006, 0.006] }\ndirection = [0, 0, -1]", solid)
-draws(changed("steps = 20", "steps = 4", solid), "3D")
+out = draws(changed("steps = 20", "steps = 4", solid), "3D")
+expect("fronts.png" in os.listdir(out) and read(os.path.join(out, "fronts.png")).startswith(b"\x89PNG"), "3D: fronts in plan")
 
 
 def compare(out, *results):
