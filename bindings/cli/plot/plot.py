@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of a result of `delam run`: plot.py DIR writes DIR/load-displacement.png, energies.png and snapshots.png,
-stress-strain.png where the history has averages of both, fronts.png of fronts in space.
+stress-strain.png where the history has averages of both, stresses.png of plane scenes with thermal and other prescribed strains,
+fronts.png of fronts in space.
 
 Reads DIR/history.csv, fields.h5 and result.json. Needs Debian's python3-numpy, python3-matplotlib and python3-h5py.
 """
@@ -17,7 +18,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from fronts import chosen_interfaces, plan_of, plot_fronts, triangles_of
 from result import BLUE, GREEN, GREY, ORANGE, RED, Result, axis, early_end, plt, zoom
 
-# Pale tones of the bodies: the first has the first, the others the rest by turns.
+# Pale tones of the bodies, by turns; fibre-1 and fibre-2 have the same.
 BODIES = ["#f4f1e8", "#dde5ee", "#e6ebdf"]
 ZETA = matplotlib.colors.LinearSegmentedColormap.from_list(
     "zeta", ["#b3122a", "#f2a541", "#f5e9b8", "#2b6cb0", "#0b2e59"])
@@ -65,7 +66,7 @@ def plot_averages(result):
     factor, unit = result.stress_unit()
     figure, ax = plt.subplots(figsize=(6.8, 4.4), layout="constrained")
     for component, strain, stress in averages:
-        line, = ax.plot(100 * strain, stress / factor, label=component)
+        line, = ax.plot(100 * strain, stress / factor, label=component, **({"color": BLUE} if len(averages) == 1 else {}))
         # The stiffness of the beginning, as far as the picture is high.
         if strain[1] != strain[0]:
             slope = (stress[1] - stress[0]) / (strain[1] - strain[0])
@@ -167,7 +168,8 @@ def cell_outlines(file):
     """The corners of all plane cells of one kind and one tone, and the tone."""
     cells, body = file["mesh/cells"][()], file["mesh/body"][()]
     number = (cells >= 0).sum(1)
-    tone = np.where(body == 0, 0, 1 + (body + 1) % 2)
+    stems = [text_of(file["mesh"].attrs[f"body_{b}"]).rstrip("-0123456789") for b in range(body.max() + 1)]
+    tone = np.array([list(dict.fromkeys(stems)).index(stem) for stem in stems])[body] % len(BODIES)
     for n in np.unique(number):
         for t in np.unique(tone[number == n]):
             yield cells[(number == n) & (tone == t)][:, :{3: 3, 4: 4, 6: 3, 8: 4, 9: 4}[n]], BODIES[t]
@@ -228,6 +230,50 @@ def load_text(result, time):
     _, drives, load, reaction = result.patterns()[0]
     return (f"load {four_digits(result.history[load][row])}" + (f" {result.length}" if drives != "force" else "") +
             (f", reaction {four_digits(result.history[reaction][row])} {result.force}" if drives != "force" else ""))
+
+
+def draw_stress(ax, moved, file, step, factor, largest):
+    """Cells by their stress along x; what came off is white between them."""
+    cells, stress = file["mesh/cells"][()], step["stress"][:, 0] / factor
+    number = (cells >= 0).sum(1)
+    for n in np.unique(number):
+        of = number == n
+        drawn = PolyCollection(moved[cells[of][:, :{3: 3, 4: 4, 6: 3, 8: 4, 9: 4}[n]]], cmap="RdBu_r", edgecolors="face",
+                               linewidths=0.1, norm=plt.Normalize(-largest, largest))
+        drawn.set_array(stress[of])
+        ax.add_collection(drawn)
+    return drawn
+
+
+def plot_stresses(result):
+    """Of a plane scene with prescribed strains: stress along x, where most cells have less than the colours end at."""
+    output = result.about["output"]
+    if not result.prescribed_strains() or result.about["scene"]["dimension"] != 2 or "stress" not in output["fields"]:
+        return
+    factor, unit = result.stress_unit()
+    with h5py.File(os.path.join(result.folder, "fields.h5"), "r") as file:
+        shots = snapshot_steps(file, output["snapshots"])
+        points = file["mesh/points"][:, :2]
+        if "displacement" not in shots[0][1]:
+            return
+        figure, axes = plt.subplots(len(shots), 1, squeeze=False, layout="constrained",
+                                    figsize=(11.0, 1.0 + len(shots) * min(4.0, 1.1 + 10 * np.ptp(points[:, 1]) / np.ptp(points[:, 0]))))
+        for ax, (time, step) in zip(axes.flat, shots):
+            moved = points + output["displacement_scale"] * step["displacement"][:, :2]
+            largest = np.percentile(np.abs(step["stress"][:, 0]), 99) / factor or 1.0
+            drawn = draw_stress(ax, moved, file, step, factor, largest)
+            outline, _ = boundary_edges(cell_blocks(file))
+            ax.add_collection(LineCollection(moved[outline], colors="#50555c", linewidths=0.5))
+            ax.autoscale_view()
+            ax.set_aspect("equal")
+            ax.axis("off")
+            ax.set_title(f"t = {time:.6g}   {load_text(result, time)}", fontsize=9, loc="left")
+            bar = figure.colorbar(drawn, ax=ax, shrink=0.9, aspect=12, pad=0.01)
+            bar.set_label(axis("stress xx", unit), fontsize=8)
+            bar.outline.set_visible(False)
+        figure.suptitle(result.title(f"stress along x, displacements × {output['displacement_scale']:g}"), fontsize=11)
+        result.stamp(figure)
+        result.save(figure, "stresses.png")
 
 
 def draw_plane(ax, file, step, scale, light_mesh):
@@ -382,7 +428,7 @@ def main():
     plot_averages(result)
     plot_energies(result)
     plot_snapshots(result)
-    plot_plan(result)
+    plot_stresses(result)
     plot_plan(result)
     return 0
 

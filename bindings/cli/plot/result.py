@@ -82,12 +82,16 @@ class Result:
         return [time for time, debonded in rows if debonded > 0.2 * largest]
 
     def patterns(self):
-        """(label, load column, reaction column) of each pattern."""
+        """(label, drives, load column, reaction column) of each pattern; those of prescribed strains only where there is no other."""
         names = self.about["patterns"]
         if len(names) <= 1:
             first = names[0] if names else {"name": "", "drives": "displacement"}
             return [(first["name"], first["drives"], "load", "reaction")]
-        return [(p["name"], p["drives"], "load_" + p["name"], "reaction_" + p["name"]) for p in names]
+        loads = [p for p in names if p["drives"] != "strain"] or names
+        return [(p["name"], p["drives"], "load_" + p["name"], "reaction_" + p["name"]) for p in loads]
+
+    def prescribed_strains(self):
+        return any(p["drives"] == "strain" for p in self.about["patterns"])
 
     def averages(self):
         """(component, strain, stress) of those in the history: of the periodic cell, else of all bodies."""
@@ -115,7 +119,7 @@ class Result:
         return self.history[load], self.history[reaction]
 
     def label_load(self, axes, pattern=0):
-        if self.cell:
+        if self.cell or self.patterns()[pattern][1] == "strain":
             for ax in axes:
                 ax.set_xlabel("load factor")
             axes[0].set_ylabel(axis("conjugate of the factor", self.energy))

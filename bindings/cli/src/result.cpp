@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "result.hpp"
 
+#include <algorithm>
 #include <ctime>
 
 #include <nlohmann/json.hpp>
@@ -47,7 +48,9 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
     Json patterns = Json::array();
     const std::vector<bool> force = force_patterns(scene);
     for (std::size_t i = 0; i < scene.patterns.size(); ++i) {
-        patterns.push_back({{"name", scene.patterns[i].name}, {"drives", force[i] ? "force" : "displacement"}});
+        const bool strain = std::any_of(scene.eigenstrains.begin(), scene.eigenstrains.end(),
+                                        [i](const EigenstrainData& e) { return e.pattern == i; });
+        patterns.push_back({{"name", scene.patterns[i].name}, {"drives", strain ? "strain" : force[i] ? "force" : "displacement"}});
     }
     Json layers = Json::array();
     for (const Layer& layer : scene.layers) layers.push_back(layer.name);
