@@ -13,7 +13,8 @@ namespace {
 
 constexpr const char* usage =
     "usage: delam_bench [--json FILE] [--quick] [--scene NAME]... [--repeat N] [--cap SECONDS] [--threads N]... "
-    "march | precision | growth | energetic\n";
+    "march | precision | growth | energetic\n"
+    "       delam_bench [--json FILE] [--repeat N] [--cap SECONDS] --scene FILE... [--set KEY=VALUE]... scene-file\n";
 
 }  // namespace
 
@@ -38,6 +39,8 @@ int main(int argc, char** argv) {
             settings.quick = true;
         } else if (word == "--scene") {
             settings.scenes.push_back(next());
+        } else if (word == "--set") {
+            settings.settings.push_back(next());
         } else if (word == "--repeat") {
             settings.repeat = std::atoi(next().c_str());
         } else if (word == "--cap") {
@@ -57,6 +60,9 @@ int main(int argc, char** argv) {
         {"march", bench::march_table},
         {"precision", bench::precision_table},
         {"growth", bench::growth_table},
+#ifdef DELAM_SCENE_FILES
+        {"scene-file", bench::scene_file_table},
+#endif
         {"energetic", bench::energetic_table}};
     for (const auto& t : tables) {
         if (!understood || table != t.name) continue;

@@ -15,11 +15,15 @@ struct Settings {
     double cap = 0.0;                 // s; 0: the table's own choice
     std::vector<std::string> scenes;  // empty: the table's own
     std::vector<int> threads;         // empty: 1 and 2
+    std::vector<std::string> settings;  // KEY=VALUE for scene files
 };
 
 Json march_table(const Settings& settings);
 Json precision_table(const Settings& settings);
 Json growth_table(const Settings& settings);
 Json energetic_table(const Settings& settings);
+#ifdef DELAM_SCENE_FILES
+Json scene_file_table(const Settings& settings);
+#endif
 
 }  // namespace bench

@@ -220,6 +220,7 @@ State DirectReference::solve_linear(const std::vector<double>& values, const std
     for (std::size_t i = 0; i < j_of.size(); ++i) {
         if (stiffness[i] > 0.0) couple(j_of[i], j_of[i], stiffness[i]);
     }
+    if (on_matrix) on_matrix(elimination.free_count(), lower);
     const Factor factor(elimination.free_count(), lower);
 
     const auto displacements = [&](const std::vector<long double>& x) {

@@ -8,10 +8,12 @@
 // the redundant rows are given as zero.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "elimination.hpp"
 #include "exported.hpp"
+#include "factor.hpp"
 
 namespace reference {
 
@@ -35,6 +37,9 @@ public:
     State solve(double time, const std::vector<double>& adhesion);
 
     const Exported& exported() const { return exported_; }
+
+    // Sees the matrix of each linear system: how many unknowns are left, and its lower triangle.
+    std::function<void(std::size_t, const Triplets&)> on_matrix;
 
 private:
     struct Pair {

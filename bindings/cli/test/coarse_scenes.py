@@ -163,5 +163,5 @@ COARSE = {
     "4enf": (["geometry.divisions=200", "time.steps=44"], [grows, plateau]),
     "mmb": (["geometry.divisions=400", "time.steps=40"], [grows, half_and_half]),
     "fibre": (["mesh.cells_around=48", "time.steps=25"], [loses_stiffness]),
-    "fibres-30": (["mesh.cells_around=12", "time.steps=15"], [loses_stiffness]),
+    "fibres-30": (["mesh.fibres=10", "mesh.cells_around=16", "time.steps=12"], [loses_stiffness]),
 }
