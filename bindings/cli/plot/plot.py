@@ -164,12 +164,18 @@ def ring_edges(cells):
     return np.concatenate([cells[:, pair] for pair in ring])
 
 
+def body_tones(file):
+    """The tone of each body, by its name without numbers."""
+    number = file["mesh/body"][()].max() + 1
+    stems = [text_of(file["mesh"].attrs[f"body_{b}"]).rstrip("-0123456789") for b in range(number)]
+    return [list(dict.fromkeys(stems)).index(stem) % len(BODIES) for stem in stems]
+
+
 def cell_outlines(file):
     """The corners of all plane cells of one kind and one tone, and the tone."""
     cells, body = file["mesh/cells"][()], file["mesh/body"][()]
     number = (cells >= 0).sum(1)
-    stems = [text_of(file["mesh"].attrs[f"body_{b}"]).rstrip("-0123456789") for b in range(body.max() + 1)]
-    tone = np.array([list(dict.fromkeys(stems)).index(stem) for stem in stems])[body] % len(BODIES)
+    tone = np.array(body_tones(file))[body]
     for n in np.unique(number):
         for t in np.unique(tone[number == n]):
             yield cells[(number == n) & (tone == t)][:, :{3: 3, 4: 4, 6: 3, 8: 4, 9: 4}[n]], BODIES[t]
@@ -257,7 +263,7 @@ def plot_stresses(result):
         if "displacement" not in shots[0][1]:
             return
         figure, axes = plt.subplots(len(shots), 1, squeeze=False, layout="constrained",
-                                    figsize=(11.0, 1.0 + len(shots) * min(4.0, 1.1 + 10 * np.ptp(points[:, 1]) / np.ptp(points[:, 0]))))
+                                    figsize=(11.0, 1.0 + len(shots) * min(4.0, 0.75 + 10 * np.ptp(points[:, 1]) / np.ptp(points[:, 0]))))
         for ax, (time, step) in zip(axes.flat, shots):
             moved = points + output["displacement_scale"] * step["displacement"][:, :2]
             largest = np.percentile(np.abs(step["stress"][:, 0]), 99) / factor or 1.0
@@ -330,39 +336,78 @@ def plot_plane(result, file, shots, scale):
     return figure, axes, drawn
 
 
-def lit(faces):
-    """Colours of faces [n][4][3] in light from above, in front and the right, by their normals."""
+def lit(faces, colours):
+    """Colours [n][4] of faces [n][4][3] in light from above, in front and the right, by their normals."""
     normal = np.cross(faces[:, 2] - faces[:, 0], faces[:, 3] - faces[:, 1])
     normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
     light = np.array([0.35, -0.5, 0.8])
     shade = 0.72 + 0.28 * np.clip(normal @ light / np.linalg.norm(light), -0.6, 1.0)
-    return np.column_stack([shade[:, None] * np.array([0.80, 0.84, 0.89]), np.ones(len(shade))])
+    return np.column_stack([shade[:, None] * colours[:, :3], colours[:, 3]])
+
+
+def body_of_nodes(file):
+    """The body of each node; -1 where no cell is."""
+    cells, body = file["mesh/cells"][()], file["mesh/body"][()]
+    of = np.full(len(file["mesh/points"]), -1)
+    for column in cells.T:
+        of[column[column >= 0]] = body[column >= 0]
+    return of
+
+
+def hidden_bodies(file, of):
+    """Bodies inside another one that reaches as far as all of them together: yarns, not layers."""
+    points = file["mesh/points"][()]
+    bodies = np.unique(of[of >= 0])
+    size = np.ptp(points[of >= 0], axis=0)
+    outer = [b for b in bodies if np.all(np.ptp(points[of == b], axis=0) > (1 - 1e-9) * size)]
+    return np.setdiff1d(bodies, outer) if len(outer) == 1 and len(bodies) > 1 else np.array([], int)
+
+
+def draw_solid(ax, file, step, scale, hidden):
+    """The skins of the bodies in their tones; with hidden bodies these alone, their interfaces in the colours of the adhesion."""
+    moved = file["mesh/points"][()] + scale * step["displacement"][()]
+    of = body_of_nodes(file)
+    skin = boundary_faces(cell_blocks(file))
+    if len(hidden):
+        skin = skin[np.isin(of[skin[:, 0]], hidden)]
+    colours = matplotlib.colors.to_rgba_array(BODIES)[np.array(body_tones(file))[of[skin[:, 0]]]]
+    for name in file["interfaces"] if len(hidden) else ():
+        group = file["interfaces"][name]
+        side = group["nodes_b" if group.attrs["body_b"] in hidden else "nodes_a"][()]
+        others = ~np.isin(skin, side).all(1)
+        faces = triangles_of(group["faces"][()])
+        zeta = step[name]["zeta"][()] if "zeta" in step[name] else np.ones(len(side))
+        skin = np.concatenate([skin[others], side[faces[:, [0, 1, 2, 2]]]])
+        colours = np.concatenate([colours[others], ZETA(zeta[faces].mean(1))])
+    colours = lit(moved[skin], colours)
+    ax.add_collection3d(Poly3DCollection(moved[skin], facecolors=colours, edgecolors=colours if len(hidden) else "#50555c",
+                                            linewidths=min(0.3, 400 / len(skin)), clip_on=False))
+    low, high = moved[of >= 0].min(0), moved[of >= 0].max(0)
+    for setter, a in ((ax.set_xlim, 0), (ax.set_ylim, 1), (ax.set_zlim, 2)):
+        setter(low[a], high[a])
+    ax.set_box_aspect(np.maximum(high - low, 0.05 * (high - low).max()), zoom=1.15)
+    ax.view_init(elev=35 if len(hidden) else 18, azim=-62)
+    ax.set_axis_off()
 
 
 def plot_solid(result, file, shots, scale):
-    """Bodies above; the adhesion of the interfaces as maps seen from above below it."""
-    columns = min(len(shots), 5)
+    """Bodies above; the adhesion of the interfaces as maps seen from above below it. Hidden bodies have it on themselves."""
+    hidden = hidden_bodies(file, body_of_nodes(file))
+    names = [] if len(hidden) else chosen_interfaces(file)
+    columns = min(len(shots), 2 if len(hidden) else 5)
     rows = -(-len(shots) // columns)
-    points = file["mesh/points"][()]
-    skin = boundary_faces(cell_blocks(file))
-    names = chosen_interfaces(file)
-    figure = plt.figure(figsize=(4.0 * columns, rows * (2.9 + 1.3 * len(names)) + 1.0), layout="constrained")
+    width, height = (5.0, 3.6) if len(hidden) else (4.0, 2.9)
+    figure = plt.figure(figsize=(width * columns, rows * (height + 1.3 * len(names)) + 1.0), layout="constrained")
     grid = figure.add_gridspec(rows * (1 + len(names)), columns, height_ratios=([2.4] + [1.0] * len(names)) * rows)
-    drawn = None
+    drawn = matplotlib.cm.ScalarMappable(plt.Normalize(0, 1), ZETA) if len(hidden) else None
     axes = []
     for i, (time, step) in enumerate(shots):
         row, column = divmod(i, columns)
-        moved = points + scale * step["displacement"][()]
         ax = figure.add_subplot(grid[row * (1 + len(names)), column], projection="3d")
-        ax.add_collection3d(Poly3DCollection(moved[skin], facecolors=lit(moved[skin]), edgecolors="#50555c",
-                                                linewidths=min(0.3, 400 / len(skin)), clip_on=False))
-        extent = np.ptp(moved, axis=0)
-        for setter, a in ((ax.set_xlim, 0), (ax.set_ylim, 1), (ax.set_zlim, 2)):
-            setter(moved[:, a].min(), moved[:, a].max())
-        ax.set_box_aspect(np.maximum(extent, 0.05 * extent.max()), zoom=1.15)
-        ax.view_init(elev=18, azim=-62)
-        ax.set_axis_off()
+        draw_solid(ax, file, step, scale, hidden)
         ax.set_title(f"t = {time:.6g}\n{load_text(result, time)}", fontsize=8)
+        if len(hidden):
+            axes.append(ax)
         for n, name in enumerate(names):
             flat = figure.add_subplot(grid[row * (1 + len(names)) + 1 + n, column])
             axes.append(flat)
