@@ -16,7 +16,7 @@ namespace delam {
 namespace {
 
 constexpr std::int64_t leap_steps = 1000;  // steps within the zone before the plain step looks at all pairs again
-constexpr double rounding = 1e-12;  // of an energy of the whole scene, a sum of large terms
+constexpr double rounding = 1e-11;  // of an energy of the whole scene, a sum of large terms
 
 double largest_change(std::span<const double> from, std::span<const double> to) {
     double change = 0.0;

@@ -12,6 +12,9 @@ namespace delam {
 namespace {
 
 constexpr double noise = 1e-11;            // of the largest jump or force in the zone: rounding
+// Of the zone's energy: what one state's jumps differ by, found from all bodies or within the zone. A plain step never adds energy; on
+// a stiff interface an avalanche begins with steps that free less than this.
+constexpr double energy_noise = 1e-11;
 constexpr std::int64_t longest_wait = 8;   // plain steps between two attempts of what has failed
 constexpr std::int64_t contact_steps = 30; // active-set steps of one Newton step; beyond them the step is not taken
 // A pair joins the zone when its driving energy is above this part of what damages it.
@@ -342,7 +345,7 @@ double Leap::run() {
             held_ = before;
             extrapolation.forget();
             used = at.adhesion;
-            if (!minimise(at, at.adhesion, 0.0, -1, next) || next.energy > at.energy + 1e-14 * std::abs(at.energy)) {
+            if (!minimise(at, at.adhesion, 0.0, -1, next) || next.energy > at.energy + energy_noise * std::abs(at.energy)) {
                 held_ = before;
                 break;
             }
