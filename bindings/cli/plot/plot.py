@@ -373,11 +373,13 @@ def draw_solid(ax, file, step, scale, hidden):
     colours = matplotlib.colors.to_rgba_array(BODIES)[np.array(body_tones(file))[of[skin[:, 0]]]]
     for name in file["interfaces"] if len(hidden) else ():
         group = file["interfaces"][name]
-        side = group["nodes_b" if group.attrs["body_b"] in hidden else "nodes_a"][()]
+        on_b = group.attrs["body_b"] in hidden
+        side = group["nodes_b" if on_b else "nodes_a"][()]
         others = ~np.isin(skin, side).all(1)
         faces = triangles_of(group["faces"][()])
         zeta = step[name]["zeta"][()] if "zeta" in step[name] else np.ones(len(side))
-        skin = np.concatenate([skin[others], side[faces[:, [0, 1, 2, 2]]]])
+        # The faces' normals point from a to b; here they are to point out of the body that is seen.
+        skin = np.concatenate([skin[others], side[faces[:, [0, 2, 1, 1] if on_b else [0, 1, 2, 2]]]])
         colours = np.concatenate([colours[others], ZETA(zeta[faces].mean(1))])
     colours = lit(moved[skin], colours)
     ax.add_collection3d(Poly3DCollection(moved[skin], facecolors=colours, edgecolors=colours if len(hidden) else "#50555c",
