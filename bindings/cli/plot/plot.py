@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of a result of `delam run`: plot.py DIR writes DIR/load-displacement.png, energies.png and snapshots.png,
-stress-strain.png where the history has averages of both, stresses.png of plane scenes with thermal and other prescribed strains,
+stress-strain.png where the history has averages of both, stresses.png of plane scenes with prescribed strains,
 fronts.png of fronts in space.
 
 Reads DIR/history.csv, fields.h5 and result.json. Needs Debian's python3-numpy, python3-matplotlib and python3-h5py.
@@ -66,7 +66,8 @@ def plot_averages(result):
     factor, unit = result.stress_unit()
     figure, ax = plt.subplots(figsize=(6.8, 4.4), layout="constrained")
     for component, strain, stress in averages:
-        line, = ax.plot(100 * strain, stress / factor, label=component, **({"color": BLUE} if len(averages) == 1 else {}))
+        colour = BLUE if len(averages) == 1 else None
+        line, = ax.plot(100 * strain, stress / factor, label=component, color=colour)
         # The stiffness of the beginning, as far as the picture is high.
         if strain[1] != strain[0]:
             slope = (stress[1] - stress[0]) / (strain[1] - strain[0])
@@ -244,8 +245,8 @@ def draw_stress(ax, moved, file, step, factor, largest):
     number = (cells >= 0).sum(1)
     for n in np.unique(number):
         of = number == n
-        drawn = PolyCollection(moved[cells[of][:, :{3: 3, 4: 4, 6: 3, 8: 4, 9: 4}[n]]], cmap="RdBu_r", edgecolors="face",
-                               linewidths=0.1, norm=plt.Normalize(-largest, largest))
+        corners = cells[of][:, :{3: 3, 4: 4, 6: 3, 8: 4, 9: 4}[n]]
+        drawn = PolyCollection(moved[corners], cmap="RdBu_r", edgecolors="face", linewidths=0.1, norm=plt.Normalize(-largest, largest))
         drawn.set_array(stress[of])
         ax.add_collection(drawn)
     return drawn
@@ -262,8 +263,9 @@ def plot_stresses(result):
         points = file["mesh/points"][:, :2]
         if "displacement" not in shots[0][1]:
             return
+        height = min(4.0, 0.75 + 10 * np.ptp(points[:, 1]) / np.ptp(points[:, 0]))
         figure, axes = plt.subplots(len(shots), 1, squeeze=False, layout="constrained",
-                                    figsize=(11.0, 1.0 + len(shots) * min(4.0, 0.75 + 10 * np.ptp(points[:, 1]) / np.ptp(points[:, 0]))))
+                                    figsize=(11.0, 1.0 + len(shots) * height))
         for ax, (time, step) in zip(axes.flat, shots):
             moved = points + output["displacement_scale"] * step["displacement"][:, :2]
             largest = np.percentile(np.abs(step["stress"][:, 0]), 99) / factor or 1.0
@@ -364,7 +366,7 @@ def hidden_bodies(file, of):
 
 
 def draw_solid(ax, file, step, scale, hidden):
-    """The skins of the bodies in their tones; with hidden bodies these alone, their interfaces in the colours of the adhesion."""
+    """The skins of the bodies in their tones; with hidden bodies these alone, the adhesion in colour on them."""
     moved = file["mesh/points"][()] + scale * step["displacement"][()]
     of = body_of_nodes(file)
     skin = boundary_faces(cell_blocks(file))
@@ -373,14 +375,17 @@ def draw_solid(ax, file, step, scale, hidden):
     colours = matplotlib.colors.to_rgba_array(BODIES)[np.array(body_tones(file))[of[skin[:, 0]]]]
     for name in file["interfaces"] if len(hidden) else ():
         group = file["interfaces"][name]
-        side = group["nodes_b" if group.attrs["body_b"] in hidden else "nodes_a"][()]
+        on_b = group.attrs["body_b"] in hidden
+        side = group["nodes_b" if on_b else "nodes_a"][()]
         others = ~np.isin(skin, side).all(1)
         faces = triangles_of(group["faces"][()])
         zeta = step[name]["zeta"][()] if "zeta" in step[name] else np.ones(len(side))
-        skin = np.concatenate([skin[others], side[faces[:, [0, 1, 2, 2]]]])
+        # The faces' normals point from a to b; here they are to point out of the body that is seen.
+        skin = np.concatenate([skin[others], side[faces[:, [0, 2, 1, 1] if on_b else [0, 1, 2, 2]]]])
         colours = np.concatenate([colours[others], ZETA(zeta[faces].mean(1))])
     colours = lit(moved[skin], colours)
-    ax.add_collection3d(Poly3DCollection(moved[skin], facecolors=colours, edgecolors=colours if len(hidden) else "#50555c",
+    edges = colours if len(hidden) else "#50555c"
+    ax.add_collection3d(Poly3DCollection(moved[skin], facecolors=colours, edgecolors=edges,
                                             linewidths=min(0.3, 400 / len(skin)), clip_on=False))
     low, high = moved[of >= 0].min(0), moved[of >= 0].max(0)
     for setter, a in ((ax.set_xlim, 0), (ax.set_ylim, 1), (ax.set_zlim, 2)):
@@ -391,7 +396,7 @@ def draw_solid(ax, file, step, scale, hidden):
 
 
 def plot_solid(result, file, shots, scale):
-    """Bodies above; the adhesion of the interfaces as maps seen from above below it. Hidden bodies have it on themselves."""
+    """Bodies above, below the adhesion of the interfaces as maps seen from above. Hidden bodies have it on themselves."""
     hidden = hidden_bodies(file, body_of_nodes(file))
     names = [] if len(hidden) else chosen_interfaces(file)
     columns = min(len(shots), 2 if len(hidden) else 5)

@@ -82,7 +82,7 @@ class Result:
         return [time for time, debonded in rows if debonded > 0.2 * largest]
 
     def patterns(self):
-        """(label, drives, load column, reaction column) of each pattern; those of prescribed strains only where there is no other."""
+        """(label, drives, load column, reaction column) of each pattern; of prescribed strains only if all are."""
         names = self.about["patterns"]
         if len(names) <= 1:
             first = names[0] if names else {"name": "", "drives": "displacement"}
@@ -97,7 +97,8 @@ class Result:
         """(component, strain, stress) of those in the history: of the periodic cell, else of all bodies."""
         h = self.history
         for prefix in ("cell_", ""):
-            found = [(c, h[f"{prefix}strain_{c}"], h[f"{prefix}stress_{c}"]) for c in ("xx", "yy", "zz", "xy", "yz", "zx")
+            found = [(c, h[f"{prefix}strain_{c}"], h[f"{prefix}stress_{c}"])
+                     for c in ("xx", "yy", "zz", "xy", "yz", "zx")
                      if {f"{prefix}strain_{c}", f"{prefix}stress_{c}"} <= h.keys()]
             if found:
                 return found

@@ -50,7 +50,8 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
     for (std::size_t i = 0; i < scene.patterns.size(); ++i) {
         const bool strain = std::any_of(scene.eigenstrains.begin(), scene.eigenstrains.end(),
                                         [i](const EigenstrainData& e) { return e.pattern == i; });
-        patterns.push_back({{"name", scene.patterns[i].name}, {"drives", strain ? "strain" : force[i] ? "force" : "displacement"}});
+        patterns.push_back({{"name", scene.patterns[i].name},
+                            {"drives", strain ? "strain" : force[i] ? "force" : "displacement"}});
     }
     Json layers = Json::array();
     for (const Layer& layer : scene.layers) layers.push_back(layer.name);

@@ -153,6 +153,47 @@ def nearly_straight(name, run):
     expect(0 < bow < 1.5e-3 and front[0, 0] > 0.0393, f"{name}: at mid-width the front is ahead by {bow:.3g}")
 
 
+def load_of_lamination_theory(name, run):
+    """A layer off a cut one: the load of the growth by lamination theory, strains of the cure included (see the scene)."""
+    first, second, misfit, toughness = 0.0005 * 126e9, 0.001 * 11e9, 27e-6 * 150, 600.0
+    exact = np.sqrt(2 * toughness * first * (first + second) / second) - first * misfit
+    h = run.history
+    growing = (h["crack_length"] > 0.008) & (h["crack_length"] < 0.024)
+    loads = h["reaction_pull"][growing]
+    expect(growing.sum() > 3 and np.abs(loads / exact - 1).max() < 0.01,
+           f"{name}: {growing.sum()} loads {loads.min():.5g} to {loads.max():.5g}, lamination theory {exact:.5g}")
+    # Cooled: in equilibrium, the cut layer in tension where it holds.
+    cooled = int(np.argmin(np.abs(h["time"] - 1.0)))
+    cut, whole = h["stress_xx:ninety"][cooled], h["stress_xx:zero"][cooled]
+    expect(cut > 20e6 and abs(0.001 * cut + 0.0005 * whole - h["reaction_pull"][cooled]) < 0.02 * 0.001 * cut,
+           f"{name}: after the cure {cut:.4g} in the cut layer, {whole:.4g} in the other")
+
+
+def from_the_free_edge(name, run):
+    """All of the free edge (y = 0) comes off, nothing at mid-width; before that the crack is ahead at the flaw (x = 0)."""
+    with run.fields() as file:
+        y = file["interfaces/interface_0/points"][:, 1]
+        last = last_step(file)["interface_0"]
+        zeta, opening = last["zeta"][()], last["jump"][:, 0]
+    edge, middle = y < 1e-9, y > y.max() - 1e-9
+    expect(zeta[edge].max() < 0.01 and zeta[middle].min() > 0.99, f"{name}: off at the edge, on at mid-width")
+    expect(opening[edge].min() > 1e-6 and opening.min() > -1e-9, f"{name}: the edge opens by {opening[edge].min():.2g}")
+    front = front_of(run, time=2.4)
+    ahead = front[front[:, 0].argmin(), 1] - front[front[:, 0].argmax(), 1]
+    expect(ahead > 2e-4, f"{name}: ahead at the flaw by {ahead:.2g}")
+
+
+def yarns_come_off(name, run):
+    """A weave pulled along its warp: softer in the end, most of each yarn is off, not where yarns press on each other."""
+    secant = run.history["cell_stress_xx"][1:] / run.history["cell_strain_xx"][1:]
+    expect(secant[-1] < 0.9 * secant[0], f"{name}: secant stiffness {secant[-1] / secant[0]:.2f} of the first")
+    with run.fields() as file:
+        for interface in file["interfaces"]:
+            zeta = last_step(file)[interface]["zeta"][()]
+            off = (zeta < 0.5).mean()
+            expect(0.3 < off < 1.0 and zeta.max() > 0.9, f"{name}: {interface}: {off:.2f} of its pairs are off")
+
+
 # Scene: settings of its coarse size, and what must hold of its result besides `sound`.
 COARSE = {
     # Stiff and coarse: its avalanches begin with steps below rounding.
@@ -165,4 +206,8 @@ COARSE = {
     "mmb": (["geometry.divisions=400", "time.steps=40"], [grows, half_and_half]),
     "fibre": (["mesh.cells_around=48", "time.steps=25"], [loses_stiffness]),
     "fibres-30": (["mesh.fibres=10", "mesh.cells_around=16", "time.steps=12"], [loses_stiffness]),
+    "laminate-thermal": ([], [grows, load_of_lamination_theory]),
+    "laminate-edge": (["geometry.divisions=[20, 10]", "layers[0].divisions=2", "layers[1].divisions=2", "time.steps=30"],
+                      [from_the_free_edge]),
+    "weave": (["mesh.h=0.6e-3", 'mesh.cell="tet4"', "time.steps=5"], [yarns_come_off]),
 }
