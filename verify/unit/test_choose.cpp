@@ -147,15 +147,15 @@ END_TEST
 
 START_TEST(size_memory_and_time_decide) {
     ReductionChoice c;
-    c.condensation = {1e9, 1e9, 1e8, 1e9, true};
-    c.feti = {1e9, 1e9, 1e9, 5e8, true};
-    c.monolithic = 5e8;
+    c.condensation = {1e9, 1e9, 1e8, 1e10, true};
+    c.feti = {1e9, 1e9, 1e9, 5e9, true};
+    c.monolithic = 5e9;
     choose(c);
     ck_assert(c.condensed && c.reason.find("2 times") != std::string::npos);
-    c.monolithic = 3e8;  // 3.3 times
+    c.monolithic = 3e9;  // 3.3 times
     choose(c);
     ck_assert(!c.condensed && c.reason.find("more than 2.5") != std::string::npos);
-    c.feti.bytes = 2e9;
+    c.feti.bytes = 2e10;
     choose(c);
     ck_assert(c.condensed && c.reason.find("FETI would need") != std::string::npos);
     c.condensation.bytes = 1e8;  // three times, but little

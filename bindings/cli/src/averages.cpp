@@ -1,12 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "averages.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "build_constraints.hpp"
 #include "call.hpp"
 
 namespace cli {
+
+namespace {
+
+// Without a period along an axis nothing says what the strain there is; a stress there is an average all the same.
+bool of_cell(const CellData& cell, std::size_t component, bool stress) {
+    constexpr std::array<std::array<std::size_t, 2>, 6> axes{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+    return stress || std::all_of(axes[component].begin(), axes[component].end(), [&](std::size_t axis) {
+               return std::find(cell.axes.begin(), cell.axes.end(), axis) != cell.axes.end();
+           });
+}
+
+}  // namespace
 
 std::optional<AverageColumn> average_column(const std::string& key, const Scene& scene) {
     AverageColumn column;
@@ -27,7 +40,9 @@ std::optional<AverageColumn> average_column(const std::string& key, const Scene&
         for (std::size_t i = 0; i < components.size(); ++i) {
             column.stress = stress;
             column.component = i;
-            if (name == std::string(stress ? "stress_" : "strain_") + components[i]) return column;
+            if (name != std::string(stress ? "stress_" : "strain_") + components[i]) continue;
+            if (column.cell && !of_cell(*scene.cell, i, stress)) return std::nullopt;
+            return column;
         }
     return std::nullopt;
 }

@@ -9,6 +9,7 @@
 #include "build_materials.hpp"
 #include "build_mesh.hpp"
 #include "call.hpp"
+#include "named.hpp"
 #include "selection.hpp"
 
 namespace cli {
@@ -152,9 +153,15 @@ Context new_context() {
     return Context(handle);
 }
 
-Model build(Context context, const Scene& scene) {
-    Model model;
-    model.context = std::move(context);
+void note_constraints(Model& model, const Place& place) {
+    std::int64_t rows = 0;
+    call(model.context.get(), delam_problem_constraints(model.problem.get(), &rows, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr), place);
+    model.constraint_places.resize(static_cast<std::size_t>(rows), place);
+}
+
+namespace {
+
+void fill(Model& model, const Scene& scene) {
     const delam_context* owner = model.context.get();
     build_mesh(model, scene);
     delam_problem* handle = nullptr;
@@ -179,7 +186,10 @@ Model build(Context context, const Scene& scene) {
                                        pattern.times.data(), pattern.values.data(), &index),
              pattern.place);
     }
-    for (const Prescription& data : scene.prescriptions) prescribe(model, scene, data);
+    for (const Prescription& data : scene.prescriptions) {
+        prescribe(model, scene, data);
+        note_constraints(model, data.place);
+    }
     for (const DeadForce& data : scene.forces) add_force(model, scene, data);
     add_constraints(model, scene);
     for (const EigenstrainData& data : scene.eigenstrains)
@@ -195,6 +205,18 @@ Model build(Context context, const Scene& scene) {
              option.place);
     }
     call(owner, delam_problem_check(problem), {scene.file, "", 0});
+}
+
+}  // namespace
+
+Model build(Context context, const Scene& scene) {
+    Model model;
+    model.context = std::move(context);
+    try {
+        fill(model, scene);
+    } catch (const Failure& failure) {
+        throw Failure(failure.code(), named(failure.what(), scene, model));
+    }
     return model;
 }
 

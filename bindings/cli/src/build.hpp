@@ -16,8 +16,11 @@ struct Model {
     Problem problem;
     std::vector<InterfaceData> interfaces;  // as the mesh has them, in its order
     std::vector<bool> adheres;  // per interface: some pair does at the start
+    std::vector<Place> constraint_places;  // of each constraint of the problem: what asked for it
 };
 
+// Whatever the problem has gained of constraints is due to `place`.
+void note_constraints(Model& model, const Place& place);
 Context new_context();
 // The problem is complete and checked. Errors name the place in the scene.
 Model build(Context context, const Scene& scene);

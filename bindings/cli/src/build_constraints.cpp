@@ -159,7 +159,8 @@ void add_cell(const Model& model, const Scene& scene, const CellData& cell) {
 
     const std::int64_t held = corner_node(nodes_of(model, cell), dimension);
     for (std::size_t a = 0; a < dimension; ++a)
-        call(context, delam_problem_prescribe_nodes(model.problem.get(), 1, &held, unit(dimension, a).data(), 0, nullptr, nullptr, 0), cell.place);
+        call(context, delam_problem_prescribe_nodes(model.problem.get(), 1, &held, unit(dimension, a).data(), 0, nullptr, nullptr, 0),
+             {cell.place.file, cell.place.path + " holds its lower corner by itself (leave out supports there)", cell.place.line});
 
     const auto gradient = [&](Equation& equation, std::size_t i, std::size_t j, double factor) {
         for (std::size_t k = 0; k < n; ++k)
@@ -206,10 +207,18 @@ void add_cell(const Model& model, const Scene& scene, const CellData& cell) {
 
 }  // namespace
 
-void add_constraints(const Model& model, const Scene& scene) {
-    for (const EquationData& data : scene.equations) add_equation(model, scene, data);
-    for (const CouplingData& data : scene.couplings) couple(model, scene, data);
-    if (scene.cell) add_cell(model, scene, *scene.cell);
+void add_constraints(Model& model, const Scene& scene) {
+    for (const EquationData& data : scene.equations) {
+        add_equation(model, scene, data);
+        note_constraints(model, data.place);
+    }
+    for (const CouplingData& data : scene.couplings) {
+        couple(model, scene, data);
+        note_constraints(model, data.place);
+    }
+    if (!scene.cell) return;
+    add_cell(model, scene, *scene.cell);
+    note_constraints(model, scene.cell->place);
 }
 
 double cell_volume(const Model& model, const Scene& scene) {

@@ -9,7 +9,7 @@
 namespace cli {
 
 // After the patterns.
-void add_constraints(const Model& model, const Scene& scene);
+void add_constraints(Model& model, const Scene& scene);
 
 // Volume (2D: area) of the cell: that of its periods, times the extent of the mesh across them.
 double cell_volume(const Model& model, const Scene& scene);

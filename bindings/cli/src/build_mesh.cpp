@@ -55,9 +55,9 @@ void add_obstacles(Model& model, const Scene& scene) {
         // Into the body: against the outward normal.
         std::vector<std::int64_t> nodes;
         std::vector<double> normals;
+        const auto* patch = std::get_if<Patch>(&data.where.shape);
         for (std::size_t i = 0; i < at.nodes.size(); ++i) {
             nodes.push_back(at.nodes[i]);
-            const auto* patch = std::get_if<Patch>(&data.where.shape);
             for (std::size_t a = 0; a < dimension; ++a)
                 normals.push_back(patch != nullptr ? -patch->normal[a] : -at.normals[i * dimension + a]);
         }
@@ -157,9 +157,16 @@ const InterfaceData* entry_for(const Scene& scene, const std::string& a, const s
 // Those of bodies that touch and have none yet. Every one needs an entry: a forgotten one would come apart unnoticed.
 void add_other_interfaces(Model& model, const Scene& scene) {
     std::int64_t added = 0;
-    double tolerance = 0;
-    for (const InterfaceData& data : scene.interfaces)
-        if (data.a.empty() || is_pattern(data.a + data.b)) tolerance = std::max(tolerance, data.tolerance);
+    // They are found in one go.
+    const InterfaceData* first = nullptr;
+    for (const InterfaceData& data : scene.interfaces) {
+        if (!data.a.empty() && !is_pattern(data.a + data.b)) continue;
+        if (first == nullptr) first = &data;
+        if (data.tolerance != first->tolerance)
+            throw SceneFailure(data.place, fmt::format("tolerance is {}, that of {} {}: entries with all or with * share one", data.tolerance,
+                                                       first->place.path, first->tolerance));
+    }
+    const double tolerance = first != nullptr ? first->tolerance : 0.0;
     call(model.context.get(), delam_mesh_add_all_interfaces(model.mesh.get(), tolerance, &added), scene.geometry.place);
     std::set<const InterfaceData*> used;
     for (auto index = static_cast<std::int64_t>(model.interfaces.size()); added > 0; ++index, --added) {

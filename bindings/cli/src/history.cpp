@@ -71,8 +71,9 @@ History::History(const Model& model, const delam_solver* solver, const Scene& sc
         if (!knows(key) && !average)
             throw SceneFailure(
                 scene.output.columns_place,
-                fmt::format("\"{}\": no such value{}; one of {}, strain_xx or stress_xx (any component) and with :LAYER", key,
-                            suggestion(key, known), listing(known)));
+                fmt::format("\"{}\": no such value{}; one of {}, strain_xx or stress_xx (any component) and with :{} behind it{}", key,
+                            suggestion(key, known), listing(known), scene.mesh ? "BODY" : "LAYER",
+                            scene.cell ? ", cell_strain_xx, cell_stress_xx (strains along its periods)" : ""));
         const auto same_key = [&key](const Column& column) { return column.key == key; };
         if (std::none_of(columns_.begin(), columns_.end(), same_key)) add(key, key);
     }

@@ -23,6 +23,28 @@ Json options(const delam_solver* solver) {
     return out;
 }
 
+// Of a periodic cell: its volume, and d2 E / d factor2 over it at the last state, at held adhesion and contact. Of patterns that each drive one
+// strain by coefficient 1 these are the moduli.
+Json cell_of(const Model& model, delam_solver* solver, const Scene& scene, bool complete) {
+    if (!scene.cell) return nullptr;
+    const double volume = cell_volume(model, scene);
+    Json names = Json::array();
+    for (const PatternData& pattern : scene.patterns) names.push_back(pattern.name);
+    const std::size_t n = scene.patterns.size();
+    std::vector<double> matrix(n * n);
+    Json rows = nullptr;
+    // Where a stress acts on what nothing holds any more there is none; and no march is lost for want of it.
+    if (complete && delam_solver_tangent(solver, static_cast<std::int64_t>(matrix.size()), matrix.data()) == DELAM_OK) {
+        rows = Json::array();
+        for (std::size_t p = 0; p < n; ++p) {
+            Json row = Json::array();
+            for (std::size_t q = 0; q < n; ++q) row.push_back(matrix[p * n + q] / volume);
+            rows.push_back(std::move(row));
+        }
+    }
+    return {{"volume", volume}, {"periods", scene.cell->periods}, {"tangent_patterns", names}, {"tangent", rows}};
+}
+
 }  // namespace
 
 std::string now_text() {
@@ -85,7 +107,7 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
         {"unknowns", {{"primal", primal}, {"dual", dual}}},
         {"layers", layers},
         {"patterns", patterns},
-        {"cell", scene.cell ? Json{{"volume", cell_volume(model, scene)}, {"periods", scene.cell->periods}} : Json(nullptr)},
+        {"cell", cell_of(model, solver, scene, outcome.complete)},
         {"output",
          {{"snapshots", scene.output.snapshots},
           {"displacement_scale", scene.output.displacement_scale},

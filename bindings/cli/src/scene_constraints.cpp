@@ -37,13 +37,10 @@ std::vector<std::vector<double>> read_periods(const Table& table, const Scene& s
 }
 
 EquationTerm read_left(const Table& table, const Scene& scene) {
-    std::vector<std::string> keys = with_selection(scene, {"component", "direction", "coefficient"});
-    keys.erase(std::remove(keys.begin(), keys.end(), "box"), keys.end());
-    table.only(keys);
+    const Places places{"point", "patch", "set", "control"};
+    table.only(with_selection(scene, {"component", "direction", "coefficient"}, places));
     EquationTerm term;
-    term.where = read_selection(table, scene);
-    const auto* set = std::get_if<NamedSet>(&term.where.shape);
-    if (set != nullptr && set->name.empty()) table.fail("body", "is not enough: a point, patch, set or control is needed");
+    term.where = read_selection(table, scene, places);
     const auto directions = read_directions(table, "component", scene.geometry);
     if (directions.size() != 1) table.fail("component", fmt::format("has {} entries: 1 is expected", directions.size()));
     term.direction = directions.front();
@@ -101,9 +98,10 @@ CellData read_cell(const Table& table, const Scene& scene) {
     cell.place = table.place();
     cell.periods = read_periods(table, scene);
     cell.axes = axes_of(table, cell.periods);
+    // read_controls put theirs behind all others.
     const auto own = scene.controls.size() - cell.periods.size();
     for (std::size_t k = 0; k < cell.periods.size(); ++k) cell.controls.push_back(own + k);
-    cell.tolerance = table.number("tolerance", not_negative, 0.0);
+    cell.tolerance = table.number("tolerance", pairing_tolerance, 0.0);
     for (const bool stress : {false, true})
         for (const Table& entry : table.tables(stress ? "stress" : "strain")) {
             CellComponent component = read_component(entry, scene, stress);
@@ -159,26 +157,22 @@ void read_constraints(const Table& root, Scene& scene) {
         scene.equations.push_back(std::move(equation));
     }
     for (const Table& table : root.tables("couplings")) {
-        std::vector<std::string> keys = with_selection(scene, {"component", "direction", "control"});
-        keys.erase(std::remove(keys.begin(), keys.end(), "patch"), keys.end());
-        table.only(keys);
+        const Places places{"point", "box", "set", "body"};
+        table.only(with_selection(scene, {"component", "direction", "control"}, places));
         CouplingData coupling;
         coupling.control = control_of(table, scene);
-        coupling.where = read_selection(table, scene, false);
+        coupling.where = read_selection(table, scene, places);
         coupling.directions = read_directions(table, "component", scene.geometry);
         coupling.place = table.place();
         scene.couplings.push_back(std::move(coupling));
     }
     for (const Table& table : root.tables("obstacles")) {
-        std::vector<std::string> keys = with_selection(scene, {"control"});
-        for (const char* key : {"point", "box"}) keys.erase(std::remove(keys.begin(), keys.end(), key), keys.end());
-        table.only(keys);
+        const Places places{"patch", "set"};
+        table.only(with_selection(scene, {"control"}, places));
         ObstacleData obstacle;
         obstacle.control = control_of(table, scene);
-        obstacle.where = read_selection(table, scene, false);
-        const auto* set = std::get_if<NamedSet>(&obstacle.where.shape);
-        if (set != nullptr && set->name.empty()) table.fail("body", "is not enough: a patch or set is needed");
-        obstacle.name = table.text("name", "obstacle");
+        obstacle.where = read_selection(table, scene, places);
+        obstacle.name = table.text("name", fmt::format("obstacle-{}", scene.obstacles.size() + 1));
         obstacle.place = table.place();
         scene.obstacles.push_back(std::move(obstacle));
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // [[thermal]]: a change of temperature acts through the expansions of the materials. [[eigenstrains]]: any other strain that is prescribed.
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -60,6 +61,8 @@ void read_eigenstrains(const Table& root, Scene& scene) {
             table.fail("strain", fmt::format("has {} entries: 3 (xx, yy, zz) or 6 (and 2xy, 2yz, 2zx) are expected", given.size()));
         std::array<double, 6> strain{};
         std::copy(given.begin(), given.end(), strain.begin());
+        if (scene.geometry.dimension == 2 && (std::fpclassify(strain[4]) != FP_ZERO || std::fpclassify(strain[5]) != FP_ZERO))
+            table.fail("strain", fmt::format("has 2yz = {}, 2zx = {}: 0 is expected in the plane", strain[4], strain[5]));
         for (const std::size_t layer : read_places(table, scene))
             scene.eigenstrains.push_back({static_cast<std::int32_t>(layer), strain, pattern, table.place()});
     }

@@ -9,16 +9,26 @@
 
 namespace cli {
 
-// Keys that say where something acts, common to supports, loads and forces.
-std::vector<std::string> with_selection(const Scene& scene, std::vector<std::string> keys) {
-    for (const char* key : {"name", "point", "box", "patch", "tolerance"}) keys.emplace_back(key);
-    if (!scene.controls.empty()) keys.emplace_back("control");
-    if (scene.mesh) {
-        keys.emplace_back("set");
-        keys.emplace_back("body");
-    } else {
-        keys.emplace_back("layer");
-    }
+const Places any_place{"point", "box", "patch", "set", "body", "control"};
+
+namespace {
+
+// Those that a scene with layers, or with a mesh, can have.
+Places places_of(const Scene& scene, const Places& places) {
+    Places out;
+    for (const std::string& place : places)
+        if (scene.mesh || (place != "set" && place != "body")) out.push_back(place);
+    return out;
+}
+
+}  // namespace
+
+// Keys that say where something acts, common to supports, loads, forces and constraints.
+std::vector<std::string> with_selection(const Scene& scene, std::vector<std::string> keys, const Places& places) {
+    const std::string body = scene.mesh ? "body" : "layer";
+    for (const std::string& place : places_of(scene, places))
+        if (place != body) keys.push_back(place);
+    for (const std::string& key : {std::string("name"), std::string("tolerance"), body}) keys.push_back(key);
     return keys;
 }
 
@@ -59,7 +69,7 @@ Patch read_patch(const Table& table, const Geometry& geometry) {
 
 }  // namespace
 
-Selection read_selection(const Table& table, const Scene& scene, bool control) {
+Selection read_selection(const Table& table, const Scene& scene, const Places& allowed) {
     const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
     Selection out;
     out.place = table.place();
@@ -67,13 +77,14 @@ Selection read_selection(const Table& table, const Scene& scene, bool control) {
     const std::string body = scene.mesh ? "body" : "layer";
     if (table.has(body))
         out.body = static_cast<std::int32_t>(find_named(table, body, table.text(body), scene.layers, body));
-    const int shapes = int{table.has("point")} + int{table.has("box")} + int{table.has("patch")} +
-                       int{table.has("set")} + int{control && table.has("control")};
-    const bool whole = scene.mesh && shapes == 0 && table.has("body");
-    if (shapes != 1 && !whole)
-        table.fail("point", fmt::format("give one of point, box{} ({} are given)",
-                                        scene.mesh ? ", patch, set and body" : " and patch", shapes));
-    if (control && table.has("control")) {
+    const Places places = places_of(scene, allowed);
+    const auto is_place = [&](const char* key) { return std::find(places.begin(), places.end(), key) != places.end(); };
+    const auto given = std::count_if(places.begin(), places.end(), [&](const std::string& p) { return p != "body" && table.has(p); });
+    const bool whole = is_place("body") && given == 0 && table.has("body");
+    if (given != 1 && !whole)
+        table.fail(places.front(), fmt::format("give one of {} ({} are given)", listing(places), given));
+    if (is_place("control") && table.has("control")) {
+        if (out.body >= 0) table.fail(body, "is not for a control node: it is of none");
         out.shape = ControlNode{find_named(table, "control", table.text("control"), scene.controls, "control node")};
     } else if (whole) {
         out.shape = NamedSet{};
@@ -220,13 +231,10 @@ void read_supports_and_loads(const Table& root, Scene& scene) {
 
 void read_forces(const Table& root, Scene& scene) {
     for (const Table& table : root.tables("forces")) {
-        table.only(with_selection(scene, {"force", "traction", "pressure", "pattern"}));
-        if (table.has("box")) table.fail("box", "is not for forces: give point or patch");
+        const Places places{"point", "patch", "set", "control"};
+        table.only(with_selection(scene, {"force", "traction", "pressure", "pattern"}, places));
         DeadForce force;
-        force.where = read_selection(table, scene);
-        const auto* set = std::get_if<NamedSet>(&force.where.shape);
-        if (set != nullptr && set->name.empty())
-            table.fail("body", "is not for forces alone: a point, patch or set is");
+        force.where = read_selection(table, scene, places);
         read_force(table, scene, force);
         force.pattern = find_named(table, "pattern", table.text("pattern"), scene.patterns, "pattern");
         force.place = table.place();

@@ -209,6 +209,14 @@ for dimension in (2, 3):
                 near(row, f"cell_strain_{n}", 0.01 if n == component else 0.0, f"{dimension}D strain {component}", 1e-12, 0.01)
             near(row, "reaction", volume * 1e-4 * moduli[component, component], f"{dimension}D: reaction is volume times stress")
             expect(row is not None and abs(row["cell"]["volume"] - volume) < 1e-12, "volume of the cell")
+    # All moduli at once: a pattern for each component, which need not do anything.
+    more = "".join(f'[[patterns]]\nname = "p{n}"\ntimes = [0]\nvalues = [0]\n' for n in names[1:])
+    cell = f'[cell]\nperiods = {lattices[0]}\nstrain = [' + ", ".join(f'{{ component = "{n}", pattern = "p{n}" }}' for n in names) + "]\n"
+    row = last_row(block(dimension, more + cell, "soft").replace('name = "p"', 'name = "pxx"').replace("values = [0, 1]", "values = [0, 0.01]"))
+    tangent = row["cell"]["tangent"] if row else []
+    order = row["cell"]["tangent_patterns"] if row else []
+    worst = max((abs(tangent[order.index("p" + i)][order.index("p" + j)] - moduli.get((i, j), 0.0)) for i in names for j in names), default=1.0)
+    expect(worst < 1e-9 * 10, f"{dimension}D: the homogenised tangent is that of the layers, to {worst:.1e}")
     # A prescribed shear stress; what is not given is free of stress.
     shear = names[-1]
     cell = f'[cell]\nperiods = {lattices[0]}\nstress = [{{ component = "{shear}", pattern = "p", coefficient = 0.02 }}]\n'
@@ -252,10 +260,24 @@ for old, new, *patterns in (
         ('[{ point = [1.0, 1.0], component = ["y"] }]', "[]", r"left: is needed"),
         ("point = [1.0, 1.0]", "point = [1.01, 1.0]", r"no node within"),
         ("point = [1.0, 1.0]", "box = { lower = [0, 0], upper = [1, 1] }", r"box: unknown key"),
-        ("point = [1.0, 1.0]", 'control = "nose"', r"control: unknown key")):
+        ("point = [1.0, 1.0], ", "", r"give one of point, patch, control \(0 are given\)"),
+        ("point = [1.0, 1.0]", 'control = "nose"', r'"nose": no such control node; none is defined')):
     expect_error(delam("check", write(lever.replace(old, new, 1))), 2, *patterns)
 twice = lever + '[[equations]]\nleft = [{ point = [1.0, 1.0], component = ["y"] }]\npattern = "p"\n'
-expect_error(delam("check", write(twice)), 2, r"constraint 13 .* what other constraints do already")
+expect_error(delam("check", write(twice)), 2, r"equations\[1\], line \d+, constraint 13 .* what other constraints do already")
+expect_error(delam("check", write(lever + '[[equations]]\nleft = [{ point = [0.0, 0.0], component = ["y"] }]\npattern = "p"\n')),
+             2, r"equations\[1\], line \d+, constraint .* contradicts other constraints")
+expect_error(delam("check", write(cell + '[[supports]]\nbox = { lower = [0, 0], upper = [0, 1] }\nfix = ["x"]\n')),
+             2, r"cell holds its lower corner by itself \(leave out supports there\)")
+flat = cell.replace("dimension = 2", 'dimension = 2\nplane = "plane-stress"') + '[output]\ncolumns = ["cell_strain_zz"]\n'
+expect_error(delam("run", write(flat), "--out", os.path.join(folder(), "out")), 2, r'"cell_strain_zz": no such value')
+loose = block(2, '[[supports]]\nbox = { lower = [0, 0], upper = [0, 1] }\nfix = ["x", "y"]\n[[controls]]\nname = "nose"\n[[loads]]\n'
+                 'point = [1.0, 1.0]\ncomponent = ["y"]\npattern = "p"\n[[obstacles]]\n'
+                 'patch = { centre = [1.5, 1.0], length = 1.0, face = "+y" }\ncontrol = "nose"\n[[supports]]\ncontrol = "nose"\nfix = ["x"]\n')
+free = loose[:loose.index("[[obstacles]]")].replace('point = [1.0, 1.0]\ncomponent', 'control = "nose"\ncomponent')
+expect_error(delam("check", write(free + '[[patterns]]\nname = "f"\ntimes = [0, 1]\nvalues = [0, 1]\n[[forces]]\ncontrol = "nose"\nforce = [1, 0]\npattern = "f"\n')),
+             2, r'missing support: control node "nose" can translate along x')
+expect_error(delam("check", write(loose.replace('control = "nose"\nfix', 'control = "nose"\nlayer = "lower"\nfix'))), 2, r"layer: is not for a control node")
 unheld = block(2, '[[supports]]\nbox = { lower = [0, 0], upper = [0, 1] }\nfix = ["x", "y"]\n[[controls]]\nname = "nose"\n'
                   '[[couplings]]\nbox = { lower = [2, 0], upper = [2, 1] }\ncomponent = ["y"]\ncontrol = "nse"\n')
 expect_error(delam("check", write(unheld)), 2, r"no such control node \(did you mean 'nose'\?\)")
