@@ -12,8 +12,9 @@ namespace delam {
 namespace {
 
 constexpr double noise = 1e-11;            // of the largest jump or force in the zone: rounding
-// Of the zone's energy: what one state's jumps differ by, found from all bodies or within the zone. A plain step never adds energy; on
-// a stiff interface an avalanche begins with steps that free less than this.
+// Of the terms of the zone's energy: what it changes by when the jumps of one state are found from all bodies or within the zone. A plain step
+// never adds energy, but on a stiff interface an avalanche begins with steps that free less than this. Rises cannot add up: the
+// caller compares the energy of the whole before and after.
 constexpr double energy_noise = 1e-11;
 constexpr std::int64_t longest_wait = 8;   // plain steps between two attempts of what has failed
 constexpr std::int64_t contact_steps = 30; // active-set steps of one Newton step; beyond them the step is not taken
@@ -88,6 +89,7 @@ private:
         std::vector<double> jump;
         std::vector<double> adhesion;
         double energy = 0.0;
+        double size = 0.0;  // of the terms that the energy is the sum of
     };
 
     Zone& find_zone();
@@ -142,21 +144,26 @@ Leap::Point Leap::point(std::vector<double> unknowns) const {
     Point at;
     at.jump = zone_.jumps(state_.theta, unknowns);
     at.energy = zone_.energy_of(state_.theta, unknowns);
-    for (std::size_t z = 0; z < spring_.size(); ++z) at.energy += 0.5 * spring_[z] * at.jump[z] * at.jump[z];
+    at.size = std::abs(at.energy);
+    const auto add = [&](double term) {
+        at.energy += term;
+        at.size += std::abs(term);
+    };
+    for (std::size_t z = 0; z < spring_.size(); ++z) add(0.5 * spring_[z] * at.jump[z] * at.jump[z]);
     at.unknowns = std::move(unknowns);
     for (const ZonePair& m : members_) {
         const std::span<const double> local = std::span<const double>(at.jump).subspan(m.first, dim_);
         if (curved(m)) {
             const VariationalPair pair = mixity_.variational(m.pair);
             at.adhesion.push_back(pair.minimiser(local, old_[m.pair]));
-            at.energy += newton_.pairs.weight[m.pair] * pair.energy(local, at.adhesion.back());
+            add(newton_.pairs.weight[m.pair] * pair.energy(local, at.adhesion.back()));
             continue;
         }
         const Law& law = *newton_.pairs.law[m.pair];
         const double driving = driving_energy(law, local).total();
         const double zeta = law.minimiser(toughness_[m.pair], driving, old_[m.pair]);
         at.adhesion.push_back(zeta);
-        at.energy += newton_.pairs.weight[m.pair] * (zeta * driving + law.dissipated(toughness_[m.pair], zeta));
+        add(newton_.pairs.weight[m.pair] * (zeta * driving + law.dissipated(toughness_[m.pair], zeta)));
     }
     return at;
 }
@@ -345,7 +352,7 @@ double Leap::run() {
             held_ = before;
             extrapolation.forget();
             used = at.adhesion;
-            if (!minimise(at, at.adhesion, 0.0, -1, next) || next.energy > at.energy + energy_noise * std::abs(at.energy)) {
+            if (!minimise(at, at.adhesion, 0.0, -1, next) || next.energy > at.energy + energy_noise * at.size) {
                 held_ = before;
                 break;
             }

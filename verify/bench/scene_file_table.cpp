@@ -42,7 +42,7 @@ UpperMatrix upper_of(std::size_t n, const reference::Triplets& lower) {
 struct Outcome {
     double setup = 0.0, march = 0.0, peak = 0.0;  // s, s, bytes above what was there
     std::size_t steps = 0;
-    double alternations = 0.0, linear = 0.0, solves = 0.0, dissipated = 0.0, reaction = 0.0;
+    double alternations = 0.0, linear = 0.0, solves = 0.0, dissipated = 0.0;
 };
 
 Outcome run(reference::SceneFile& file, const char* reduction, double cap) {

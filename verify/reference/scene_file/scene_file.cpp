@@ -13,7 +13,7 @@ namespace {
 double parameter(const cli::LawData& law, const std::string& key) {
     for (const auto& [name, value] : law.parameters)
         if (name == key) return value;
-    return 0.0;
+    throw Failure(DELAM_ERROR_ARGUMENT, "law \"" + law.name + "\" has no " + key);
 }
 
 cli::Model build(const std::string& path, const std::vector<std::string>& settings, cli::Scene& scene) {
@@ -45,6 +45,7 @@ SceneFile read_scene_file(const std::string& path, const std::vector<std::string
 }
 
 std::vector<Judged> judge(SceneFile& file, const std::vector<std::size_t>& steps, std::int64_t subdomains) {
+    if (steps.empty()) return {};
     Scene& scene = file.scene;
     scene.text("reduction", "condensed");
     Solver march(scene, file.times.front());

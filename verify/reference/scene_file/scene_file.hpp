@@ -23,10 +23,11 @@ struct Judged {
     double debonded = 0.0;  // share of the pairs
     int closed = 0;         // contacts, of the direct solution
     Comparison condensed, feti;
-    bool stalled = false;            // FETI: rounding, before the linear tolerance was met
+    bool stalled = false;            // FETI did not meet its linear tolerance (DELAM_NOT_CONVERGED)
     double linear_iterations = 0.0;  // of FETI's one displacement step
 };
-// steps: which of the march are judged; 0 is the initial state.
+// steps: which of the march are judged; 0 is the initial state. subdomains: of FETI, 0 for its own choice. The options reduction and subdomains
+// of `file` are changed by it.
 std::vector<Judged> judge(SceneFile& file, const std::vector<std::size_t>& steps, std::int64_t subdomains);
 
 }  // namespace reference
