@@ -13,6 +13,11 @@ FAMILIES = ("enf-ductile", "enf-brittle-local", "enf-brittle-energetic", "mmf-du
             "mmf-ductile-converged", "mmf-brittle-energetic")
 
 
+# Scenes whose pictures are drawn here, with those beyond the usual ones: each kind once.
+PICTURES = {"fibre": ["stress-strain.png"], "laminate-thermal": ["stresses.png"], "dcb-3d": ["fronts.png"],
+            "weave": ["stress-strain.png", "fronts.png"]}
+
+
 def script(*words):
     done = subprocess.run(["bash", os.path.join(EXAMPLES, "run.sh"), *words], capture_output=True, text=True,
                           check=False)
@@ -60,4 +65,10 @@ for name, (settings, checks) in COARSE.items():
     run = coarse_run(os.path.join(EXAMPLES, name, name + ".toml"), settings)
     for check in (sound, *checks) if run else ():
         check(name, run)
+    if run and name in PICTURES:
+        done = subprocess.run(["/usr/bin/python3", os.environ["DELAM_PLOT"], run.out], capture_output=True, text=True, check=False)
+        made = {picture for picture in os.listdir(run.out) if picture.endswith(".png")}
+        wanted = {"load-displacement.png", "energies.png", "snapshots.png", *PICTURES[name]}
+        small = [p for p in made if os.path.getsize(os.path.join(run.out, p)) < 10000]
+        expect(done.returncode == 0 and made == wanted and not small, f"{name}: pictures {sorted(made)} {done.stderr.strip()[-200:]}")
 finish()
