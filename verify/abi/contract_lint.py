@@ -116,7 +116,7 @@ def check(function, header, listed, implemented):
             gaps.append(f"{key}: empty")
 
     parameters = function.parameters
-    handles = [p for p in parameters if is_handle(p.type, header)]
+    handles = [p for p in parameters if is_handle(p.type, header) and (p.type.count("*") == 1 or function.name.endswith("_destroy"))]
     pointers = [p for p in parameters if "*" in p.type or p.type in header.callbacks]
     everything = prose + " " + " ".join(fields.values())
     for position, p in enumerate(parameters):

@@ -57,12 +57,6 @@ text = header.COMMENT.sub("", open(sys.argv[2], encoding="utf-8").read())
 print("/* SPDX-License-Identifier: BSD-3-Clause\n * delam.h of the baseline, without its comments. Written by update.sh. */")
 print(re.sub(r"\n\s*\n+", "\n", re.sub(r"[ \t]+$", "", text, flags=re.M)).strip())
 PYTHON
-outside=$(mktemp)
-trap 'rm -f "$new" "$outside"' EXIT
-printf '[suppress_function]\nsymbol_name_regexp = ^delam_experimental_\ndrop = yes\n' >"$outside"
-# Places in the sources would change the file with every edit and say nothing of the interface.
-abidw --header-file "$header" --drop-private-types --exported-interfaces-only --no-elf-needed --no-corpus-path --no-comp-dir-path \
-    --no-architecture --suppressions "$outside" "$library" |
-    sed -e "s/ filepath='[^']*'//g; s/ line='[0-9]*'//g; s/ column='[0-9]*'//g; s| path='.*/src/| path='src/|" \
-        >"$here/baseline/delam.abi"
+/usr/bin/python3 "$here/gate.py" abixml --header "$header" --library "$library" >"$new"
+cp "$new" "$here/baseline/delam.abi"
 printf '%s functions in symbols.txt and the baseline\n' "$(grep -vc '^#' "$here/symbols.txt")"
