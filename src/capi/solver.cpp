@@ -42,9 +42,9 @@ const std::vector<CrackFront>& fronts_of(const delam_solver& solver, std::int64_
 extern "C" {
 
 int32_t delam_solver_create(const delam_problem* problem, double time, delam_solver** out) {
+    if (out != nullptr) *out = nullptr;
     return guard(problem, [&] {
         require_pointer(out, "out");
-        *out = nullptr;
         require_finite(&time, 1, "time");
         auto handle = std::make_unique<delam_solver>();
         handle->context = problem->context;

@@ -70,9 +70,10 @@ static void unchanged(void) {
 }
 
 START_TEST(handles) {
+    int64_t foreign[8] = {0, 0, 0, 0, 0, 0, 0, 0};
+    delam_solver *solver = (delam_solver *)(void *)foreign;
     delam_mesh *none = NULL;
     delam_problem *failed = NULL;
-    int64_t foreign[8] = {0, 0, 0, 0, 0, 0, 0, 0};
     ck_assert_int_eq(delam_mesh_size(NULL, NULL, NULL, NULL, NULL, NULL), DELAM_ERROR_HANDLE);
     ck_assert_int_eq(delam_mesh_size((const delam_mesh *)(const void *)foreign, NULL, NULL, NULL, NULL, NULL),
                      DELAM_ERROR_HANDLE);
@@ -88,6 +89,8 @@ START_TEST(handles) {
     expect(delam_problem_create(context, NULL, &failed), DELAM_ERROR_HANDLE, "mesh is NULL");
     ck_assert_ptr_null(failed);
     expect(delam_problem_create(context, mesh, NULL), DELAM_ERROR_ARGUMENT, "out is NULL");
+    ck_assert_int_eq(delam_solver_create(NULL, 0.0, &solver), DELAM_ERROR_HANDLE);
+    ck_assert_ptr_null(solver);
     delam_mesh_destroy(&none);
     delam_mesh_destroy(NULL);
     delam_context_destroy(NULL);

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The public header as data.
+
+A strict reader of the few forms that the header may have: comments, preprocessor lines, opaque handles, callback types and functions
+marked DELAM_API. Whatever else stands there (a struct with members, an enumeration, an inline function) is refused by line, so that
+the reader is also the rule.
+"""
+import re
+from dataclasses import dataclass
+
+
+class HeaderError(Exception):
+    pass
+
+
+@dataclass
+class Parameter:
+    type: str  # one space between words, none before '*': "const double*"
+    name: str
+
+
+@dataclass
+class Function:
+    name: str
+    result: str
+    parameters: list
+    comment: str  # of this function alone, without frame; "" where none stands directly above
+    line: int
+    callback: bool = False
+
+    def signature(self):
+        words = ", ".join(f"{p.type}" for p in self.parameters) or "void"
+        return f"{self.result} {self.name}({words})"
+
+
+@dataclass
+class Header:
+    path: str
+    functions: dict
+    callbacks: dict
+    handles: list
+    constants: dict  # name -> text of the value
+    comments: list   # (line, text) of every comment
+
+
+BLANK = re.compile(r"\s+")
+COMMENT = re.compile(r"/\*.*?\*/", re.S)
+DIRECTIVE = re.compile(r"#[^\n]*")
+LINKAGE = re.compile(r'extern "C" \{|\}')
+HANDLE = re.compile(r"typedef struct (\w+) (\w+);")
+CALLBACK = re.compile(r"typedef ([^;{}()]+?)\(\*(\w+)\)\(([^;{}()]*)\);")
+FUNCTION = re.compile(r"DELAM_API\s+([^;{}()]+?)(\w+)\(([^;{}()]*)\);")
+CONSTANT = re.compile(r"#define (DELAM_\w+)[ \t]+(\S+)")
+NUMBERS = {"int32_t", "int64_t", "double", "uint8_t"}
+
+
+def plain(text):
+    """A comment without its frame."""
+    lines = text[2:-2].split("\n")
+    return "\n".join(re.sub(r"^ ?\* ?", "", line) if i else line.lstrip() for i, line in enumerate(lines)).strip()
+
+
+def squeezed(type_text):
+    return re.sub(r"\s*\*\s*", "*", " ".join(type_text.split()))
+
+
+def parameters_of(text, where):
+    text = COMMENT.sub(" ", text)
+    if text.strip() == "void":
+        return []
+    found = []
+    for part in text.split(","):
+        match = re.fullmatch(r"\s*(.+?)(\w+)\s*", part, re.S)
+        if not match or not match.group(1).strip():
+            raise HeaderError(f"{where}: parameter '{part.strip()}' needs a type and a name")
+        found.append(Parameter(squeezed(match.group(1)), match.group(2)))
+    return found
+
+
+def read(path, known=None):
+    """known: a Header whose handles and callbacks this one may use."""
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    handles = list(known.handles) if known else []
+    callbacks = dict(known.callbacks) if known else {}
+    header = Header(str(path), {}, {}, [], {}, [])
+    at = 0
+    comment = ""
+    while at < len(text):
+        line = text.count("\n", 0, at) + 1
+        where = f"{path}:{line}"
+        if match := BLANK.match(text, at):
+            if match.group().count("\n") > 1:
+                comment = ""
+        elif match := COMMENT.match(text, at):
+            comment = plain(match.group())
+            header.comments.append((line, comment))
+        elif match := DIRECTIVE.match(text, at):
+            comment = ""
+            if constant := CONSTANT.match(match.group()):
+                if constant.group(1) != "DELAM_API":
+                    header.constants[constant.group(1)] = constant.group(2)
+            if re.match(r"#define \w+\(", match.group()):
+                raise HeaderError(f"{where}: a macro with arguments: {match.group()}")
+        elif match := LINKAGE.match(text, at):
+            comment = ""
+        elif match := HANDLE.match(text, at):
+            header.handles.append(match.group(1))
+            handles.append(match.group(1))
+            comment = ""
+        elif match := CALLBACK.match(text, at) or FUNCTION.match(text, at):
+            callback = match.re is CALLBACK
+            function = Function(match.group(2), squeezed(match.group(1)), parameters_of(match.group(3), where), comment, line, callback)
+            into = header.callbacks if callback else header.functions
+            if function.name in header.callbacks or function.name in header.functions:
+                raise HeaderError(f"{where}: {function.name} is declared twice")
+            into[function.name] = function
+            if callback:
+                callbacks[function.name] = function
+            allowed = NUMBERS | {"void", "char"} | set(handles) | set(callbacks)
+            for type_text in [function.result] + [p.type for p in function.parameters]:
+                if type_text.replace("const ", "").rstrip("*") not in allowed:
+                    raise HeaderError(f"{where}: {function.name}: type '{type_text}' is none of the interface's types")
+            comment = ""
+        else:
+            raise HeaderError(f"{where}: not a form that the header may have: {text[at:at + 60].splitlines()[0]}")
+        at = match.end()
+    return header

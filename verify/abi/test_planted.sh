@@ -1,0 +1,328 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# test_planted.sh SOURCE_FOLDER: a gate that lets nothing through is only seen at a break. Each check gets altered copies of the header,
+# of a small library made from it, or of the contract, and must fail with a message that names the place.
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+root=$1
+python=/usr/bin/python3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+checks=0
+
+# refused MESSAGE COMMAND...: must fail and say MESSAGE (an extended regular expression).
+refused() {
+    local message=$1 status=0 said
+    shift
+    said=$("$@" 2>&1) || status=$?
+    checks=$((checks + 1))
+    if ((status == 0)); then
+        printf 'passed, but must fail (%s): %s\n' "$message" "$*"
+        failures=$((failures + 1))
+    elif ! grep -qE -- "$message" <<<"$said"; then
+        printf 'failed without saying "%s": %s\n%s\n' "$message" "$*" "$said"
+        failures=$((failures + 1))
+    fi
+}
+accepted() {
+    local status=0 said
+    said=$("$@" 2>&1) || status=$?
+    checks=$((checks + 1))
+    if ((status != 0)); then
+        printf 'must pass: %s\n%s\n' "$*" "$said"
+        failures=$((failures + 1))
+    fi
+}
+
+# A header of the house, small.
+mkdir -p "$work/sound/delam"
+cat >"$work/sound/delam/delam.h" <<'HEADER'
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef DELAM_DELAM_H
+#define DELAM_DELAM_H
+#include <stdint.h>
+#if defined(__GNUC__)
+#define DELAM_API __attribute__((visibility("default")))
+#else
+#define DELAM_API
+#endif
+#ifdef __cplusplus
+extern "C" {
+#endif
+#define DELAM_ABI 1
+#define DELAM_ERROR_ARGUMENT -1
+typedef struct delam_law delam_law;
+/* Told of each value. */
+typedef int32_t (*delam_watch_callback)(double value, void *user);
+/* Makes a law of a kind.
+ * [null none; owns out caller; status only argument, memory; thread any; since 0.1] */
+DELAM_API int32_t delam_law_create(const char *kind, delam_law **out);
+/* Tractions at count jumps: jump, traction [count][2].
+ * [unit jump L, traction F/L2; null traction; status argument; source NOBODY 1900; since 0.1] */
+DELAM_API int32_t delam_law_respond(const delam_law *law, int64_t count, const double *jump, double *traction);
+/* Calls back for each value that is computed from now on.
+ * [null watch, user; owns watch and user: the host; status usual; since 0.2] */
+DELAM_API int32_t delam_law_watch(delam_law *law, delam_watch_callback watch, void *user);
+#ifdef __cplusplus
+}
+#endif
+#endif
+HEADER
+cat >"$work/sound/law.c" <<'CODE'
+#include "delam/delam.h"
+struct delam_law { int32_t kind; };
+DELAM_API int32_t delam_law_create(const char *kind, delam_law **out) { return kind != 0 && out != 0 ? 0 : DELAM_ERROR_ARGUMENT; }
+DELAM_API int32_t delam_law_respond(const delam_law *law, int64_t count, const double *jump, double *traction) {
+    return law != 0 && count > 0 && jump != traction ? 0 : DELAM_ERROR_ARGUMENT;
+}
+DELAM_API int32_t delam_law_watch(delam_law *law, delam_watch_callback watch, void *user) {
+    return law != 0 && watch != 0 ? watch(1.0, user) : 0;
+}
+CODE
+printf 'delam_law_create 0.1\ndelam_law_respond 0.1\ndelam_law_watch 0.2\n' >"$work/sound/symbols.txt"
+cp "$root/src/capi/delam.map" "$work/sound/delam.map"
+
+# planted NAME: a fresh copy to break. make NAME [OPTIONS]: its library. gate NAME CHECK [OPTIONS].
+planted() {
+    rm -rf "${work:?}/$1"
+    cp -r "$work/sound" "$work/$1"
+}
+make() {
+    local name=$1
+    shift
+    (cd "$work/$name" && gcc -std=c99 -g -fPIC -shared -fvisibility=hidden -I. law.c -o libdelam.so -Wl,--version-script=delam.map \
+        -Wl,-soname,libdelam.so.1 "$@")
+}
+gate() {
+    local name=$1 check=$2
+    shift 2
+    "$python" "$here/gate.py" "$check" --library "$work/$name/libdelam.so" --header "$work/$name/delam/delam.h" \
+        --experimental "$work/$name/delam/experimental.h" --list "$work/$name/symbols.txt" \
+        --baseline "$work/sound/delam.abi" --baseline-header "$work/sound/delam/delam.h" "$@"
+}
+# edit NAME FILE SED: the break; it must have changed something.
+edit() {
+    local file=$work/$1/$2
+    cp "$file" "$file.before"
+    sed -i -E "$3" "$file"
+    if cmp -s "$file" "$file.before"; then
+        printf '%s of %s is unchanged: %s\n' "$2" "$1" "$3"
+        failures=$((failures + 1))
+    fi
+    rm "$file.before"
+}
+lint() { "$python" "$here/contract_lint.py" "$work/$1/delam/delam.h" "$work/$1/symbols.txt"; }
+
+make sound
+accepted gate sound symbols
+accepted gate sound baseline
+accepted lint sound
+accepted bash "$here/headers.sh" gcc g++ "$work/sound"
+
+# ---- symbols, SONAME, nodes ----
+planted missing
+edit missing law.c 's/delam_law_watch\(/delam_law_watched(/; s/^DELAM_API (int32_t delam_law_watched)/\1/'
+edit missing delam.map 's/global: delam_\*/global: delam_law_create; delam_law_respond/'
+make missing
+refused '^delam_law_watch: declared, but the library does not export it' gate missing symbols
+
+planted extra
+printf 'DELAM_API int32_t delam_more(void);\nDELAM_API int32_t delam_more(void) { return 0; }\n' >>"$work/extra/law.c"
+make extra
+refused '^delam_more: exported, but no public header declares it' gate extra symbols
+
+planted leak
+printf '__attribute__((visibility("default"))) int helper(void);\nint helper(void) { return 0; }\n' >>"$work/leak/law.c"
+edit leak delam.map 's/local: \*;/local: none;/; s/global: delam_\*/global: delam_*; helper/'
+make leak
+refused '^helper: exported, but no public header' gate leak symbols
+
+planted unlisted
+edit unlisted symbols.txt '/watch/d'
+make unlisted
+refused '^delam_law_watch: not in .*symbols.txt' gate unlisted symbols
+
+planted gone
+printf 'delam_law_forget 0.1\n' >>"$work/gone/symbols.txt"
+make gone
+refused '^delam_law_forget: since 0.1 in .*does not declare it any more' gate gone symbols
+edit gone symbols.txt 's/forget 0.1/forget soon/'
+refused 'expected a name and a version' gate gone symbols
+
+planted soname
+make soname -Wl,-soname,libdelam.so.2
+refused 'SONAME libdelam.so.2, but DELAM_ABI 1' gate soname symbols
+planted abi
+edit abi delam/delam.h 's/DELAM_ABI 1/DELAM_ABI 2/'
+make abi
+refused 'SONAME libdelam.so.1, but DELAM_ABI 2' gate abi symbols
+
+planted node
+edit node delam.map 's/^DELAM_1 /DELAM_0 /'
+make node
+refused "^delam_law_create: version node 'DELAM_0', expected DELAM_1" gate node symbols
+planted bare
+printf '{ global: delam_*; local: *; };\n' >"$work/bare/delam.map"
+make bare
+refused "^delam_law_create: version node '', expected DELAM_1" gate bare symbols
+
+planted experimental
+cat >"$work/experimental/delam/experimental.h" <<'HEADER'
+#ifndef DELAM_EXPERIMENTAL_H
+#define DELAM_EXPERIMENTAL_H
+#include <delam/delam.h>
+DELAM_API int32_t delam_experimental_guess(const delam_law *law);
+#endif
+HEADER
+printf '#include "delam/experimental.h"\nint32_t delam_experimental_guess(const delam_law *law) { return law != 0; }\n' >>"$work/experimental/law.c"
+make experimental
+accepted gate experimental symbols
+edit experimental delam.map '/EXPERIMENTAL/d'
+make experimental
+refused "delam_experimental_guess: version node 'DELAM_1', expected DELAM_EXPERIMENTAL" gate experimental symbols
+edit experimental delam/experimental.h 's/experimental_guess/law_guess/'
+refused 'delam_law_guess: names of the experimental header start with delam_experimental_' gate experimental symbols
+
+planted visible
+printf 'namespace delam { int inner(int a) { return a + 1; } }\n' >"$work/visible/inner.cpp"
+g++ -c -fPIC "$work/visible/inner.cpp" -o "$work/visible/inner.o"
+ar rc "$work/visible/libcore.a" "$work/visible/inner.o"
+make visible
+refused '^_ZN5delam5innerEi: visible outside its file' gate visible symbols --archive "$work/visible/libcore.a"
+g++ -c -fPIC -fvisibility=hidden "$work/visible/inner.cpp" -o "$work/visible/inner.o"
+ar rc "$work/visible/libcore.a" "$work/visible/inner.o"
+accepted gate visible symbols --archive "$work/visible/libcore.a"
+
+planted gpl
+printf 'int cholmod_l_sdmult(void);\nint delam_inner(void);\nint delam_inner(void) { return cholmod_l_sdmult(); }\n' >>"$work/gpl/law.c"
+make gpl
+refused '^cholmod_l_sdmult: a function of CHOLMOD' gate gpl symbols --cholmod
+
+# ---- the header against the baseline's ----
+planted signature
+edit signature delam/delam.h 's/int64_t count, const double \*jump/int32_t count, const double *jump/'
+refused "^delam_law_respond: 'int32_t delam_law_respond\(const delam_law\*, int32_t," gate signature baseline
+planted const
+edit const delam/delam.h 's/, const double \*jump/, double *jump/'
+refused "^delam_law_respond: .*in the baseline .*const double\*" gate const baseline
+planted callback
+edit callback delam/delam.h 's/\(double value, void \*user\)/(float64_t value, void *user)/'
+refused "type 'float64_t' is none of the interface's types" gate callback baseline
+planted callback
+edit callback delam/delam.h 's/\(double value, void \*user\)/(void *user, double value)/'
+refused "^delam_watch_callback: 'int32_t delam_watch_callback\(void\*, double\)'" gate callback baseline
+planted constant
+edit constant delam/delam.h 's/ARGUMENT -1/ARGUMENT -2/'
+refused '^DELAM_ERROR_ARGUMENT: -2, in the baseline -1' gate constant baseline
+planted removed
+edit removed delam/delam.h '/delam_law_watch\(/d'
+refused '^delam_law_watch: in the baseline, gone from the header' gate removed baseline
+planted unprotected
+edit unprotected delam/delam.h 's|^/\* Calls back|/* A sum of nothing that anybody needs.\n * [status -; thread any; since 0.2] */\nDELAM_API int64_t delam_sum(void);\n/* Calls back|'
+printf 'delam_sum 0.2\n' >>"$work/unprotected/symbols.txt"
+refused '^delam_sum: listed, but not in the baseline' gate unprotected baseline
+
+# ---- forms that the header may not have ----
+planted form
+edit form delam/delam.h 's/^typedef struct delam_law delam_law;/&\ntypedef struct delam_point { double x; } delam_point;/'
+refused 'not a form that the header may have: typedef struct delam_point' gate form baseline
+planted form
+edit form delam/delam.h 's/^typedef struct delam_law delam_law;/&\nenum delam_kind { delam_kind_one };/'
+refused 'not a form that the header may have: enum delam_kind' gate form baseline
+planted form
+edit form delam/delam.h 's/int64_t count, const double \*jump/long count, const double *jump/'
+refused "type 'long' is none of the interface's types" gate form baseline
+planted form
+edit form delam/delam.h 's/^#define DELAM_ABI 1/&\n#define DELAM_TRY(call) (call)/'
+refused 'a macro with arguments: #define DELAM_TRY' gate form baseline
+
+# ---- abidiff: a library that was compiled from something else than the baseline ----
+if command -v abidiff >/dev/null; then
+    gate sound abixml >"$work/sound/delam.abi"
+    accepted gate sound abidiff
+    planted type
+    edit type delam/delam.h 's/int64_t count, const double \*jump/int32_t count, const double *jump/'
+    edit type law.c 's/int64_t count/int32_t count/'
+    make type
+    refused 'function int32_t delam_law_respond.*' gate type abidiff
+    refused 'type size changed from 64 to 32' gate type abidiff
+    planted result
+    edit result delam/delam.h 's/int32_t (delam_law_create)/int64_t \1/'
+    edit result law.c 's/int32_t (delam_law_create)/int64_t \1/'
+    make result
+    refused 'return type changed' gate result abidiff
+    planted pointer
+    edit pointer delam/delam.h 's/typedef int32_t \(\*delam_watch_callback\)\(double/typedef int32_t (*delam_watch_callback)(int64_t/'
+    edit pointer law.c 's/watch\(1.0/watch(1/'
+    make pointer
+    refused 'delam_law_watch' gate pointer abidiff
+    refused 'abidiff ended with 12' gate missing abidiff
+    accepted gate extra abidiff
+    accepted gate experimental abidiff
+    refused 'SONAME changed' gate soname abidiff
+    strip --strip-debug -o "$work/type/stripped.so" "$work/type/libdelam.so"
+    mv "$work/type/stripped.so" "$work/type/libdelam.so"
+    refused 'no debug information' gate type abidiff
+else
+    printf 'skipped: the planted breaks of abidiff (Debian: abigail-tools)\n'
+fi
+
+# ---- the header alone ----
+planted cpp
+edit cpp delam/delam.h 's/^#define DELAM_ABI 1/&\nusing delam_real = double;/'
+refused 'delam/delam.h: not c99 for gcc' bash "$here/headers.sh" gcc g++ "$work/cpp"
+planted cpp
+edit cpp delam/delam.h 's/const char \*kind, delam_law \*\*out/const char *template, delam_law **out/'
+refused 'delam/delam.h: not c\+\+17 for g\+\+' bash "$here/headers.sh" gcc g++ "$work/cpp"
+planted bare_c
+edit bare_c delam/delam.h '/#include <stdint.h>/d'
+refused 'delam/delam.h: not c99 for gcc' bash "$here/headers.sh" gcc g++ "$work/bare_c"
+planted young
+edit young delam/delam.h 's/^typedef struct delam_law delam_law;/&\n&/'
+refused 'delam/delam.h: not c99 for gcc' bash "$here/headers.sh" gcc g++ "$work/young"
+status=0
+bash "$here/headers.sh" no-such-cc no-such-c++ "$work/sound" >/dev/null || status=$?
+if ((status != 77)); then
+    printf 'a compiler that is not there must be skipped with 77, not %d\n' "$status"
+    failures=$((failures + 1))
+fi
+
+# ---- the contract ----
+# gap SED MESSAGE
+gap() {
+    planted contract
+    edit contract delam/delam.h "$1"
+    refused "$2" lint contract
+}
+gap '/Makes a law of a kind/,/memory; thread any/d' 'delam_law_create: no comment directly above'
+gap 's/ \* \[null none; owns out caller.*\] \*\//  *\//' 'delam_law_create: no line in brackets'
+gap 's/Makes a law of a kind\./kind:/' 'delam_law_create: what: the comment does not say'
+gap 's/a law of a kind/a law/' 'delam_law_create: what: parameter kind is not named'
+gap 's/jump, traction \[count\]\[2\]/jump, traction/' 'delam_law_respond: shape: jump has no'
+gap 's/unit jump L, traction/unit traction/' 'delam_law_respond: unit: none for jump'
+gap 's/traction F\/L2/traction Pa/' "delam_law_respond: unit: 'traction Pa' is not"
+gap 's/null traction; //' 'delam_law_respond: null: missing; which of jump, traction'
+gap 's/null traction; /null count; /' 'delam_law_respond: null: count is not a pointer'
+gap 's/owns out caller; //' 'delam_law_create: owns: missing'
+gap 's/owns watch and user: the host; //' 'delam_law_watch: owns: missing'
+gap 's/status argument; //' 'delam_law_respond: status: missing'
+gap 's/status argument; /status arguments; /' "delam_law_respond: status: 'arguments' is not known"
+gap 's/status argument; /status -; /' "delam_law_respond: status: '-', but the function returns one"
+gap 's/thread any; //' 'delam_law_create: thread: missing'
+gap 's/source NOBODY 1900; //' 'delam_law_respond: source: missing'
+gap 's/source NOBODY 1900; since 0.1/source NOBODY 1900/' 'delam_law_respond: since: missing'
+gap 's/since 0.2/since 0.1/' 'delam_law_watch: since: 0.1, but 0.2 in the list'
+gap 's/since 0.2/since then/' "delam_law_watch: since: 'then' is not a version"
+gap 's/status usual; since/sometimes maybe; since/' "delam_law_watch: 'sometimes' is not a field"
+gap 's/\/\* Told of each value. \*\///' 'delam_watch_callback: no comment directly above'
+# A status that the façade gives and the header does not list.
+planted contract
+mkdir "$work/contract/capi"
+printf 'int32_t %s {\n    if (law == 0) fail(DELAM_ERROR_STATE, "no");\n}\n' 'delam_law_respond(const delam_law* law, int64_t count)' \
+    >"$work/contract/capi/law.cpp"
+refused 'delam_law_respond: status: its lines in src/capi give state, which is not listed' \
+    "$python" "$here/contract_lint.py" "$work/contract/delam/delam.h" --sources "$work/contract/capi"
+
+printf '%d planted checks, %d failures\n' "$checks" "$failures"
+((failures == 0))
