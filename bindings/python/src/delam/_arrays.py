@@ -18,8 +18,26 @@ def pointer(array):
 
 
 def _shape_text(shape):
-    inside = ", ".join("any" if size is None else str(size) for size in shape)
+    inside = ", ".join("any" if size is None else " or ".join(map(str, size)) if isinstance(size, tuple) else str(size)
+                       for size in shape)
     return f"({inside},)" if len(shape) == 1 else f"({inside})"
+
+
+def _fits(have, size):
+    return size is None or (have in size if isinstance(size, tuple) else have == size)
+
+
+def ndim(value):
+    """Dimensions of what may not even be an array; then -1, and the gate will tell."""
+    try:
+        return np.ndim(value)
+    except (ValueError, TypeError):
+        return -1
+
+
+def listed(value):
+    """A single number as a list of it."""
+    return [value] if ndim(value) == 0 else value
 
 
 def _place(name, index):
@@ -27,8 +45,8 @@ def _place(name, index):
 
 
 def gate(name, value, dtype, shape):
-    """`value` as a contiguous array of `dtype` (float64, int64, int32) and `shape` (None: any size), or ArgumentError naming
-    the argument. Integers are taken for floats, not the other way round; all numbers must be finite."""
+    """`value` as a contiguous array of `dtype` (float64, int64, int32) and `shape` (None: any size; a tuple: one of
+    these), or ArgumentError naming the argument. Integers are taken for floats, not the other way round; all numbers must be finite."""
     dtype = np.dtype(dtype)
     try:
         array = np.asarray(value)
@@ -38,7 +56,7 @@ def gate(name, value, dtype, shape):
         raise ArgumentError(f"{name} has type {array.dtype}, expected {dtype}")
     if dtype.kind == "i" and array.dtype.kind == "f" and array.size > 0:
         raise ArgumentError(f"{name} has type {array.dtype}, expected integers")
-    if array.ndim != len(shape) or any(size is not None and size != have for size, have in zip(shape, array.shape)):
+    if array.ndim != len(shape) or not all(map(_fits, array.shape, shape)):
         raise ArgumentError(f"{name} has shape {_shape_text(array.shape)}, expected {_shape_text(shape)}")
     if dtype.kind == "f":
         with np.errstate(over="ignore"):
@@ -62,20 +80,20 @@ def floats(name, value, shape):
 
 def indices(name, value, shape=(None,), size=None):
     """Indices; a single one where shape is one-dimensional; a boolean mask where `size`, its length, is given."""
-    if size is not None and np.asarray(value).dtype == bool:
+    if size is not None and ndim(value) >= 0 and np.asarray(value).dtype == bool:
         mask = np.asarray(value)
         if mask.shape != (size,):
             raise ArgumentError(f"{name} is a mask of shape {_shape_text(mask.shape)}, expected ({size},)")
         return np.flatnonzero(mask).astype(np.int64)
-    if len(shape) == 1 and np.ndim(value) == 0:
-        value = np.atleast_1d(value)
+    if len(shape) == 1 and ndim(value) == 0:
+        value = [value]
     return gate(name, value, np.int64, shape)
 
 
 def spread(name, value, count):
     """[count] numbers from that many or from one for all."""
-    if np.ndim(value) == 0:
-        return np.full(count, floats(name, np.atleast_1d(value), (1,))[0])
+    if ndim(value) == 0:
+        return np.full(count, floats(name, [value], (1,))[0])
     return floats(name, value, (count,))
 
 

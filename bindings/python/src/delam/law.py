@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import _raw
-from ._arrays import floats, pointer, spread
+from ._arrays import floats, listed, pointer, spread
 from ._call import Context, Object, keep_exception, number, text
 from ._library import library
 from .errors import ArgumentError, error_of
@@ -107,7 +107,7 @@ class Law(Object):
 
     def toughness(self, mixity):
         """Onset and total toughness at mixities B = Y_t/Y in [0, 1]."""
-        mixity = floats("mixity", np.atleast_1d(mixity), (None,))
+        mixity = floats("mixity", listed(mixity), (None,))
         onset, toughness = np.empty(mixity.size), np.empty(mixity.size)
         self._call(library.delam_law_toughness, mixity.size, pointer(mixity), pointer(onset), pointer(toughness))
         return onset, toughness
@@ -115,9 +115,7 @@ class Law(Object):
     def respond(self, jump, mixity, adhesion=1.0):
         """One damage step at given jumps [n][2 or 3], local (normal first), at frozen mixities, from old adhesions: the new
         adhesions [n] and tractions [n][2 or 3]."""
-        if np.ndim(jump) != 2 or np.shape(jump)[1] not in (2, 3):
-            raise ArgumentError(f"jump has shape {np.shape(jump)}, expected (any, 2) or (any, 3)")
-        jump = floats("jump", jump, (None, None))
+        jump = floats("jump", jump, (None, (2, 3)))
         count, dimension = jump.shape
         mixity, old = spread("mixity", mixity, count), spread("adhesion", adhesion, count)
         new, traction = np.empty(count), np.empty((count, dimension))

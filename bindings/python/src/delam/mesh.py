@@ -7,7 +7,7 @@ import numpy as np
 
 from . import _raw
 from ._arrays import direction as axis
-from ._arrays import floats, gate, indices, pointer
+from ._arrays import floats, gate, indices, listed, ndim, pointer
 from ._call import Context, Object, integer, number
 from ._library import library
 from .errors import ArgumentError
@@ -141,9 +141,7 @@ class Mesh(Object):
     Indices are 0-based throughout. Nodes without cells are control nodes."""
 
     def __init__(self, nodes):
-        if np.ndim(nodes) != 2 or np.shape(nodes)[1] not in (2, 3):
-            raise ArgumentError(f"nodes has shape {np.shape(nodes)}, expected (any, 2) or (any, 3)")
-        nodes = floats("nodes", nodes, (None, None))
+        nodes = floats("nodes", nodes, (None, (2, 3)))
         self._create(library.delam_mesh_create, nodes.shape[1], nodes.shape[0], pointer(nodes))
 
     @classmethod
@@ -151,11 +149,9 @@ class Mesh(Object):
         """Block of layers stacked along the last axis (y in 2D, z in 3D), each a body of its own, body 0 at the bottom; no
         interface is made yet. lengths, divisions: along the other axes, a number in 2D or two in 3D; thickness,
         layer_divisions: of each layer."""
-        lengths = floats("lengths", np.atleast_1d(lengths), (None,))
-        if lengths.size not in (1, 2):
-            raise ArgumentError(f"lengths has {lengths.size} entries, expected 1 (2D) or 2 (3D)")
+        lengths = floats("lengths", listed(lengths), ((1, 2),))
         divisions = indices("divisions", divisions, (lengths.size,))
-        thickness = floats("thickness", np.atleast_1d(thickness), (None,))
+        thickness = floats("thickness", listed(thickness), (None,))
         layer_divisions = indices("layer_divisions", layer_divisions, (thickness.size,))
         mesh = cls.__new__(cls)
         mesh._create(library.delam_mesh_create_layers, lengths.size + 1, pointer(lengths), pointer(divisions), thickness.size,
@@ -195,7 +191,7 @@ class Mesh(Object):
         number, size = cell_type(cells)
         connectivity = indices("connectivity", connectivity, (None, size))
         count = connectivity.shape[0]
-        if np.ndim(bodies) == 0:
+        if ndim(bodies) == 0:
             bodies = np.full(count, integer("bodies", bodies, 32), np.int32)
         bodies = gate("bodies", bodies, np.int32, (count,))
         self._call(function, number, count, pointer(connectivity), pointer(bodies), 0)
@@ -232,7 +228,7 @@ class Mesh(Object):
         """A rigid obstacle that moves with its control node, a node without cells. normals: from the obstacle into the body,
         one each or one for all."""
         nodes = indices("nodes", nodes, size=self.node_count)
-        if np.ndim(normals) == 1 or isinstance(normals, str):
+        if ndim(normals) == 1 or isinstance(normals, str):
             normals = np.tile(axis("normals", normals, self.dimension), (nodes.size, 1))
         normals = floats("normals", normals, (nodes.size, self.dimension))
         if weights is not None:
@@ -336,14 +332,14 @@ class Mesh(Object):
             raise ArgumentError(f"place = {tuple(np.asarray(place).tolist())}: {nodes.size} nodes{of} are there, expected 1")
         return int(nodes[0])
 
-    def find_patch(self, lower, upper, direction, body=None):
+    def find_patch(self, body, lower, upper, direction):
         """Nodes and weights of a uniform traction on the part of a body's boundary inside the box whose outward normal is
         within 45 degrees of the direction."""
         dimension = self.dimension
         lower, upper = floats("lower", lower, (dimension,)), floats("upper", upper, (dimension,))
         along = axis("direction", direction, dimension)
         count = ctypes.c_int64()
-        box = body_label(body), pointer(lower), pointer(upper), pointer(along)
+        box = integer("body", body, 32), pointer(lower), pointer(upper), pointer(along)
         self._call(library.delam_mesh_find_patch, *box, 0, None, None, count)
         nodes, weights = np.empty(count.value, np.int64), np.empty(count.value)
         self._call(library.delam_mesh_find_patch, *box, nodes.size, pointer(nodes), pointer(weights), count)

@@ -8,7 +8,7 @@ import numpy as np
 
 from . import _raw
 from ._arrays import direction as axis
-from ._arrays import floats, indices, pointer, spread
+from ._arrays import floats, indices, listed, ndim, pointer, spread
 from ._call import Context, Object, integer, number, text
 from ._library import library
 from .errors import ArgumentError
@@ -117,7 +117,7 @@ class Problem(Object):
             self._call(library.delam_problem_set_orientation, body_label(body), 1, None, pointer(axes), 0)
             return
         cells = indices("cells", cells, size=self._cell_count)
-        if np.ndim(axes) == 2:
+        if ndim(axes) == 2:
             axes = np.tile(floats("axes", axes, (2, 3)), (cells.size, 1, 1))
         axes = floats("axes", axes, (cells.size, 2, 3))
         self._call(library.delam_problem_set_orientation, body_label(body), cells.size, pointer(cells), pointer(axes), 0)
@@ -156,8 +156,8 @@ class Problem(Object):
 
     def add_pattern(self, name, times, values):
         """A named factor that follows a piecewise-linear history, constant beyond its ends."""
-        times = floats("times", np.atleast_1d(times), (None,))
-        values = floats("values", np.atleast_1d(values), (times.size,))
+        times = floats("times", listed(times), (None,))
+        values = floats("values", listed(values), (times.size,))
         index = ctypes.c_int64()
         self._call(library.delam_problem_add_pattern, text("name", name), times.size, pointer(times), pointer(values), index)
         return Pattern(name, index.value)
@@ -221,7 +221,7 @@ class Problem(Object):
 
     def add_periodic(self, periods, control_nodes, tolerance=0.0):
         """u(x + period_k) - u(x) = u of control node k, on opposite faces of the mesh. periods: [periods][dimension]."""
-        periods = floats("periods", np.atleast_2d(periods), (None, self.dimension))
+        periods = floats("periods", [periods] if ndim(periods) == 1 else periods, (None, self.dimension))
         control_nodes = indices("control_nodes", control_nodes, (periods.shape[0],))
         self._call(library.delam_problem_add_periodic, periods.shape[0], pointer(periods), pointer(control_nodes),
                    number("tolerance", tolerance), 0)
@@ -229,7 +229,7 @@ class Problem(Object):
     def add_forces(self, pattern, nodes, forces):
         """Dead forces times the factor of a pattern: [nodes][dimension], or one vector for all."""
         nodes = indices("nodes", nodes, size=self._node_count)
-        if np.ndim(forces) == 1:
+        if ndim(forces) == 1:
             forces = np.tile(floats("forces", forces, (self.dimension,)), (nodes.size, 1))
         forces = floats("forces", forces, (nodes.size, self.dimension))
         self._call(library.delam_problem_add_forces, self.pattern(pattern), nodes.size, pointer(nodes), pointer(forces), 0)
