@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Delamination of layered and fibrous composites by energy minimisation: libdelam from Python.
+
+    mesh = delam.Mesh.layers(0.12, 240, [3e-3, 3e-3], [6, 6])      bodies and their interfaces
+    law = delam.Law("piecewise-linear", normal_stiffness=125e9, ...)
+    problem = delam.Problem(mesh)                                  materials, laws, supports, loads, options
+    solver = delam.Solver(problem)                                 load steps and what can be read of them
+
+Arrays are numpy's, indices start at 0, units are whatever is consistent. Errors are exceptions under DelamError. Warnings and
+notes of the library go to the logger "delam". delam.plot draws (matplotlib), delam.meshes reads and writes meshes (meshio)."""
+from . import _library
+from .errors import (ArgumentError, Cancelled, DelamError, HandleError, InternalError, LimitReached, MeshError, NotConverged,
+                     NotConvergedWarning, NumericalError, Outcome, OutOfMemory, ProblemError, SnapshotError, StateError)
+from .history import History
+from .law import Law, Parameter
+from .mesh import CELLS, Cells, Interface, Mesh, Ties
+from .options import Options, options
+from .problem import Pattern, Problem, Sparse
+from .solver import Average, Fronts, Jump, PlanItem, Solver, Values
+
+__version__ = "0.1.0"
+
+__all__ = ["ArgumentError", "Average", "CELLS", "Cancelled", "Cells", "DelamError", "Fronts", "HandleError", "History",
+           "Interface", "InternalError", "Jump", "Law", "LimitReached", "Mesh", "MeshError", "NotConverged",
+           "NotConvergedWarning", "NumericalError", "Options", "OutOfMemory", "Outcome", "Parameter", "Pattern", "PlanItem",
+           "Problem", "ProblemError", "SnapshotError", "Solver", "Sparse", "StateError", "Ties", "Values", "library_commit",
+           "library_location", "library_version", "options"]
+
+
+def library_version():
+    """Version of the libdelam that was loaded."""
+    return _library.library.delam_version().decode()
+
+
+def library_commit():
+    """Commit it was built from, or "unknown"."""
+    return _library.library.delam_commit().decode()
+
+
+def library_location():
+    """File it was loaded from, as the loader was asked for it."""
+    return _library.location
+
+
+def __getattr__(name):
+    # matplotlib and meshio are only needed by those who draw and read meshes.
+    if name in ("plot", "meshes"):
+        import importlib
+        return importlib.import_module(f".{name}", __name__)
+    raise AttributeError(f"module 'delam' has no attribute {name!r}")

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The one gate that arrays pass on their way in, and the pointers of those on their way out."""
+import ctypes
+
+import numpy as np
+
+from .errors import ArgumentError
+
+_POINTERS = {np.dtype(np.float64): ctypes.POINTER(ctypes.c_double), np.dtype(np.int64): ctypes.POINTER(ctypes.c_int64),
+             np.dtype(np.int32): ctypes.POINTER(ctypes.c_int32), np.dtype(np.uint8): ctypes.POINTER(ctypes.c_uint8)}
+
+
+def pointer(array):
+    """The address of a contiguous array as its type in C; None for None and for arrays without entries."""
+    if array is None or array.size == 0:
+        return None
+    return ctypes.cast(array.ctypes.data, _POINTERS[array.dtype])
+
+
+def _shape_text(shape):
+    inside = ", ".join("any" if size is None else " or ".join(map(str, size)) if isinstance(size, tuple) else str(size)
+                       for size in shape)
+    return f"({inside},)" if len(shape) == 1 else f"({inside})"
+
+
+def _fits(have, size):
+    return size is None or (have in size if isinstance(size, tuple) else have == size)
+
+
+def ndim(value):
+    """Dimensions of what may not even be an array; then -1, and the gate will tell."""
+    try:
+        return np.ndim(value)
+    except (ValueError, TypeError):
+        return -1
+
+
+def listed(value):
+    """A single number as a list of it."""
+    return [value] if ndim(value) == 0 else value
+
+
+def _place(name, index):
+    return f"{name}[{', '.join(str(int(i)) for i in index)}]"
+
+
+def gate(name, value, dtype, shape):
+    """`value` as a contiguous array of `dtype` (float64, int64, int32) and `shape` (None: any size; a tuple: one of
+    these), or ArgumentError naming the argument. Integers are taken for floats, not the other way round; all numbers must be finite."""
+    dtype = np.dtype(dtype)
+    try:
+        array = np.asarray(value)
+    except (ValueError, TypeError) as error:
+        raise ArgumentError(f"{name}: {error}") from None
+    if array.dtype.kind not in "fiu":
+        raise ArgumentError(f"{name} has type {array.dtype}, expected {dtype}")
+    if dtype.kind == "i" and array.dtype.kind == "f" and array.size > 0:
+        raise ArgumentError(f"{name} has type {array.dtype}, expected integers")
+    if array.ndim != len(shape) or not all(map(_fits, array.shape, shape)):
+        raise ArgumentError(f"{name} has shape {_shape_text(array.shape)}, expected {_shape_text(shape)}")
+    if dtype.kind == "f":
+        with np.errstate(over="ignore"):
+            array = np.ascontiguousarray(array, dtype)
+        if not np.isfinite(array).all():
+            index = np.argwhere(~np.isfinite(array))[0]
+            raise ArgumentError(f"{_place(name, index)} is {array[tuple(index)]}, must be finite")
+        return array
+    limits = np.iinfo(dtype)
+    if array.size > 0 and array.dtype != dtype:
+        for extreme, index in ((array.min(), array.argmin()), (array.max(), array.argmax())):
+            if not limits.min <= int(extreme) <= limits.max:
+                index = np.unravel_index(index, array.shape)
+                raise ArgumentError(f"{_place(name, index)} = {extreme} does not fit into {dtype}")
+    return np.ascontiguousarray(array, dtype)
+
+
+def floats(name, value, shape):
+    return gate(name, value, np.float64, shape)
+
+
+def indices(name, value, shape=(None,), size=None):
+    """Indices; a single one where shape is one-dimensional; a boolean mask where `size`, its length, is given."""
+    if size is not None and ndim(value) >= 0 and np.asarray(value).dtype == bool:
+        mask = np.asarray(value)
+        if mask.shape != (size,):
+            raise ArgumentError(f"{name} is a mask of shape {_shape_text(mask.shape)}, expected ({size},)")
+        return np.flatnonzero(mask).astype(np.int64)
+    if len(shape) == 1 and ndim(value) == 0:
+        value = [value]
+    return gate(name, value, np.int64, shape)
+
+
+def spread(name, value, count):
+    """[count] numbers from that many or from one for all."""
+    if ndim(value) == 0:
+        return np.full(count, floats(name, [value], (1,))[0])
+    return floats(name, value, (count,))
+
+
+def direction(name, value, dimension):
+    """A vector, or the name of an axis: 'x', 'y', 'z', '-y' ..."""
+    if isinstance(value, str):
+        axis = "xyz"[:dimension].find(value.lstrip("+-")) if len(value.lstrip("+-")) == 1 else -1
+        if axis < 0 or len(value) > 2:
+            raise ArgumentError(f"{name} = {value!r} is no axis; in {dimension}D these are {', '.join('xyz'[:dimension])}, "
+                                "with or without a sign")
+        vector = np.zeros(dimension)
+        vector[axis] = -1.0 if value.startswith("-") else 1.0
+        return vector
+    return floats(name, value, (dimension,))

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Exceptions and warnings.
+
+Errors of the library (status < 0) leave the object as it was. Outcomes (status > 0) leave it valid:
+
+NotConverged   an iteration limit was met; the step is pending all the same. A warning (NotConvergedWarning) unless
+               the solver was told otherwise: Solver(..., not_converged="warn" | "raise" | "ignore").
+Cancelled      stopped on request; the state before the call is restored. Always raised.
+LimitReached   no equilibrium: a dead load acts on a part that nothing holds any more. No step is pending. Always raised.
+"""
+from . import _raw
+
+
+class DelamError(Exception):
+    """An error or an outcome of the library. `status` is its number, `name` the constant of the C header."""
+
+    status = _raw.DELAM_ERROR_INTERNAL
+
+    def __init__(self, message, status=None):
+        super().__init__(message)
+        if status is not None:
+            self.status = status
+
+    @property
+    def name(self):
+        for name, value in vars(_raw).items():
+            if name.startswith(("DELAM_ERROR", "DELAM_NOT", "DELAM_CANCELLED", "DELAM_LIMIT")) and value == self.status:
+                return name
+        return f"status {self.status}"
+
+
+class ArgumentError(DelamError, ValueError):
+    """A value outside its range, an array of the wrong shape or type, an index past the end."""
+
+    status = _raw.DELAM_ERROR_ARGUMENT
+
+
+class HandleError(DelamError, ValueError):
+    """An object that was closed, or none of this library."""
+
+    status = _raw.DELAM_ERROR_HANDLE
+
+
+class MeshError(DelamError, ValueError):
+    """Inverted cell, shared node, faces that do not match."""
+
+    status = _raw.DELAM_ERROR_MESH
+
+
+class ProblemError(DelamError, ValueError):
+    """Incomplete or contradictory scene: missing material, missing support, bad law."""
+
+    status = _raw.DELAM_ERROR_PROBLEM
+
+
+class StateError(DelamError, RuntimeError):
+    """A call out of order, such as an advance with a step that is not yet committed."""
+
+    status = _raw.DELAM_ERROR_STATE
+
+
+class OutOfMemory(DelamError, MemoryError):
+    status = _raw.DELAM_ERROR_MEMORY
+
+
+class NumericalError(DelamError, ArithmeticError):
+    """A factorisation broke down."""
+
+    status = _raw.DELAM_ERROR_NUMERICAL
+
+
+class SnapshotError(DelamError, ValueError):
+    """Saved bytes that are damaged, of another version or of another scene."""
+
+    status = _raw.DELAM_ERROR_SNAPSHOT
+
+
+class InternalError(DelamError, RuntimeError):
+    """A defect of the library: please report."""
+
+    status = _raw.DELAM_ERROR_INTERNAL
+
+
+class Outcome(DelamError):
+    """Not an error: the call ended without its full result, the object stays valid."""
+
+
+class NotConverged(Outcome):
+    """An iteration limit was met; the best state found is pending and can be read, committed or rolled back."""
+
+    status = _raw.DELAM_NOT_CONVERGED
+
+
+class Cancelled(Outcome):
+    """Stopped on request; the state before the call is restored."""
+
+    status = _raw.DELAM_CANCELLED
+
+
+class LimitReached(Outcome):
+    """No equilibrium: a dead load acts on a part that nothing holds any more."""
+
+    status = _raw.DELAM_LIMIT
+
+
+class NotConvergedWarning(RuntimeWarning):
+    """As NotConverged, where the solver was told to go on."""
+
+
+_KINDS = {kind.status: kind for kind in (ArgumentError, HandleError, MeshError, ProblemError, StateError, OutOfMemory,
+                                         NumericalError, SnapshotError, InternalError, NotConverged, Cancelled,
+                                         LimitReached)}
+
+
+def error_of(status, message):
+    """The exception of a status; one that this package does not know is a DelamError with that number."""
+    return _KINDS.get(status, DelamError)(message, status)

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How an interface holds together."""
+import ctypes
+from typing import NamedTuple
+
+import numpy as np
+
+from . import _raw
+from ._arrays import floats, listed, pointer, spread
+from ._call import Context, Object, keep_exception, number, text
+from ._library import library
+from .errors import ArgumentError, error_of
+
+KINDS = ("piecewise-linear", "exponential", "trapezoidal", "tabulated", "griffith")
+
+
+class Parameter(NamedTuple):
+    """What the library says of a parameter or an option. initial is "" where it must be given."""
+
+    key: str
+    type: str
+    unit: str
+    initial: str
+    range: str
+    meaning: str
+
+
+def described(function, *arguments):
+    texts = [ctypes.c_char_p() for _ in Parameter._fields]
+    status = function(*arguments, *(ctypes.byref(item) for item in texts))
+    if status != _raw.DELAM_OK:
+        raise error_of(status, f"no description {arguments}")
+    return Parameter(*(item.value.decode() for item in texts))
+
+
+class Law(Object):
+    """A law with its parameters by name:
+
+        Law("piecewise-linear", normal_stiffness=125e9, tangential_stiffness=125e9, normal_onset=100, ...)
+
+    Law.parameters(kind) lists them. A tabulated law takes softening=(xi, s)."""
+
+    def __init__(self, kind, **parameters):
+        kind_text = text("kind", kind)
+        self._create(library.delam_law_create, kind_text)
+        self.kind = kind
+        self.set(**parameters)
+
+    @classmethod
+    def host(cls, name, adhesion, dissipation, **parameters):
+        """A law computed by Python functions, which must always give the same answers:
+
+            adhesion(mixity, driving) -> (adhesion, slope)
+            dissipation(mixity, adhesion) -> (dissipated, slope, mixity_slope)
+
+        adhesion: the minimiser of adhesion * driving + dissipated over [0, 1] and its derivative by the driving energy;
+        dissipation: the energy g(B, zeta) and its derivatives by adhesion and mixity. They must not call the library. An
+        exception in one ends the call of the library and is raised from it. `name` stands for them in Problem.hash."""
+        law = cls.__new__(cls)
+        on_adhesion, on_dissipation = _adhesion_callback(adhesion), _dissipation_callback(dissipation)
+        law._create(library.delam_law_create_host, text("name", name), on_adhesion, on_dissipation, None,
+                    keep=(on_adhesion, on_dissipation))
+        law.kind = "host"
+        law.context.hosted = True
+        law.set(**parameters)
+        return law
+
+    def _create(self, function, *arguments, keep=()):
+        context = Context()
+        handle = ctypes.POINTER(_raw.delam_law)()
+        context.call(function, context.handle, *arguments, ctypes.byref(handle))
+        self._callbacks = keep
+        self._own(context, handle, library.delam_law_destroy, keep)
+
+    def _call(self, function, *arguments):
+        self.context.call(function, self._handle, *arguments)
+
+    @staticmethod
+    def parameters(kind):
+        """What a kind takes: {key: Parameter}."""
+        key = text("kind", kind)
+        count = library.delam_law_parameter_count(key)
+        if count == 0:
+            raise ArgumentError(f"kind = {kind!r} is not known; known are {', '.join((*KINDS, 'host'))}")
+        items = (described(library.delam_law_parameter_info, key, i) for i in range(count))
+        return {item.key: item for item in items}
+
+    def set(self, **parameters):
+        """Numbers, texts and the table softening=(xi, s). Texts first: a criterion sets its exponents to their initial values."""
+        for key, value in sorted(parameters.items(), key=lambda item: not isinstance(item[1], str)):
+            if isinstance(value, str):
+                self._call(library.delam_law_set_text, key.encode(), text(key, value))
+            elif key == "softening":
+                try:
+                    xi, s = value
+                except (TypeError, ValueError):
+                    raise ArgumentError("softening must be the two arrays (xi, s)") from None
+                xi = floats("softening[0]", xi, (None,))
+                s = floats("softening[1]", s, (xi.size,))
+                self._call(library.delam_law_set_table, xi.size, pointer(xi), pointer(s))
+            else:
+                self._call(library.delam_law_set, key.encode(), number(key, value))
+
+    def check(self):
+        """ProblemError names the first parameter that is missing or not admissible."""
+        self._call(library.delam_law_check)
+
+    def toughness(self, mixity):
+        """Onset and total toughness at mixities B = Y_t/Y in [0, 1]."""
+        mixity = floats("mixity", listed(mixity), (None,))
+        onset, toughness = np.empty(mixity.size), np.empty(mixity.size)
+        self._call(library.delam_law_toughness, mixity.size, pointer(mixity), pointer(onset), pointer(toughness))
+        return onset, toughness
+
+    def respond(self, jump, mixity, adhesion=1.0):
+        """One damage step at given jumps [n][2 or 3], local (normal first), at frozen mixities, from old adhesions: the new
+        adhesions [n] and tractions [n][2 or 3]."""
+        jump = floats("jump", jump, (None, (2, 3)))
+        count, dimension = jump.shape
+        mixity, old = spread("mixity", mixity, count), spread("adhesion", adhesion, count)
+        new, traction = np.empty(count), np.empty((count, dimension))
+        self._call(library.delam_law_respond, dimension, count, pointer(jump), pointer(mixity), pointer(old), pointer(new),
+                   pointer(traction))
+        return new, traction
+
+
+def _adhesion_callback(function):
+    def adhesion(mixity, driving, value, slope, _):
+        try:
+            value[0], slope[0] = function(mixity, driving)
+        except BaseException as exception:
+            keep_exception(exception)
+            return 1
+        return 0
+
+    return _raw.delam_adhesion_callback(adhesion)
+
+
+def _dissipation_callback(function):
+    def dissipation(mixity, adhesion, value, slope, mixity_slope, _):
+        try:
+            value[0], slope[0], mixity_slope[0] = function(mixity, adhesion)
+        except BaseException as exception:
+            keep_exception(exception)
+            return 1
+        return 0
+
+    return _raw.delam_dissipation_callback(dissipation)

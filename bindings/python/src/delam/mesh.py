@@ -1,0 +1,346 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Nodes, cells, bodies and the interfaces between them."""
+import ctypes
+from typing import NamedTuple
+
+import numpy as np
+
+from . import _raw
+from ._arrays import direction as axis
+from ._arrays import floats, gate, indices, listed, ndim, pointer
+from ._call import Context, Object, integer, number
+from ._library import library
+from .errors import ArgumentError
+
+# Name: (type, nodes of a cell)
+CELLS = {"tri3": (_raw.DELAM_TRI3, 3), "quad4": (_raw.DELAM_QUAD4, 4), "tet4": (_raw.DELAM_TET4, 4),
+         "hex8": (_raw.DELAM_HEX8, 8), "tri6": (_raw.DELAM_TRI6, 6), "quad8": (_raw.DELAM_QUAD8, 8),
+         "quad9": (_raw.DELAM_QUAD9, 9), "tet10": (_raw.DELAM_TET10, 10), "hex20": (_raw.DELAM_HEX20, 20)}
+_CELL_NAMES = {number: name for name, (number, _) in CELLS.items()}
+
+
+def cell_type(name):
+    if name not in CELLS:
+        raise ArgumentError(f"cells = {name!r} is no cell type; known are {', '.join(CELLS)}")
+    return CELLS[name]
+
+
+def body_label(body):
+    """None: all bodies."""
+    return -1 if body is None else integer("body", body, 32)
+
+
+class Cells(NamedTuple):
+    """Cells in the order they were added."""
+
+    types: np.ndarray  # [cells], numbers of CELLS
+    bodies: np.ndarray  # [cells]
+    offsets: np.ndarray  # [cells + 1] into connectivity
+    connectivity: np.ndarray
+
+    def of(self, name):
+        """Connectivity [n][nodes of a cell] of the cells of one type."""
+        number, size = cell_type(name)
+        rows = np.flatnonzero(self.types == number)
+        return self.connectivity[self.offsets[rows][:, None] + np.arange(size)]
+
+    def names(self):
+        """The types that occur."""
+        return [_CELL_NAMES[number] for number in sorted(set(self.types.tolist()))]
+
+
+class Ties(NamedTuple):
+    """Tied nodes: u of nodes[i] is the sum of weights[e] u of of[e] over e = starts[i] .. starts[i+1]-1."""
+
+    nodes: np.ndarray
+    starts: np.ndarray
+    of: np.ndarray
+    weights: np.ndarray
+
+
+class Interface:
+    """An interface of a mesh; stands for its index wherever one is asked for. Its jump is u_b - u_a, its normals point from a
+    to b."""
+
+    def __init__(self, mesh, index):
+        self.mesh = mesh
+        self.index = index
+
+    def __index__(self):
+        return self.index
+
+    def __repr__(self):
+        return f"<Interface {self.index}: bodies {self.body_a} and {self.body_b}, {self.pair_count} pairs>"
+
+    def _size(self):
+        body_a, body_b, per_face = ctypes.c_int32(), ctypes.c_int32(), ctypes.c_int32()
+        pairs, faces = ctypes.c_int64(), ctypes.c_int64()
+        self.mesh._call(library.delam_mesh_interface_size, self.index, body_a, body_b, pairs, faces, per_face)
+        return body_a.value, body_b.value, pairs.value, faces.value, per_face.value
+
+    @property
+    def body_a(self):
+        """-1 for an obstacle."""
+        return self._size()[0]
+
+    @property
+    def body_b(self):
+        return self._size()[1]
+
+    @property
+    def pair_count(self):
+        return self._size()[2]
+
+    def _pairs(self, which):
+        pairs, dimension = self.pair_count, self.mesh.dimension
+        out = [None, None, None, None]
+        out[which] = np.empty(pairs, np.int64) if which < 2 else np.empty(pairs) if which == 2 else np.empty(
+            (pairs, dimension, dimension))
+        self.mesh._call(library.delam_mesh_interface_pairs, self.index, *(pointer(array) for array in out))
+        return out[which]
+
+    @property
+    def nodes_a(self):
+        return self._pairs(0)
+
+    @property
+    def nodes_b(self):
+        return self._pairs(1)
+
+    @property
+    def weights(self):
+        """Length (2D) or area (3D) of each pair."""
+        return self._pairs(2)
+
+    @property
+    def frames(self):
+        """[pairs][dimension][dimension]: rows normal, tangent(s)."""
+        return self._pairs(3)
+
+    @property
+    def places(self):
+        """[pairs][dimension]: where the nodes of body b are."""
+        return self.mesh.nodes[self.nodes_b]
+
+    @property
+    def faces(self):
+        """[faces][nodes of a face], as indices of pairs."""
+        _, _, _, faces, per_face = self._size()
+        out = np.empty((faces, per_face), np.int64)
+        self.mesh._call(library.delam_mesh_interface_faces, self.index, pointer(out))
+        return out
+
+
+class Mesh(Object):
+    """Nodes [n][2 or 3]; cells are added by type:
+
+        mesh = Mesh(nodes)
+        mesh.add_cells("quad4", connectivity, bodies)
+        interface = mesh.add_interface(0, 1)
+
+    Indices are 0-based throughout. Nodes without cells are control nodes."""
+
+    def __init__(self, nodes):
+        nodes = floats("nodes", nodes, (None, (2, 3)))
+        self._create(library.delam_mesh_create, nodes.shape[1], nodes.shape[0], pointer(nodes))
+
+    @classmethod
+    def layers(cls, lengths, divisions, thickness, layer_divisions, cells="quad4"):
+        """Block of layers stacked along the last axis (y in 2D, z in 3D), each a body of its own, body 0 at the bottom; no
+        interface is made yet. lengths, divisions: along the other axes, a number in 2D or two in 3D; thickness,
+        layer_divisions: of each layer."""
+        lengths = floats("lengths", listed(lengths), ((1, 2),))
+        divisions = indices("divisions", divisions, (lengths.size,))
+        thickness = floats("thickness", listed(thickness), (None,))
+        layer_divisions = indices("layer_divisions", layer_divisions, (thickness.size,))
+        mesh = cls.__new__(cls)
+        mesh._create(library.delam_mesh_create_layers, lengths.size + 1, pointer(lengths), pointer(divisions), thickness.size,
+                     pointer(thickness), pointer(layer_divisions), cell_type(cells)[0])
+        return mesh
+
+    @classmethod
+    def from_meshio(cls, source, bodies=None, interfaces=True):
+        """A meshio.Mesh, or a file that meshio reads; see delam.meshes.read."""
+        from .meshes import read
+        return read(source, bodies, interfaces)
+
+    def to_meshio(self, point_data=None, cell_data=None):
+        """A meshio.Mesh with the same nodes and cells, to be written in any of meshio's formats; see delam.meshes.write."""
+        from .meshes import write
+        return write(self, point_data, cell_data)
+
+    def _create(self, function, *arguments):
+        context = Context()
+        handle = ctypes.POINTER(_raw.delam_mesh)()
+        context.call(function, context.handle, *arguments, ctypes.byref(handle))
+        self._own(context, handle, library.delam_mesh_destroy)
+        self.body_names = {}
+
+    def _call(self, function, *arguments):
+        self.context.call(function, self._handle, *arguments)
+
+    def __repr__(self):
+        if self.closed:
+            return "<Mesh, closed>"
+        return (f"<Mesh in {self.dimension}D: {self.node_count} nodes, {self.cell_count} cells, {self.body_count} bodies, "
+                f"{self.interface_count} interfaces>")
+
+    # ---- cells and interfaces
+
+    def _add_cells(self, function, cells, connectivity, bodies):
+        number, size = cell_type(cells)
+        connectivity = indices("connectivity", connectivity, (None, size))
+        count = connectivity.shape[0]
+        if ndim(bodies) == 0:
+            bodies = np.full(count, integer("bodies", bodies, 32), np.int32)
+        bodies = gate("bodies", bodies, np.int32, (count,))
+        self._call(function, number, count, pointer(connectivity), pointer(bodies), 0)
+
+    def add_cells(self, cells, connectivity, bodies=0):
+        """Cells of one type, e.g. "quad4". bodies: a label for all, or one each. A node belongs to one body only."""
+        self._add_cells(library.delam_mesh_add_cells, cells, connectivity, bodies)
+
+    def add_conforming_cells(self, cells, connectivity, bodies=0):
+        """As add_cells, of a mesh whose bodies share nodes: those are doubled (node_origins tells from what)."""
+        self._add_cells(library.delam_mesh_add_conforming_cells, cells, connectivity, bodies)
+
+    def _add_interface(self, function, body_a, body_b, distance):
+        index = ctypes.c_int64()
+        self._call(function, integer("body_a", body_a, 32), integer("body_b", body_b, 32), distance, index)
+        return Interface(self, index.value)
+
+    def add_interface(self, body_a, body_b, tolerance=0.0):
+        """Pairs the coinciding faces of two bodies. tolerance: a fraction of the shortest edge, 0: 1e-6."""
+        return self._add_interface(library.delam_mesh_add_interface, body_a, body_b, number("tolerance", tolerance))
+
+    def add_all_interfaces(self, tolerance=0.0):
+        """An interface between every two bodies that share faces and have none yet; the new ones."""
+        before, count = self.interface_count, ctypes.c_int64()
+        self._call(library.delam_mesh_add_all_interfaces, number("tolerance", tolerance), count)
+        return [Interface(self, before + i) for i in range(count.value)]
+
+    def add_projected_interface(self, body_a, body_b, gap=0.0):
+        """Of two bodies whose meshes do not match; b should be the finer one. gap: distance of the faces, 0: 1e-6 of the
+        shortest edge."""
+        return self._add_interface(library.delam_mesh_add_projected_interface, body_a, body_b, number("gap", gap))
+
+    def add_obstacle(self, nodes, normals, control_node, weights=None):
+        """A rigid obstacle that moves with its control node, a node without cells. normals: from the obstacle into the body,
+        one each or one for all."""
+        nodes = indices("nodes", nodes, size=self.node_count)
+        if ndim(normals) == 1 or isinstance(normals, str):
+            normals = np.tile(axis("normals", normals, self.dimension), (nodes.size, 1))
+        normals = floats("normals", normals, (nodes.size, self.dimension))
+        if weights is not None:
+            weights = floats("weights", weights, (nodes.size,))
+        index = ctypes.c_int64()
+        self._call(library.delam_mesh_add_obstacle, nodes.size, pointer(nodes), pointer(normals), pointer(weights),
+                   integer("control_node", control_node), 0, index)
+        return Interface(self, index.value)
+
+    @property
+    def interfaces(self):
+        return [Interface(self, i) for i in range(self.interface_count)]
+
+    # ---- what is there
+
+    def _size(self):
+        dimension = ctypes.c_int32()
+        counts = [ctypes.c_int64() for _ in range(4)]
+        self._call(library.delam_mesh_size, dimension, *counts)
+        return (dimension.value, *(count.value for count in counts))
+
+    @property
+    def dimension(self):
+        return self._size()[0]
+
+    @property
+    def node_count(self):
+        return self._size()[1]
+
+    @property
+    def cell_count(self):
+        return self._size()[2]
+
+    @property
+    def body_count(self):
+        return self._size()[3]
+
+    @property
+    def interface_count(self):
+        return self._size()[4]
+
+    @property
+    def nodes(self):
+        """[nodes][dimension]"""
+        dimension, count = self._size()[:2]
+        out = np.empty((count, dimension))
+        self._call(library.delam_mesh_nodes, out.size, pointer(out))
+        return out
+
+    @property
+    def node_bodies(self):
+        """Body of each node, -1 for one without cells."""
+        out = np.empty(self.node_count, np.int32)
+        self._call(library.delam_mesh_node_bodies, out.size, pointer(out))
+        return out
+
+    @property
+    def node_origins(self):
+        """The node that each was doubled from (add_conforming_cells), itself otherwise."""
+        out = np.empty(self.node_count, np.int64)
+        self._call(library.delam_mesh_node_origins, out.size, pointer(out))
+        return out
+
+    @property
+    def ties(self):
+        """Tied nodes of projected interfaces."""
+        count, entries = ctypes.c_int64(), ctypes.c_int64()
+        self._call(library.delam_mesh_node_ties, count, entries, None, None, None, None)
+        ties = Ties(np.empty(count.value, np.int64), np.empty(count.value + 1, np.int64), np.empty(entries.value, np.int64),
+                    np.empty(entries.value))
+        self._call(library.delam_mesh_node_ties, None, None, *(pointer(array) for array in ties))
+        return ties
+
+    @property
+    def cells(self):
+        count, needed = self.cell_count, ctypes.c_int64()
+        self._call(library.delam_mesh_cells, None, None, None, 0, None, needed)
+        cells = Cells(np.empty(count, np.int32), np.empty(count, np.int32), np.empty(count + 1, np.int64),
+                      np.empty(needed.value, np.int64))
+        self._call(library.delam_mesh_cells, pointer(cells.types), pointer(cells.bodies), pointer(cells.offsets), needed.value,
+                   pointer(cells.connectivity), None)
+        return cells
+
+    def find_nodes(self, lower, upper=None, body=None):
+        """Nodes of a body (None: of all) inside the closed box lower..upper, ascending; without upper, at a place."""
+        dimension = self.dimension
+        lower = floats("lower", lower, (dimension,))
+        upper = lower if upper is None else floats("upper", upper, (dimension,))
+        count = ctypes.c_int64()
+        box = body_label(body), pointer(lower), pointer(upper)
+        self._call(library.delam_mesh_find_nodes, *box, 0, None, count)
+        nodes = np.empty(count.value, np.int64)
+        self._call(library.delam_mesh_find_nodes, *box, nodes.size, pointer(nodes), count)
+        return nodes
+
+    def find_node(self, place, body=None):
+        """The one node of a body at a place."""
+        nodes = self.find_nodes(place, body=body)
+        if nodes.size != 1:
+            of = "" if body is None else f" of body {body}"
+            raise ArgumentError(f"place = {tuple(np.asarray(place).tolist())}: {nodes.size} nodes{of} are there, expected 1")
+        return int(nodes[0])
+
+    def find_patch(self, body, lower, upper, direction):
+        """Nodes and weights of a uniform traction on the part of a body's boundary inside the box whose outward normal is
+        within 45 degrees of the direction."""
+        dimension = self.dimension
+        lower, upper = floats("lower", lower, (dimension,)), floats("upper", upper, (dimension,))
+        along = axis("direction", direction, dimension)
+        count = ctypes.c_int64()
+        box = integer("body", body, 32), pointer(lower), pointer(upper), pointer(along)
+        self._call(library.delam_mesh_find_patch, *box, 0, None, None, count)
+        nodes, weights = np.empty(count.value, np.int64), np.empty(count.value)
+        self._call(library.delam_mesh_find_patch, *box, nodes.size, pointer(nodes), pointer(weights), count)
+        return nodes, weights

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Options by key, as a mapping that knows what there is."""
+import collections.abc
+import difflib
+import functools
+
+from ._call import number, text
+from ._library import library
+from .law import described
+
+
+def options():
+    """What the library knows: {key: Parameter}."""
+    items = (described(library.delam_option_info, i) for i in range(library.delam_option_count()))
+    return {item.key: item for item in items}
+
+
+@functools.cache
+def known():
+    return options()
+
+
+def initial_values():
+    return {key: _value(parameter, parameter.initial) for key, parameter in known().items()}
+
+
+def unknown(key, known, what):
+    """KeyError with the nearest name."""
+    near = difflib.get_close_matches(str(key), known, 1)
+    return KeyError(f"{what} {key!r} is not known" + (f"; did you mean {near[0]!r}?" if near else ""))
+
+
+def _value(parameter, words):
+    return words if parameter.type == "text" else int(words) if parameter.type == "integer" else float(words)
+
+
+class Options(collections.abc.MutableMapping):
+    """problem.options["solution"] = "energetic"; del gives an option its initial value back. Iterates over all options there
+    are; describe() says what they mean."""
+
+    def __init__(self, problem, values):
+        self._call = problem._call
+        self._known = known()
+        self._values = values
+
+    def __getitem__(self, key):
+        if key not in self._known:
+            raise unknown(key, self._known, "option")
+        return self._values[key]
+
+    def __setitem__(self, key, value):
+        if key not in self._known:
+            raise unknown(key, self._known, "option")
+        parameter = self._known[key]
+        if parameter.type == "text":
+            self._call(library.delam_problem_set_text, key.encode(), text(key, value))
+        else:
+            value = number(key, value)
+            self._call(library.delam_problem_set_number, key.encode(), value)
+        self._values[key] = _value(parameter, value)
+
+    def __delitem__(self, key):
+        if key not in self._known:
+            raise unknown(key, self._known, "option")
+        self[key] = _value(self._known[key], self._known[key].initial)
+
+    def __iter__(self):
+        return iter(self._known)
+
+    def __len__(self):
+        return len(self._known)
+
+    def __repr__(self):
+        return f"Options({self._values})"
+
+    def info(self, key):
+        if key not in self._known:
+            raise unknown(key, self._known, "option")
+        return self._known[key]
+
+    def describe(self):
+        """A line for each option: value, range, meaning."""
+        return "\n".join(f"{key} = {self._values[key]}  ({item.range}; initially {item.initial})  {item.meaning}"
+                         for key, item in self._known.items())

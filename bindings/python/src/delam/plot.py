@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures with matplotlib: histories, what lies on an interface, and bodies as they are deformed. Each function draws into
+`ax`, or into new axes, and returns them."""
+import numpy as np
+
+from .mesh import CELLS
+
+# Corners of plane cells, in order around.
+_CORNERS = {"tri3": 3, "tri6": 3, "quad4": 4, "quad8": 4, "quad9": 4}
+_BODIES = ("#f4f1e8", "#dde5ee", "#e6ebdf")
+_DAMAGE = ("#b3122a", "#f2a541", "#f5e9b8", "#2b6cb0", "#0b2e59")  # adhesion 0 ... 1
+
+
+def _pyplot():
+    try:
+        import matplotlib.pyplot
+    except ImportError:
+        raise ImportError("drawing needs matplotlib (Debian: python3-matplotlib)") from None
+    return matplotlib.pyplot
+
+
+def _axes(ax, **options):
+    if ax is not None:
+        return ax
+    return _pyplot().subplots(layout="constrained", subplot_kw=options)[1]
+
+
+def _adhesion_colours():
+    from matplotlib.colors import LinearSegmentedColormap
+    return LinearSegmentedColormap.from_list("adhesion", _DAMAGE)
+
+
+def history(history, y, x="time", ax=None, **style):
+    """Values over one another: y is a name or several. `history`: a History, or any mapping of arrays."""
+    ax = _axes(ax)
+    names = [y] if isinstance(y, str) else list(y)
+    for name in names:
+        ax.plot(history[x], history[name], label=name, **style)
+    ax.set_xlabel(x)
+    if len(names) == 1:
+        ax.set_ylabel(names[0])
+    else:
+        ax.legend()
+    return ax
+
+
+def interface(solver, field="adhesion", interface=0, component=0, ax=None, **style):
+    """A field of pairs: in 2D along the interface, in 3D in colour on its faces. component: column of jumps and tractions."""
+    view = solver.problem.mesh.interfaces[interface]
+    values = solver.field(field, interface)
+    if values.ndim == 2:
+        values = values[:, component]
+    if solver.problem.dimension == 3:
+        return _faces(view, values, field, ax, style)
+    places, faces = view.places, view.faces
+    ax = _axes(ax)
+    for line in _chains(faces[:, :2], len(values)):
+        along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(places[line], axis=0), axis=1))])
+        # Straight along x: the coordinate itself is what one looks for.
+        if np.ptp(places[line, 1]) <= 1e-9 * np.ptp(places[line, 0]):
+            along = places[line, 0]
+        ax.plot(along, values[line], **style)
+    ax.set_xlabel("place along the interface")
+    ax.set_ylabel(field)
+    return ax
+
+
+def _chains(edges, count):
+    """Pairs in the order of the lines that two-node faces make; loops end where they begin."""
+    neighbours = [[] for _ in range(count)]
+    for a, b in edges.tolist():
+        neighbours[a].append(b)
+        neighbours[b].append(a)
+    left = {tuple(sorted(edge)) for edge in edges.tolist()}
+    chains = []
+    for start in sorted(range(count), key=lambda i: len(neighbours[i]) != 1):
+        chain = [start]
+        while True:
+            ahead = next((n for n in neighbours[chain[-1]] if tuple(sorted((chain[-1], n))) in left), None)
+            if ahead is None:
+                break
+            left.discard(tuple(sorted((chain[-1], ahead))))
+            chain.append(ahead)
+        if len(chain) > 1:
+            chains.append(np.array(chain))
+    return chains
+
+
+def _faces(view, values, field, ax, style):
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+    ax = _axes(ax, projection="3d")
+    places, faces = view.places, view.faces
+    corners = faces[:, :{3: 3, 6: 3}.get(faces.shape[1], 4)]
+    if field == "adhesion":
+        style = {"cmap": _adhesion_colours(), "clim": (0.0, 1.0), **style}
+    collection = Poly3DCollection(places[corners], array=values[corners].mean(axis=1), **style)
+    ax.add_collection3d(collection)
+    for axis, low, high in zip("xyz", places.min(axis=0), places.max(axis=0)):
+        room = 1e-3 * np.ptp(places) if high == low else 0.0
+        getattr(ax, f"set_{axis}lim")(low - room, high + room)
+        getattr(ax, f"set_{axis}label")(axis)
+    ax.figure.colorbar(collection, ax=ax, label=field)
+    return ax
+
+
+def bodies(solver, scale=1.0, ax=None):
+    """Plane bodies as they are deformed, displacements times `scale`, and the adhesion of interfaces in colour."""
+    from matplotlib.collections import LineCollection, PolyCollection
+    mesh = solver.problem.mesh
+    if solver.problem.dimension != 2:
+        raise ValueError("bodies are drawn in 2D alone; write those in space with Mesh.to_meshio for ParaView")
+    ax = _axes(ax)
+    places = mesh.nodes[:len(solver.field("displacement"))] + scale * solver.field("displacement")
+    cells = mesh.cells
+    labels = sorted(set(cells.bodies.tolist()))
+    for name in cells.names():
+        corners = cells.of(name)[:, :_CORNERS[name]]
+        body = cells.bodies[cells.types == CELLS[name][0]]
+        colours = [_BODIES[labels.index(label) % len(_BODIES)] for label in body.tolist()]
+        ax.add_collection(PolyCollection(places[corners], facecolors=colours, edgecolors="#00000022", linewidths=0.3))
+    lines = None
+    for view in mesh.interfaces:
+        adhesion = solver.field("adhesion", view)
+        faces = view.faces[:, :2]
+        lines = LineCollection(places[view.nodes_b][faces], array=adhesion[faces].mean(axis=1), cmap=_adhesion_colours(), linewidths=2)
+        lines.set_clim(0.0, 1.0)
+        ax.add_collection(lines)
+    if lines is not None:
+        ax.figure.colorbar(lines, ax=ax, label="adhesion")
+    ax.set_aspect("equal")
+    ax.autoscale_view()
+    return ax

@@ -1,0 +1,305 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The scene: a mesh with materials, laws, supports, loads and options."""
+import collections.abc
+import ctypes
+from typing import NamedTuple
+
+import numpy as np
+
+from . import _raw
+from ._arrays import direction as axis
+from ._arrays import floats, indices, listed, ndim, pointer, spread
+from ._call import Context, Object, integer, number, text
+from ._library import library
+from .errors import ArgumentError
+from .mesh import body_label
+from .options import Options, initial_values
+
+
+class Sparse(NamedTuple):
+    """A matrix by rows: the entries of row i are row_starts[i] .. row_starts[i+1]-1 of columns and values."""
+
+    shape: tuple
+    row_starts: np.ndarray
+    columns: np.ndarray
+    values: np.ndarray
+
+    def toarray(self):
+        out = np.zeros(self.shape)
+        rows = np.repeat(np.arange(self.shape[0]), np.diff(self.row_starts))
+        np.add.at(out, (rows, self.columns), self.values)
+        return out
+
+    def toscipy(self):
+        """A scipy.sparse.csr_matrix over the same arrays."""
+        from scipy.sparse import csr_matrix
+        return csr_matrix((self.values, self.columns, self.row_starts), shape=self.shape)
+
+
+class Pattern:
+    """A load pattern of a problem; stands for its index wherever one is asked for."""
+
+    def __init__(self, name, index):
+        self.name = name
+        self.index = index
+
+    def __index__(self):
+        return self.index
+
+    def __repr__(self):
+        return f"<Pattern {self.index}: {self.name}>"
+
+
+class Problem(Object):
+    """Takes the mesh as it is now.
+
+    Bodies are chosen by label, None means all. `drive` says what load patterns prescribe: a pattern (itself, its name or index), a
+    mapping {pattern: coefficient, or one each}, or None for zero. Directions are vectors or axes ("x", "-y").
+
+    progress: a function (stage, done, total) called inside long work, on the calling thread; a true result cancels."""
+
+    def __init__(self, mesh, plane=None, progress=None):
+        context = Context()
+        handle = ctypes.POINTER(_raw.delam_problem)()
+        context.call(library.delam_problem_create, context.handle, mesh._handle, ctypes.byref(handle), other=mesh.context)
+        self._keep = []
+        self._own(context, handle, library.delam_problem_destroy, self._keep)
+        self.mesh = mesh
+        self.dimension, self._node_count, self._cell_count = mesh._size()[:3]
+        self._pair_counts = [interface.pair_count for interface in mesh.interfaces]
+        self.progress = progress
+        self._values = initial_values()
+        if plane is not None:
+            self.set_plane(plane)
+
+    def _call(self, function, *arguments):
+        self.context.call(function, self._handle, *arguments)
+
+    @property
+    def options(self):
+        """Options by key, a mapping; solvers take them as they are then."""
+        return Options(self, self._values)
+
+    @property
+    def progress(self):
+        return self.context.progress
+
+    @progress.setter
+    def progress(self, function):
+        if function is not None and not callable(function):
+            raise ArgumentError(f"progress = {function!r} cannot be called")
+        self.context.progress = function
+
+    def __repr__(self):
+        if self.closed:
+            return "<Problem, closed>"
+        primal, dual = self.dofs
+        return f"<Problem in {self.dimension}D: {primal} displacements, {dual} of jumps, patterns {self.patterns}>"
+
+    # ---- materials
+
+    def set_plane(self, assumption):
+        """"plane-strain" (initially) or "plane-stress"."""
+        self._call(library.delam_problem_set_plane, text("assumption", assumption))
+
+    def set_elastic(self, young, poisson, body=None):
+        self._call(library.delam_problem_set_elastic, body_label(body), number("young", young), number("poisson", poisson))
+
+    def set_orthotropic(self, constants, body=None):
+        """E1 E2 E3 nu12 nu13 nu23 G12 G13 G23 in the material axes; nu_ij: contraction along j under tension along i."""
+        constants = floats("constants", constants, (9,))
+        self._call(library.delam_problem_set_orthotropic, body_label(body), pointer(constants))
+
+    def set_orientation(self, axes, cells=None, body=None):
+        """Directions of the material axes 1 and 2 in space, [2][3] for all cells of the body or [cells][2][3]."""
+        if cells is None:
+            axes = floats("axes", axes, (2, 3))
+            self._call(library.delam_problem_set_orientation, body_label(body), 1, None, pointer(axes), 0)
+            return
+        cells = indices("cells", cells, size=self._cell_count)
+        if ndim(axes) == 2:
+            axes = np.tile(floats("axes", axes, (2, 3)), (cells.size, 1, 1))
+        axes = floats("axes", axes, (cells.size, 2, 3))
+        self._call(library.delam_problem_set_orientation, body_label(body), cells.size, pointer(cells), pointer(axes), 0)
+
+    def set_formulation(self, formulation, body=None):
+        """"standard" (initially), "incompatible" or "mean-dilatation"."""
+        self._call(library.delam_problem_set_formulation, body_label(body), text("formulation", formulation))
+
+    # ---- interfaces
+
+    def set_law(self, interface, law):
+        """The law's parameters are taken as they are now; adhesion 1 everywhere."""
+        if law._callbacks:
+            self._keep.append(law._callbacks)
+            self.context.hosted = True
+        self.context.call(library.delam_problem_set_law, self._handle, integer("interface", interface), law._handle,
+                          other=law.context)
+
+    def set_bonded(self, interface):
+        """Glued perfectly and for ever."""
+        self._call(library.delam_problem_set_bonded, integer("interface", interface))
+
+    def set_contact(self, interface):
+        """Faces that may part but not overlap, without adhesion."""
+        self._call(library.delam_problem_set_contact, integer("interface", interface))
+
+    def set_adhesion(self, interface, pairs, adhesion=0.0):
+        """Initial adhesion of some pairs, indices or a mask; 0 makes a notch."""
+        interface = integer("interface", interface)
+        size = self._pair_counts[interface] if 0 <= interface < len(self._pair_counts) else None
+        pairs = indices("pairs", pairs, size=size)
+        adhesion = spread("adhesion", adhesion, pairs.size)
+        self._call(library.delam_problem_set_adhesion, interface, pairs.size, pointer(pairs), pointer(adhesion), 0)
+
+    # ---- supports and loads
+
+    def add_pattern(self, name, times, values):
+        """A named factor that follows a piecewise-linear history, constant beyond its ends."""
+        times = floats("times", listed(times), (None,))
+        values = floats("values", listed(values), (times.size,))
+        index = ctypes.c_int64()
+        self._call(library.delam_problem_add_pattern, text("name", name), times.size, pointer(times), pointer(values), index)
+        return Pattern(name, index.value)
+
+    @property
+    def patterns(self):
+        """Names of the patterns, in the order of their indices."""
+        count = ctypes.c_int64()
+        self._call(library.delam_problem_pattern_count, count)
+        return [self.context.text(library.delam_problem_pattern_name, self._handle, i) for i in range(count.value)]
+
+    def pattern(self, which):
+        """Index of a pattern: itself, its name or its index."""
+        if isinstance(which, str):
+            names = self.patterns
+            if which not in names:
+                raise ArgumentError(f"pattern {which!r} is not known; known are {', '.join(names) or 'none'}")
+            return names.index(which)
+        return integer("pattern", which)
+
+    def _driven(self, drive, count=None):
+        """Patterns and their coefficients, [count][patterns] or [patterns]."""
+        if drive is None:
+            drive = {}
+        elif not isinstance(drive, collections.abc.Mapping):
+            drive = {drive: 1.0}
+        patterns = np.array([self.pattern(which) for which in drive], np.int64)
+        if count is None:
+            coefficients = np.array([number(f"drive[{which!r}]", value) for which, value in drive.items()], float)
+        else:
+            columns = [spread(f"drive[{which!r}]", value, count) for which, value in drive.items()]
+            coefficients = np.ascontiguousarray(np.array(columns, float).reshape(len(columns), count).T)
+        if not np.isfinite(coefficients).all():
+            raise ArgumentError(f"drive = {drive} must be finite")
+        return patterns, coefficients
+
+    def prescribe(self, nodes, direction, drive=None):
+        """direction . u of each node; held at zero without drive."""
+        nodes = indices("nodes", nodes, size=self._node_count)
+        along = axis("direction", direction, self.dimension)
+        patterns, coefficients = self._driven(drive, nodes.size)
+        self._call(library.delam_problem_prescribe_nodes, nodes.size, pointer(nodes), pointer(along), patterns.size,
+                   pointer(patterns), pointer(coefficients), 0)
+
+    def prescribe_mean(self, nodes, weights, direction, drive=None):
+        """The weighted mean of direction . u over nodes; with the weights of Mesh.find_patch a support spread over a patch."""
+        nodes = indices("nodes", nodes)
+        weights = floats("weights", weights, (nodes.size,))
+        along = axis("direction", direction, self.dimension)
+        patterns, coefficients = self._driven(drive)
+        self._call(library.delam_problem_prescribe_mean, nodes.size, pointer(nodes), pointer(weights), pointer(along),
+                   patterns.size, pointer(patterns), pointer(coefficients), 0)
+
+    def add_equation(self, nodes, coefficients, drive=None):
+        """sum_i coefficients[i] . u_nodes[i] = sum over patterns of drive * factor."""
+        nodes = indices("nodes", nodes)
+        coefficients = floats("coefficients", coefficients, (nodes.size, self.dimension))
+        patterns, prescribed = self._driven(drive)
+        self._call(library.delam_problem_add_equation, nodes.size, pointer(nodes), pointer(coefficients), patterns.size,
+                   pointer(patterns), pointer(prescribed), 0)
+
+    def add_periodic(self, periods, control_nodes, tolerance=0.0):
+        """u(x + period_k) - u(x) = u of control node k, on opposite faces of the mesh. periods: [periods][dimension]."""
+        periods = floats("periods", [periods] if ndim(periods) == 1 else periods, (None, self.dimension))
+        control_nodes = indices("control_nodes", control_nodes, (periods.shape[0],))
+        self._call(library.delam_problem_add_periodic, periods.shape[0], pointer(periods), pointer(control_nodes),
+                   number("tolerance", tolerance), 0)
+
+    def add_forces(self, pattern, nodes, forces):
+        """Dead forces times the factor of a pattern: [nodes][dimension], or one vector for all."""
+        nodes = indices("nodes", nodes, size=self._node_count)
+        if ndim(forces) == 1:
+            forces = np.tile(floats("forces", forces, (self.dimension,)), (nodes.size, 1))
+        forces = floats("forces", forces, (nodes.size, self.dimension))
+        self._call(library.delam_problem_add_forces, self.pattern(pattern), nodes.size, pointer(nodes), pointer(forces), 0)
+
+    def add_eigenstrain(self, pattern, strain, body=None):
+        """xx, yy, zz, 2xy, 2yz, 2zx in the material axes, times the factor of a pattern."""
+        strain = floats("strain", strain, (6,))
+        self._call(library.delam_problem_add_eigenstrain, self.pattern(pattern), body_label(body), pointer(strain))
+
+    # ---- questions
+
+    def check(self):
+        """ProblemError names what is missing or contradictory."""
+        self._call(library.delam_problem_check)
+
+    @property
+    def hash(self):
+        """Of everything that determines the result: 16 hexadecimal digits."""
+        out = ctypes.create_string_buffer(17)
+        self._call(library.delam_problem_hash, out)
+        return out.value.decode()
+
+    @property
+    def dofs(self):
+        """Numbers of displacements and of jumps."""
+        primal, dual = ctypes.c_int64(), ctypes.c_int64()
+        self._call(library.delam_problem_dofs, primal, dual)
+        return primal.value, dual.value
+
+    def process_zone(self, interface):
+        """Expected length of the process zone, 0 where there is none, and the mean distance of pairs."""
+        length, spacing = ctypes.c_double(), ctypes.c_double()
+        self._call(library.delam_problem_process_zone, integer("interface", interface), length, spacing)
+        return length.value, spacing.value
+
+    def body_matrix(self, body):
+        """Stiffness of a body over its nodes in ascending order, both triangles."""
+        body = integer("body", body, 32)
+        rows, entries = ctypes.c_int64(), ctypes.c_int64()
+        self._call(library.delam_problem_body_matrix, body, rows, entries, None, None, None)
+        out = Sparse((rows.value, rows.value), np.empty(rows.value + 1, np.int64), np.empty(entries.value, np.int64),
+                     np.empty(entries.value))
+        self._call(library.delam_problem_body_matrix, body, rows, entries, *(pointer(array) for array in out[1:]))
+        return out
+
+    def constraints(self):
+        """Constraints over the mesh's displacements, and their right-hand sides [rows][patterns]."""
+        rows, entries, patterns = ctypes.c_int64(), ctypes.c_int64(), ctypes.c_int64()
+        sizes = rows, entries, patterns
+        self._call(library.delam_problem_constraints, *sizes, None, None, None, None)
+        out = Sparse((rows.value, self.dofs[0]), np.empty(rows.value + 1, np.int64), np.empty(entries.value, np.int64),
+                     np.empty(entries.value))
+        coefficients = np.empty((rows.value, patterns.value))
+        self._call(library.delam_problem_constraints, *sizes, *(pointer(array) for array in out[1:]), pointer(coefficients))
+        return out, coefficients
+
+    def forces(self, pattern):
+        """Nodal forces [nodes][dimension] of a pattern at factor 1."""
+        out = np.empty((self.dofs[0] // self.dimension, self.dimension))
+        self._call(library.delam_problem_forces, self.pattern(pattern), out.size, pointer(out))
+        return out
+
+    def eigenstrain_energy(self):
+        """[patterns][patterns]"""
+        out = np.zeros((len(self.patterns),) * 2)
+        self._call(library.delam_problem_eigenstrain_energy, out.size, pointer(out))
+        return out
+
+    def factors(self, time):
+        """Factors of all patterns at a time."""
+        out = np.empty(len(self.patterns))
+        self._call(library.delam_problem_factors, number("time", time), out.size, pointer(out))
+        return out

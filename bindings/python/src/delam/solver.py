@@ -1,0 +1,336 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Load steps: the march of the interfaces' adhesion, and what can be read of its states."""
+import collections.abc
+import contextlib
+import ctypes
+import warnings
+from typing import NamedTuple
+
+import numpy as np
+
+from . import _raw
+from ._arrays import floats, pointer
+from ._call import Object, integer, number, text
+from ._library import library
+from .errors import ArgumentError, NotConverged, NotConvergedWarning
+from .history import History, steps_of
+from .mesh import body_label
+from .options import unknown
+
+# What these say takes a recovery of all displacements; a history has them only when they are asked for.
+COSTLY = frozenset(("rotation_max", "kkt_gap", "kkt_pressure", "kkt_complementarity", "kkt_equilibrium"))
+
+
+class Average(NamedTuple):
+    """Over the volume of a body; xx, yy, zz, xy, yz, zx, shear strains doubled."""
+
+    volume: float
+    strain: np.ndarray
+    stress: np.ndarray
+
+
+class Fronts(NamedTuple):
+    """Crack fronts of an interface; front f has the points starts[f] .. starts[f+1]-1."""
+
+    starts: np.ndarray  # [fronts + 1]
+    closed: np.ndarray  # [fronts] of bool: a loop
+    places: np.ndarray  # [points][dimension]
+    directions: np.ndarray  # [points][dimension], along the interface into what adheres
+    lengths: np.ndarray  # [points], 2D: of the crack, 3D: of front that a point stands for
+    rates: np.ndarray  # [points][3], energy release rates in modes I, II, III
+    zone_lengths: np.ndarray  # [points], of the process zone
+    zone_pairs: np.ndarray  # [points]
+
+    def lines(self):
+        """Places of each front."""
+        return [self.places[begin:end] for begin, end in zip(self.starts[:-1], self.starts[1:])]
+
+
+class Jump(NamedTuple):
+    """A jump of the state within (before, time] of a step (option jump_tolerance)."""
+
+    step: int
+    before: float
+    time: float
+    stored: float
+    dissipated: float
+    released: float
+    debonded: float
+    interface: int
+    first_pair: int
+    last_pair: int
+
+
+class PlanItem(NamedTuple):
+    """What the scene needs or what was left out, and why."""
+
+    subject: str
+    decision: str
+    reason: str
+    cost: float
+    saving: float
+    unit: str
+
+
+class Values(collections.abc.Mapping):
+    """Scalars of the pending state, else of the committed one, by name; read when they are asked for."""
+
+    def __init__(self, solver, keys):
+        self._solver = solver
+        self._keys = keys
+
+    def __getitem__(self, name):
+        key = self._keys.get(name)
+        if key is None:
+            raise unknown(name, self._keys, "value")
+        out = ctypes.c_double()
+        self._solver._call(library.delam_solver_value, key, out)
+        return out.value
+
+    def __iter__(self):
+        return iter(self._keys)
+
+    def __len__(self):
+        return len(self._keys)
+
+    def __contains__(self, name):
+        return name in self._keys
+
+    def __repr__(self):
+        return f"<Values: {', '.join(self._keys)}>"
+
+
+class Solver(Object):
+    """The state of a problem, which is taken as it is now, from time `time` on.
+
+        solver.advance(0.05)        # pending: can be read, then
+        solver.commit()             # kept, or solver.rollback()
+
+    not_converged: what a step that met an iteration limit does: "warn" (NotConvergedWarning, the step is pending), "raise"
+    (NotConverged, pending too) or "ignore". An interrupted call (Ctrl-C, or an exception from a callback) leaves the state that
+    was there before."""
+
+    def __init__(self, problem, time=0.0, not_converged="warn"):
+        if not_converged not in ("warn", "raise", "ignore"):
+            raise ArgumentError(f"not_converged = {not_converged!r}, expected 'warn', 'raise' or 'ignore'")
+        self.not_converged = not_converged
+        handle = ctypes.POINTER(_raw.delam_solver)()
+        context = problem.context
+        outcome = context.call(library.delam_solver_create, problem._handle, number("time", time), ctypes.byref(handle),
+                               long=True, undo=lambda: library.delam_solver_destroy(ctypes.byref(handle)),
+                               outcomes=(_raw.DELAM_NOT_CONVERGED,))
+        self._own(context, handle, library.delam_solver_destroy, tuple(problem._keep))
+        self.problem = problem
+        self.pending = False
+        count = ctypes.c_int64()
+        self._call(library.delam_solver_value_count, count)
+        names = (context.text(library.delam_solver_value_name, handle, i) for i in range(count.value))
+        self._keys = {name: name.encode() for name in names}
+        self._outcome(outcome, 3)
+
+    def _call(self, function, *arguments):
+        self.context.call(function, self._handle, *arguments)
+
+    def _long(self, function, *arguments, undo=None):
+        return self.context.call(function, self._handle, *arguments, long=True, undo=undo,
+                                 outcomes=(_raw.DELAM_NOT_CONVERGED,))
+
+    def _outcome(self, outcome, level):
+        status, message = outcome
+        if status == _raw.DELAM_NOT_CONVERGED:
+            if self.not_converged == "raise":
+                raise NotConverged(message)
+            if self.not_converged == "warn":
+                warnings.warn(message, NotConvergedWarning, stacklevel=level)
+
+    def __repr__(self):
+        if self.closed:
+            return "<Solver, closed>"
+        return f"<Solver at time {self.time:g}{', a step is pending' if self.pending else ''}>"
+
+    @property
+    def values(self):
+        """Scalars by name, a mapping."""
+        return Values(self, self._keys)
+
+    # ---- steps
+
+    def _step(self, function, *arguments):
+        handle = self._handle
+        outcome = self._long(function, *arguments, undo=lambda: library.delam_solver_rollback(handle))
+        self.pending = True
+        self._outcome(outcome, 4)
+
+    def advance(self, time):
+        """One load step to `time`, pending."""
+        self._step(library.delam_solver_advance, number("time", time))
+
+    def equilibrate(self, time, adhesion=None):
+        """Displacements of least energy at `time` with the given adhesion held, of all pairs, interface after interface; None: the
+        committed one. Pending like a step."""
+        if adhesion is not None:
+            adhesion = floats("adhesion", adhesion, (self._shape("adhesion", -1)[0],))
+        self._step(library.delam_solver_equilibrate, number("time", time), pointer(adhesion))
+
+    def commit(self):
+        self._call(library.delam_solver_commit)
+        self.pending = False
+
+    def rollback(self):
+        """The state before the pending step, bit for bit."""
+        self._call(library.delam_solver_rollback)
+        self.pending = False
+
+    def march(self, times, values=None, progress=False):
+        """Advances and commits, time after time; yields a dict of values after each step.
+
+        values: names, None for all but the costly ones. progress: a bar (tqdm's where it is installed) on standard error. A step
+        that raises is rolled back. With option backtracking a step may replace earlier ones: value revised_from is the first of
+        those, look() reads them; history() does that by itself."""
+        names = self._names(values)
+        for time in steps_of(times, progress):
+            try:
+                self.advance(time)
+                self.commit()
+            except BaseException:
+                if self.pending and not self.closed:
+                    self.rollback()
+                raise
+            yield {name: self.values[name] for name in names}
+
+    def history(self, times, values=None, progress=False):
+        """Marches, and gives the History of all steps with the present state as its first row."""
+        history = History(self, values)
+        for _ in self.march(times, (), progress):
+            history.record()
+        return history
+
+    def _names(self, values):
+        if values is None:
+            return tuple(name for name in self.values if name not in COSTLY)
+        for name in values:
+            if name not in self.values:
+                raise unknown(name, tuple(self.values), "value")
+        return tuple(values)
+
+    @property
+    def time(self):
+        """Of the pending state, else of the committed one."""
+        return self.values["time"]
+
+    def look(self, step):
+        """Values and fields then speak of an earlier step (option backtracking); -1: of the present one again."""
+        self._call(library.delam_solver_look, integer("step", step))
+
+    @contextlib.contextmanager
+    def looking(self, step):
+        """with solver.looking(3): values and fields of step 3."""
+        self.look(step)
+        try:
+            yield self
+        finally:
+            self.look(-1)
+
+    # ---- state as bytes
+
+    def save(self):
+        """The committed state."""
+        needed = ctypes.c_int64()
+        self._call(library.delam_solver_save, 0, None, needed)
+        out = np.empty(needed.value, np.uint8)
+        self._call(library.delam_solver_save, out.size, pointer(out), needed)
+        return out.tobytes()
+
+    def load(self, state):
+        """Goes on from saved bytes of the same scene and options."""
+        try:
+            state = np.frombuffer(state, np.uint8)
+        except (TypeError, ValueError) as error:
+            raise ArgumentError(f"state: {error}") from None
+        self._call(library.delam_solver_load, state.size, pointer(state))
+        self.pending = False
+
+    # ---- fields
+
+    def _shape(self, name, part):
+        rows, columns = ctypes.c_int64(), ctypes.c_int64()
+        self._call(library.delam_solver_field_shape, text("name", name), part, rows, columns)
+        return rows.value, columns.value
+
+    def field(self, name, interface=None):
+        """A field of the pending state, else of the committed one: [rows][columns], or [rows] where there is one column.
+
+        Over nodes: displacement. Cells: stress, rotation. Pairs of an interface, None for all one after another: jump, traction,
+        adhesion, mixity, contact. Constraints: reaction."""
+        part = -1 if interface is None else integer("interface", interface)
+        rows, columns = self._shape(name, part)
+        out = np.empty((rows, columns) if columns > 1 else rows)
+        self._call(library.delam_solver_field, text("name", name), part, out.size, pointer(out))
+        return out
+
+    def average(self, body=None):
+        """Volume, average strain and average stress of a body; None: of all."""
+        volume, strain, stress = ctypes.c_double(), np.empty(6), np.empty(6)
+        self._call(library.delam_solver_average, body_label(body), volume, pointer(strain), pointer(stress))
+        return Average(volume.value, strain, stress)
+
+    def fronts(self, interface=0):
+        """The fronts of the cracks of an interface."""
+        interface = integer("interface", interface)
+        fronts, points = ctypes.c_int64(), ctypes.c_int64()
+        self._call(library.delam_solver_front_count, interface, fronts, points)
+        m, n, dimension = fronts.value, points.value, self.problem.dimension
+        out = Fronts(np.zeros(m + 1, np.int64), np.empty(m, np.int32), np.empty((n, dimension)), np.empty((n, dimension)),
+                     np.empty(n), np.empty((n, 3)), np.empty(n), np.empty(n))
+        self._call(library.delam_solver_front, interface, m, n, *(pointer(array) for array in out))
+        return out._replace(closed=out.closed.astype(bool))
+
+    def tangent(self):
+        """[patterns][patterns]: change of reactions with factors at the adhesion and contact held; symmetric."""
+        out = np.empty((len(self.problem.patterns),) * 2)
+        self._long(library.delam_solver_tangent, out.size, pointer(out))
+        return out
+
+    # ---- what was done
+
+    @property
+    def plan(self):
+        """What the scene needs and what was left out, in words."""
+        return self.context.text(library.delam_solver_plan, self._handle)
+
+    @property
+    def plan_items(self):
+        count = ctypes.c_int64()
+        self._call(library.delam_solver_plan_count, count)
+        items = []
+        for i in range(count.value):
+            subject, decision, reason, unit = (ctypes.c_char_p() for _ in range(4))
+            cost, saving = ctypes.c_double(), ctypes.c_double()
+            self._call(library.delam_solver_plan_item, i, subject, decision, reason, cost, saving, unit)
+            items.append(PlanItem(subject.value.decode(), decision.value.decode(), reason.value.decode(), cost.value, saving.value,
+                                  unit.value.decode()))
+        return items
+
+    def option(self, key):
+        """Value of an option as text, as the solver took it."""
+        value = self.context.text(library.delam_solver_option, self._handle, text("key", key))
+        if value is None:
+            raise unknown(key, tuple(self.problem.options), "option")
+        return value
+
+    @property
+    def searched(self):
+        """What the energetic search of the last step looked at."""
+        return self.context.text(library.delam_solver_searched, self._handle)
+
+    @property
+    def jumps(self):
+        """Jumps that were located (option jump_tolerance), in the order of time."""
+        count = ctypes.c_int64()
+        self._call(library.delam_solver_jump_count, count)
+        jumps = []
+        for i in range(count.value):
+            out = [ctypes.c_int64(), *(ctypes.c_double() for _ in range(6)), *(ctypes.c_int64() for _ in range(3))]
+            self._call(library.delam_solver_jump, i, *out)
+            jumps.append(Jump(*(item.value for item in out)))
+        return jumps

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Laws: by keyword, and by Python functions."""
+import unittest
+
+import support
+import numpy as np
+
+import delam
+
+NUMBERS = dict(normal_stiffness=1e12, tangential_stiffness=1e12, normal_onset=50.0, tangential_onset=50.0,
+               normal_toughness=280.0, tangential_toughness=280.0)
+
+
+class Parameters(unittest.TestCase):
+    def test_kinds_describe_themselves(self):
+        known = delam.Law.parameters("trapezoidal")
+        self.assertEqual(known["plateau"].type, "real")
+        self.assertEqual(known["normal_stiffness"].unit, "F/L3")
+        self.assertEqual(known["normal_stiffness"].initial, "")
+        with self.assertRaisesRegex(delam.ArgumentError, "'bilinear' is not known; known are piecewise-linear"):
+            delam.Law.parameters("bilinear")
+
+    def test_texts_come_before_numbers(self):
+        law = delam.Law("exponential", **{**NUMBERS, "tangential_toughness": 560.0}, toughness_exponent=1.0,
+                        criterion="benzeggagh-kenane")
+        np.testing.assert_allclose(law.toughness([0.0, 0.5, 1.0])[1], [280.0, 420.0, 560.0])
+
+    def test_mistakes(self):
+        for call, kind, words in (
+                (lambda: delam.Law("linear"), delam.ArgumentError, "linear"),
+                (lambda: delam.Law("exponential", stiffness=1.0), delam.ArgumentError, "stiffness"),
+                (lambda: delam.Law("exponential", normal_onset=-1.0), delam.ArgumentError, "normal_onset"),
+                (lambda: delam.Law("exponential", normal_onset="high"), delam.ArgumentError, "normal_onset"),
+                (lambda: delam.Law("exponential", normal_onset=[1.0]), delam.ArgumentError, "normal_onset|normal_onset = "),
+                (lambda: delam.Law("exponential", normal_onset=None), delam.ArgumentError, "normal_onset = None is no number"),
+                (lambda: delam.Law("tabulated", softening=[0, 1, 2]), delam.ArgumentError, r"\(xi, s\)"),
+                (lambda: delam.Law("tabulated", softening=([0, 1], [1])), delam.ArgumentError, r"softening\[1\] has shape"),
+                (lambda: delam.Law("exponential", normal_stiffness=1.0).check(), delam.ProblemError, "stiffness|onset")):
+            with self.assertRaisesRegex(kind, words):
+                call()
+
+    def test_tabulated_is_the_bilinear_law(self):
+        law = delam.Law("tabulated", **NUMBERS, softening=([0, 0.5, 1], [1, 0.5, 0]))
+        jump = np.column_stack([np.linspace(0, 1.2e-4, 20), np.zeros(20)])
+        adhesion, traction = law.respond(jump, 0.0)
+        other, _ = support.bilinear().respond(jump, 0.0)
+        np.testing.assert_allclose(adhesion, other, atol=1e-12)
+        np.testing.assert_allclose(traction[:, 0], adhesion * 1e12 * jump[:, 0])
+
+
+class Host(unittest.TestCase):
+    def test_equals_the_law_of_the_library(self):
+        jump = np.column_stack([np.linspace(0, 1.2e-4, 50), np.full(50, 1e-6)])
+        law = support.host_bilinear()
+        law.check()
+        np.testing.assert_allclose(law.respond(jump, 0.0)[0], support.bilinear().respond(jump, 0.0)[0], atol=1e-10)
+
+    def test_an_exception_surfaces_after_the_call(self):
+        class Mine(Exception):
+            pass
+
+        trouble = []
+
+        def spy(which):
+            if trouble:
+                raise Mine(which)
+
+        law = support.host_bilinear(spy=spy)
+        trouble.append(True)
+        with self.assertRaises(Mine) as caught:
+            law.check()
+        self.assertIn(str(caught.exception), ("adhesion", "dissipation"))
+        with self.assertRaises(Mine):
+            law.respond([[1e-5, 0.0]], 0.0)
+        trouble.clear()
+        law.check()
+
+    def test_results_of_the_wrong_kind(self):
+        law = delam.Law.host("bad", lambda mixity, driving: None, lambda mixity, adhesion: ("a", "b", "c"), normal_stiffness=1.0,
+                             tangential_stiffness=1.0)
+        with self.assertRaises(TypeError):
+            law.check()
+
+    def test_a_law_that_calls_the_library_is_refused(self):
+        laws = []
+        law = support.host_bilinear(spy=lambda which: laws[0].check())
+        laws.append(law)
+        with self.assertRaisesRegex(delam.StateError, "inside a callback"):
+            law.check()
+
+
+if __name__ == "__main__":
+    support.main()

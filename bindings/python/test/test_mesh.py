@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Meshes: what goes in comes out, and the array gate names what is wrong."""
+import unittest
+
+import support
+import numpy as np
+
+import delam
+
+SQUARES = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [1, 2], [0, 2]], float)
+
+
+class Arrays(unittest.TestCase):
+    def test_conforming_cells_double_shared_nodes(self):
+        mesh = delam.Mesh(SQUARES)
+        mesh.add_conforming_cells("quad4", [[0, 1, 2, 3], [3, 2, 4, 5]], [7, 9])
+        self.assertEqual((mesh.dimension, mesh.node_count, mesh.cell_count, mesh.body_count), (2, 8, 2, 2))
+        np.testing.assert_array_equal(mesh.node_origins, [0, 1, 2, 3, 4, 5, 3, 2])
+        np.testing.assert_array_equal(mesh.node_bodies, [7, 7, 7, 7, 9, 9, 9, 9])
+        np.testing.assert_array_equal(mesh.nodes[[6, 7]], SQUARES[[3, 2]])
+        (interface,) = mesh.add_all_interfaces()
+        self.assertEqual((interface.body_a, interface.body_b, interface.pair_count), (7, 9, 2))
+        np.testing.assert_allclose(interface.weights, [0.5, 0.5])
+        np.testing.assert_array_equal(interface.places, [[0, 1], [1, 1]])
+        np.testing.assert_allclose(interface.frames[:, 0], [[0, 1], [0, 1]])
+        np.testing.assert_array_equal(mesh.nodes[interface.nodes_a], mesh.nodes[interface.nodes_b])
+        np.testing.assert_array_equal(np.sort(interface.faces), [[0, 1]])
+
+    def test_cells_come_out_by_type(self):
+        mesh = delam.Mesh(SQUARES)
+        mesh.add_cells("quad4", [[0, 1, 2, 3]])
+        mesh.add_cells("tri3", [[3, 2, 4], [3, 4, 5]])
+        cells = mesh.cells
+        self.assertEqual(cells.names(), ["tri3", "quad4"])
+        np.testing.assert_array_equal(cells.of("tri3"), [[3, 2, 4], [3, 4, 5]])
+        np.testing.assert_array_equal(cells.of("quad4"), [[0, 1, 2, 3]])
+        self.assertEqual(cells.of("hex8").shape, (0, 8))
+        np.testing.assert_array_equal(cells.offsets, [0, 4, 7, 10])
+
+    def test_any_layout_is_taken(self):
+        for nodes in (SQUARES.tolist(), SQUARES.astype(np.float32), np.asfortranarray(SQUARES), np.repeat(SQUARES, 2, 0)[::2],
+                      SQUARES.astype(np.int32)):
+            np.testing.assert_array_equal(delam.Mesh(nodes).nodes, SQUARES)
+        for cells in ([[0, 1, 2, 3]], np.array([[0, 1, 2, 3]], np.uint8), np.array([[0, 1, 2, 3]], np.int32)):
+            mesh = delam.Mesh(SQUARES)
+            mesh.add_cells("quad4", cells)
+            np.testing.assert_array_equal(mesh.cells.connectivity, [0, 1, 2, 3])
+
+    def test_the_gate_names_the_argument(self):
+        mesh = delam.Mesh(SQUARES)
+        broken = SQUARES.copy()
+        broken[4, 1] = np.nan
+        for call, words in (
+                (lambda: delam.Mesh(broken), r"nodes\[4, 1\] is nan"),
+                (lambda: delam.Mesh(SQUARES[:, :1]), r"nodes has shape \(6, 1\), expected \(any, 2 or 3\)"),
+                (lambda: delam.Mesh("abc"), "nodes has type <U3"),
+                (lambda: delam.Mesh([["a", "b"]]), "nodes has type"),
+                (lambda: delam.Mesh(SQUARES * 1j), "nodes has type complex128"),
+                (lambda: delam.Mesh([[1, 2], [3]]), "nodes: .*inhomogeneous|nodes has type object"),
+                (lambda: mesh.add_cells("quad4", [[0, 1, 2]]), r"connectivity has shape \(1, 3\), expected \(any, 4\)"),
+                (lambda: mesh.add_cells("quad4", [[0.0, 1, 2, 3]]), "connectivity has type float64, expected integers"),
+                (lambda: mesh.add_cells("quad4", np.array([[0, 1, 2, 2 ** 63]], np.uint64)), r"connectivity\[0, 3\] = 9223"),
+                (lambda: mesh.add_cells("quad", [[0, 1, 2, 3]]), "'quad' is no cell type; known are tri3"),
+                (lambda: mesh.add_cells("quad4", [[0, 1, 2, 3]], [0, 1]), r"bodies has shape \(2,\)"),
+                (lambda: mesh.add_cells("quad4", [[0, 1, 2, 3]], 2 ** 31), "does not fit into 32 bits"),
+                (lambda: mesh.add_interface(0, 1.5), "body_b = 1.5 is no integer"),
+                (lambda: mesh.find_nodes((0, 0, 0)), r"lower has shape \(3,\)")):
+            with self.assertRaisesRegex(delam.ArgumentError, words):
+                call()
+        self.assertEqual(mesh.cell_count, 0)
+
+    def test_errors_of_the_library(self):
+        mesh = delam.Mesh(SQUARES)
+        with self.assertRaisesRegex(delam.MeshError, "cell") as caught:
+            mesh.add_cells("quad4", [[0, 3, 2, 1]])
+        self.assertEqual((caught.exception.status, caught.exception.name), (-3, "DELAM_ERROR_MESH"))
+        self.assertIsInstance(caught.exception, ValueError)
+        with self.assertRaisesRegex(delam.ArgumentError, "6"):
+            mesh.add_cells("quad4", [[0, 1, 2, 6]])
+        self.assertEqual(mesh.cell_count, 0)
+
+
+class Made(unittest.TestCase):
+    def test_layers(self):
+        for cells, lengths, nodes in (("quad4", 2.0, 2 * 3 * 2), ("quad8", 2.0, 2 * 13), ("hex8", (2.0, 1.0), 2 * 12)):
+            divisions = 2 if cells != "hex8" else (2, 1)
+            mesh = delam.Mesh.layers(lengths, divisions, [0.5, 0.5], [1, 1], cells)
+            self.assertEqual(mesh.node_count, nodes, cells)
+            self.assertEqual(mesh.body_count, 2)
+            interface = mesh.add_interface(0, 1)
+            self.assertAlmostEqual(interface.weights.sum(), 2.0)
+            self.assertEqual(mesh.interfaces[0].index, interface.index)
+
+    def test_finding(self):
+        mesh = delam.Mesh.layers(2.0, 4, [0.5, 0.5], [1, 1])
+        np.testing.assert_array_equal(mesh.find_nodes((0, 0), (2, 0)), range(5))
+        self.assertEqual(len(mesh.find_nodes((1.0, 0.5))), 2)
+        self.assertEqual(mesh.find_node((1.0, 0.5), body=0), 7)
+        with self.assertRaisesRegex(delam.ArgumentError, r"\(1.0, 0.5\): 2 nodes are there, expected 1"):
+            mesh.find_node((1.0, 0.5))
+        nodes, weights = mesh.find_patch(1, (0.0, 1.0), (1.25, 1.0), "y")
+        self.assertAlmostEqual(weights.sum(), 1.25)
+        self.assertEqual(len(nodes), len(weights))
+        with self.assertRaisesRegex(delam.ArgumentError, "'z' is no axis; in 2D these are x, y"):
+            mesh.find_patch(1, (0.0, 1.0), (1.25, 1.0), "z")
+
+    def test_projection_ties_nodes(self):
+        nodes = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 1], [0.5, 1], [1, 1], [0, 2], [0.5, 2], [1, 2]], float)
+        mesh = delam.Mesh(nodes)
+        mesh.add_cells("quad4", [[0, 1, 2, 3]], 0)
+        mesh.add_cells("quad4", [[4, 5, 8, 7], [5, 6, 9, 8]], 1)
+        interface = mesh.add_projected_interface(0, 1)
+        ties = mesh.ties
+        self.assertEqual(interface.pair_count, 3)
+        self.assertEqual(len(ties.nodes), 3)
+        np.testing.assert_allclose(np.add.reduceat(ties.weights, ties.starts[:-1]), 1.0)
+
+    def test_obstacle(self):
+        mesh = delam.Mesh(np.vstack([SQUARES[:4], [[0.5, 3.0]]]))
+        mesh.add_cells("quad4", [[0, 1, 2, 3]])
+        obstacle = mesh.add_obstacle([2, 3], "-y", control_node=4)
+        self.assertEqual((obstacle.body_a, obstacle.pair_count), (-1, 2))
+        np.testing.assert_array_equal(obstacle.nodes_b, [2, 3])
+
+
+if __name__ == "__main__":
+    support.main()

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The raw layer is what the generator makes of the header, and what the loaded functions are given."""
+import pathlib
+import sys
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE.parent / "tools"), str(HERE)]
+
+import check_raw  # noqa: E402
+import generate_raw  # noqa: E402
+import support  # noqa: E402
+
+
+class Generated(unittest.TestCase):
+    def test_regenerating_gives_the_committed_file(self):
+        text = generate_raw.python_text(generate_raw.Header(generate_raw.HEADER.read_text(encoding="utf-8")))
+        self.assertEqual(text, check_raw.RAW.read_text(encoding="utf-8"),
+                         "run bindings/python/tools/generate_raw.py --out bindings/python/src/delam/_raw.py")
+
+    def test_what_is_not_understood_is_refused(self):
+        for text, words in (("DELAM_API float delam_x(void);", "float"),
+                            ("struct point { double x; };", "not understood"),
+                            ("DELAM_API int32_t delam_x(const int32_t n[3]);", "no name or no type"),
+                            ("DELAM_API int32_t delam_x(delam_mesh mesh);", "delam_mesh"),
+                            ("DELAM_API int32_t delam_x(long n);", "long"),
+                            ("DELAM_API int32_t delam_x(int32_t);", "no name"),
+                            ("#define DELAM_X (1 << 3)", "no integer constant"),
+                            ("DELAM_API int32_t delam_x(void)", "semicolon")):
+            with self.subTest(text), self.assertRaisesRegex(generate_raw.HeaderError, words):
+                generate_raw.Header("typedef struct delam_mesh delam_mesh;\n" + text)
+
+
+class Bound(unittest.TestCase):
+    def test_functions_have_the_types(self):
+        from delam import _raw
+        from delam._library import library
+        for name, (result, arguments) in _raw.FUNCTIONS.items():
+            function = getattr(library, name)
+            self.assertIs(function.restype, result, name)
+            self.assertEqual(function.argtypes, [kind for _, kind in arguments], name)
+
+    def test_a_library_that_lacks_functions_is_told(self):
+        from delam import _raw
+
+        class Empty:
+            pass
+
+        self.assertEqual(_raw.bind(Empty()), list(_raw.FUNCTIONS))
+
+
+if __name__ == "__main__":
+    support.main()
