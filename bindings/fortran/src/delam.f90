@@ -4,8 +4,9 @@
 !
 ! What every procedure here keeps to
 !   status, message  optional. With `status` the caller decides what to do about an error (< 0) or an outcome (> 0), and
-!                    `message` says it in words. Without it anything but DELAM_OK ends the program by error stop, after
-!                    the message went to the error unit.
+!                    `message` says it in words (blank: done; cut off or padded like errmsg, context%message() has it
+!                    whole). Without `status` anything but DELAM_OK ends the program by error stop, after the message
+!                    went to the error unit.
 !   arrays           as in delam.h with the axes reversed: C's [n][3] is (3,n). Contiguous ones are handed over where
 !                    they are; the compiler copies others. Array results are allocated here and filled by the library.
 !   indices          from 1, outputs too (0: none). Numbers that are not indices are as in C: labels of bodies (layers
@@ -13,7 +14,8 @@
 !                    Where a message of the library names a single index it counts from 0.
 !   objects          are made by create, destroyed when they leave their scope or by destroy. An assignment makes a
 !                    second name of the same object, which lives until the last one is gone; so does the context,
-!                    and a law by Fortran procedures as long as a problem or solver uses it.
+!                    and a law by Fortran procedures as long as a problem or solver uses it. (GNU Fortran 12 copies
+!                    objects wrongly when a derived type that contains them is assigned as a whole: assign them singly.)
 module delam
   use, intrinsic :: iso_c_binding, only: c_ptr, c_funptr, c_char, c_size_t, c_int8_t, c_int32_t, c_int64_t, c_double, &
                                          c_null_ptr, c_null_char, c_null_funptr, c_associated, c_loc, c_funloc, &
@@ -415,7 +417,7 @@ contains
     integer(c_int32_t), intent(in) :: code
     class(delam_object), intent(in) :: object
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     character(:), allocatable :: text
     text = ''
     if (code /= DELAM_OK) then
@@ -432,7 +434,7 @@ contains
   subroutine refuse(text, status, message)
     character(*), intent(in) :: text
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call conclude(DELAM_ERROR_ARGUMENT, text, status, message)
   end subroutine refuse
 
@@ -440,7 +442,7 @@ contains
     integer(c_int32_t), intent(in) :: code
     character(*), intent(in) :: text
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     if (present(message)) message = text
     if (present(status)) then
       status = code
@@ -455,7 +457,7 @@ contains
   subroutine context_create(self, status, message)
     class(delam_context), intent(inout) :: self
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     type(shared), pointer :: made
     integer(c_int32_t) :: code
     allocate(made)
@@ -484,7 +486,7 @@ contains
     class(delam_context), intent(inout) :: self
     class(delam_observer), intent(in), target :: observer
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(c_int32_t) :: code
     if (.not. associated(self%it)) then
       call settle(DELAM_ERROR_HANDLE, self, status, message)
@@ -499,7 +501,7 @@ contains
   subroutine context_unobserve(self, status, message)
     class(delam_context), intent(inout) :: self
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(c_int32_t) :: code
     code = delam_context_set_log(self%handle(), c_null_funptr, c_null_ptr)
     if (code == DELAM_OK) code = delam_context_set_progress(self%handle(), c_null_funptr, c_null_ptr)
@@ -511,7 +513,7 @@ contains
   subroutine context_cancel(self, status, message)
     class(delam_context), intent(in) :: self
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_context_cancel(self%handle()), self, status, message)
   end subroutine context_cancel
 
@@ -572,7 +574,7 @@ contains
     type(delam_context), intent(in) :: context
     real(delam_real), intent(in), contiguous :: nodes(:,:)
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     type(shared), pointer :: made
     integer(c_int32_t) :: code
     allocate(made)
@@ -601,7 +603,7 @@ contains
     integer(delam_index), intent(in), contiguous :: divisions(:), layer_divisions(:)
     integer, intent(in) :: cell_type
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     type(shared), pointer :: made
     integer(c_int32_t) :: code
     if (size(lengths) /= size(divisions) .or. size(thickness) /= size(layer_divisions)) then
@@ -622,7 +624,7 @@ contains
     integer(delam_index), intent(in), contiguous :: connectivity(:,:)
     integer(delam_label), intent(in), contiguous, optional :: bodies(:)
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     if (.not. fits(cell_type, connectivity, bodies)) then
       call refuse('connectivity must be (nodes of the cell type, cells), bodies (cells)', status, message)
       return
@@ -637,7 +639,7 @@ contains
     integer(delam_index), intent(in), contiguous :: connectivity(:,:)
     integer(delam_label), intent(in), contiguous, optional :: bodies(:)
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     if (.not. fits(cell_type, connectivity, bodies)) then
       call refuse('connectivity must be (nodes of the cell type, cells), bodies (cells)', status, message)
       return
@@ -662,7 +664,7 @@ contains
     real(delam_real), intent(in), optional :: tolerance
     integer, intent(out), optional :: interface
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(c_int64_t) :: made
     integer(c_int32_t) :: code
     real(delam_real) :: distance
@@ -679,7 +681,7 @@ contains
     real(delam_real), intent(in), optional :: tolerance
     integer, intent(out), optional :: count
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(c_int64_t) :: made
     integer(c_int32_t) :: code
     real(delam_real) :: distance
@@ -697,7 +699,7 @@ contains
     real(delam_real), intent(in), optional :: gap
     integer, intent(out), optional :: interface
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(c_int64_t) :: made
     integer(c_int32_t) :: code
     real(delam_real) :: distance
@@ -718,7 +720,7 @@ contains
     real(delam_real), intent(in), contiguous, optional :: weights(:)
     integer, intent(out), optional :: interface
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(c_int64_t) :: made
     integer(c_int32_t) :: code
     logical :: equal
@@ -749,7 +751,7 @@ contains
     integer(c_int32_t), intent(out), optional :: dimension
     integer(delam_index), intent(out), optional :: nodes, cells, bodies, interfaces
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_mesh_size(self%handle(), dimension, nodes, cells, bodies, interfaces), self, status, message)
   end subroutine mesh_get_size
 
@@ -757,7 +759,7 @@ contains
   function mesh_nodes(self, status, message) result(nodes)
     class(delam_mesh), intent(in) :: self
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     real(delam_real), allocatable :: nodes(:,:)
     integer(c_int64_t) :: count
     integer(c_int32_t) :: code
@@ -772,7 +774,7 @@ contains
   function mesh_node_bodies(self, status, message) result(bodies)
     class(delam_mesh), intent(in) :: self
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(delam_label), allocatable :: bodies(:)
     integer(c_int64_t) :: count
     integer(c_int32_t) :: code
@@ -786,7 +788,7 @@ contains
   function mesh_node_origins(self, status, message) result(origins)
     class(delam_mesh), intent(in) :: self
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(delam_index), allocatable :: origins(:)
     integer(c_int64_t) :: count
     integer(c_int32_t) :: code
@@ -804,7 +806,7 @@ contains
     integer(delam_index), allocatable, intent(out) :: nodes(:), starts(:), of(:)
     real(delam_real), allocatable, intent(out) :: weights(:)
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(c_int64_t) :: count, entries
     integer(c_int32_t) :: code
     count = 0
@@ -826,7 +828,7 @@ contains
     integer(delam_label), allocatable, intent(out) :: bodies(:)
     integer(delam_index), allocatable, intent(out) :: offsets(:), connectivity(:)
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(c_int64_t) :: count, entries
     integer(c_int32_t) :: code
     count = 0
@@ -849,7 +851,7 @@ contains
     integer(delam_index), intent(out), optional :: pairs, faces
     integer(c_int32_t), intent(out), optional :: nodes_per_face
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_mesh_interface_size(self%handle(), interface - 1_c_int64_t, body_a, body_b, pairs, faces, &
                                           nodes_per_face), self, status, message)
   end subroutine mesh_interface_size
@@ -861,7 +863,7 @@ contains
     integer(delam_index), allocatable, intent(out), optional :: nodes_a(:), nodes_b(:)
     real(delam_real), allocatable, intent(out), optional :: weights(:), frames(:,:,:)
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(c_int64_t) :: count
     integer(c_int32_t) :: code, dimension
     ! What is not allocated is absent to the library. (GNU Fortran 12 does not pass on absent allocatable dummies.)
@@ -889,7 +891,7 @@ contains
     class(delam_mesh), intent(in) :: self
     integer, intent(in) :: interface
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(delam_index), allocatable :: faces(:,:)
     integer(c_int64_t) :: count
     integer(c_int32_t) :: code, per_face
@@ -908,7 +910,7 @@ contains
     real(delam_real), intent(in), contiguous :: lower(:), upper(:)
     integer, intent(in), optional :: body
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(delam_index), allocatable :: nodes(:)
     integer(c_int64_t) :: count
     integer(c_int32_t) :: code
@@ -933,7 +935,7 @@ contains
     integer(delam_index), allocatable, intent(out) :: nodes(:)
     real(delam_real), allocatable, intent(out) :: weights(:)
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(c_int64_t) :: count
     integer(c_int32_t) :: code
     if (any([size(lower), size(upper), size(direction)] /= dimension_of(self))) then
@@ -957,7 +959,7 @@ contains
     type(delam_context), intent(in) :: context
     character(*), intent(in) :: kind
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     type(shared), pointer :: made
     integer(c_int32_t) :: code
     allocate(made)
@@ -977,7 +979,7 @@ contains
     character(*), intent(in) :: name
     class(delam_host_law), intent(in) :: law
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     type(shared), pointer :: made
     integer(c_int32_t) :: code
     allocate(made)
@@ -1023,7 +1025,7 @@ contains
     character(*), intent(in) :: key
     real(delam_real), intent(in) :: value
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_law_set(self%handle(), zero_ended(key), value), self, status, message)
   end subroutine law_set_number
 
@@ -1031,7 +1033,7 @@ contains
     class(delam_law), intent(in) :: self
     character(*), intent(in) :: key, value
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_law_set_text(self%handle(), zero_ended(key), zero_ended(value)), self, status, message)
   end subroutine law_set_text
 
@@ -1039,7 +1041,7 @@ contains
     class(delam_law), intent(in) :: self
     real(delam_real), intent(in), contiguous :: xi(:), s(:)
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     if (size(xi) /= size(s)) then
       call refuse('xi and s: unequal sizes', status, message)
       return
@@ -1050,7 +1052,7 @@ contains
   subroutine law_check(self, status, message)
     class(delam_law), intent(in) :: self
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_law_check(self%handle()), self, status, message)
   end subroutine law_check
 
@@ -1059,7 +1061,7 @@ contains
     real(delam_real), intent(in), contiguous :: mixity(:)
     real(delam_real), intent(out), contiguous, optional :: onset(:), toughness(:)
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     logical :: equal
     equal = .true.
     if (present(onset)) equal = size(onset) == size(mixity)
@@ -1080,7 +1082,7 @@ contains
     real(delam_real), intent(out), contiguous :: adhesion(:)
     real(delam_real), intent(out), contiguous, optional :: traction(:,:)
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     logical :: equal
     equal = all([size(mixity), size(adhesion_old), size(adhesion)] == size(jump, 2))
     if (present(traction)) equal = equal .and. all(shape(traction) == shape(jump))
@@ -1099,7 +1101,7 @@ contains
     type(delam_context), intent(in) :: context
     type(delam_mesh), intent(in) :: mesh
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     type(shared), pointer :: made
     integer(c_int32_t) :: code
     allocate(made)
@@ -1117,7 +1119,7 @@ contains
     class(delam_problem), intent(in) :: self
     character(*), intent(in) :: assumption
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_problem_set_plane(self%handle(), zero_ended(assumption)), self, status, message)
   end subroutine problem_set_plane
 
@@ -1126,7 +1128,7 @@ contains
     real(delam_real), intent(in) :: young, poisson
     integer, intent(in), optional :: body
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_problem_set_elastic(self%handle(), body_or_all(body), young, poisson), self, status, message)
   end subroutine problem_set_elastic
 
@@ -1136,7 +1138,7 @@ contains
     real(delam_real), intent(in) :: constants(9)
     integer, intent(in), optional :: body
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_problem_set_orthotropic(self%handle(), body_or_all(body), constants), self, status, message)
   end subroutine problem_set_orthotropic
 
@@ -1147,7 +1149,7 @@ contains
     integer(delam_index), intent(in), contiguous, optional :: cells(:)
     integer, intent(in), optional :: body
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     logical :: equal
     equal = size(axes, 1) == 3 .and. size(axes, 2) == 2
     if (present(cells)) equal = equal .and. size(axes, 3) == size(cells)
@@ -1164,7 +1166,7 @@ contains
     character(*), intent(in) :: formulation
     integer, intent(in), optional :: body
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_problem_set_formulation(self%handle(), body_or_all(body), zero_ended(formulation)), self, &
                 status, &
                 message)
@@ -1175,7 +1177,7 @@ contains
     integer, intent(in) :: interface
     type(delam_law), intent(in) :: law
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(c_int32_t) :: code
     code = delam_problem_set_law(self%handle(), interface - 1_c_int64_t, law%handle())
     if (code == DELAM_OK) then
@@ -1188,7 +1190,7 @@ contains
     class(delam_problem), intent(in) :: self
     integer, intent(in) :: interface
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_problem_set_bonded(self%handle(), interface - 1_c_int64_t), self, status, message)
   end subroutine problem_set_bonded
 
@@ -1196,7 +1198,7 @@ contains
     class(delam_problem), intent(in) :: self
     integer, intent(in) :: interface
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_problem_set_contact(self%handle(), interface - 1_c_int64_t), self, status, message)
   end subroutine problem_set_contact
 
@@ -1206,7 +1208,7 @@ contains
     integer(delam_index), intent(in), contiguous :: pairs(:)
     real(delam_real), intent(in), contiguous :: adhesion(:)
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     if (size(pairs) /= size(adhesion)) then
       call refuse('pairs and adhesion: unequal sizes', status, message)
       return
@@ -1222,7 +1224,7 @@ contains
     real(delam_real), intent(in), contiguous :: times(:), values(:)
     integer(delam_index), intent(out), optional :: pattern
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(c_int64_t) :: made
     integer(c_int32_t) :: code
     if (size(times) /= size(values)) then
@@ -1243,7 +1245,7 @@ contains
     integer(delam_index), intent(in), optional :: pattern
     real(delam_real), intent(in), optional :: coefficient
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     real(delam_real) :: coefficients(1, size(nodes))
     if (.not. in_space(self, size(direction))) then
       call refuse('direction must have the size of the dimension', status, message)
@@ -1267,7 +1269,7 @@ contains
     integer(delam_index), intent(in), contiguous :: nodes(:), patterns(:)
     real(delam_real), intent(in), contiguous :: direction(:), coefficients(:,:)
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     if (any(shape(coefficients) /= [size(patterns), size(nodes)]) .or. .not. in_space(self, size(direction))) then
       call refuse('coefficients must be (patterns, nodes), direction (dimension)', status, message)
       return
@@ -1285,7 +1287,7 @@ contains
     integer(delam_index), intent(in), contiguous, optional :: patterns(:)
     real(delam_real), intent(in), contiguous, optional :: coefficients(:)
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     if (.not. (paired(patterns, coefficients) .and. size(weights) == size(nodes) .and. &
                in_space(self, size(direction)))) then
       call refuse('nodes and weights, patterns and coefficients, direction and space: unequal sizes', status, message)
@@ -1304,7 +1306,7 @@ contains
     integer(delam_index), intent(in), contiguous, optional :: patterns(:)
     real(delam_real), intent(in), contiguous, optional :: prescribed(:)
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     if (.not. (paired(patterns, prescribed) .and. size(coefficients, 2) == size(nodes) .and. &
                in_space(self, size(coefficients, 1)))) then
       call refuse('coefficients must be (dimension, nodes), prescribed (patterns)', status, message)
@@ -1346,7 +1348,7 @@ contains
     integer(delam_index), intent(in), contiguous :: control_nodes(:)
     real(delam_real), intent(in), optional :: tolerance
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     real(delam_real) :: distance
     if (size(periods, 2) /= size(control_nodes) .or. .not. in_space(self, size(periods, 1))) then
       call refuse('periods must be (dimension, control nodes)', status, message)
@@ -1366,7 +1368,7 @@ contains
     integer(delam_index), intent(in), contiguous :: nodes(:)
     real(delam_real), intent(in), contiguous :: forces(:,:)
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     if (size(forces, 2) /= size(nodes) .or. .not. in_space(self, size(forces, 1))) then
       call refuse('forces must be (dimension, nodes)', status, message)
       return
@@ -1382,7 +1384,7 @@ contains
     real(delam_real), intent(in) :: strain(6)
     integer, intent(in), optional :: body
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_problem_add_eigenstrain(self%handle(), pattern - 1, body_or_all(body), strain), self, status, &
                 message)
   end subroutine problem_add_eigenstrain
@@ -1392,7 +1394,7 @@ contains
     character(*), intent(in) :: key
     real(delam_real), intent(in) :: value
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_problem_set_number(self%handle(), zero_ended(key), value), self, status, message)
   end subroutine problem_set_number
 
@@ -1401,7 +1403,7 @@ contains
     character(*), intent(in) :: key
     integer, intent(in) :: value
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_problem_set_number(self%handle(), zero_ended(key), real(value, c_double)), self, status, message)
   end subroutine problem_set_whole
 
@@ -1409,21 +1411,21 @@ contains
     class(delam_problem), intent(in) :: self
     character(*), intent(in) :: key, value
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_problem_set_text(self%handle(), zero_ended(key), zero_ended(value)), self, status, message)
   end subroutine problem_set_text
 
   subroutine problem_check(self, status, message)
     class(delam_problem), intent(in) :: self
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_problem_check(self%handle()), self, status, message)
   end subroutine problem_check
 
   function problem_hash(self, status, message) result(hash)
     class(delam_problem), intent(in) :: self
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     character(16) :: hash
     character(17, kind=c_char) :: digits
     integer(c_int32_t) :: code
@@ -1437,7 +1439,7 @@ contains
     class(delam_problem), intent(in) :: self
     integer(delam_index), intent(out), optional :: primal, dual
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_problem_dofs(self%handle(), primal, dual), self, status, message)
   end subroutine problem_dofs
 
@@ -1446,7 +1448,7 @@ contains
     integer, intent(in) :: interface
     real(delam_real), intent(out), optional :: length, spacing
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_problem_process_zone(self%handle(), interface - 1_c_int64_t, length, spacing), self, status, &
                 message)
   end subroutine problem_process_zone
@@ -1458,7 +1460,7 @@ contains
     integer(delam_index), allocatable, intent(out) :: row_starts(:), columns(:)
     real(delam_real), allocatable, intent(out) :: values(:)
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(c_int64_t) :: rows, entries
     integer(c_int32_t) :: code
     rows = 0
@@ -1479,7 +1481,7 @@ contains
     integer(delam_index), allocatable, intent(out) :: row_starts(:), columns(:)
     real(delam_real), allocatable, intent(out) :: values(:), coefficients(:,:)
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(c_int64_t) :: rows, entries, patterns
     integer(c_int32_t) :: code
     rows = 0
@@ -1501,7 +1503,7 @@ contains
     class(delam_problem), intent(in) :: self
     integer(delam_index), intent(in) :: pattern
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     real(delam_real), allocatable :: forces(:)
     integer(c_int64_t) :: count
     integer(c_int32_t) :: code
@@ -1515,7 +1517,7 @@ contains
   function problem_eigenstrain_energy(self, status, message) result(matrix)
     class(delam_problem), intent(in) :: self
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     real(delam_real), allocatable :: matrix(:,:)
     integer(c_int64_t) :: count
     integer(c_int32_t) :: code
@@ -1530,7 +1532,7 @@ contains
     class(delam_problem), intent(in) :: self
     real(delam_real), intent(in) :: time
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     real(delam_real), allocatable :: factors(:)
     integer(c_int64_t) :: count
     integer(c_int32_t) :: code
@@ -1544,7 +1546,7 @@ contains
   function problem_pattern_count(self, status, message) result(count)
     class(delam_problem), intent(in) :: self
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(delam_index) :: count
     integer(c_int32_t) :: code
     count = 0
@@ -1566,7 +1568,7 @@ contains
     type(delam_problem), intent(in) :: problem
     real(delam_real), intent(in) :: time
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     type(shared), pointer :: made
     integer(c_int32_t) :: code
     allocate(made)
@@ -1584,21 +1586,21 @@ contains
     class(delam_solver), intent(in) :: self
     real(delam_real), intent(in) :: time
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_solver_advance(self%handle(), time), self, status, message)
   end subroutine solver_advance
 
   subroutine solver_commit(self, status, message)
     class(delam_solver), intent(in) :: self
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_solver_commit(self%handle()), self, status, message)
   end subroutine solver_commit
 
   subroutine solver_rollback(self, status, message)
     class(delam_solver), intent(in) :: self
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_solver_rollback(self%handle()), self, status, message)
   end subroutine solver_rollback
 
@@ -1608,7 +1610,7 @@ contains
     real(delam_real), intent(in) :: time
     real(delam_real), intent(in), contiguous, optional :: adhesion(:)
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(c_int64_t) :: rows, columns
     rows = 0
     columns = 0
@@ -1627,7 +1629,7 @@ contains
     class(delam_solver), intent(in) :: self
     character(*), intent(in) :: key
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     real(delam_real) :: value
     integer(c_int32_t) :: code
     value = 0
@@ -1638,7 +1640,7 @@ contains
   function solver_value_count(self, status, message) result(count)
     class(delam_solver), intent(in) :: self
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer :: count
     integer(c_int64_t) :: values
     integer(c_int32_t) :: code
@@ -1662,7 +1664,7 @@ contains
     integer(delam_index), intent(out) :: columns, rows
     integer, intent(in), optional :: part
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(c_int32_t) :: code
     columns = 0
     rows = 0
@@ -1682,7 +1684,7 @@ contains
     character(*), intent(in) :: key
     integer, intent(in), optional :: part
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     real(delam_real), allocatable :: values(:,:)
     integer(c_int64_t) :: rows, columns
     integer(c_int32_t) :: code
@@ -1701,7 +1703,7 @@ contains
     real(delam_real), intent(inout), contiguous :: values(:,:)
     integer, intent(in), optional :: part
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_solver_field(self%handle(), zero_ended(key), part_of(part), size(values, kind=c_int64_t), &
                                    values), &
                 self, status, message)
@@ -1713,7 +1715,7 @@ contains
     real(delam_real), intent(out), optional :: volume, strain(6), stress(6)
     integer, intent(in), optional :: body
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_solver_average(self%handle(), body_or_all(body), volume, strain, stress), self, status, message)
   end subroutine solver_average
 
@@ -1728,7 +1730,7 @@ contains
     real(delam_real), allocatable, intent(out), optional :: places(:,:), directions(:,:), lengths(:), rates(:,:)
     real(delam_real), allocatable, intent(out), optional :: zone_lengths(:), zone_pairs(:)
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(c_int64_t) :: fronts, points, pairs, dimension
     integer(c_int32_t) :: code
     integer(c_int32_t), allocatable :: loops(:)
@@ -1768,7 +1770,7 @@ contains
     class(delam_solver), intent(in) :: self
     integer(delam_index), intent(in) :: patterns
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     real(delam_real), allocatable :: matrix(:,:)
     integer(c_int32_t) :: code
     allocate(matrix(patterns, patterns))
@@ -1785,7 +1787,7 @@ contains
   function solver_plan_count(self, status, message) result(count)
     class(delam_solver), intent(in) :: self
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer :: count
     integer(c_int64_t) :: items
     integer(c_int32_t) :: code
@@ -1801,7 +1803,7 @@ contains
     character(:), allocatable, intent(out), optional :: subject, decision, reason, unit
     real(delam_real), intent(out), optional :: cost, saving
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     type(c_ptr) :: texts(4)
     integer(c_int32_t) :: code
     texts = c_null_ptr
@@ -1833,14 +1835,14 @@ contains
     class(delam_solver), intent(in) :: self
     integer, intent(in) :: step
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_solver_look(self%handle(), int(step, c_int64_t)), self, status, message)
   end subroutine solver_look
 
   function solver_jump_count(self, status, message) result(count)
     class(delam_solver), intent(in) :: self
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer :: count
     integer(c_int64_t) :: jumps
     integer(c_int32_t) :: code
@@ -1859,7 +1861,7 @@ contains
     real(delam_real), intent(out), optional :: before, time, stored, dissipated, released, debonded
     integer(delam_index), intent(out), optional :: interface, first_pair, last_pair
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(c_int32_t) :: code
     if (present(interface)) interface = -1
     if (present(first_pair)) first_pair = -1
@@ -1876,7 +1878,7 @@ contains
   function solver_save(self, status, message) result(bytes)
     class(delam_solver), intent(in) :: self
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     integer(delam_byte), allocatable :: bytes(:)
     integer(c_int64_t) :: needed
     integer(c_int32_t) :: code
@@ -1891,7 +1893,7 @@ contains
     class(delam_solver), intent(in) :: self
     integer(delam_byte), intent(in), contiguous :: bytes(:)
     integer, intent(out), optional :: status
-    character(:), allocatable, intent(out), optional :: message
+    character(*), intent(out), optional :: message
     call settle(delam_solver_load(self%handle(), size(bytes, kind=c_int64_t), bytes), self, status, message)
   end subroutine solver_load
 

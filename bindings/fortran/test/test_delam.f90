@@ -99,6 +99,9 @@ contains
       call law%set('tangential_onset', 100.0_dp)
       call law%set('normal_toughness', 250.0_dp)
       call law%set('tangential_toughness', 250.0_dp)
+      call law%set('criterion', 'power')
+      call law%set('onset_exponent', 1.0_dp)
+      call law%set('toughness_exponent', 1.0_dp)
     end if
     call law%set('normal_stiffness', 1e13_dp)
     call law%set('tangential_stiffness', 1e13_dp)
@@ -140,9 +143,10 @@ contains
     type(delam_law) :: law, none
     type(delam_mesh) :: mesh
     integer :: status
-    character(:), allocatable :: message
+    real(dp) :: few(1)
+    character(200) :: message
     call none%check(status=status, message=message)
-    call expect(status == DELAM_ERROR_HANDLE .and. len(message) > 0, 'an object that was not created has a message')
+    call expect(status == DELAM_ERROR_HANDLE .and. len_trim(message) > 0, 'an object that was not created has a message')
     call law%create(context, 'piecewise-linear', status, message)
     call expect(status == DELAM_ERROR_HANDLE .and. .not. law%exists(), 'a context that was not created is refused')
     call context%create(status, message)
@@ -156,7 +160,7 @@ contains
     call expect(status == DELAM_ERROR_ARGUMENT .and. index(message, 'normal_onset') > 0, 'the message has the key')
     call law%check(status)
     call expect(status == DELAM_ERROR_PROBLEM, 'an incomplete law')
-    call law%toughness([0.0_dp, 1.0_dp], onset=[real(dp) :: ], status=status, message=message)
+    call law%toughness([0.0_dp, 1.0_dp], onset=few, status=status, message=message)
     call expect(status == DELAM_ERROR_ARGUMENT, 'arrays of unequal size are refused')
     call mesh%create(context, reshape([real(dp) :: 0, 0, 1, 0, 1, 1, 0, 1], [2, 4]))
     call mesh%add_cells(DELAM_QUAD4, reshape([integer(delam_index) :: 1, 2, 3, 5], [4, 1]), status=status, &
@@ -222,11 +226,11 @@ contains
     type(delam_context) :: context
     type(delam_law) :: ours, theirs, broken
     type(delam_solver) :: a, b
-    real(dp), parameter :: jump(2, 4) = reshape([1e-6_dp, 0.0_dp, 5e-6_dp, 1e-6_dp, 8e-6_dp, 2e-6_dp, 1e-3_dp, 0.0_dp], [2, 4])
+    real(dp), parameter :: jump(2, 4) = reshape([real(dp) :: 1e-6, 0, 5e-6, 1e-6, 8e-6, 2e-6, 1e-3, 0], [2, 4])
     real(dp), parameter :: mixity(4) = [0.0_dp, 0.1_dp, 0.3_dp, 0.0_dp]
     real(dp) :: adhesion(4, 2), traction(2, 4, 2), onset(4), toughness(4)
     integer :: status, step
-    character(:), allocatable :: message
+    character(200) :: message
     call context%create()
     call make_law(ours, context, .true.)
     call make_law(theirs, context, .false.)
@@ -267,7 +271,8 @@ contains
     real(dp) :: reaction, volume, strain(6)
     integer :: i, status
     logical :: listed
-    character(:), allocatable :: message, subject, reason
+    character(200) :: message
+    character(:), allocatable :: subject, reason
     call context%create()
     call make_solver(solver, context, .false.)
     call solver%advance(0.5_dp)
@@ -363,7 +368,6 @@ contains
     type(delam_mesh) :: one, two
     type(delam_mesh), allocatable :: many(:)
     type(part), allocatable :: whole
-    type(part) :: other
     integer(delam_index) :: nodes
     integer :: i
     call context%create()
@@ -384,10 +388,10 @@ contains
     end do
     many(2) = many(1)
     call make_mesh(whole%mesh)
-    other = whole
+    many(3) = whole%mesh
     deallocate(whole)
-    call other%mesh%get_size(nodes=nodes)
-    call expect(nodes == 8, 'a component')
+    call many(3)%get_size(nodes=nodes)
+    call expect(nodes == 8, 'of a component')
     call context%destroy()
     call two%get_size(nodes=nodes)
     call expect(nodes == 8, 'the context is kept by what was made with it')
