@@ -1,0 +1,438 @@
+! SPDX-License-Identifier: BSD-3-Clause
+! test_delam          the contracts of the module delam; ends with a count, and with 1 where one is broken
+! test_delam stop     an error nobody asked for: ends the program with the library's message
+module test_parts
+  use delam
+  implicit none
+  integer, parameter :: dp = delam_real
+
+  ! The bilinear law with the same toughness in both modes.
+  type, extends(delam_host_law) :: bilinear
+    real(dp) :: onset = 0, toughness = 0
+    logical :: broken = .false.
+  contains
+    procedure :: adhesion => bilinear_adhesion
+    procedure :: dissipation => bilinear_dissipation
+  end type bilinear
+
+  type, extends(delam_observer) :: counter
+    integer :: calls = 0, lines = 0
+    integer :: cancel_at = huge(1)
+    character(:), allocatable :: last
+  contains
+    procedure :: log => count_line
+    procedure :: progress => count_call
+  end type counter
+
+  integer :: checked = 0, broken_ones = 0
+
+contains
+
+  subroutine expect(holds, what)
+    logical, intent(in) :: holds
+    character(*), intent(in) :: what
+    checked = checked + 1
+    if (holds) return
+    broken_ones = broken_ones + 1
+    print '(2a)', 'does not hold: ', what
+  end subroutine expect
+
+  subroutine bilinear_adhesion(self, mixity, driving, adhesion, slope, failed)
+    class(bilinear), intent(in) :: self
+    real(dp), intent(in) :: mixity, driving
+    real(dp), intent(out) :: adhesion, slope
+    logical, intent(inout) :: failed
+    real(dp) :: r
+    r = self%toughness/self%onset
+    adhesion = 1
+    slope = 0
+    if (driving >= self%onset*r**2) then
+      adhesion = 0
+    else if (driving > self%onset) then
+      adhesion = (r*sqrt(self%onset/driving) - 1)/(r - 1)
+      slope = -0.5_dp*r/(r - 1)*sqrt(self%onset)/driving**1.5_dp
+    end if
+    failed = self%broken .or. mixity < 0
+  end subroutine bilinear_adhesion
+
+  subroutine bilinear_dissipation(self, mixity, adhesion, dissipated, slope, mixity_slope, failed)
+    class(bilinear), intent(in) :: self
+    real(dp), intent(in) :: mixity, adhesion
+    real(dp), intent(out) :: dissipated, slope, mixity_slope
+    logical, intent(inout) :: failed
+    real(dp) :: r, below
+    r = self%toughness/self%onset
+    below = 1 + adhesion*(r - 1)
+    dissipated = self%toughness - self%onset*r**2*adhesion/below
+    slope = -self%onset*(r/below)**2
+    mixity_slope = 0
+    failed = self%broken .or. mixity < 0
+  end subroutine bilinear_dissipation
+
+  subroutine count_line(self, level, text)
+    class(counter), intent(inout) :: self
+    integer, intent(in) :: level
+    character(*), intent(in) :: text
+    if (level >= 0) self%lines = self%lines + 1
+    self%last = text
+  end subroutine count_line
+
+  subroutine count_call(self, stage, done, total, cancel)
+    class(counter), intent(inout) :: self
+    character(*), intent(in) :: stage
+    integer(delam_index), intent(in) :: done, total
+    logical, intent(inout) :: cancel
+    if (total == 0 .or. done <= total) self%calls = self%calls + 1
+    self%last = stage
+    cancel = self%calls >= self%cancel_at
+  end subroutine count_call
+
+  subroutine make_law(law, context, by_host)
+    type(delam_law), intent(inout) :: law
+    type(delam_context), intent(in) :: context
+    logical, intent(in) :: by_host
+    if (by_host) then
+      call law%create_host(context, 'bilinear', bilinear(onset=100.0_dp, toughness=250.0_dp))
+    else
+      call law%create(context, 'piecewise-linear')
+      call law%set('normal_onset', 100.0_dp)
+      call law%set('tangential_onset', 100.0_dp)
+      call law%set('normal_toughness', 250.0_dp)
+      call law%set('tangential_toughness', 250.0_dp)
+      call law%set('criterion', 'power')
+      call law%set('onset_exponent', 1.0_dp)
+      call law%set('toughness_exponent', 1.0_dp)
+    end if
+    call law%set('normal_stiffness', 1e13_dp)
+    call law%set('tangential_stiffness', 1e13_dp)
+  end subroutine make_law
+
+  ! A double cantilever beam; everything but the solver is given up here.
+  subroutine make_solver(solver, context, by_host)
+    type(delam_solver), intent(inout) :: solver
+    type(delam_context), intent(in) :: context
+    logical, intent(in) :: by_host
+    type(delam_mesh) :: mesh
+    type(delam_law) :: law
+    type(delam_problem) :: problem
+    integer(delam_index), allocatable :: lower(:), upper(:), left(:)
+    integer(delam_index) :: pattern
+    call mesh%create_layers(context, [30e-3_dp], [60_delam_index], [1e-3_dp, 1e-3_dp], [2_delam_index, 2_delam_index], &
+                            DELAM_QUAD4)
+    call mesh%add_interface(0, 1)
+    call make_law(law, context, by_host)
+    call problem%create(context, mesh)
+    call problem%set_elastic(70e9_dp, 0.3_dp)
+    call problem%set_law(1, law)
+    left = [0]
+    lower = mesh%find_nodes([30e-3_dp, 0.0_dp], [30e-3_dp, 0.0_dp], 0)
+    upper = mesh%find_nodes([30e-3_dp, 2e-3_dp], [30e-3_dp, 2e-3_dp], 1)
+    left = mesh%find_nodes([0.0_dp, 0.0_dp], [0.0_dp, 2e-3_dp])
+    call problem%add_pattern('opening', [0.0_dp, 1.0_dp], [0.0_dp, 1e-3_dp], pattern)
+    call problem%prescribe_nodes(left, [1.0_dp, 0.0_dp])
+    call problem%prescribe_nodes(left(:1), [0.0_dp, 1.0_dp])
+    call problem%prescribe_nodes(lower, [0.0_dp, 1.0_dp], pattern, -0.5_dp)
+    call problem%prescribe_nodes(upper, [0.0_dp, 1.0_dp], [pattern], reshape([0.5_dp], [1, 1]))
+    call problem%set('solution', 'local')
+    call problem%check()
+    call solver%create(problem, 0.0_dp)
+  end subroutine make_solver
+
+  subroutine test_errors()
+    type(delam_context) :: context
+    type(delam_law) :: law, none
+    type(delam_mesh) :: mesh
+    integer :: status
+    real(dp) :: few(1)
+    character(200) :: message
+    call none%check(status=status, message=message)
+    call expect(status == DELAM_ERROR_HANDLE .and. len_trim(message) > 0, 'an object that was not created has a message')
+    call law%create(context, 'piecewise-linear', status, message)
+    call expect(status == DELAM_ERROR_HANDLE .and. .not. law%exists(), 'a context that was not created is refused')
+    call context%create(status, message)
+    call expect(status == DELAM_OK .and. message == '', 'no message without an error')
+    call law%create(context, 'no-such-law', status, message)
+    call expect(status == DELAM_ERROR_ARGUMENT .and. index(message, 'no-such-law') > 0, 'the message has the value')
+    call expect(message == context%message(), 'the context has the same message')
+    call expect(.not. law%exists(), 'nothing was made')
+    call law%create(context, 'piecewise-linear   ')
+    call law%set('normal_onset', -1.0_dp, status, message)
+    call expect(status == DELAM_ERROR_ARGUMENT .and. index(message, 'normal_onset') > 0, 'the message has the key')
+    call law%check(status)
+    call expect(status == DELAM_ERROR_PROBLEM, 'an incomplete law')
+    call law%toughness([0.0_dp, 1.0_dp], onset=few, status=status, message=message)
+    call expect(status == DELAM_ERROR_ARGUMENT, 'arrays of unequal size are refused')
+    call mesh%create(context, reshape([real(dp) :: 0, 0, 1, 0, 1, 1, 0, 1], [2, 4]))
+    call mesh%add_cells(DELAM_QUAD4, reshape([integer(delam_index) :: 1, 2, 3, 5], [4, 1]), status=status, &
+                        message=message)
+    call expect(status == DELAM_ERROR_ARGUMENT .and. index(message, '1 .. 4') > 0, 'nodes count from 1')
+    call mesh%add_cells(DELAM_QUAD4, reshape([integer(delam_index) :: 1, 2, 3], [3, 1]), status=status)
+    call expect(status == DELAM_ERROR_ARGUMENT, 'three nodes are no quadrilateral')
+  end subroutine test_errors
+
+  ! Two squares beside each other, a body each, joined by an interface of two pairs.
+  subroutine test_mesh()
+    type(delam_context) :: context
+    type(delam_mesh) :: mesh, solid
+    real(dp) :: xy(2, 6), wide(3, 8), spread_out(3, 16)
+    integer(delam_index) :: cells(4, 2), nodes, bodies, interfaces, pairs
+    integer(delam_index), allocatable :: a(:), b(:), offsets(:), connectivity(:), faces(:,:), found(:), origins(:)
+    integer :: space
+    integer(delam_label), allocatable :: types(:), labels(:)
+    real(dp), allocatable :: weights(:), frames(:,:,:), back(:,:)
+    integer :: interface, i
+    xy = reshape([real(dp) :: 0, 0, 1, 0, 2, 0, 0, 1, 1, 1, 2, 1], [2, 6])
+    cells = reshape([integer(delam_index) :: 1, 2, 5, 4, 2, 3, 6, 5], [4, 2])
+    call context%create()
+    call mesh%create(context, xy)
+    call mesh%add_conforming_cells(DELAM_QUAD4, cells, [3, 7])
+    call mesh%add_interface(3, 7, interface=interface)
+    call expect(interface == 1, 'the first interface is 1')
+    call mesh%get_size(dimension=space, nodes=nodes, bodies=bodies, interfaces=interfaces)
+    call expect(space == 2 .and. nodes == 8 .and. bodies == 2 .and. interfaces == 1, 'sizes')
+    back = mesh%nodes()
+    call expect(all(shape(back) == [2, 8]) .and. all(back(:, :6) == xy), 'nodes come back as (2, n)')
+    origins = mesh%node_origins()
+    call expect(all(origins(:6) == [1, 2, 3, 4, 5, 6]) .and. all(back(:, 7:) == xy(:, origins(7:))), 'origins')
+    call mesh%cells(types, labels, offsets, connectivity)
+    call expect(all(types == DELAM_QUAD4) .and. all(labels == [3, 7]) .and. all(offsets == [1, 5, 9]), 'cells')
+    call expect(all(connectivity(:4) == cells(:, 1)), 'connectivity comes back from 1')
+    call mesh%interface_size(1, pairs=pairs)
+    call mesh%interface_pairs(1, weights=weights)
+    call expect(pairs == 2 .and. abs(sum(weights) - 1) < 1e-14_dp, 'weights alone')
+    call mesh%interface_pairs(1, a, b, weights, frames)
+    call expect(all(a == [2, 5]) .and. all(back(:, a) == back(:, b)), 'pairs')
+    call expect(all(frames(:, 1, 1) == [1.0_dp, 0.0_dp]), 'the normal is the first column of a frame')
+    faces = mesh%interface_faces(1)
+    call expect(all(shape(faces) == [2, 1]) .and. minval(faces) == 1 .and. maxval(faces) == 2, 'faces')
+    found = mesh%find_nodes([1.0_dp, 0.0_dp], [1.0_dp, 0.0_dp])
+    call expect(size(found) == 2, 'nodes of both bodies')
+    found = mesh%find_nodes([1.0_dp, 0.0_dp], [1.0_dp, 0.0_dp], 3)
+    call expect(size(found) == 1 .and. found(1) == 2, 'nodes of one body')
+    call mesh%find_patch(3, [0.0_dp, 0.0_dp], [0.5_dp, 0.0_dp], [0.0_dp, -1.0_dp], found, weights)
+    call expect(abs(sum(weights) - 0.5_dp) < 1e-14_dp, 'a patch')
+
+    wide = reshape([real(dp) :: 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1], [3, 8])
+    spread_out = 7
+    spread_out(:, ::2) = wide
+    call solid%create(context, spread_out(:, ::2))
+    call solid%add_cells(DELAM_HEX8, reshape([(int(i, delam_index), i=1, 8)], [8, 1]))
+    call expect(all(solid%nodes() == wide), 'every other column')
+    call expect(all(solid%node_bodies() == 0), 'absent bodies are all 0')
+  end subroutine test_mesh
+
+  ! A law by Fortran procedures does what the same law of the library does, also once its names are gone.
+  subroutine test_host_law()
+    type(delam_context) :: context
+    type(delam_law) :: ours, theirs, broken
+    type(delam_solver) :: a, b
+    real(dp), parameter :: jump(2, 4) = reshape([real(dp) :: 1e-6, 0, 5e-6, 1e-6, 8e-6, 2e-6, 1e-3, 0], [2, 4])
+    real(dp), parameter :: mixity(4) = [0.0_dp, 0.1_dp, 0.3_dp, 0.0_dp]
+    real(dp) :: adhesion(4, 2), traction(2, 4, 2), onset(4), toughness(4)
+    integer :: status, step
+    character(200) :: message
+    call context%create()
+    call make_law(ours, context, .true.)
+    call make_law(theirs, context, .false.)
+    call ours%check()
+    call ours%toughness(mixity, onset, toughness)
+    call expect(all(abs(onset - 100) < 1e-9_dp) .and. all(abs(toughness - 250) < 1e-9_dp), 'toughness of a host law')
+    call ours%respond(jump, mixity, spread(1.0_dp, 1, 4), adhesion(:, 1), traction(:, :, 1))
+    call theirs%respond(jump, mixity, spread(1.0_dp, 1, 4), adhesion(:, 2), traction(:, :, 2))
+    call expect(all(abs(adhesion(:, 1) - adhesion(:, 2)) < 1e-12_dp), 'adhesion of a host law')
+    call expect(any(adhesion > 0.1_dp .and. adhesion < 0.9_dp), 'the softening branch was met')
+    call theirs%respond(jump, mixity, spread(1.0_dp, 1, 4), adhesion(:, 1))
+    call expect(all(adhesion(:, 1) == adhesion(:, 2)), 'traction may be absent')
+    call broken%create_host(context, 'broken', bilinear(onset=1.0_dp, toughness=2.0_dp, broken=.true.))
+    call broken%set('normal_stiffness', 1.0_dp)
+    call broken%set('tangential_stiffness', 1.0_dp)
+    call broken%check(status, message)
+    call expect(status == DELAM_ERROR_PROBLEM .and. index(message, 'broken') > 0, 'a procedure that fails')
+    call make_solver(a, context, .true.)
+    call make_solver(b, context, .false.)
+    call context%destroy()
+    do step = 1, 5
+      call a%advance(0.2_dp*step)
+      call b%advance(0.2_dp*step)
+      call a%commit()
+      call b%commit()
+    end do
+    call expect(abs(a%value('dissipated') - b%value('dissipated')) < 1e-8_dp*b%value('dissipated'), 'the same march')
+    call expect(b%value('dissipated') > 0.1_dp, 'something broke')
+  end subroutine test_host_law
+
+  subroutine test_solver()
+    type(delam_context) :: context
+    type(delam_solver) :: solver, again
+    real(dp), allocatable :: jump(:,:), filled(:,:), adhesion(:,:), places(:,:), rates(:,:)
+    integer(delam_index), allocatable :: starts(:)
+    integer(delam_byte), allocatable :: bytes(:)
+    integer(delam_index) :: rows, columns
+    real(dp) :: reaction, volume, strain(6)
+    integer :: i, status
+    logical :: listed
+    character(200) :: message
+    character(:), allocatable :: subject, reason
+    call context%create()
+    call make_solver(solver, context, .false.)
+    call solver%advance(0.5_dp)
+    call solver%advance(0.6_dp, status, message)
+    call expect(status == DELAM_ERROR_STATE, 'a pending step is committed or rolled back first')
+    reaction = solver%value('reaction:opening')
+    call solver%rollback()
+    call expect(solver%value('time') == 0, 'rolled back')
+    call solver%advance(0.5_dp)
+    call expect(solver%value('reaction:opening') == reaction, 'the same step gives the same')
+    call solver%commit()
+    jump = solver%field('jump', 1)
+    call solver%field_shape('jump', columns, rows)
+    call expect(all(shape(jump) == [columns, rows]) .and. columns == 2 .and. rows == 61, 'a field is (columns, rows)')
+    allocate(filled(columns, rows))
+    call solver%fill_field('jump', filled, 1)
+    call expect(all(filled == jump) .and. maxval(jump(1, :)) > 0, 'fill_field gives the same')
+    call solver%fill_field('jump', filled(:, :5), 1, status)
+    call expect(status == DELAM_ERROR_ARGUMENT, 'an array that is too small')
+    filled = solver%field('no such field', status=status, message=message)
+    call expect(status == DELAM_ERROR_ARGUMENT .and. index(message, 'no such field') > 0, 'an unknown field')
+    adhesion = solver%field('adhesion')
+    call expect(minval(adhesion) < 0.5_dp .and. maxval(adhesion) == 1, 'a crack')
+    call solver%front(1, starts, places=places)
+    call expect(starts(1) == 1 .and. starts(size(starts)) == size(places, 2) + 1, 'fronts count from 1')
+    call solver%front(1, starts, rates=rates)
+    call expect(size(rates, 1) == 3, 'rates of three modes')
+    call solver%average(volume, strain)
+    call expect(abs(volume - 60e-6_dp) < 1e-15_dp, 'volume of all bodies')
+    call expect(size(solver%tangent(1_delam_index)) == 1, 'tangent')
+    listed = .false.
+    do i = 1, solver%value_count()
+      listed = listed .or. solver%value_name(i) == 'reaction:opening'
+    end do
+    call expect(listed, 'names of values')
+    call expect(solver%option('solution') == 'local' .and. solver%option('no such option') == '', 'options')
+    call solver%plan_item(1, subject=subject, reason=reason)
+    call expect(solver%plan_count() > 0 .and. index(solver%plan(), subject) == 1 .and. len(reason) > 0, 'the plan')
+    call expect(solver%jump_count() == 0, 'no jumps were looked for')
+
+    bytes = solver%save()
+    call make_solver(again, context, .false.)
+    call again%load(bytes)
+    call again%advance(1.0_dp)
+    call solver%advance(1.0_dp)
+    call expect(again%value('dissipated') == solver%value('dissipated'), 'saved and gone on with')
+    bytes(size(bytes)/2) = not(bytes(size(bytes)/2))
+    call make_solver(again, context, .false.)
+    call again%load(bytes, status)
+    call expect(status == DELAM_ERROR_SNAPSHOT, 'damaged bytes are refused')
+    call solver%rollback()
+    call solver%equilibrate(0.5_dp)
+    call solver%rollback()
+    call solver%equilibrate(0.5_dp, spread(1.0_dp, 1, 61))
+    call expect(abs(solver%value('time') - 0.5_dp) < 1e-15_dp, 'one displacement step')
+    call solver%rollback()
+    call solver%equilibrate(0.5_dp, spread(1.0_dp, 1, 3), status)
+    call expect(status == DELAM_ERROR_ARGUMENT, 'adhesion of some pairs alone')
+  end subroutine test_solver
+
+  subroutine test_observer()
+    type(delam_context) :: context
+    type(delam_solver) :: solver
+    type(counter) :: watch
+    integer :: status, calls
+    call context%create()
+    call context%observe(watch)
+    call make_solver(solver, context, .false.)
+    call solver%advance(0.5_dp)
+    call solver%rollback()
+    calls = watch%calls
+    call expect(calls > 0 .and. len(watch%last) > 0, 'progress is told')
+    watch%cancel_at = calls + 2
+    call solver%advance(0.5_dp, status)
+    call expect(status == DELAM_CANCELLED .and. watch%calls == calls + 2, 'cancelled at the second call')
+    call context%unobserve()
+    call solver%advance(0.5_dp)
+    call expect(watch%calls == calls + 2, 'not asked any more, and the solver is usable')
+    call solver%rollback()
+    call context%cancel()
+    call solver%advance(0.5_dp, status)
+    call expect(status == DELAM_CANCELLED, 'a request is kept for the next call')
+    call solver%advance(0.5_dp, status)
+    call expect(status == DELAM_OK, 'and consumed by it')
+  end subroutine test_observer
+
+  ! Names of one object, arrays, components and allocated objects: valgrind says whether each ends once.
+  subroutine test_owners()
+    type :: part
+      type(delam_mesh) :: mesh
+    end type part
+    type(delam_context) :: context
+    type(delam_mesh) :: one, two
+    type(delam_mesh), allocatable :: many(:)
+    type(part), allocatable :: whole
+    integer(delam_index) :: nodes
+    integer :: i
+    call context%create()
+    call make_mesh(one)
+    two = one
+    call one%destroy()
+    call expect(.not. one%exists() .and. two%exists(), 'a second name')
+    call two%get_size(nodes=nodes)
+    call expect(nodes == 8, 'the object lives')
+    one = two
+    one = one
+    call one%get_size(nodes=nodes)
+    call expect(nodes == 8, 'assigned to itself')
+    call make_mesh(one)
+    allocate(many(3), whole)
+    do i = 1, 3
+      call make_mesh(many(i))
+    end do
+    many(2) = many(1)
+    call make_mesh(whole%mesh)
+    many(3) = whole%mesh
+    deallocate(whole)
+    call many(3)%get_size(nodes=nodes)
+    call expect(nodes == 8, 'of a component')
+    call context%destroy()
+    call two%get_size(nodes=nodes)
+    call expect(nodes == 8, 'the context is kept by what was made with it')
+    deallocate(many)
+  contains
+    subroutine make_mesh(mesh)
+      type(delam_mesh), intent(inout) :: mesh
+      call mesh%create_layers(context, [1.0_dp], [1_delam_index], [0.5_dp, 0.5_dp], [1_delam_index, 1_delam_index], &
+                              DELAM_QUAD4)
+    end subroutine make_mesh
+  end subroutine test_owners
+end module test_parts
+
+program test_delam
+  use test_parts
+  implicit none
+  character(16) :: word
+  word = ''
+  if (command_argument_count() > 0) call get_command_argument(1, word)
+  if (word == 'stop') then
+    call fall()
+    print '(a)', 'still here'
+    stop
+  end if
+  call expect(delam_abi() == DELAM_HEADER_ABI, 'the library has the interface of the header')
+  call expect(index(delam_version_text(), '.') > 0, 'a version')
+  call test_errors()
+  call test_mesh()
+  call test_host_law()
+  call test_solver()
+  call test_observer()
+  call test_owners()
+  print '(i0, a, i0, a)', checked, ' checked, ', broken_ones, ' broken'
+  if (broken_ones > 0) error stop 1
+
+contains
+
+  subroutine fall()
+    type(delam_context) :: context
+    type(delam_law) :: law
+    call context%create()
+    call law%create(context, 'no-such-law')
+  end subroutine fall
+end program test_delam
