@@ -70,16 +70,16 @@ extern "C" {
 #define DELAM_ERROR_MESH -3      /* inverted cell, shared node, unmatched faces */
 #define DELAM_ERROR_PROBLEM -4   /* incomplete or contradictory scene: missing material, missing support, bad law */
 #define DELAM_ERROR_STATE -5     /* a call out of order (e.g. advance with a step not yet committed) */
-#define DELAM_ERROR_MEMORY -6
+#define DELAM_ERROR_MEMORY -6    /* no room for what the call needs */
 #define DELAM_ERROR_NUMERICAL -7 /* a factorisation broke down */
 #define DELAM_ERROR_SNAPSHOT -8  /* bytes that are damaged, of another version or of another scene */
 #define DELAM_ERROR_INTERNAL -9  /* a defect of the library: please report */
 
-typedef struct delam_context delam_context;
-typedef struct delam_mesh delam_mesh;
-typedef struct delam_law delam_law;
-typedef struct delam_problem delam_problem;
-typedef struct delam_solver delam_solver;
+typedef struct delam_context delam_context;   /* messages, log, progress, cancel; what everything else is made with */
+typedef struct delam_mesh delam_mesh;         /* nodes, cells, bodies, interfaces */
+typedef struct delam_law delam_law;           /* how an interface holds together */
+typedef struct delam_problem delam_problem;   /* mesh, materials, laws, supports, loads, options: the scene */
+typedef struct delam_solver delam_solver;     /* operator, state and history of a march */
 
 /* Product version "major.minor.patch".
  * [owns result static; status -; thread any; since 0.1] */

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# test_planted.sh SOURCE_FOLDER: a gate that lets nothing through is only seen at a break. Each check gets altered copies of the header,
-# of a small library made from it, or of the contract, and must fail with a message that names the place.
+# test_planted.sh SOURCE_FOLDER: a gate that lets nothing through is only seen at a break. Each check gets altered
+# copies of the header, of a small library made from it, or of the contract, and must fail with a message that names the
+# place.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$1
@@ -50,9 +51,9 @@ cat >"$work/sound/delam/delam.h" <<'HEADER'
 #ifdef __cplusplus
 extern "C" {
 #endif
-#define DELAM_ABI 1
-#define DELAM_ERROR_ARGUMENT -1
-typedef struct delam_law delam_law;
+#define DELAM_ABI 1             /* of the interface */
+#define DELAM_ERROR_ARGUMENT -1 /* a NULL */
+typedef struct delam_law delam_law; /* how an interface holds together */
 /* Told of each value. */
 typedef int32_t (*delam_watch_callback)(double value, void *user);
 /* Makes a law of a kind.
@@ -72,7 +73,9 @@ HEADER
 cat >"$work/sound/law.c" <<'CODE'
 #include "delam/delam.h"
 struct delam_law { int32_t kind; };
-DELAM_API int32_t delam_law_create(const char *kind, delam_law **out) { return kind != 0 && out != 0 ? 0 : DELAM_ERROR_ARGUMENT; }
+DELAM_API int32_t delam_law_create(const char *kind, delam_law **out) {
+    return kind != 0 && out != 0 ? 0 : DELAM_ERROR_ARGUMENT;
+}
 DELAM_API int32_t delam_law_respond(const delam_law *law, int64_t count, const double *jump, double *traction) {
     return law != 0 && count > 0 && jump != traction ? 0 : DELAM_ERROR_ARGUMENT;
 }
@@ -91,8 +94,8 @@ planted() {
 make() {
     local name=$1
     shift
-    (cd "$work/$name" && gcc -std=c99 -g -fPIC -shared -fvisibility=hidden -I. law.c -o libdelam.so -Wl,--version-script=delam.map \
-        -Wl,-soname,libdelam.so.1 "$@")
+    (cd "$work/$name" && gcc -std=c99 -g -fPIC -shared -fvisibility=hidden -I. law.c -o libdelam.so \
+        -Wl,--version-script=delam.map -Wl,-soname,libdelam.so.1 "$@")
 }
 gate() {
     local name=$1 check=$2
@@ -175,7 +178,8 @@ cat >"$work/experimental/delam/experimental.h" <<'HEADER'
 DELAM_API int32_t delam_experimental_guess(const delam_law *law);
 #endif
 HEADER
-printf '#include "delam/experimental.h"\nint32_t delam_experimental_guess(const delam_law *law) { return law != 0; }\n' >>"$work/experimental/law.c"
+printf '#include "delam/experimental.h"\nint32_t delam_experimental_guess(const delam_law *a) { return a != 0; }\n' \
+    >>"$work/experimental/law.c"
 make experimental
 accepted gate experimental symbols
 edit experimental delam.map '/EXPERIMENTAL/d'
@@ -195,7 +199,8 @@ ar rc "$work/visible/libcore.a" "$work/visible/inner.o"
 accepted gate visible symbols --archive "$work/visible/libcore.a"
 
 planted gpl
-printf 'int cholmod_l_sdmult(void);\nint delam_inner(void);\nint delam_inner(void) { return cholmod_l_sdmult(); }\n' >>"$work/gpl/law.c"
+printf 'int cholmod_l_sdmult(void);\nint delam_inner(void);\nint delam_inner(void) { return cholmod_l_sdmult(); }\n' \
+    >>"$work/gpl/law.c"
 make gpl
 refused '^cholmod_l_sdmult: a function of CHOLMOD' gate gpl symbols --cholmod
 
@@ -219,13 +224,14 @@ planted removed
 edit removed delam/delam.h '/delam_law_watch\(/d'
 refused '^delam_law_watch: in the baseline, gone from the header' gate removed baseline
 planted unprotected
-edit unprotected delam/delam.h 's|^/\* Calls back|/* A sum of nothing that anybody needs.\n * [status -; thread any; since 0.2] */\nDELAM_API int64_t delam_sum(void);\n/* Calls back|'
+edit unprotected delam/delam.h \
+    's|^/\* Calls back|/* A sum for nobody.\n * [status -; thread any; since 0.2] */\nDELAM_API int64_t delam_sum(void);\n&|'
 printf 'delam_sum 0.2\n' >>"$work/unprotected/symbols.txt"
 refused '^delam_sum: listed, but not in the baseline' gate unprotected baseline
 
 # ---- forms that the header may not have ----
 planted form
-edit form delam/delam.h 's/^typedef struct delam_law delam_law;/&\ntypedef struct delam_point { double x; } delam_point;/'
+edit form delam/delam.h 's/^typedef struct delam_law delam_law;/&\ntypedef struct delam_point { double x; } dot;/'
 refused 'not a form that the header may have: typedef struct delam_point' gate form baseline
 planted form
 edit form delam/delam.h 's/^typedef struct delam_law delam_law;/&\nenum delam_kind { delam_kind_one };/'
@@ -253,7 +259,7 @@ if command -v abidiff >/dev/null; then
     make result
     refused 'return type changed' gate result abidiff
     planted pointer
-    edit pointer delam/delam.h 's/typedef int32_t \(\*delam_watch_callback\)\(double/typedef int32_t (*delam_watch_callback)(int64_t/'
+    edit pointer delam/delam.h 's/\(\*delam_watch_callback\)\(double/(*delam_watch_callback)(int64_t/'
     edit pointer law.c 's/watch\(1.0/watch(1/'
     make pointer
     refused 'delam_law_watch' gate pointer abidiff
@@ -319,10 +325,24 @@ gap 's/\/\* Told of each value. \*\///' 'delam_watch_callback: no comment direct
 # A status that the façade gives and the header does not list.
 planted contract
 mkdir "$work/contract/capi"
-printf 'int32_t %s {\n    if (law == 0) fail(DELAM_ERROR_STATE, "no");\n}\n' 'delam_law_respond(const delam_law* law, int64_t count)' \
+printf 'int32_t delam_law_respond(const delam_law* law) {\n    if (law == 0) fail(DELAM_ERROR_STATE, "no");\n}\n' \
     >"$work/contract/capi/law.cpp"
 refused 'delam_law_respond: status: its lines in src/capi give state, which is not listed' \
     "$python" "$here/contract_lint.py" "$work/contract/delam/delam.h" --sources "$work/contract/capi"
+
+# ---- the reference as HTML ----
+if command -v doxygen >/dev/null; then
+    mkdir -p "$work/doc/src/capi" "$work/doc/verify"
+    cp -r "$root/include" "$work/doc/include"
+    cp "$root/src/capi/CONTRACT.md" "$work/doc/src/capi"
+    cp -r "$here" "$work/doc/verify/abi"
+    cp "$work/sound/delam/delam.h" "$work/doc/include/delam/delam.h"
+    accepted bash "$work/doc/verify/abi/doxygen.sh" "$work/doc/out"
+    sed -i 's|^/\* Told of each value. \*/||' "$work/doc/include/delam/delam.h"
+    refused 'delam_watch_callback.* is not documented' bash "$work/doc/verify/abi/doxygen.sh" "$work/doc/out"
+else
+    printf 'skipped: the planted break of the reference (Debian: doxygen)\n'
+fi
 
 printf '%d planted checks, %d failures\n' "$checks" "$failures"
 ((failures == 0))
