@@ -832,9 +832,8 @@ DELAM_API int32_t delam_solver_jump(const delam_solver *solver, int64_t index, i
                                     int64_t *last_pair);
 
 /* The committed state as bytes: [*needed]. Save, load into a solver of the same scene and options, go on: the rest is
- * bitwise the same. *needed receives the size; bytes are written when capacity suffices (capacity 0: ask, bytes may be
- * NULL).
- * [null bytes; status argument; since 0.1] */
+ * bitwise the same. *needed receives the size; bytes are written when capacity suffices (capacity 0: ask).
+ * [null bytes at capacity 0; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_save(const delam_solver *solver, int64_t capacity, uint8_t *bytes, int64_t *needed);
 /* Takes bytes: [size] that delam_solver_save has written as the committed state; a pending step is dropped. Damaged
  * bytes, and those of another scene or version, are refused: DELAM_ERROR_SNAPSHOT says what is wrong with them.

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# test_planted.sh SOURCE_FOLDER: a gate that lets nothing through is only seen at a break. Each check gets altered
-# copies of the header, of a small library made from it, or of the contract, and must fail with a message that names the
-# place.
+# test_planted.sh SOURCE_FOLDER LIBRARY: a gate that lets nothing through is only seen at a break. Each check gets
+# altered copies of the header, of a small library made from it, or of the contract, and must fail with a message that
+# names the place.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$1
+library=$2
 python=/usr/bin/python3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -225,7 +226,7 @@ edit removed delam/delam.h '/delam_law_watch\(/d'
 refused '^delam_law_watch: in the baseline, gone from the header' gate removed baseline
 planted unprotected
 edit unprotected delam/delam.h \
-    's|^/\* Calls back|/* A sum for nobody.\n * [status -; thread any; since 0.2] */\nDELAM_API int64_t delam_sum(void);\n&|'
+    's|^/\* Calls back|/* A sum.\n * [status -; thread any; since 0.2] */\nDELAM_API int64_t delam_sum(void);\n&|'
 printf 'delam_sum 0.2\n' >>"$work/unprotected/symbols.txt"
 refused '^delam_sum: listed, but not in the baseline' gate unprotected baseline
 
@@ -329,6 +330,36 @@ printf 'int32_t delam_law_respond(const delam_law* law) {\n    if (law == 0) fai
     >"$work/contract/capi/law.cpp"
 refused 'delam_law_respond: status: its lines in src/capi give state, which is not listed' \
     "$python" "$here/contract_lint.py" "$work/contract/delam/delam.h" --sources "$work/contract/capi"
+
+# ---- the contract against the library: lines of the header that are not true ----
+untrue() {
+    rm -rf "$work/untrue"
+    mkdir "$work/untrue"
+    cp "$root/include/delam/delam.h" "$work/untrue/delam.h"
+    edit untrue delam.h "$1"
+    refused "$2" "$python" "$here/test_contract.py" "$library" "$work/untrue/delam.h"
+}
+untrue 's/^ \* \[null bodies; status argument, mesh, state/ * [null none; status argument, mesh, state/' \
+    'delam_mesh_add_cells: bodies NULL: status 0, expected -1'
+untrue 's/^ \* \[unit nodes L; null none; owns out/ * [unit nodes L; null nodes; owns out/' \
+    'delam_mesh_create: nodes NULL, as it may be: status -1, expected 0'
+untrue 's/^ \* \[unit young F.*status argument/ * [unit young F\/L2, poisson 1; status usual/' \
+    'delam_problem_set_elastic: young nan: status -1 is not listed'
+untrue 's/^DELAM_API int64_t delam_option_count/DELAM_API int32_t delam_version_number(void);\n&/' \
+    "undefined symbol: delam_version_number"
+
+# ---- a host of another interface ----
+mkdir -p "$work/host/delam"
+cp "$here/baseline/delam/delam.h" "$work/host/delam/delam.h"
+host() {
+    gcc -std=c99 -I "$work/host" "$here/host.c" -o "$work/host/host" "$library" -lm \
+        -Wl,-rpath,"$(dirname "$library")" && "$work/host/host"
+}
+accepted host
+edit host delam/delam.h 's/DELAM_ABI 1/DELAM_ABI 2/'
+refused 'the library has another DELAM_ABI' host
+edit host delam/delam.h 's/DELAM_QUAD4 2/DELAM_QUAD4 4/'
+refused 'delam_mesh_create_layers.*DELAM_ERROR_ARGUMENT.*cell_type' host
 
 # ---- the reference as HTML ----
 if command -v doxygen >/dev/null; then
