@@ -196,13 +196,19 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("header")
     parser.add_argument("symbols", nargs="?")
+    parser.add_argument("--promised", help="delam.h, where HEADER is the experimental one")
     parser.add_argument("--sources", help="src/capi: the statuses that its lines give are compared with those listed")
     options = parser.parse_args()
     try:
-        header = headers.read(options.header)
+        promised = headers.read(options.promised) if options.promised else None
+        header = headers.read(options.header, promised)
     except headers.HeaderError as error:
         print(error)
         sys.exit(1)
+    own_callbacks = dict(header.callbacks)
+    if promised:
+        header.handles += promised.handles
+        header.callbacks.update(promised.callbacks)
     listed = gate.read_list(options.symbols) if options.symbols else None
     implemented = own_statuses(options.sources) if options.sources else None
     gaps = 0
@@ -210,11 +216,11 @@ def main():
         for gap in check(function, header, listed, implemented):
             print(f"{options.header}:{function.line}: {function.name}: {gap}")
             gaps += 1
-    for callback in header.callbacks.values():
+    for callback in own_callbacks.values():
         if not callback.comment:
             print(f"{options.header}:{callback.line}: {callback.name}: no comment directly above")
             gaps += 1
-    print(f"{len(header.functions)} functions, {len(header.callbacks)} callbacks, {gaps} gaps")
+    print(f"{len(header.functions)} functions, {len(own_callbacks)} callbacks, {gaps} gaps")
     sys.exit(1 if gaps else 0)
 
 
