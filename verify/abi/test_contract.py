@@ -7,8 +7,8 @@ be, then once for each thing that its line and the head of the header forbid or 
     any other pointer NULL          DELAM_ERROR_ARGUMENT, and the message names it
     a handle NULL or foreign        DELAM_ERROR_HANDLE
     a number not finite             DELAM_ERROR_ARGUMENT (inputs alone)
-    index_base 2, capacity -1       DELAM_ERROR_ARGUMENT
-    any call                        a status that the line lists, and *out NULL where it is an error
+    an index, a label, a type, a count or a capacity outside of its range: DELAM_ERROR_ARGUMENT
+    any call                        a status that the line lists; where it is an error, *out NULL and the objects unchanged
 
 The calls are a table (CALLS); a function of the header that is missing there is a failure, so that a new one gets its
 line.
@@ -169,6 +169,19 @@ class Scene:
         fine("solver_save", self.solver, needed[0], data, needed)
         return data
 
+    def look(self):
+        """What an error must leave alone: sizes of the mesh, hash of the problem, state of the solver."""
+        sizes = [short(0)] + [whole(0) for _ in range(4)]
+        fine("mesh_size", self.mesh, *sizes)
+        seen = [size[0] for size in sizes]
+        if self.problem:
+            text = room(c_uint8, 17)
+            fine("problem_hash", self.problem, text)
+            seen.append(bytes(text))
+        if self.solver:
+            seen.append(bytes(self.saved()))
+        return seen
+
     def end(self):
         for kind in ("solver", "problem", "law", "mesh", "context"):
             call(kind + "_destroy", c_void_p(getattr(self, kind)))
@@ -326,6 +339,7 @@ def attempt(function, what, expected, change, named=None):
     scene = make()
     right = arguments(scene)
     keep = list(right)
+    before = scene.look()
     if change:
         change(right)
     status = call(short_name, *right)
@@ -340,6 +354,8 @@ def attempt(function, what, expected, change, named=None):
             failures.append(f"{function.name}: {what}: the message does not name it: '{message}'")
     last = function.parameters[-1]
     makes = last.name == "out" and last.type.endswith("**")
+    if status < 0 and scene.look() != before:
+        failures.append(f"{function.name}: {what}: status {status}, but the object has changed")
     if makes and status < 0 and right[-1] is not None and right[-1].value is not None:
         failures.append(f"{function.name}: {what}: *out is not NULL")
     if makes and status == OK:
@@ -386,6 +402,9 @@ def probe(function):
             attempt(function, "capacity -1", ARGUMENT, put(-1))
         if p.type == "int64_t" and (p.name == "size" or p.name.endswith("count")):
             attempt(function, f"{p.name} -1", ARGUMENT, put(-1))
+        if p.type == "int32_t" and (p.name in ("cell_type", "dimension") or p.name.startswith("body")):
+            for bad in (-7, 99):
+                attempt(function, f"{p.name} {bad}", ARGUMENT, put(bad))
         if p.name in ("interface_index", "index", "pattern") and p.type == "int64_t":
             for bad in (-1, 1 << 40):
                 attempt(function, f"{p.name} {bad}", ARGUMENT, put(bad))
