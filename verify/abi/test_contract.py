@@ -8,7 +8,7 @@ be, then once for each thing that its line and the head of the header forbid or 
     a handle NULL or foreign        DELAM_ERROR_HANDLE
     a number not finite             DELAM_ERROR_ARGUMENT (inputs alone)
     an index, a label, a type, a count or a capacity outside of its range: DELAM_ERROR_ARGUMENT
-    any call                        a status that the line lists; where it is an error, *out NULL and the objects unchanged
+    any call                        a status that the line lists; after an error *out is NULL and nothing has changed
 
 The calls are a table (CALLS); a function of the header that is missing there is a failure, so that a new one gets its
 line.
