@@ -70,16 +70,16 @@ extern "C" {
 #define DELAM_ERROR_MESH -3      /* inverted cell, shared node, unmatched faces */
 #define DELAM_ERROR_PROBLEM -4   /* incomplete or contradictory scene: missing material, missing support, bad law */
 #define DELAM_ERROR_STATE -5     /* a call out of order (e.g. advance with a step not yet committed) */
-#define DELAM_ERROR_MEMORY -6
+#define DELAM_ERROR_MEMORY -6    /* no room for what the call needs */
 #define DELAM_ERROR_NUMERICAL -7 /* a factorisation broke down */
 #define DELAM_ERROR_SNAPSHOT -8  /* bytes that are damaged, of another version or of another scene */
 #define DELAM_ERROR_INTERNAL -9  /* a defect of the library: please report */
 
-typedef struct delam_context delam_context;
-typedef struct delam_mesh delam_mesh;
-typedef struct delam_law delam_law;
-typedef struct delam_problem delam_problem;
-typedef struct delam_solver delam_solver;
+typedef struct delam_context delam_context;   /* messages, log, progress, cancel; what everything else is made with */
+typedef struct delam_mesh delam_mesh;         /* nodes, cells, bodies, interfaces */
+typedef struct delam_law delam_law;           /* how an interface holds together */
+typedef struct delam_problem delam_problem;   /* mesh, materials, laws, supports, loads, options: the scene */
+typedef struct delam_solver delam_solver;     /* operator, state and history of a march */
 
 /* Product version "major.minor.patch".
  * [owns result static; status -; thread any; since 0.1] */
@@ -832,9 +832,8 @@ DELAM_API int32_t delam_solver_jump(const delam_solver *solver, int64_t index, i
                                     int64_t *last_pair);
 
 /* The committed state as bytes: [*needed]. Save, load into a solver of the same scene and options, go on: the rest is
- * bitwise the same. *needed receives the size; bytes are written when capacity suffices (capacity 0: ask, bytes may be
- * NULL).
- * [null bytes; status argument; since 0.1] */
+ * bitwise the same. *needed receives the size; bytes are written when capacity suffices (capacity 0: ask).
+ * [null bytes at capacity 0; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_save(const delam_solver *solver, int64_t capacity, uint8_t *bytes, int64_t *needed);
 /* Takes bytes: [size] that delam_solver_save has written as the committed state; a pending step is dropped. Damaged
  * bytes, and those of another scene or version, are refused: DELAM_ERROR_SNAPSHOT says what is wrong with them.

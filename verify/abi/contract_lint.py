@@ -1,20 +1,22 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""contract_lint.py HEADER [SYMBOLS]: is every public function documented in full? One line for each gap; exit code 1 if there is any.
+"""contract_lint.py HEADER [SYMBOLS]: is every public function documented in full? One line for each gap; exit code 1
+if there is any.
 
-A comment stands directly above each function, says what it does, and ends with a line in brackets (the notation is explained at the
-head of the header):
+A comment stands directly above each function, says what it does, and ends with a line in brackets (the notation is
+explained at the head of the header):
 
     [unit jump L, traction F/L2; null traction; status argument, problem; source NAME YEAR; since 0.1]
 
 Checked for each function, from its signature:
-    what    some words besides the brackets; every parameter named in them or in the brackets, but for the ones that the head of
-            the header explains once (EXPLAINED, and the object itself)
+    what    some words besides the brackets; every parameter named in them or in the brackets, but for the ones that the
+            head of the header explains once (EXPLAINED, and the object itself)
     shape   each array of numbers is followed by [..] where it is named; an output of one number is written *name
     unit    each parameter of type double has one; texts and integers have none
     null    there when a pointer that is no handle is taken; names pointers only
     owns    there when a pointer outlives the call: handles that are made, texts that are given, callbacks
-    status  known words only; every function that returns a status; what the façade's own lines return is listed (SOURCES)
+    status  known words only; every function that returns a status; with --sources, what the façade's own lines return
+            is listed
     thread  there when no object, and so no context, is taken
     source  there when numbers are computed for the caller or solved for
     since   a version, the one of symbols.txt
@@ -29,9 +31,9 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import gate  # noqa: E402
 import header as headers  # noqa: E402
 
-FIELDS = ("unit", "null", "owns", "status", "thread", "source", "since")
-STATUSES = {"not_converged", "cancelled", "limit", "argument", "handle", "mesh", "problem", "state", "memory", "numerical",
-            "snapshot", "internal"}
+FIELDS = ("unit", "null", "owns", "status", "thread", "source", "since", "deprecated")
+STATUSES = {"not_converged", "cancelled", "limit", "argument", "handle", "mesh", "problem", "state", "memory",
+            "numerical", "snapshot", "internal"}
 USUAL = {"handle", "memory", "internal"}
 EXPLAINED = {"out", "capacity", "index_base", "user", "interface_index", "index", "body", "context"}
 ONE_UNIT = r"(?:1|L2|L3|L|F/L2|F/L3|F/L|F L|F|L/F|rad|t|of key|of unit|of factors)"
@@ -74,14 +76,15 @@ def own_statuses(folder):
     for path in sorted(glob.glob(os.path.join(folder, "*.cpp"))):
         with open(path, encoding="utf-8") as file:
             text = file.read()
-        for match in re.finditer(r"^(?:int32_t|int64_t|void|const char\*) (delam_\w+)\([^{]*\{(?:[^\n]*\}$|.*?^\})", text, re.S | re.M):
+        definition = r"^(?:int32_t|int64_t|void|const char\*) (delam_\w+)\([^{]*\{(?:[^\n]*\}$|.*?^\})"
+        for match in re.finditer(definition, text, re.S | re.M):
             body = match.group()
             words = {w.lower() for w in re.findall(r"DELAM_ERROR_(\w+)", body)}
-            if re.search(r"\brequire_(?!handle|nothing|material)\w+\(|\bcopy_out\(|\bfronts_of\(|\bset_material\(", body):
+            if re.search(r"\brequire_(?!handle|nothing|material)\w+\(|\b(?:copy_out|fronts_of|set_material)\(", body):
                 words.add("argument")
             if re.search(r"\brequire_handle\(", body):
                 words.add("handle")
-            if re.search(r"\brequire_patterns\(|\brequire_materials?\(|->validate\(|\bvalidate\(|\bbody_matrix\(", body):
+            if re.search(r"\b(?:require_patterns|require_materials?|validate|body_matrix)\(", body):
                 words.add("problem")
             found[match.group(1)] = words
     return found
@@ -116,7 +119,8 @@ def check(function, header, listed, implemented):
             gaps.append(f"{key}: empty")
 
     parameters = function.parameters
-    handles = [p for p in parameters if is_handle(p.type, header) and (p.type.count("*") == 1 or function.name.endswith("_destroy"))]
+    destroys = function.name.endswith("_destroy")
+    handles = [p for p in parameters if is_handle(p.type, header) and (p.type.count("*") == 1 or destroys)]
     pointers = [p for p in parameters if "*" in p.type or p.type in header.callbacks]
     everything = prose + " " + " ".join(fields.values())
     for position, p in enumerate(parameters):
@@ -192,13 +196,19 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("header")
     parser.add_argument("symbols", nargs="?")
+    parser.add_argument("--promised", help="delam.h, where HEADER is the experimental one")
     parser.add_argument("--sources", help="src/capi: the statuses that its lines give are compared with those listed")
     options = parser.parse_args()
     try:
-        header = headers.read(options.header)
+        promised = headers.read(options.promised) if options.promised else None
+        header = headers.read(options.header, promised)
     except headers.HeaderError as error:
         print(error)
         sys.exit(1)
+    own_callbacks = dict(header.callbacks)
+    if promised:
+        header.handles += promised.handles
+        header.callbacks.update(promised.callbacks)
     listed = gate.read_list(options.symbols) if options.symbols else None
     implemented = own_statuses(options.sources) if options.sources else None
     gaps = 0
@@ -206,11 +216,11 @@ def main():
         for gap in check(function, header, listed, implemented):
             print(f"{options.header}:{function.line}: {function.name}: {gap}")
             gaps += 1
-    for callback in header.callbacks.values():
+    for callback in own_callbacks.values():
         if not callback.comment:
             print(f"{options.header}:{callback.line}: {callback.name}: no comment directly above")
             gaps += 1
-    print(f"{len(header.functions)} functions, {len(header.callbacks)} callbacks, {gaps} gaps")
+    print(f"{len(header.functions)} functions, {len(own_callbacks)} callbacks, {gaps} gaps")
     sys.exit(1 if gaps else 0)
 
 

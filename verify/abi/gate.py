@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""gate.py CHECK OPTIONS: does the library keep what its header promises? Each check prints what is wrong by name and exits with 1.
+"""gate.py CHECK OPTIONS: does the library keep what its header promises? Each check prints what is wrong by name and
+exits with 1.
 
-symbols    exported functions = declared ones = symbols.txt; SONAME, version nodes, hidden visibility; which of CHOLMOD is used
+symbols    exported functions = declared ones = symbols.txt; SONAME, version nodes, hidden visibility; which functions
+           of CHOLMOD are used
 baseline   every declaration and constant of the baseline's header stands in today's, unchanged
 abidiff    the library's own debug information against the baseline (libabigail)
 abixml     no check: what a new baseline would be
@@ -69,9 +71,10 @@ def check_symbols(options):
     for name in sorted(set(found) - set(declared)):
         wrong.append(f"{name}: exported, but no public header declares it")
     for name in sorted(set(header.functions) - set(listed)):
-        wrong.append(f"{name}: not in {options.list}; list it with the version that brings it (verify/abi/update.sh)")
+        wrong.append(f"{name}: not in {options.list}; list it with its version (verify/abi/update.sh)")
     for name in sorted(set(listed) - set(header.functions)):
-        wrong.append(f"{name}: since {listed[name]} in {options.list}, but {options.header} does not declare it any more")
+        wrong.append(f"{name}: since {listed[name]} in {options.list}, but {options.header} does not declare it any "
+                     "more")
     for name in sorted(experimental):
         if not name.startswith(EXPERIMENTAL):
             wrong.append(f"{name}: names of the experimental header start with {EXPERIMENTAL}")
@@ -86,7 +89,8 @@ def check_symbols(options):
             wrong.append(f"{name}: version node '{node}', expected {expected}")
     soname = re.findall(r"\(SONAME\).*\[(.*)\]", output("readelf", "-d", options.library))
     if soname != [f"libdelam.so.{abi}"]:
-        wrong.append(f"SONAME {', '.join(soname) or 'is missing'}, but DELAM_ABI {abi} of the header asks for libdelam.so.{abi}")
+        wrong.append(f"SONAME {', '.join(soname) or 'is missing'}, but DELAM_ABI {abi} of the header asks for "
+                     f"libdelam.so.{abi}")
 
     if options.archive:
         visible = set()
@@ -98,7 +102,8 @@ def check_symbols(options):
         for name in sorted(visible)[:5]:
             wrong.append(f"{name}: visible outside its file; compile with -fvisibility=hidden")
     if options.cholmod:
-        needed = {line.split()[-1].split("@")[0] for line in output("nm", "-D", "--undefined-only", options.library).splitlines()}
+        undefined = output("nm", "-D", "--undefined-only", options.library).splitlines()
+        needed = {line.split()[-1].split("@")[0] for line in undefined}
         for name in sorted(n for n in needed if n.startswith("cholmod_") and n not in CHOLMOD):
             wrong.append(f"{name}: a function of CHOLMOD that is not known to be in the modules under the LGPL")
     if not wrong:
@@ -126,19 +131,21 @@ def check_baseline(options):
         for name in sorted(set(read_list(options.list)) - set(old.functions)):
             wrong.append(f"{name}: listed, but not in the baseline: run verify/abi/update.sh")
     if not wrong:
-        print(f"{len(old.functions)} functions, {len(old.callbacks)} callbacks, {len(old.constants)} constants as in the baseline")
+        print(f"{len(old.functions)} functions, {len(old.callbacks)} callbacks, {len(old.constants)} constants as in "
+              "the baseline")
     return wrong
 
 
 def abixml(library, header):
-    """The exported functions of a library and the types of its public header, without places in the sources: those would change with
-    every edit and say nothing of the interface."""
+    """The exported functions of a library and the types of its public header, without places in the sources: those
+    would change with every edit and say nothing of the interface."""
     with tempfile.TemporaryDirectory() as folder:
         outside = os.path.join(folder, "outside")
         with open(outside, "w", encoding="utf-8") as file:
             file.write(f"[suppress_function]\nsymbol_name_regexp = ^{EXPERIMENTAL}\ndrop = yes\n")
-        text = output("abidw", "--header-file", header, "--drop-private-types", "--exported-interfaces-only", "--no-elf-needed",
-                      "--no-corpus-path", "--no-comp-dir-path", "--no-architecture", "--suppressions", outside, library)
+        text = output("abidw", "--header-file", header, "--drop-private-types", "--exported-interfaces-only",
+                      "--no-elf-needed", "--no-corpus-path", "--no-comp-dir-path", "--no-architecture",
+                      "--suppressions", outside, library)
     return re.sub(r" path='[^']*/src/", " path='src/", re.sub(r" (filepath|line|column)='[^']*'", "", text))
 
 
@@ -149,11 +156,13 @@ def check_abidiff(options):
     if ".debug_info" not in output("readelf", "-SW", options.library):
         return [f"{options.library}: no debug information, abidiff would compare names alone"]
     with tempfile.TemporaryDirectory() as folder:
-        # Both sides through abidw: given headers and a library, abidiff 2.2 takes a changed parameter of a callback for private.
+        # Both sides through abidw: given headers and a library, abidiff 2.2 takes a changed parameter of a callback for
+        # private.
         today = os.path.join(folder, "today.abi")
         with open(today, "w", encoding="utf-8") as file:
             file.write(abixml(options.library, options.header))
-        run = subprocess.run(["abidiff", "--no-added-syms", options.baseline, today], capture_output=True, text=True, check=False)
+        run = subprocess.run(["abidiff", "--no-added-syms", options.baseline, today], capture_output=True, text=True,
+                             check=False)
     if run.returncode != 0:
         return [run.stdout + run.stderr, f"abidiff ended with {run.returncode}, must be 0"]
     print("abidiff: no change")

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The public header as data.
 
-A strict reader of the few forms that the header may have: comments, preprocessor lines, opaque handles, callback types and functions
-marked DELAM_API. Whatever else stands there (a struct with members, an enumeration, an inline function) is refused by line, so that
-the reader is also the rule.
+A strict reader of the few forms that the header may have: comments, preprocessor lines, opaque handles, callback types
+and functions marked DELAM_API. Whatever else stands there (a struct with members, an enumeration, an inline function)
+is refused by line, so that the reader is also the rule.
 """
 import re
 from dataclasses import dataclass
@@ -110,7 +110,8 @@ def read(path, known=None):
             comment = ""
         elif match := CALLBACK.match(text, at) or FUNCTION.match(text, at):
             callback = match.re is CALLBACK
-            function = Function(match.group(2), squeezed(match.group(1)), parameters_of(match.group(3), where), comment, line, callback)
+            function = Function(match.group(2), squeezed(match.group(1)), parameters_of(match.group(3), where), comment,
+                                line, callback)
             into = header.callbacks if callback else header.functions
             if function.name in header.callbacks or function.name in header.functions:
                 raise HeaderError(f"{where}: {function.name} is declared twice")

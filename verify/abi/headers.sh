@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# headers.sh CC CXX FOLDER: every header of FOLDER/delam compiles alone as C99, C11 and C++17 without a warning. 77: no such compiler.
+# headers.sh CC CXX FOLDER: every header of FOLDER/delam compiles alone as C99, C11 and C++17 without a warning. 77: no
+# such compiler.
 set -euo pipefail
 cc=$1
 cxx=$2

@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# test_planted.sh SOURCE_FOLDER: a gate that lets nothing through is only seen at a break. Each check gets altered copies of the header,
-# of a small library made from it, or of the contract, and must fail with a message that names the place.
+# test_planted.sh SOURCE_FOLDER LIBRARY: a gate that lets nothing through is only seen at a break. Each check gets
+# altered copies of the header, of a small library made from it, or of the contract, and must fail with a message that
+# names the place.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$1
+library=$2
 python=/usr/bin/python3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -50,9 +52,9 @@ cat >"$work/sound/delam/delam.h" <<'HEADER'
 #ifdef __cplusplus
 extern "C" {
 #endif
-#define DELAM_ABI 1
-#define DELAM_ERROR_ARGUMENT -1
-typedef struct delam_law delam_law;
+#define DELAM_ABI 1             /* of the interface */
+#define DELAM_ERROR_ARGUMENT -1 /* a NULL */
+typedef struct delam_law delam_law; /* how an interface holds together */
 /* Told of each value. */
 typedef int32_t (*delam_watch_callback)(double value, void *user);
 /* Makes a law of a kind.
@@ -72,7 +74,9 @@ HEADER
 cat >"$work/sound/law.c" <<'CODE'
 #include "delam/delam.h"
 struct delam_law { int32_t kind; };
-DELAM_API int32_t delam_law_create(const char *kind, delam_law **out) { return kind != 0 && out != 0 ? 0 : DELAM_ERROR_ARGUMENT; }
+DELAM_API int32_t delam_law_create(const char *kind, delam_law **out) {
+    return kind != 0 && out != 0 ? 0 : DELAM_ERROR_ARGUMENT;
+}
 DELAM_API int32_t delam_law_respond(const delam_law *law, int64_t count, const double *jump, double *traction) {
     return law != 0 && count > 0 && jump != traction ? 0 : DELAM_ERROR_ARGUMENT;
 }
@@ -91,8 +95,8 @@ planted() {
 make() {
     local name=$1
     shift
-    (cd "$work/$name" && gcc -std=c99 -g -fPIC -shared -fvisibility=hidden -I. law.c -o libdelam.so -Wl,--version-script=delam.map \
-        -Wl,-soname,libdelam.so.1 "$@")
+    (cd "$work/$name" && gcc -std=c99 -g -fPIC -shared -fvisibility=hidden -I. law.c -o libdelam.so \
+        -Wl,--version-script=delam.map -Wl,-soname,libdelam.so.1 "$@")
 }
 gate() {
     local name=$1 check=$2
@@ -175,7 +179,8 @@ cat >"$work/experimental/delam/experimental.h" <<'HEADER'
 DELAM_API int32_t delam_experimental_guess(const delam_law *law);
 #endif
 HEADER
-printf '#include "delam/experimental.h"\nint32_t delam_experimental_guess(const delam_law *law) { return law != 0; }\n' >>"$work/experimental/law.c"
+printf '#include "delam/experimental.h"\nint32_t delam_experimental_guess(const delam_law *a) { return a != 0; }\n' \
+    >>"$work/experimental/law.c"
 make experimental
 accepted gate experimental symbols
 edit experimental delam.map '/EXPERIMENTAL/d'
@@ -195,7 +200,8 @@ ar rc "$work/visible/libcore.a" "$work/visible/inner.o"
 accepted gate visible symbols --archive "$work/visible/libcore.a"
 
 planted gpl
-printf 'int cholmod_l_sdmult(void);\nint delam_inner(void);\nint delam_inner(void) { return cholmod_l_sdmult(); }\n' >>"$work/gpl/law.c"
+printf 'int cholmod_l_sdmult(void);\nint delam_inner(void);\nint delam_inner(void) { return cholmod_l_sdmult(); }\n' \
+    >>"$work/gpl/law.c"
 make gpl
 refused '^cholmod_l_sdmult: a function of CHOLMOD' gate gpl symbols --cholmod
 
@@ -219,13 +225,14 @@ planted removed
 edit removed delam/delam.h '/delam_law_watch\(/d'
 refused '^delam_law_watch: in the baseline, gone from the header' gate removed baseline
 planted unprotected
-edit unprotected delam/delam.h 's|^/\* Calls back|/* A sum of nothing that anybody needs.\n * [status -; thread any; since 0.2] */\nDELAM_API int64_t delam_sum(void);\n/* Calls back|'
+edit unprotected delam/delam.h \
+    's|^/\* Calls back|/* A sum.\n * [status -; thread any; since 0.2] */\nDELAM_API int64_t delam_sum(void);\n&|'
 printf 'delam_sum 0.2\n' >>"$work/unprotected/symbols.txt"
 refused '^delam_sum: listed, but not in the baseline' gate unprotected baseline
 
 # ---- forms that the header may not have ----
 planted form
-edit form delam/delam.h 's/^typedef struct delam_law delam_law;/&\ntypedef struct delam_point { double x; } delam_point;/'
+edit form delam/delam.h 's/^typedef struct delam_law delam_law;/&\ntypedef struct delam_point { double x; } dot;/'
 refused 'not a form that the header may have: typedef struct delam_point' gate form baseline
 planted form
 edit form delam/delam.h 's/^typedef struct delam_law delam_law;/&\nenum delam_kind { delam_kind_one };/'
@@ -253,7 +260,7 @@ if command -v abidiff >/dev/null; then
     make result
     refused 'return type changed' gate result abidiff
     planted pointer
-    edit pointer delam/delam.h 's/typedef int32_t \(\*delam_watch_callback\)\(double/typedef int32_t (*delam_watch_callback)(int64_t/'
+    edit pointer delam/delam.h 's/\(\*delam_watch_callback\)\(double/(*delam_watch_callback)(int64_t/'
     edit pointer law.c 's/watch\(1.0/watch(1/'
     make pointer
     refused 'delam_law_watch' gate pointer abidiff
@@ -319,10 +326,54 @@ gap 's/\/\* Told of each value. \*\///' 'delam_watch_callback: no comment direct
 # A status that the façade gives and the header does not list.
 planted contract
 mkdir "$work/contract/capi"
-printf 'int32_t %s {\n    if (law == 0) fail(DELAM_ERROR_STATE, "no");\n}\n' 'delam_law_respond(const delam_law* law, int64_t count)' \
+printf 'int32_t delam_law_respond(const delam_law* law) {\n    if (law == 0) fail(DELAM_ERROR_STATE, "no");\n}\n' \
     >"$work/contract/capi/law.cpp"
 refused 'delam_law_respond: status: its lines in src/capi give state, which is not listed' \
     "$python" "$here/contract_lint.py" "$work/contract/delam/delam.h" --sources "$work/contract/capi"
+
+# ---- the contract against the library: lines of the header that are not true ----
+untrue() {
+    rm -rf "$work/untrue"
+    mkdir "$work/untrue"
+    cp "$root/include/delam/delam.h" "$work/untrue/delam.h"
+    edit untrue delam.h "$1"
+    refused "$2" "$python" "$here/test_contract.py" "$library" "$work/untrue/delam.h"
+}
+untrue 's/^ \* \[null bodies; status argument, mesh, state/ * [null none; status argument, mesh, state/' \
+    'delam_mesh_add_cells: bodies NULL: status 0, expected -1'
+untrue 's/^ \* \[unit nodes L; null none; owns out/ * [unit nodes L; null nodes; owns out/' \
+    'delam_mesh_create: nodes NULL, as it may be: status -1, expected 0'
+untrue 's/^ \* \[unit young F.*status argument/ * [unit young F\/L2, poisson 1; status usual/' \
+    'delam_problem_set_elastic: young nan: status -1 is not listed'
+untrue 's/^DELAM_API int64_t delam_option_count/DELAM_API int32_t delam_version_number(void);\n&/' \
+    "undefined symbol: delam_version_number"
+
+# ---- a host of another interface ----
+mkdir -p "$work/host/delam"
+cp "$here/baseline/delam/delam.h" "$work/host/delam/delam.h"
+host() {
+    gcc -std=c99 -I "$work/host" "$here/host.c" -o "$work/host/host" "$library" -lm \
+        -Wl,-rpath,"$(dirname "$library")" && "$work/host/host"
+}
+accepted host
+edit host delam/delam.h 's/DELAM_ABI 1/DELAM_ABI 2/'
+refused 'the library has another DELAM_ABI' host
+edit host delam/delam.h 's/DELAM_QUAD4 2/DELAM_QUAD4 4/'
+refused 'delam_mesh_create_layers.*DELAM_ERROR_ARGUMENT.*cell_type' host
+
+# ---- the reference as HTML ----
+if command -v doxygen >/dev/null; then
+    mkdir -p "$work/doc/src/capi" "$work/doc/verify"
+    cp -r "$root/include" "$work/doc/include"
+    cp "$root/src/capi/CONTRACT.md" "$work/doc/src/capi"
+    cp -r "$here" "$work/doc/verify/abi"
+    cp "$work/sound/delam/delam.h" "$work/doc/include/delam/delam.h"
+    accepted bash "$work/doc/verify/abi/doxygen.sh" "$work/doc/out"
+    sed -i 's|^/\* Told of each value. \*/||' "$work/doc/include/delam/delam.h"
+    refused 'delam_watch_callback.* is not documented' bash "$work/doc/verify/abi/doxygen.sh" "$work/doc/out"
+else
+    printf 'skipped: the planted break of the reference (Debian: doxygen)\n'
+fi
 
 printf '%d planted checks, %d failures\n' "$checks" "$failures"
 ((failures == 0))

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# bash verify/abi/update.sh LIBRARY [VERSION] [--break]: remakes symbols.txt and the baseline from today's header and LIBRARY.
+# bash verify/abi/update.sh LIBRARY [VERSION] [--break]: remakes symbols.txt and the baseline from today's header and
+# LIBRARY.
 #   LIBRARY   build/release/lib/libdelam.so, with the debug information of its façade
 #   VERSION   written behind functions that are new; default: the project's, major.minor
 #   --break   also when something that is promised changes or goes. After a release DELAM_ABI must then be raised.
@@ -34,7 +35,8 @@ fi
 new=$(mktemp)
 trap 'rm -f "$new"' EXIT
 {
-    printf '# SPDX-License-Identifier: BSD-3-Clause\n# Exported functions, each with the version that brought it. Written by update.sh.\n'
+    printf '# SPDX-License-Identifier: BSD-3-Clause\n'
+    printf '# Exported functions, each with the version that brought it. Written by update.sh.\n'
     /usr/bin/python3 - "$here" "$header" "$version" <<'PYTHON'
 import os, sys
 here, header, version = sys.argv[1:]
@@ -54,7 +56,8 @@ import re, sys
 sys.path.insert(0, sys.argv[1])
 import header
 text = header.COMMENT.sub("", open(sys.argv[2], encoding="utf-8").read())
-print("/* SPDX-License-Identifier: BSD-3-Clause\n * delam.h of the baseline, without its comments. Written by update.sh. */")
+print("/* SPDX-License-Identifier: BSD-3-Clause\n"
+      " * delam.h of the baseline, without its comments. Written by update.sh. */")
 print(re.sub(r"\n\s*\n+", "\n", re.sub(r"[ \t]+$", "", text, flags=re.M)).strip())
 PYTHON
 /usr/bin/python3 "$here/gate.py" abixml --header "$header" --library "$library" >"$new"
