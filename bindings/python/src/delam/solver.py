@@ -12,7 +12,7 @@ from . import _raw
 from ._arrays import floats, pointer
 from ._call import Object, integer, number, text
 from ._library import library
-from .errors import ArgumentError, NotConverged, NotConvergedWarning
+from .errors import ArgumentError, NotConverged, NotConvergedWarning, StateError
 from .history import History, steps_of
 from .mesh import body_label
 from .options import unknown
@@ -131,9 +131,8 @@ class Solver(Object):
     def _call(self, function, *arguments):
         self.context.call(function, self._handle, *arguments)
 
-    def _long(self, function, *arguments, undo=None):
-        return self.context.call(function, self._handle, *arguments, long=True, undo=undo,
-                                 outcomes=(_raw.DELAM_NOT_CONVERGED,))
+    def _long(self, function, *arguments):
+        return self.context.call(function, self._handle, *arguments, long=True, outcomes=(_raw.DELAM_NOT_CONVERGED,))
 
     def _outcome(self, outcome, level):
         status, message = outcome
@@ -156,9 +155,16 @@ class Solver(Object):
     # ---- steps
 
     def _step(self, function, *arguments):
-        handle = self._handle
-        outcome = self._long(function, *arguments, undo=lambda: library.delam_solver_rollback(handle))
-        self.pending = True
+        already, self.pending = self.pending, True
+        try:
+            outcome = self._long(function, *arguments)
+        except BaseException:
+            # Ctrl-C may also come when the step is done: none must be left that nobody knows of.
+            if not already:
+                with contextlib.suppress(StateError):
+                    self._call(library.delam_solver_rollback)
+            self.pending = already
+            raise
         self._outcome(outcome, 4)
 
     def advance(self, time):
