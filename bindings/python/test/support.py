@@ -51,9 +51,9 @@ def double_cantilever(divisions=50, steps_to=6e-3, **options):
 
 def bilinear(**changes):
     import delam
-    return delam.Law("piecewise-linear", **{**dict(normal_stiffness=1e12, tangential_stiffness=1e12, normal_onset=50.0,
-                                                   tangential_onset=50.0, normal_toughness=280.0, tangential_toughness=280.0),
-                                            **changes})
+    parameters = dict(normal_stiffness=1e12, tangential_stiffness=1e12, normal_onset=50.0, tangential_onset=50.0,
+                      normal_toughness=280.0, tangential_toughness=280.0)
+    return delam.Law("piecewise-linear", **{**parameters, **changes})
 
 
 def host_bilinear(onset=50.0, toughness=280.0, stiffness=1e12, spy=None):
@@ -80,7 +80,8 @@ def host_bilinear(onset=50.0, toughness=280.0, stiffness=1e12, spy=None):
         energy = onset * toughness ** 2 / span * (1.0 / within - 1.0 / toughness)
         return energy, -onset * toughness ** 2 / within ** 2, 0.0
 
-    return delam.Law.host("bilinear by hand", adhesion, dissipation, normal_stiffness=stiffness, tangential_stiffness=stiffness)
+    return delam.Law.host("bilinear by hand", adhesion, dissipation, normal_stiffness=stiffness,
+                          tangential_stiffness=stiffness)
 
 
 def brittle_flexure(divisions=60):

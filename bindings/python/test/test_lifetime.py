@@ -6,7 +6,6 @@ import itertools
 import pickle
 import subprocess
 import sys
-import textwrap
 import unittest
 import weakref
 
@@ -14,6 +13,14 @@ import support
 
 import delam
 from delam._library import library
+
+
+BEGIN = """import support, delam
+problem = support.double_cantilever()
+problem.set_law(0, support.host_bilinear())
+solver = delam.Solver(problem)
+solver.history([0.3], ())
+"""
 
 
 class Ends(unittest.TestCase):
@@ -116,9 +123,8 @@ class Ends(unittest.TestCase):
     def test_the_process_ends_in_peace(self):
         for tail in ("", "raise SystemExit(0)", "import gc; gc.disable(); cycle = [solver]; cycle.append(cycle)",
                      "import builtins; builtins.kept = solver", "del problem.mesh; mesh = None"):
-            code = "import support, delam; problem = support.double_cantilever(); problem.set_law(0, support.host_bilinear())\n" \
-                   "solver = delam.Solver(problem); solver.history([0.3], ())\n" + tail
-            done = subprocess.run([sys.executable, "-X", "dev", "-c", textwrap.dedent(code)], cwd=support.HERE, capture_output=True,
+            code = BEGIN + tail
+            done = subprocess.run([sys.executable, "-X", "dev", "-c", code], cwd=support.HERE, capture_output=True,
                                   text=True)
             self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""), tail)
 

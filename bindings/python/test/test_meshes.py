@@ -76,19 +76,22 @@ class Reading(unittest.TestCase):
                 delam.Mesh.from_meshio(source, **options)
 
     def test_labels_by_name(self):
-        source = meshio.Mesh(POINTS, [("quad", [[0, 1, 2, 3], [3, 2, 4, 5]])], cell_data={"parts": [[3, 4]], "gmsh:physical": [[1, 1]]})
+        source = meshio.Mesh(POINTS, [("quad", [[0, 1, 2, 3], [3, 2, 4, 5]])],
+                             cell_data={"parts": [[3, 4]], "gmsh:physical": [[1, 1]]})
         self.assertEqual(delam.Mesh.from_meshio(source).body_count, 1)
         mesh = delam.Mesh.from_meshio(source, bodies="parts", interfaces=False)
         self.assertEqual((mesh.body_count, mesh.interface_count), (2, 0))
 
     def test_every_cell_type_goes_through_a_file(self):
         for kind in delam.CELLS:
-            lengths, divisions = (1.0, 2) if kind in ("tri3", "quad4", "tri6", "quad8", "quad9") else ((1.0, 1.0), (2, 1))
+            plane = kind in ("tri3", "quad4", "tri6", "quad8", "quad9")
+            lengths, divisions = (1.0, 2) if plane else ((1.0, 1.0), (2, 1))
             mesh = delam.Mesh.layers(lengths, divisions, [0.5, 0.5], [1, 1], kind)
             mesh.add_interface(0, 1)
             with tempfile.TemporaryDirectory() as folder:
                 file = pathlib.Path(folder) / "mesh.vtu"
-                mesh.to_meshio({"place": np.arange(mesh.node_count)}, {"number": np.arange(mesh.cell_count)}).write(file)
+                mesh.to_meshio({"place": np.arange(mesh.node_count)},
+                               {"number": np.arange(mesh.cell_count)}).write(file)
                 back = delam.Mesh.from_meshio(file)
             self.assertEqual(back.interface_count, 1, kind)
             np.testing.assert_array_equal(back.nodes, mesh.nodes, kind)

@@ -52,17 +52,19 @@ class Backend(unittest.TestCase):
         name = delam_build.build_sdist(self.folder)
         self.assertEqual(name, "delam-0.1.0.tar.gz")
         with tarfile.open(self.folder / name) as archive:
-            archive.extractall(self.folder, filter="data") if hasattr(tarfile, "data_filter") else archive.extractall(self.folder)
+            archive.extractall(self.folder)
         root = self.folder / "delam-0.1.0"
         self.assertTrue((root / "PKG-INFO").is_file())
-        subprocess.run([sys.executable, "-c", "import delam_build; delam_build.build_wheel('..')"], cwd=root / "backend", check=True)
+        subprocess.run([sys.executable, "-c", "import delam_build; delam_build.build_wheel('..')"],
+                       cwd=root / "backend", check=True)
         (self.folder / "here").mkdir()
         wheel = delam_build.build_wheel(self.folder / "here")
         self.assertEqual((root / wheel).read_bytes(), (self.folder / "here" / wheel).read_bytes())
 
     def test_one_version(self):
         project = tomllib.loads((PACKAGE / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-        top = re.search(r"project\(delam VERSION ([\d.]+)", (support.ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
+        top = re.search(r"project\(delam VERSION ([\d.]+)",
+                        (support.ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
         import delam
         self.assertEqual((project["version"], delam.__version__, delam.library_version()), (top, top, top))
 
@@ -76,8 +78,8 @@ def without_library(**more):
 
 def location(python, folder, **environment):
     """Where an interpreter finds the library, or what it says instead."""
-    done = subprocess.run([python, "-c", "import delam; print(delam.library_location())"], cwd=folder, capture_output=True, text=True,
-                          env=without_library(**environment))
+    done = subprocess.run([python, "-c", "import delam; print(delam.library_location())"], cwd=folder,
+                          capture_output=True, text=True, env=without_library(**environment))
     return done.stdout.strip() if done.returncode == 0 else done.stderr.strip()
 
 
@@ -121,8 +123,10 @@ class Finding(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("pkg-config"), "pkg-config is not installed")
     def test_pkg_config(self):
-        (self.place / "delam.pc").write_text(f"libdir={self.installed}\nName: delam\nDescription: -\nVersion: 1\n", encoding="utf-8")
-        self.assertIn(self.find(PKG_CONFIG_LIBDIR=str(self.place)), (str(self.installed / "libdelam.so.1"), "libdelam.so.1"))
+        (self.place / "delam.pc").write_text(f"libdir={self.installed}\nName: delam\nDescription: -\nVersion: 1\n",
+                                             encoding="utf-8")
+        self.assertIn(self.find(PKG_CONFIG_LIBDIR=str(self.place)),
+                      (str(self.installed / "libdelam.so.1"), "libdelam.so.1"))
 
     def test_what_is_no_library_of_ours(self):
         import ctypes.util
@@ -131,40 +135,44 @@ class Finding(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("cc"), "there is no C compiler")
     def test_another_abi_and_missing_functions(self):
-        for abi, words in ((7, "has ABI 7, this package needs 1"), (1, "is libdelam 0.0.1 without delam_commit, delam_status_name")):
+        for abi, words in ((7, "has ABI 7, this package needs 1"),
+                           (1, "is libdelam 0.0.1 without delam_commit, delam_status_name")):
             source, library = self.place / "other.c", self.place / "other.so"
-            source.write_text(f'int delam_abi(void) {{ return {abi}; }} const char *delam_version(void) {{ return "0.0.1"; }}',
-                              encoding="utf-8")
+            source.write_text(f"int delam_abi(void) {{ return {abi}; }}\n"
+                              'const char *delam_version(void) { return "0.0.1"; }\n', encoding="utf-8")
             subprocess.run(["cc", "-shared", "-fPIC", "-o", str(library), str(source)], check=True)
             self.assertIn(words, self.find(DELAM_LIBRARY=str(library)))
 
 
 @unittest.skipUnless(LIBRARY, "DELAM_LIBRARY is not set")
-@unittest.skipUnless(importlib.util.find_spec("venv") and importlib.util.find_spec("ensurepip") and importlib.util.find_spec("pip"),
-                     "venv and pip are not installed")
+@unittest.skipUnless(all(map(importlib.util.find_spec, ("venv", "ensurepip", "pip"))), "venv and pip are not installed")
 class Installed(unittest.TestCase):
     def test_pip_in_a_virtual_environment(self):
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             # No index and no proxy that works: whatever reaches for the network fails.
-            offline = without_library(PIP_NO_INDEX="1", PIP_DISABLE_PIP_VERSION_CHECK="1", https_proxy="http://127.0.0.1:9",
-                                      http_proxy="http://127.0.0.1:9", HOME=str(folder), PIP_ROOT_USER_ACTION="ignore")
+            offline = without_library(PIP_NO_INDEX="1", PIP_DISABLE_PIP_VERSION_CHECK="1",
+                                      https_proxy="http://127.0.0.1:9", http_proxy="http://127.0.0.1:9",
+                                      HOME=str(folder), PIP_ROOT_USER_ACTION="ignore")
             subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", str(folder / "env")], check=True)
             python = folder / "env" / "bin" / "python3"
             before = sorted(PACKAGE.rglob("*"))
-            done = subprocess.run([folder / "env" / "bin" / "pip", "install", str(PACKAGE)], capture_output=True, text=True, env=offline)
+            done = subprocess.run([folder / "env" / "bin" / "pip", "install", str(PACKAGE)], capture_output=True,
+                                  text=True, env=offline)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             self.assertEqual([path for path in sorted(PACKAGE.rglob("*")) if "__pycache__" not in path.parts],
-                             [path for path in before if "__pycache__" not in path.parts], "the sources were written to")
+                             [path for path in before if "__pycache__" not in path.parts],
+                             "the sources were written to")
             self.assertEqual(location(python, folder, DELAM_LIBRARY=LIBRARY), LIBRARY)
-            shown = subprocess.run([python, "-c", "import delam; print(delam.__file__)"], capture_output=True, text=True, check=True,
-                                   cwd=folder, env=without_library(DELAM_LIBRARY=LIBRARY))
+            shown = subprocess.run([python, "-c", "import delam; print(delam.__file__)"], capture_output=True,
+                                   text=True, check=True, cwd=folder, env=without_library(DELAM_LIBRARY=LIBRARY))
             self.assertTrue(shown.stdout.startswith(str(folder / "env")), shown.stdout)
             csv = folder / "enf.csv"
             subprocess.run([python, support.ROOT / "examples" / "enf" / "enf.py", csv], check=True, cwd=folder,
                            env=without_library(DELAM_LIBRARY=LIBRARY))
             self.assertEqual(len(csv.read_text(encoding="utf-8").splitlines()), 42)
-            removed = subprocess.run([python, "-m", "pip", "uninstall", "-y", "delam"], capture_output=True, text=True, env=offline)
+            removed = subprocess.run([python, "-m", "pip", "uninstall", "-y", "delam"], capture_output=True, text=True,
+                                     env=offline)
             self.assertEqual(removed.returncode, 0, removed.stderr)
             self.assertIn("No module named 'delam'", location(python, folder, DELAM_LIBRARY=LIBRARY))
 

@@ -2,13 +2,14 @@
 """One way into the library: contexts, the call with its checks, callbacks, Ctrl-C, and the end of objects.
 
 A mesh, a law and a problem have a context each; solvers share that of their problem. A context belongs to one thread at
-a time, so each has a lock that every call holds: objects may be used from any thread, and those of distinct problems run
-side by side (ctypes gives the interpreter free during a call).
+a time, so each has a lock that every call holds: objects may be used from any thread, and those of distinct problems
+run side by side (ctypes gives the interpreter free during a call).
 
 Python code called from inside (laws, progress) must not let an exception into C. What it raises is kept, the library is
-asked to stop, and the exception is raised again once the call is over. So is Ctrl-C: during long calls of the main thread
-a handler of our own keeps what the present SIGINT handler raises. Leaving it to the interpreter would lose it, because a
-signal that arrives in C becomes an exception at the first instruction of the next callback, before any try block.
+asked to stop, and the exception is raised again once the call is over. So is Ctrl-C: during long calls of the main
+thread a handler of our own keeps what the present SIGINT handler raises. Leaving it to the interpreter would lose it,
+because a signal that arrives in C becomes an exception at the first instruction of the next callback, before any try
+block.
 """
 import collections
 import ctypes
@@ -163,7 +164,9 @@ class Context:
             finally:
                 if watched:
                     library.delam_context_set_progress(self.handle, _NO_PROGRESS, None)
-            message = "" if status == _raw.DELAM_OK else library.delam_context_message(self.handle).decode(errors="replace")
+            message = ""
+            if status != _raw.DELAM_OK:
+                message = library.delam_context_message(self.handle).decode(errors="replace")
         finally:
             if interrupt is not None:
                 interrupt.end()
@@ -172,8 +175,8 @@ class Context:
         return status, message
 
     def _locked(self, call, other, function, *arguments):
-        """Calls while this context, and another if there is one, belong to this thread. `with` and a lock are one step for
-        Ctrl-C, so none stays locked."""
+        """Calls while this context, and another if there is one, belong to this thread. `with` and a lock are one step
+        for Ctrl-C, so none stays locked."""
         if other is not None and other is not self:
             first, second = sorted((self, other), key=id)
             first._refuse_reentry()
@@ -246,7 +249,8 @@ class Object:
         return not self._finalizer.alive
 
     def close(self):
-        """Frees what the library holds for this object; it cannot be used any more. Garbage collection does the same."""
+        """Frees what the library holds for this object; it cannot be used any more. Garbage collection does the
+        same."""
         self._finalizer()
 
     def __enter__(self):

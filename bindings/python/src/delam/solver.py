@@ -106,9 +106,9 @@ class Solver(Object):
         solver.advance(0.05)        # pending: can be read, then
         solver.commit()             # kept, or solver.rollback()
 
-    not_converged: what a step that met an iteration limit does: "warn" (NotConvergedWarning, the step is pending), "raise"
-    (NotConverged, pending too) or "ignore". An interrupted call (Ctrl-C, or an exception from a callback) leaves the state that
-    was there before."""
+    not_converged: what a step that met an iteration limit does: "warn" (NotConvergedWarning, the step is pending),
+    "raise" (NotConverged, pending too) or "ignore". An interrupted call (Ctrl-C, or an exception from a callback)
+    leaves the state that was there before."""
 
     def __init__(self, problem, time=0.0, not_converged="warn"):
         if not_converged not in ("warn", "raise", "ignore"):
@@ -172,8 +172,8 @@ class Solver(Object):
         self._step(library.delam_solver_advance, number("time", time))
 
     def equilibrate(self, time, adhesion=None):
-        """Displacements of least energy at `time` with the given adhesion held, of all pairs, interface after interface; None: the
-        committed one. Pending like a step."""
+        """Displacements of least energy at `time` with the given adhesion held, of all pairs, interface after
+        interface; None: the committed one. Pending like a step."""
         if adhesion is not None:
             adhesion = floats("adhesion", adhesion, (self._shape("adhesion", -1)[0],))
         self._step(library.delam_solver_equilibrate, number("time", time), pointer(adhesion))
@@ -190,9 +190,9 @@ class Solver(Object):
     def march(self, times, values=None, progress=False):
         """Advances and commits, time after time; yields a dict of values after each step.
 
-        values: names, None for all but the costly ones. progress: a bar (tqdm's where it is installed) on standard error. A step
-        that raises is rolled back. With option backtracking a step may replace earlier ones: value revised_from is the first of
-        those, look() reads them; history() does that by itself."""
+        values: names, None for all but the costly ones. progress: a bar (tqdm's where it is installed) on standard
+        error. A step that raises is rolled back. With option backtracking a step may replace earlier ones: value
+        revised_from is the first of those, look() reads them; history() does that by itself."""
         names = self._names(values)
         for time in steps_of(times, progress):
             try:
@@ -264,10 +264,11 @@ class Solver(Object):
         return rows.value, columns.value
 
     def field(self, name, interface=None):
-        """A field of the pending state, else of the committed one: [rows][columns], or [rows] where there is one column.
+        """A field of the pending state, else of the committed one: [rows][columns], or [rows] where there is one
+        column.
 
-        Over nodes: displacement. Cells: stress, rotation. Pairs of an interface, None for all one after another: jump, traction,
-        adhesion, mixity, contact. Constraints: reaction."""
+        Over nodes: displacement. Cells: stress, rotation. Pairs of an interface, None for all one after another: jump,
+        traction, adhesion, mixity, contact. Constraints: reaction."""
         part = -1 if interface is None else integer("interface", interface)
         rows, columns = self._shape(name, part)
         out = np.empty((rows, columns) if columns > 1 else rows)
@@ -286,8 +287,8 @@ class Solver(Object):
         fronts, points = ctypes.c_int64(), ctypes.c_int64()
         self._call(library.delam_solver_front_count, interface, fronts, points)
         m, n, dimension = fronts.value, points.value, self.problem.dimension
-        out = Fronts(np.zeros(m + 1, np.int64), np.empty(m, np.int32), np.empty((n, dimension)), np.empty((n, dimension)),
-                     np.empty(n), np.empty((n, 3)), np.empty(n), np.empty(n))
+        out = Fronts(np.zeros(m + 1, np.int64), np.empty(m, np.int32), np.empty((n, dimension)),
+                     np.empty((n, dimension)), np.empty(n), np.empty((n, 3)), np.empty(n), np.empty(n))
         self._call(library.delam_solver_front, interface, m, n, *(pointer(array) for array in out))
         return out._replace(closed=out.closed.astype(bool))
 
@@ -313,8 +314,8 @@ class Solver(Object):
             subject, decision, reason, unit = (ctypes.c_char_p() for _ in range(4))
             cost, saving = ctypes.c_double(), ctypes.c_double()
             self._call(library.delam_solver_plan_item, i, subject, decision, reason, cost, saving, unit)
-            items.append(PlanItem(subject.value.decode(), decision.value.decode(), reason.value.decode(), cost.value, saving.value,
-                                  unit.value.decode()))
+            items.append(PlanItem(subject.value.decode(), decision.value.decode(), reason.value.decode(), cost.value,
+                                  saving.value, unit.value.decode()))
         return items
 
     def option(self, key):
