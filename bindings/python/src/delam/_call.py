@@ -120,17 +120,16 @@ class Context:
         """Ask the running call to stop at its next check; from any thread."""
         library.delam_context_cancel(self.handle)
 
-    def call(self, function, *arguments, other=None, long=False, undo=None, outcomes=()):
+    def call(self, function, *arguments, other=None, long=False, outcomes=()):
         """Calls a function of the library and raises what went wrong.
 
         other     a further context that is used
         long      Ctrl-C and progress are looked after
-        undo      called where the call succeeded although an exception has to be raised
         outcomes  statuses > 0 that are given back instead of being raised
         Returns (status, message).
         """
         call = Call(self)
-        status, message = self._locked(call, other, self._checked, call, function, arguments, long, undo)
+        status, message = self._locked(call, other, self._checked, call, function, arguments, long)
         for level, line in call.lines:
             text = line.decode(errors="replace")
             # An error's text, and an outcome's, go with the exception or warning.
@@ -151,7 +150,7 @@ class Context:
         value = self._locked(Call(self), None, function, *arguments)
         return None if value is None else value.decode(errors="replace")
 
-    def _checked(self, call, function, arguments, long, undo):
+    def _checked(self, call, function, arguments, long):
         interrupt = Interrupt(call) if long or self.hosted else None
         if interrupt is not None:
             interrupt.begin()
@@ -170,8 +169,6 @@ class Context:
         finally:
             if interrupt is not None:
                 interrupt.end()
-        if call.exception is not None and undo is not None and status in (_raw.DELAM_OK, _raw.DELAM_NOT_CONVERGED):
-            undo()
         return status, message
 
     def _locked(self, call, other, function, *arguments):
@@ -232,11 +229,20 @@ def _destroy(destroy, handle):
 class Object:
     """Something of the library: a handle with an end. Usable as a context manager."""
 
-    def _own(self, context, handle, destroy, keep=()):
-        """`keep`: what the library refers to as long as the handle lives."""
+    def _make(self, context, kind, destroy, function, *arguments, keep=(), **how):
+        """Calls a function that makes a handle, its last argument, and owns that. `keep`: what the library refers to as
+        long as the handle lives; `how`: as for Context.call, whose result this is."""
+        handle = ctypes.POINTER(kind)()
+        try:
+            outcome = context.call(function, *arguments, ctypes.byref(handle), **how)
+        except BaseException:
+            if handle:
+                context.end(destroy, handle, keep)
+            raise
         self.context = context
         self._pointer = handle
         self._finalizer = weakref.finalize(self, context.end, destroy, handle, keep)
+        return outcome
 
     @property
     def _handle(self):

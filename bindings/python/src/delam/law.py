@@ -68,10 +68,8 @@ class Law(Object):
 
     def _create(self, function, *arguments, keep=()):
         context = Context()
-        handle = ctypes.POINTER(_raw.delam_law)()
-        context.call(function, context.handle, *arguments, ctypes.byref(handle))
         self._callbacks = keep
-        self._own(context, handle, library.delam_law_destroy, keep)
+        self._make(context, _raw.delam_law, library.delam_law_destroy, function, context.handle, *arguments, keep=keep)
 
     def _call(self, function, *arguments):
         self.context.call(function, self._handle, *arguments)

@@ -172,9 +172,7 @@ class Mesh(Object):
 
     def _create(self, function, *arguments):
         context = Context()
-        handle = ctypes.POINTER(_raw.delam_mesh)()
-        context.call(function, context.handle, *arguments, ctypes.byref(handle))
-        self._own(context, handle, library.delam_mesh_destroy)
+        self._make(context, _raw.delam_mesh, library.delam_mesh_destroy, function, context.handle, *arguments)
         self.body_names = {}
 
     def _call(self, function, *arguments):

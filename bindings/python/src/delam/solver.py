@@ -114,17 +114,14 @@ class Solver(Object):
         if not_converged not in ("warn", "raise", "ignore"):
             raise ArgumentError(f"not_converged = {not_converged!r}, expected 'warn', 'raise' or 'ignore'")
         self.not_converged = not_converged
-        handle = ctypes.POINTER(_raw.delam_solver)()
-        context = problem.context
-        outcome = context.call(library.delam_solver_create, problem._handle, number("time", time), ctypes.byref(handle),
-                               long=True, undo=lambda: library.delam_solver_destroy(ctypes.byref(handle)),
-                               outcomes=(_raw.DELAM_NOT_CONVERGED,))
-        self._own(context, handle, library.delam_solver_destroy, tuple(problem._keep))
+        outcome = self._make(problem.context, _raw.delam_solver, library.delam_solver_destroy, library.delam_solver_create,
+                             problem._handle, number("time", time), keep=tuple(problem._keep), long=True,
+                             outcomes=(_raw.DELAM_NOT_CONVERGED,))
         self.problem = problem
         self.pending = False
         count = ctypes.c_int64()
         self._call(library.delam_solver_value_count, count)
-        names = (context.text(library.delam_solver_value_name, handle, i) for i in range(count.value))
+        names = (self.context.text(library.delam_solver_value_name, self._pointer, i) for i in range(count.value))
         self._keys = {name: name.encode() for name in names}
         self._outcome(outcome, 3)
 
@@ -253,7 +250,7 @@ class Solver(Object):
             state = np.frombuffer(state, np.uint8)
         except (TypeError, ValueError) as error:
             raise ArgumentError(f"state: {error}") from None
-        self._call(library.delam_solver_load, state.size, pointer(state))
+        self._long(library.delam_solver_load, state.size, pointer(state))
         self.pending = False
 
     # ---- fields
