@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Build backend of the package (PEP 517 and 660), in the standard library alone: an installation needs nothing from anywhere.
+"""Build backend of the package (PEP 517 and 660), in the standard library alone: an installation needs nothing from
+anywhere.
 
 The wheel is pure Python. Same sources, same bytes: entries are sorted and carry a fixed date, or SOURCE_DATE_EPOCH."""
 import base64
@@ -122,8 +123,9 @@ def build_sdist(sdist_directory, config_settings=None):
                 contents[path.relative_to(HERE).as_posix()] = path.read_bytes()
     contents["PKG-INFO"] = _metadata()
     file = f"{_name()}.tar.gz"
-    with open(pathlib.Path(sdist_directory) / file, "wb") as raw, gzip.GzipFile("", "wb", mtime=_date(), fileobj=raw) as packed, \
-            tarfile.open(fileobj=packed, mode="w", format=tarfile.PAX_FORMAT) as archive:
+    with (open(pathlib.Path(sdist_directory) / file, "wb") as raw,
+          gzip.GzipFile("", "wb", mtime=_date(), fileobj=raw) as packed,
+          tarfile.open(fileobj=packed, mode="w", format=tarfile.PAX_FORMAT) as archive):
         for name, data in sorted(contents.items()):
             entry = tarfile.TarInfo(f"{_name()}/{name}")
             entry.size, entry.mtime, entry.mode = len(data), _date(), 0o644

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the tests share: where the package is, the exit code of a skipped test, the end-notched flexure scene."""
+import logging
 import os
 import pathlib
 import sys
@@ -14,6 +15,10 @@ SKIPPED = 77
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 if not os.environ.get("DELAM_TEST_INSTALLED"):
     sys.path.insert(0, str(SOURCES))
+
+
+# What the library notes about coarse scenes belongs to no test but the one that asks.
+logging.getLogger("delam").addHandler(logging.NullHandler())
 
 
 def main():
@@ -46,9 +51,9 @@ def double_cantilever(divisions=50, steps_to=6e-3, **options):
 
 def bilinear(**changes):
     import delam
-    return delam.Law("piecewise-linear", **{**dict(normal_stiffness=1e12, tangential_stiffness=1e12, normal_onset=50.0,
-                                                   tangential_onset=50.0, normal_toughness=280.0, tangential_toughness=280.0),
-                                            **changes})
+    parameters = dict(normal_stiffness=1e12, tangential_stiffness=1e12, normal_onset=50.0, tangential_onset=50.0,
+                      normal_toughness=280.0, tangential_toughness=280.0)
+    return delam.Law("piecewise-linear", **{**parameters, **changes})
 
 
 def host_bilinear(onset=50.0, toughness=280.0, stiffness=1e12, spy=None):
@@ -75,4 +80,24 @@ def host_bilinear(onset=50.0, toughness=280.0, stiffness=1e12, spy=None):
         energy = onset * toughness ** 2 / span * (1.0 / within - 1.0 / toughness)
         return energy, -onset * toughness ** 2 / within ** 2, 0.0
 
-    return delam.Law.host("bilinear by hand", adhesion, dissipation, normal_stiffness=stiffness, tangential_stiffness=stiffness)
+    return delam.Law.host("bilinear by hand", adhesion, dissipation, normal_stiffness=stiffness,
+                          tangential_stiffness=stiffness)
+
+
+def brittle_flexure(divisions=60):
+    """End-notched flexure with a brittle interface (Zeman, Kruzik, Gruber, PANM 15, 2010): its crack jumps."""
+    import delam
+    mesh = delam.Mesh.layers(0.12, divisions, [3e-3, 3e-3], [2, 2])
+    interface = mesh.add_interface(0, 1)
+    problem = delam.Problem(mesh)
+    problem.set_elastic(75e9, 0.3)
+    problem.set_law(interface, delam.Law("piecewise-linear", normal_stiffness=125e15, tangential_stiffness=125e15,
+                                         normal_onset=0.01, tangential_onset=0.01, normal_toughness=25.0,
+                                         tangential_toughness=25.0))
+    problem.set_adhesion(interface, interface.places[:, 0] < 0.0299, 0.0)
+    press = problem.add_pattern("press", [0.0, 2.0], [0.0, 6e-3])
+    right = mesh.find_node((0.12, 0.0))
+    problem.prescribe([mesh.find_node((0.0, 0.0)), right], "y")
+    problem.prescribe(right, "x")
+    problem.prescribe(mesh.find_node((0.06, 6e-3)), "-y", press)
+    return problem

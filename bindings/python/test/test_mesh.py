@@ -38,8 +38,8 @@ class Arrays(unittest.TestCase):
         np.testing.assert_array_equal(cells.offsets, [0, 4, 7, 10])
 
     def test_any_layout_is_taken(self):
-        for nodes in (SQUARES.tolist(), SQUARES.astype(np.float32), np.asfortranarray(SQUARES), np.repeat(SQUARES, 2, 0)[::2],
-                      SQUARES.astype(np.int32)):
+        for nodes in (SQUARES.tolist(), SQUARES.astype(np.float32), np.asfortranarray(SQUARES),
+                      np.repeat(SQUARES, 2, 0)[::2], SQUARES.astype(np.int32)):
             np.testing.assert_array_equal(delam.Mesh(nodes).nodes, SQUARES)
         for cells in ([[0, 1, 2, 3]], np.array([[0, 1, 2, 3]], np.uint8), np.array([[0, 1, 2, 3]], np.int32)):
             mesh = delam.Mesh(SQUARES)
@@ -59,7 +59,8 @@ class Arrays(unittest.TestCase):
                 (lambda: delam.Mesh([[1, 2], [3]]), "nodes: .*inhomogeneous|nodes has type object"),
                 (lambda: mesh.add_cells("quad4", [[0, 1, 2]]), r"connectivity has shape \(1, 3\), expected \(any, 4\)"),
                 (lambda: mesh.add_cells("quad4", [[0.0, 1, 2, 3]]), "connectivity has type float64, expected integers"),
-                (lambda: mesh.add_cells("quad4", np.array([[0, 1, 2, 2 ** 63]], np.uint64)), r"connectivity\[0, 3\] = 9223"),
+                (lambda: mesh.add_cells("quad4", np.array([[0, 1, 2, 2 ** 63]], np.uint64)),
+                 r"connectivity\[0, 3\] = 9223"),
                 (lambda: mesh.add_cells("quad", [[0, 1, 2, 3]]), "'quad' is no cell type; known are tri3"),
                 (lambda: mesh.add_cells("quad4", [[0, 1, 2, 3]], [0, 1]), r"bodies has shape \(2,\)"),
                 (lambda: mesh.add_cells("quad4", [[0, 1, 2, 3]], 2 ** 31), "does not fit into 32 bits"),

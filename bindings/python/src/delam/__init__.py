@@ -6,11 +6,13 @@
     problem = delam.Problem(mesh)                                  materials, laws, supports, loads, options
     solver = delam.Solver(problem)                                 load steps and what can be read of them
 
-Arrays are numpy's, indices start at 0, units are whatever is consistent. Errors are exceptions under DelamError. Warnings and
-notes of the library go to the logger "delam". delam.plot draws (matplotlib), delam.meshes reads and writes meshes (meshio)."""
+Arrays are numpy's, indices start at 0, units are whatever is consistent. Errors are exceptions under DelamError.
+Warnings and notes of the library go to the logger "delam". delam.plot draws (matplotlib), delam.meshes reads and writes
+meshes (meshio)."""
 from . import _library
-from .errors import (ArgumentError, Cancelled, DelamError, HandleError, InternalError, LimitReached, MeshError, NotConverged,
-                     NotConvergedWarning, NumericalError, Outcome, OutOfMemory, ProblemError, SnapshotError, StateError)
+from .errors import (ArgumentError, Cancelled, DelamError, HandleError, InternalError, LimitReached, MeshError,
+                     NotConverged, NotConvergedWarning, NumericalError, Outcome, OutOfMemory, ProblemError,
+                     SnapshotError, StateError)
 from .history import History
 from .law import Law, Parameter
 from .mesh import CELLS, Cells, Interface, Mesh, Ties
@@ -22,9 +24,9 @@ __version__ = "0.1.0"
 
 __all__ = ["ArgumentError", "Average", "CELLS", "Cancelled", "Cells", "DelamError", "Fronts", "HandleError", "History",
            "Interface", "InternalError", "Jump", "Law", "LimitReached", "Mesh", "MeshError", "NotConverged",
-           "NotConvergedWarning", "NumericalError", "Options", "OutOfMemory", "Outcome", "Parameter", "Pattern", "PlanItem",
-           "Problem", "ProblemError", "SnapshotError", "Solver", "Sparse", "StateError", "Ties", "Values", "library_commit",
-           "library_location", "library_version", "options"]
+           "NotConvergedWarning", "NumericalError", "Options", "OutOfMemory", "Outcome", "Parameter", "Pattern",
+           "PlanItem", "Problem", "ProblemError", "SnapshotError", "Solver", "Sparse", "StateError", "Ties", "Values",
+           "library_commit", "library_location", "library_version", "options"]
 
 
 def library_version():

@@ -46,7 +46,8 @@ def _place(name, index):
 
 def gate(name, value, dtype, shape):
     """`value` as a contiguous array of `dtype` (float64, int64, int32) and `shape` (None: any size; a tuple: one of
-    these), or ArgumentError naming the argument. Integers are taken for floats, not the other way round; all numbers must be finite."""
+    these), or ArgumentError naming the argument. Integers are taken for floats, not the other way round; all numbers
+    must be finite."""
     dtype = np.dtype(dtype)
     try:
         array = np.asarray(value)
@@ -102,8 +103,8 @@ def direction(name, value, dimension):
     if isinstance(value, str):
         axis = "xyz"[:dimension].find(value.lstrip("+-")) if len(value.lstrip("+-")) == 1 else -1
         if axis < 0 or len(value) > 2:
-            raise ArgumentError(f"{name} = {value!r} is no axis; in {dimension}D these are {', '.join('xyz'[:dimension])}, "
-                                "with or without a sign")
+            raise ArgumentError(f"{name} = {value!r} is no axis; in {dimension}D these are "
+                                f"{', '.join('xyz'[:dimension])}, with or without a sign")
         vector = np.zeros(dimension)
         vector[axis] = -1.0 if value.startswith("-") else 1.0
         return vector

@@ -2,13 +2,14 @@
 """One way into the library: contexts, the call with its checks, callbacks, Ctrl-C, and the end of objects.
 
 A mesh, a law and a problem have a context each; solvers share that of their problem. A context belongs to one thread at
-a time, so each has a lock that every call holds: objects may be used from any thread, and those of distinct problems run
-side by side (ctypes gives the interpreter free during a call).
+a time, so each has a lock that every call holds: objects may be used from any thread, and those of distinct problems
+run side by side (ctypes gives the interpreter free during a call).
 
 Python code called from inside (laws, progress) must not let an exception into C. What it raises is kept, the library is
-asked to stop, and the exception is raised again once the call is over. So is Ctrl-C: during long calls of the main thread
-a handler of our own keeps what the present SIGINT handler raises. Leaving it to the interpreter would lose it, because a
-signal that arrives in C becomes an exception at the first instruction of the next callback, before any try block.
+asked to stop, and the exception is raised again once the call is over. So is Ctrl-C: during long calls of the main
+thread a handler of our own keeps what the present SIGINT handler raises. Leaving it to the interpreter would lose it,
+because a signal that arrives in C becomes an exception at the first instruction of the next callback, before any try
+block.
 """
 import collections
 import ctypes
@@ -119,17 +120,16 @@ class Context:
         """Ask the running call to stop at its next check; from any thread."""
         library.delam_context_cancel(self.handle)
 
-    def call(self, function, *arguments, other=None, long=False, undo=None, outcomes=()):
+    def call(self, function, *arguments, other=None, long=False, outcomes=()):
         """Calls a function of the library and raises what went wrong.
 
         other     a further context that is used
         long      Ctrl-C and progress are looked after
-        undo      called where the call succeeded although an exception has to be raised
         outcomes  statuses > 0 that are given back instead of being raised
         Returns (status, message).
         """
         call = Call(self)
-        status, message = self._locked(call, other, self._checked, call, function, arguments, long, undo)
+        status, message = self._locked(call, other, self._checked, call, function, arguments, long)
         for level, line in call.lines:
             text = line.decode(errors="replace")
             # An error's text, and an outcome's, go with the exception or warning.
@@ -150,7 +150,7 @@ class Context:
         value = self._locked(Call(self), None, function, *arguments)
         return None if value is None else value.decode(errors="replace")
 
-    def _checked(self, call, function, arguments, long, undo):
+    def _checked(self, call, function, arguments, long):
         interrupt = Interrupt(call) if long or self.hosted else None
         if interrupt is not None:
             interrupt.begin()
@@ -163,17 +163,17 @@ class Context:
             finally:
                 if watched:
                     library.delam_context_set_progress(self.handle, _NO_PROGRESS, None)
-            message = "" if status == _raw.DELAM_OK else library.delam_context_message(self.handle).decode(errors="replace")
+            message = ""
+            if status != _raw.DELAM_OK:
+                message = library.delam_context_message(self.handle).decode(errors="replace")
         finally:
             if interrupt is not None:
                 interrupt.end()
-        if call.exception is not None and undo is not None and status in (_raw.DELAM_OK, _raw.DELAM_NOT_CONVERGED):
-            undo()
         return status, message
 
     def _locked(self, call, other, function, *arguments):
-        """Calls while this context, and another if there is one, belong to this thread. `with` and a lock are one step for
-        Ctrl-C, so none stays locked."""
+        """Calls while this context, and another if there is one, belong to this thread. `with` and a lock are one step
+        for Ctrl-C, so none stays locked."""
         if other is not None and other is not self:
             first, second = sorted((self, other), key=id)
             first._refuse_reentry()
@@ -229,11 +229,20 @@ def _destroy(destroy, handle):
 class Object:
     """Something of the library: a handle with an end. Usable as a context manager."""
 
-    def _own(self, context, handle, destroy, keep=()):
-        """`keep`: what the library refers to as long as the handle lives."""
+    def _make(self, context, kind, destroy, function, *arguments, keep=(), **how):
+        """Calls a function that makes a handle, its last argument, and owns that. `keep`: what the library refers to as
+        long as the handle lives; `how`: as for Context.call, whose result this is."""
+        handle = ctypes.POINTER(kind)()
+        try:
+            outcome = context.call(function, *arguments, ctypes.byref(handle), **how)
+        except BaseException:
+            if handle:
+                context.end(destroy, handle, keep)
+            raise
         self.context = context
         self._pointer = handle
         self._finalizer = weakref.finalize(self, context.end, destroy, handle, keep)
+        return outcome
 
     @property
     def _handle(self):
@@ -246,7 +255,8 @@ class Object:
         return not self._finalizer.alive
 
     def close(self):
-        """Frees what the library holds for this object; it cannot be used any more. Garbage collection does the same."""
+        """Frees what the library holds for this object; it cannot be used any more. Garbage collection does the
+        same."""
         self._finalizer()
 
     def __enter__(self):

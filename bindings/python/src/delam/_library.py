@@ -27,7 +27,8 @@ def _from_variable(value):
 
 def _pkg_config():
     try:
-        found = subprocess.run(["pkg-config", "--variable=libdir", "delam"], capture_output=True, text=True, check=False)
+        found = subprocess.run(["pkg-config", "--variable=libdir", "delam"], capture_output=True, text=True,
+                               check=False)
     except OSError:
         return None
     folder = found.stdout.strip()
@@ -63,8 +64,8 @@ def load():
             tried.append(f"{where}: {error}")
             continue
         return _checked(library, path), path
-    raise ImportError(f"libdelam was not found. Set {VARIABLE} to {SONAME} or to its folder, or install it where the loader "
-                      f"looks. Tried:\n  " + "\n  ".join(tried))
+    raise ImportError(f"libdelam was not found. Set {VARIABLE} to {SONAME} or to its folder, or install it where the "
+                      f"loader looks. Tried:\n  " + "\n  ".join(tried))
 
 
 def _checked(library, path):

@@ -6,7 +6,8 @@ Errors of the library (status < 0) leave the object as it was. Outcomes (status 
 NotConverged   an iteration limit was met; the step is pending all the same. A warning (NotConvergedWarning) unless
                the solver was told otherwise: Solver(..., not_converged="warn" | "raise" | "ignore").
 Cancelled      stopped on request; the state before the call is restored. Always raised.
-LimitReached   no equilibrium: a dead load acts on a part that nothing holds any more. No step is pending. Always raised.
+LimitReached   no equilibrium: a dead load acts on a part that nothing holds any more. No step is pending. Always
+               raised.
 """
 from . import _raw
 

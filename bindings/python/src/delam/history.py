@@ -7,8 +7,8 @@ import numpy as np
 
 class History:
     """Values of a solver over its steps, a numpy array by name: history["reaction:load"]. The first row is the state at
-    which it was made; record() appends the present one. Where a step has replaced earlier ones (option backtracking) their rows
-    are read again."""
+    which it was made; record() appends the present one. Where a step has replaced earlier ones (option backtracking)
+    their rows are read again."""
 
     def __init__(self, solver, values=None):
         self._solver = solver

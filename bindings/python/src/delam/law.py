@@ -54,8 +54,9 @@ class Law(Object):
             dissipation(mixity, adhesion) -> (dissipated, slope, mixity_slope)
 
         adhesion: the minimiser of adhesion * driving + dissipated over [0, 1] and its derivative by the driving energy;
-        dissipation: the energy g(B, zeta) and its derivatives by adhesion and mixity. They must not call the library. An
-        exception in one ends the call of the library and is raised from it. `name` stands for them in Problem.hash."""
+        dissipation: the energy g(B, zeta) and its derivatives by adhesion and mixity. They must not call the library.
+        An exception in one ends the call of the library and is raised from it. `name` stands for them in
+        Problem.hash."""
         law = cls.__new__(cls)
         on_adhesion, on_dissipation = _adhesion_callback(adhesion), _dissipation_callback(dissipation)
         law._create(library.delam_law_create_host, text("name", name), on_adhesion, on_dissipation, None,
@@ -67,10 +68,8 @@ class Law(Object):
 
     def _create(self, function, *arguments, keep=()):
         context = Context()
-        handle = ctypes.POINTER(_raw.delam_law)()
-        context.call(function, context.handle, *arguments, ctypes.byref(handle))
         self._callbacks = keep
-        self._own(context, handle, library.delam_law_destroy, keep)
+        self._make(context, _raw.delam_law, library.delam_law_destroy, function, context.handle, *arguments, keep=keep)
 
     def _call(self, function, *arguments):
         self.context.call(function, self._handle, *arguments)
@@ -86,7 +85,8 @@ class Law(Object):
         return {item.key: item for item in items}
 
     def set(self, **parameters):
-        """Numbers, texts and the table softening=(xi, s). Texts first: a criterion sets its exponents to their initial values."""
+        """Numbers, texts and the table softening=(xi, s). Texts first: a criterion sets its exponents to their initial
+        values."""
         for key, value in sorted(parameters.items(), key=lambda item: not isinstance(item[1], str)):
             if isinstance(value, str):
                 self._call(library.delam_law_set_text, key.encode(), text(key, value))
@@ -113,14 +113,14 @@ class Law(Object):
         return onset, toughness
 
     def respond(self, jump, mixity, adhesion=1.0):
-        """One damage step at given jumps [n][2 or 3], local (normal first), at frozen mixities, from old adhesions: the new
-        adhesions [n] and tractions [n][2 or 3]."""
+        """One damage step at given jumps [n][2 or 3], local (normal first), at frozen mixities, from old adhesions: the
+        new adhesions [n] and tractions [n][2 or 3]."""
         jump = floats("jump", jump, (None, (2, 3)))
         count, dimension = jump.shape
         mixity, old = spread("mixity", mixity, count), spread("adhesion", adhesion, count)
         new, traction = np.empty(count), np.empty((count, dimension))
-        self._call(library.delam_law_respond, dimension, count, pointer(jump), pointer(mixity), pointer(old), pointer(new),
-                   pointer(traction))
+        self._call(library.delam_law_respond, dimension, count, pointer(jump), pointer(mixity), pointer(old),
+                   pointer(new), pointer(traction))
         return new, traction
 
 

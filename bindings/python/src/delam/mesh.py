@@ -59,8 +59,8 @@ class Ties(NamedTuple):
 
 
 class Interface:
-    """An interface of a mesh; stands for its index wherever one is asked for. Its jump is u_b - u_a, its normals point from a
-    to b."""
+    """An interface of a mesh; stands for its index wherever one is asked for. Its jump is u_b - u_a, its normals point
+    from a to b."""
 
     def __init__(self, mesh, index):
         self.mesh = mesh
@@ -146,16 +146,16 @@ class Mesh(Object):
 
     @classmethod
     def layers(cls, lengths, divisions, thickness, layer_divisions, cells="quad4"):
-        """Block of layers stacked along the last axis (y in 2D, z in 3D), each a body of its own, body 0 at the bottom; no
-        interface is made yet. lengths, divisions: along the other axes, a number in 2D or two in 3D; thickness,
+        """Block of layers stacked along the last axis (y in 2D, z in 3D), each a body of its own, body 0 at the bottom;
+        no interface is made yet. lengths, divisions: along the other axes, a number in 2D or two in 3D; thickness,
         layer_divisions: of each layer."""
         lengths = floats("lengths", listed(lengths), ((1, 2),))
         divisions = indices("divisions", divisions, (lengths.size,))
         thickness = floats("thickness", listed(thickness), (None,))
         layer_divisions = indices("layer_divisions", layer_divisions, (thickness.size,))
         mesh = cls.__new__(cls)
-        mesh._create(library.delam_mesh_create_layers, lengths.size + 1, pointer(lengths), pointer(divisions), thickness.size,
-                     pointer(thickness), pointer(layer_divisions), cell_type(cells)[0])
+        mesh._create(library.delam_mesh_create_layers, lengths.size + 1, pointer(lengths), pointer(divisions),
+                     thickness.size, pointer(thickness), pointer(layer_divisions), cell_type(cells)[0])
         return mesh
 
     @classmethod
@@ -165,15 +165,14 @@ class Mesh(Object):
         return read(source, bodies, interfaces)
 
     def to_meshio(self, point_data=None, cell_data=None):
-        """A meshio.Mesh with the same nodes and cells, to be written in any of meshio's formats; see delam.meshes.write."""
+        """A meshio.Mesh with the same nodes and cells, to be written in any of meshio's formats; see
+        delam.meshes.write."""
         from .meshes import write
         return write(self, point_data, cell_data)
 
     def _create(self, function, *arguments):
         context = Context()
-        handle = ctypes.POINTER(_raw.delam_mesh)()
-        context.call(function, context.handle, *arguments, ctypes.byref(handle))
-        self._own(context, handle, library.delam_mesh_destroy)
+        self._make(context, _raw.delam_mesh, library.delam_mesh_destroy, function, context.handle, *arguments)
         self.body_names = {}
 
     def _call(self, function, *arguments):
@@ -182,8 +181,8 @@ class Mesh(Object):
     def __repr__(self):
         if self.closed:
             return "<Mesh, closed>"
-        return (f"<Mesh in {self.dimension}D: {self.node_count} nodes, {self.cell_count} cells, {self.body_count} bodies, "
-                f"{self.interface_count} interfaces>")
+        return (f"<Mesh in {self.dimension}D: {self.node_count} nodes, {self.cell_count} cells, "
+                f"{self.body_count} bodies, {self.interface_count} interfaces>")
 
     # ---- cells and interfaces
 
@@ -220,13 +219,13 @@ class Mesh(Object):
         return [Interface(self, before + i) for i in range(count.value)]
 
     def add_projected_interface(self, body_a, body_b, gap=0.0):
-        """Of two bodies whose meshes do not match; b should be the finer one. gap: distance of the faces, 0: 1e-6 of the
-        shortest edge."""
+        """Of two bodies whose meshes do not match; b should be the finer one. gap: distance of the faces, 0: 1e-6 of
+        the shortest edge."""
         return self._add_interface(library.delam_mesh_add_projected_interface, body_a, body_b, number("gap", gap))
 
     def add_obstacle(self, nodes, normals, control_node, weights=None):
-        """A rigid obstacle that moves with its control node, a node without cells. normals: from the obstacle into the body,
-        one each or one for all."""
+        """A rigid obstacle that moves with its control node, a node without cells. normals: from the obstacle into the
+        body, one each or one for all."""
         nodes = indices("nodes", nodes, size=self.node_count)
         if ndim(normals) == 1 or isinstance(normals, str):
             normals = np.tile(axis("normals", normals, self.dimension), (nodes.size, 1))
@@ -297,8 +296,8 @@ class Mesh(Object):
         """Tied nodes of projected interfaces."""
         count, entries = ctypes.c_int64(), ctypes.c_int64()
         self._call(library.delam_mesh_node_ties, count, entries, None, None, None, None)
-        ties = Ties(np.empty(count.value, np.int64), np.empty(count.value + 1, np.int64), np.empty(entries.value, np.int64),
-                    np.empty(entries.value))
+        ties = Ties(np.empty(count.value, np.int64), np.empty(count.value + 1, np.int64),
+                    np.empty(entries.value, np.int64), np.empty(entries.value))
         self._call(library.delam_mesh_node_ties, None, None, *(pointer(array) for array in ties))
         return ties
 
@@ -308,8 +307,8 @@ class Mesh(Object):
         self._call(library.delam_mesh_cells, None, None, None, 0, None, needed)
         cells = Cells(np.empty(count, np.int32), np.empty(count, np.int32), np.empty(count + 1, np.int64),
                       np.empty(needed.value, np.int64))
-        self._call(library.delam_mesh_cells, pointer(cells.types), pointer(cells.bodies), pointer(cells.offsets), needed.value,
-                   pointer(cells.connectivity), None)
+        self._call(library.delam_mesh_cells, pointer(cells.types), pointer(cells.bodies), pointer(cells.offsets),
+                   needed.value, pointer(cells.connectivity), None)
         return cells
 
     def find_nodes(self, lower, upper=None, body=None):
@@ -329,12 +328,13 @@ class Mesh(Object):
         nodes = self.find_nodes(place, body=body)
         if nodes.size != 1:
             of = "" if body is None else f" of body {body}"
-            raise ArgumentError(f"place = {tuple(np.asarray(place).tolist())}: {nodes.size} nodes{of} are there, expected 1")
+            place = tuple(np.asarray(place).tolist())
+            raise ArgumentError(f"place = {place}: {nodes.size} nodes{of} are there, expected 1")
         return int(nodes[0])
 
     def find_patch(self, body, lower, upper, direction):
-        """Nodes and weights of a uniform traction on the part of a body's boundary inside the box whose outward normal is
-        within 45 degrees of the direction."""
+        """Nodes and weights of a uniform traction on the part of a body's boundary inside the box whose outward normal
+        is within 45 degrees of the direction."""
         dimension = self.dimension
         lower, upper = floats("lower", lower, (dimension,)), floats("upper", upper, (dimension,))
         along = axis("direction", direction, dimension)

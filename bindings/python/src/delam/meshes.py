@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Meshes through meshio: Gmsh, Abaqus, VTK, MED and what else it reads and writes. Its node orders are VTK's, and so are ours."""
+"""Meshes through meshio: Gmsh, Abaqus, VTK, MED and what else it reads and writes. Its node orders are VTK's, and so
+are ours."""
 import os
 
 import numpy as np
@@ -8,8 +9,8 @@ from .errors import ArgumentError, MeshError
 from .mesh import CELLS, Mesh
 
 # meshio's names of our cells.
-NAMES = {"triangle": "tri3", "quad": "quad4", "tetra": "tet4", "hexahedron": "hex8", "triangle6": "tri6", "quad8": "quad8",
-         "quad9": "quad9", "tetra10": "tet10", "hexahedron20": "hex20"}
+NAMES = {"triangle": "tri3", "quad": "quad4", "tetra": "tet4", "hexahedron": "hex8", "triangle6": "tri6",
+         "quad8": "quad8", "quad9": "quad9", "tetra10": "tet10", "hexahedron20": "hex20"}
 PLANE = ("tri3", "quad4", "tri6", "quad8", "quad9")
 # Where meshers keep the labels of bodies.
 LABELS = ("bodies", "gmsh:physical", "medit:ref", "cell_tags", "gmsh:geometrical")
@@ -24,10 +25,11 @@ def _meshio():
 
 
 def read(source, bodies=None, interfaces=True):
-    """The cells of highest dimension of a meshio.Mesh or of a file; those of lower dimension (edges, faces of solids) are left
-    out. Cells in the plane make a mesh in 2D: their z must be one and the same.
+    """The cells of highest dimension of a meshio.Mesh or of a file; those of lower dimension (edges, faces of solids)
+    are left out. Cells in the plane make a mesh in 2D: their z must be one and the same.
 
-    bodies      name of the cell data with a label for each cell; None: the first of `LABELS` that is there, else one body
+    bodies      name of the cell data with a label for each cell; None: the first of `LABELS` that is there, else one
+                body
     interfaces  pair the faces that bodies share (they may share nodes, these are doubled)
 
     Nodes keep their indices. body_names of the mesh has {label: name} where the file names its groups."""
@@ -37,9 +39,10 @@ def read(source, bodies=None, interfaces=True):
     solid = [i for i, kind in enumerate(kinds) if kind is not None and kind not in PLANE]
     chosen = solid or [i for i, kind in enumerate(kinds) if kind is not None]
     if not chosen:
-        raise MeshError(f"no cells of a known type; there are {', '.join(sorted({b.type for b in source.cells})) or 'none'}, known "
-                        f"are {', '.join(NAMES)}")
-    unknown = sorted({block.type for block, kind in zip(source.cells, kinds) if kind is None and _fills(block.type, bool(solid))})
+        there = ", ".join(sorted({block.type for block in source.cells})) or "none"
+        raise MeshError(f"no cells of a known type; there are {there}, known are {', '.join(NAMES)}")
+    unknown = sorted({block.type for block, kind in zip(source.cells, kinds)
+                      if kind is None and _fills(block.type, bool(solid))})
     if unknown:
         raise MeshError(f"cells of type {', '.join(unknown)} have no place here; known are {', '.join(NAMES)}")
 
@@ -47,7 +50,8 @@ def read(source, bodies=None, interfaces=True):
     if not solid and points.shape[1] == 3:
         used = points[np.unique(np.concatenate([np.ravel(source.cells[i].data) for i in chosen]))]
         if used.size and np.ptp(used[:, 2]) > 1e-9 * np.ptp(used[:, :2]):
-            raise MeshError(f"plane cells have z from {used[:, 2].min():g} to {used[:, 2].max():g}: shells have no place here")
+            low, high = used[:, 2].min(), used[:, 2].max()
+            raise MeshError(f"plane cells have z from {low:g} to {high:g}: shells have no place here")
         points = points[:, :2]
 
     if bodies is None:
@@ -57,11 +61,13 @@ def read(source, bodies=None, interfaces=True):
     mesh = Mesh(points)
     labels = set()
     for i in chosen:
-        label = np.zeros(len(source.cells[i].data), np.int64) if bodies is None else np.asarray(source.cell_data[bodies][i])
+        count = len(source.cells[i].data)
+        label = np.zeros(count, np.int64) if bodies is None else np.asarray(source.cell_data[bodies][i])
         labels.update(np.unique(label).tolist())
         mesh.add_conforming_cells(kinds[i], np.asarray(source.cells[i].data, np.int64), label.astype(np.int64))
     dimension = points.shape[1]
-    mesh.body_names = {int(tag): name for name, (tag, of) in source.field_data.items() if of == dimension and tag in labels}
+    mesh.body_names = {int(tag): name for name, (tag, of) in source.field_data.items()
+                       if of == dimension and tag in labels}
     if interfaces and mesh.body_count > 1:
         mesh.add_all_interfaces()
     return mesh
@@ -75,8 +81,8 @@ def _fills(kind, solid):
 
 
 def write(mesh, point_data=None, cell_data=None):
-    """A meshio.Mesh with the nodes and cells of `mesh`; plane ones get z = 0. cell_data are arrays over all cells, in the order
-    they were added; "bodies" is among them."""
+    """A meshio.Mesh with the nodes and cells of `mesh`; plane ones get z = 0. cell_data are arrays over all cells, in
+    the order they were added; "bodies" is among them."""
     meshio = _meshio()
     nodes, cells = mesh.nodes, mesh.cells
     if nodes.shape[1] == 2:

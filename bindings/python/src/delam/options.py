@@ -35,8 +35,8 @@ def _value(parameter, words):
 
 
 class Options(collections.abc.MutableMapping):
-    """problem.options["solution"] = "energetic"; del gives an option its initial value back. Iterates over all options there
-    are; describe() says what they mean."""
+    """problem.options["solution"] = "energetic"; del gives an option its initial value back. Iterates over all options
+    there are; describe() says what they mean."""
 
     def __init__(self, problem, values):
         self._call = problem._call

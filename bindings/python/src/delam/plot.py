@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures with matplotlib: histories, what lies on an interface, and bodies as they are deformed. Each function draws into
-`ax`, or into new axes, and returns them."""
+"""Pictures with matplotlib: histories, what lies on an interface, and bodies as they are deformed. Each function draws
+into `ax`, or into new axes, and returns them."""
 import numpy as np
 
 from .mesh import CELLS
@@ -45,7 +45,8 @@ def history(history, y, x="time", ax=None, **style):
 
 
 def interface(solver, field="adhesion", interface=0, component=0, ax=None, **style):
-    """A field of pairs: in 2D along the interface, in 3D in colour on its faces. component: column of jumps and tractions."""
+    """A field of pairs: in 2D along the interface, in 3D in colour on its faces. component: column of jumps and
+    tractions."""
     view = solver.problem.mesh.interfaces[interface]
     values = solver.field(field, interface)
     if values.ndim == 2:
@@ -122,7 +123,8 @@ def bodies(solver, scale=1.0, ax=None):
     for view in mesh.interfaces:
         adhesion = solver.field("adhesion", view)
         faces = view.faces[:, :2]
-        lines = LineCollection(places[view.nodes_b][faces], array=adhesion[faces].mean(axis=1), cmap=_adhesion_colours(), linewidths=2)
+        lines = LineCollection(places[view.nodes_b][faces], array=adhesion[faces].mean(axis=1),
+                               cmap=_adhesion_colours(), linewidths=2)
         lines.set_clim(0.0, 1.0)
         ax.add_collection(lines)
     if lines is not None:

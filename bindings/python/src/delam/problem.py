@@ -53,17 +53,17 @@ class Pattern:
 class Problem(Object):
     """Takes the mesh as it is now.
 
-    Bodies are chosen by label, None means all. `drive` says what load patterns prescribe: a pattern (itself, its name or index), a
-    mapping {pattern: coefficient, or one each}, or None for zero. Directions are vectors or axes ("x", "-y").
+    Bodies are chosen by label, None means all. `drive` says what load patterns prescribe: a pattern (itself, its name
+    or index), a mapping {pattern: coefficient, or one each}, or None for zero. Directions are vectors or axes ("x",
+    "-y").
 
     progress: a function (stage, done, total) called inside long work, on the calling thread; a true result cancels."""
 
     def __init__(self, mesh, plane=None, progress=None):
         context = Context()
-        handle = ctypes.POINTER(_raw.delam_problem)()
-        context.call(library.delam_problem_create, context.handle, mesh._handle, ctypes.byref(handle), other=mesh.context)
         self._keep = []
-        self._own(context, handle, library.delam_problem_destroy, self._keep)
+        self._make(context, _raw.delam_problem, library.delam_problem_destroy, library.delam_problem_create, context.handle,
+                   mesh._handle, keep=self._keep, other=mesh.context)
         self.mesh = mesh
         self.dimension, self._node_count, self._cell_count = mesh._size()[:3]
         self._pair_counts = [interface.pair_count for interface in mesh.interfaces]
@@ -103,10 +103,12 @@ class Problem(Object):
         self._call(library.delam_problem_set_plane, text("assumption", assumption))
 
     def set_elastic(self, young, poisson, body=None):
-        self._call(library.delam_problem_set_elastic, body_label(body), number("young", young), number("poisson", poisson))
+        self._call(library.delam_problem_set_elastic, body_label(body), number("young", young),
+                   number("poisson", poisson))
 
     def set_orthotropic(self, constants, body=None):
-        """E1 E2 E3 nu12 nu13 nu23 G12 G13 G23 in the material axes; nu_ij: contraction along j under tension along i."""
+        """E1 E2 E3 nu12 nu13 nu23 G12 G13 G23 in the material axes; nu_ij: contraction along j under tension along
+        i."""
         constants = floats("constants", constants, (9,))
         self._call(library.delam_problem_set_orthotropic, body_label(body), pointer(constants))
 
@@ -120,7 +122,8 @@ class Problem(Object):
         if ndim(axes) == 2:
             axes = np.tile(floats("axes", axes, (2, 3)), (cells.size, 1, 1))
         axes = floats("axes", axes, (cells.size, 2, 3))
-        self._call(library.delam_problem_set_orientation, body_label(body), cells.size, pointer(cells), pointer(axes), 0)
+        self._call(library.delam_problem_set_orientation, body_label(body), cells.size, pointer(cells), pointer(axes),
+                   0)
 
     def set_formulation(self, formulation, body=None):
         """"standard" (initially), "incompatible" or "mean-dilatation"."""
@@ -159,7 +162,8 @@ class Problem(Object):
         times = floats("times", listed(times), (None,))
         values = floats("values", listed(values), (times.size,))
         index = ctypes.c_int64()
-        self._call(library.delam_problem_add_pattern, text("name", name), times.size, pointer(times), pointer(values), index)
+        self._call(library.delam_problem_add_pattern, text("name", name), times.size, pointer(times), pointer(values),
+                   index)
         return Pattern(name, index.value)
 
     @property
@@ -203,7 +207,8 @@ class Problem(Object):
                    pointer(patterns), pointer(coefficients), 0)
 
     def prescribe_mean(self, nodes, weights, direction, drive=None):
-        """The weighted mean of direction . u over nodes; with the weights of Mesh.find_patch a support spread over a patch."""
+        """The weighted mean of direction . u over nodes; with the weights of Mesh.find_patch a support spread over a
+        patch."""
         nodes = indices("nodes", nodes)
         weights = floats("weights", weights, (nodes.size,))
         along = axis("direction", direction, self.dimension)
@@ -220,7 +225,8 @@ class Problem(Object):
                    pointer(patterns), pointer(prescribed), 0)
 
     def add_periodic(self, periods, control_nodes, tolerance=0.0):
-        """u(x + period_k) - u(x) = u of control node k, on opposite faces of the mesh. periods: [periods][dimension]."""
+        """u(x + period_k) - u(x) = u of control node k, on opposite faces of the mesh. periods:
+        [periods][dimension]."""
         periods = floats("periods", [periods] if ndim(periods) == 1 else periods, (None, self.dimension))
         control_nodes = indices("control_nodes", control_nodes, (periods.shape[0],))
         self._call(library.delam_problem_add_periodic, periods.shape[0], pointer(periods), pointer(control_nodes),
@@ -232,7 +238,8 @@ class Problem(Object):
         if ndim(forces) == 1:
             forces = np.tile(floats("forces", forces, (self.dimension,)), (nodes.size, 1))
         forces = floats("forces", forces, (nodes.size, self.dimension))
-        self._call(library.delam_problem_add_forces, self.pattern(pattern), nodes.size, pointer(nodes), pointer(forces), 0)
+        self._call(library.delam_problem_add_forces, self.pattern(pattern), nodes.size, pointer(nodes), pointer(forces),
+                   0)
 
     def add_eigenstrain(self, pattern, strain, body=None):
         """xx, yy, zz, 2xy, 2yz, 2zx in the material axes, times the factor of a pattern."""
@@ -283,7 +290,8 @@ class Problem(Object):
         out = Sparse((rows.value, self.dofs[0]), np.empty(rows.value + 1, np.int64), np.empty(entries.value, np.int64),
                      np.empty(entries.value))
         coefficients = np.empty((rows.value, patterns.value))
-        self._call(library.delam_problem_constraints, *sizes, *(pointer(array) for array in out[1:]), pointer(coefficients))
+        self._call(library.delam_problem_constraints, *sizes, *(pointer(array) for array in out[1:]),
+                   pointer(coefficients))
         return out, coefficients
 
     def forces(self, pattern):

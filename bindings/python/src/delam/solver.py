@@ -12,7 +12,7 @@ from . import _raw
 from ._arrays import floats, pointer
 from ._call import Object, integer, number, text
 from ._library import library
-from .errors import ArgumentError, NotConverged, NotConvergedWarning
+from .errors import ArgumentError, NotConverged, NotConvergedWarning, StateError
 from .history import History, steps_of
 from .mesh import body_label
 from .options import unknown
@@ -106,34 +106,30 @@ class Solver(Object):
         solver.advance(0.05)        # pending: can be read, then
         solver.commit()             # kept, or solver.rollback()
 
-    not_converged: what a step that met an iteration limit does: "warn" (NotConvergedWarning, the step is pending), "raise"
-    (NotConverged, pending too) or "ignore". An interrupted call (Ctrl-C, or an exception from a callback) leaves the state that
-    was there before."""
+    not_converged: what a step that met an iteration limit does: "warn" (NotConvergedWarning, the step is pending),
+    "raise" (NotConverged, pending too) or "ignore". An interrupted call (Ctrl-C, or an exception from a callback)
+    leaves the state that was there before."""
 
     def __init__(self, problem, time=0.0, not_converged="warn"):
         if not_converged not in ("warn", "raise", "ignore"):
             raise ArgumentError(f"not_converged = {not_converged!r}, expected 'warn', 'raise' or 'ignore'")
         self.not_converged = not_converged
-        handle = ctypes.POINTER(_raw.delam_solver)()
-        context = problem.context
-        outcome = context.call(library.delam_solver_create, problem._handle, number("time", time), ctypes.byref(handle),
-                               long=True, undo=lambda: library.delam_solver_destroy(ctypes.byref(handle)),
-                               outcomes=(_raw.DELAM_NOT_CONVERGED,))
-        self._own(context, handle, library.delam_solver_destroy, tuple(problem._keep))
+        outcome = self._make(problem.context, _raw.delam_solver, library.delam_solver_destroy, library.delam_solver_create,
+                             problem._handle, number("time", time), keep=tuple(problem._keep), long=True,
+                             outcomes=(_raw.DELAM_NOT_CONVERGED,))
         self.problem = problem
         self.pending = False
         count = ctypes.c_int64()
         self._call(library.delam_solver_value_count, count)
-        names = (context.text(library.delam_solver_value_name, handle, i) for i in range(count.value))
+        names = (self.context.text(library.delam_solver_value_name, self._pointer, i) for i in range(count.value))
         self._keys = {name: name.encode() for name in names}
         self._outcome(outcome, 3)
 
     def _call(self, function, *arguments):
         self.context.call(function, self._handle, *arguments)
 
-    def _long(self, function, *arguments, undo=None):
-        return self.context.call(function, self._handle, *arguments, long=True, undo=undo,
-                                 outcomes=(_raw.DELAM_NOT_CONVERGED,))
+    def _long(self, function, *arguments):
+        return self.context.call(function, self._handle, *arguments, long=True, outcomes=(_raw.DELAM_NOT_CONVERGED,))
 
     def _outcome(self, outcome, level):
         status, message = outcome
@@ -156,9 +152,16 @@ class Solver(Object):
     # ---- steps
 
     def _step(self, function, *arguments):
-        handle = self._handle
-        outcome = self._long(function, *arguments, undo=lambda: library.delam_solver_rollback(handle))
-        self.pending = True
+        already, self.pending = self.pending, True
+        try:
+            outcome = self._long(function, *arguments)
+        except BaseException:
+            # Ctrl-C may also come when the step is done: none must be left that nobody knows of.
+            if not already:
+                with contextlib.suppress(StateError):
+                    self._call(library.delam_solver_rollback)
+            self.pending = already
+            raise
         self._outcome(outcome, 4)
 
     def advance(self, time):
@@ -166,8 +169,8 @@ class Solver(Object):
         self._step(library.delam_solver_advance, number("time", time))
 
     def equilibrate(self, time, adhesion=None):
-        """Displacements of least energy at `time` with the given adhesion held, of all pairs, interface after interface; None: the
-        committed one. Pending like a step."""
+        """Displacements of least energy at `time` with the given adhesion held, of all pairs, interface after
+        interface; None: the committed one. Pending like a step."""
         if adhesion is not None:
             adhesion = floats("adhesion", adhesion, (self._shape("adhesion", -1)[0],))
         self._step(library.delam_solver_equilibrate, number("time", time), pointer(adhesion))
@@ -184,9 +187,9 @@ class Solver(Object):
     def march(self, times, values=None, progress=False):
         """Advances and commits, time after time; yields a dict of values after each step.
 
-        values: names, None for all but the costly ones. progress: a bar (tqdm's where it is installed) on standard error. A step
-        that raises is rolled back. With option backtracking a step may replace earlier ones: value revised_from is the first of
-        those, look() reads them; history() does that by itself."""
+        values: names, None for all but the costly ones. progress: a bar (tqdm's where it is installed) on standard
+        error. A step that raises is rolled back. With option backtracking a step may replace earlier ones: value
+        revised_from is the first of those, look() reads them; history() does that by itself."""
         names = self._names(values)
         for time in steps_of(times, progress):
             try:
@@ -247,7 +250,7 @@ class Solver(Object):
             state = np.frombuffer(state, np.uint8)
         except (TypeError, ValueError) as error:
             raise ArgumentError(f"state: {error}") from None
-        self._call(library.delam_solver_load, state.size, pointer(state))
+        self._long(library.delam_solver_load, state.size, pointer(state))
         self.pending = False
 
     # ---- fields
@@ -258,10 +261,11 @@ class Solver(Object):
         return rows.value, columns.value
 
     def field(self, name, interface=None):
-        """A field of the pending state, else of the committed one: [rows][columns], or [rows] where there is one column.
+        """A field of the pending state, else of the committed one: [rows][columns], or [rows] where there is one
+        column.
 
-        Over nodes: displacement. Cells: stress, rotation. Pairs of an interface, None for all one after another: jump, traction,
-        adhesion, mixity, contact. Constraints: reaction."""
+        Over nodes: displacement. Cells: stress, rotation. Pairs of an interface, None for all one after another: jump,
+        traction, adhesion, mixity, contact. Constraints: reaction."""
         part = -1 if interface is None else integer("interface", interface)
         rows, columns = self._shape(name, part)
         out = np.empty((rows, columns) if columns > 1 else rows)
@@ -280,8 +284,8 @@ class Solver(Object):
         fronts, points = ctypes.c_int64(), ctypes.c_int64()
         self._call(library.delam_solver_front_count, interface, fronts, points)
         m, n, dimension = fronts.value, points.value, self.problem.dimension
-        out = Fronts(np.zeros(m + 1, np.int64), np.empty(m, np.int32), np.empty((n, dimension)), np.empty((n, dimension)),
-                     np.empty(n), np.empty((n, 3)), np.empty(n), np.empty(n))
+        out = Fronts(np.zeros(m + 1, np.int64), np.empty(m, np.int32), np.empty((n, dimension)),
+                     np.empty((n, dimension)), np.empty(n), np.empty((n, 3)), np.empty(n), np.empty(n))
         self._call(library.delam_solver_front, interface, m, n, *(pointer(array) for array in out))
         return out._replace(closed=out.closed.astype(bool))
 
@@ -307,8 +311,8 @@ class Solver(Object):
             subject, decision, reason, unit = (ctypes.c_char_p() for _ in range(4))
             cost, saving = ctypes.c_double(), ctypes.c_double()
             self._call(library.delam_solver_plan_item, i, subject, decision, reason, cost, saving, unit)
-            items.append(PlanItem(subject.value.decode(), decision.value.decode(), reason.value.decode(), cost.value, saving.value,
-                                  unit.value.decode()))
+            items.append(PlanItem(subject.value.decode(), decision.value.decode(), reason.value.decode(), cost.value,
+                                  saving.value, unit.value.decode()))
         return items
 
     def option(self, key):
