@@ -4,14 +4,14 @@
 
 # The library, the command line, the plots and the tests.
 DELAM_PACKAGES=(
-    g++ gcc make cmake ninja-build pkg-config git ca-certificates
+    g++ gcc gfortran make cmake ninja-build pkg-config git ca-certificates
     libsuitesparse-dev libmetis-dev libopenblas-dev liblapack-dev
     libcli11-dev libtomlplusplus-dev libfmt-dev libhdf5-dev nlohmann-json3-dev libgmsh-dev
     libgsl-dev check abigail-tools binutils
     python3 python3-numpy python3-matplotlib python3-h5py python3-venv python3-pip python3-meshio python3-tqdm
 )
 # The long tier of the tests.
-DELAM_LONG_PACKAGES=(clang doxygen valgrind paraview python3-paraview)
+DELAM_LONG_PACKAGES=(clang doxygen dpkg-dev valgrind paraview python3-paraview)
 
 # delam_install PACKAGE...: installs what is missing, as root or through sudo; else prints the command and fails.
 delam_install() {

@@ -146,7 +146,7 @@ contains
     real(dp) :: few(1)
     character(200) :: message
     call none%check(status=status, message=message)
-    call expect(status == DELAM_ERROR_HANDLE .and. len_trim(message) > 0, 'an object that was not created has a message')
+    call expect(status == DELAM_ERROR_HANDLE .and. len_trim(message) > 0, 'a message without an object')
     call law%create(context, 'piecewise-linear', status, message)
     call expect(status == DELAM_ERROR_HANDLE .and. .not. law%exists(), 'a context that was not created is refused')
     call context%create(status, message)

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The contracts of delam.hpp; ends with a count, and with 1 where one is broken.
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "delam/delam.hpp"
+
+namespace {
+
+int checked = 0;
+int broken = 0;
+
+void expect(bool holds, const char* what) {
+    ++checked;
+    if (holds) return;
+    ++broken;
+    std::printf("does not hold: %s\n", what);
+}
+
+// The status that a call throws; DELAM_OK when it throws nothing.
+template <class Call>
+std::int32_t status_of(Call&& call, std::string* message = nullptr) {
+    try {
+        call();
+    } catch (const delam::Error& error) {
+        if (message != nullptr) *message = error.what();
+        return error.status();
+    }
+    return DELAM_OK;
+}
+
+struct Stop : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+template <class Call>
+bool stopped(Call&& call) {
+    try {
+        call();
+    } catch (const Stop& stop) {
+        return std::string(stop.what()) == "enough";
+    }
+    return false;
+}
+
+// The bilinear law with the same toughness in both modes: by the library, or by functions of the host.
+struct Bilinear {
+    double onset, toughness;
+    delam::AdhesionValue adhesion(double driving) const {
+        const double r = toughness / onset;
+        if (driving >= onset * r * r) return {0.0, 0.0};
+        if (driving <= onset) return {1.0, 0.0};
+        return {(r * std::sqrt(onset / driving) - 1.0) / (r - 1.0),
+                -0.5 * r / (r - 1.0) * std::sqrt(onset) / std::pow(driving, 1.5)};
+    }
+    delam::DissipationValue dissipation(double adhesion) const {
+        const double r = toughness / onset;
+        const double below = 1.0 + adhesion * (r - 1.0);
+        return {toughness - onset * r * r * adhesion / below, -onset * (r / below) * (r / below), 0.0};
+    }
+};
+
+delam::Law make_law(const delam::Context& context, bool by_host, const bool* failing = nullptr) {
+    constexpr Bilinear bilinear{100.0, 250.0};
+    auto law = by_host ? delam::Law(
+                             context, "bilinear",
+                             [=](double, double driving) {
+                                 if (failing != nullptr && *failing) throw Stop("enough");
+                                 return bilinear.adhesion(driving);
+                             },
+                             [=](double, double adhesion) { return bilinear.dissipation(adhesion); })
+                       : delam::Law(context, "piecewise-linear");
+    if (!by_host) {
+        law.set("normal_onset", bilinear.onset);
+        law.set("tangential_onset", bilinear.onset);
+        law.set("normal_toughness", bilinear.toughness);
+        law.set("tangential_toughness", bilinear.toughness);
+        law.set("criterion", "power");
+        law.set("onset_exponent", 1);
+        law.set("toughness_exponent", 1);
+    }
+    law.set("normal_stiffness", 1e13);
+    law.set("tangential_stiffness", 1e13);
+    return law;
+}
+
+// A double cantilever beam; everything but the solver ends here.
+delam::Solver make_solver(const delam::Context& context, bool by_host, const bool* failing = nullptr) {
+    auto mesh = delam::Mesh::layers(context, {30e-3}, {60}, {1e-3, 1e-3}, {2, 2}, DELAM_QUAD4);
+    mesh.add_interface(0, 1);
+    delam::Problem problem(context, mesh);
+    problem.set_elastic(-1, 70e9, 0.3);
+    problem.set_law(0, make_law(context, by_host, failing));
+    const auto opening = problem.add_pattern("opening", {0.0, 1.0}, {0.0, 1e-3});
+    const auto left = mesh.find_nodes(-1, {0.0, 0.0}, {0.0, 2e-3});
+    problem.prescribe_nodes(left, {1.0, 0.0});
+    problem.prescribe_nodes({left.data(), 1}, {0.0, 1.0});
+    problem.prescribe_nodes(mesh.find_nodes(0, {30e-3, 0.0}, {30e-3, 0.0}), {0.0, 1.0}, {opening}, {-0.5});
+    problem.prescribe_nodes(mesh.find_nodes(1, {30e-3, 2e-3}, {30e-3, 2e-3}), {0.0, 1.0}, {opening}, {0.5});
+    problem.set("solution", "local");
+    problem.check();
+    return delam::Solver(problem, 0.0);
+}
+
+void test_errors() {
+    static_assert(!std::is_copy_constructible_v<delam::Solver> &&
+                  std::is_nothrow_move_constructible_v<delam::Solver>);
+    static_assert(!std::is_copy_constructible_v<delam::Context> && !std::is_copy_assignable_v<delam::Law>);
+    const delam::Context context;
+    std::string message;
+    expect(status_of([&] { delam::Law(context, "no-such-law"); }, &message) == DELAM_ERROR_ARGUMENT,
+           "an unknown law");
+    expect(message.find("no-such-law") != std::string::npos && message == context.message(),
+           "the message has the value");
+    delam::Law law(context, "piecewise-linear");
+    expect(status_of([&] { law.set("normal_onset", -1.0); }) == DELAM_ERROR_ARGUMENT, "a value outside its range");
+    expect(status_of([&] { law.check(); }) == DELAM_ERROR_PROBLEM, "an incomplete law");
+    expect(status_of([&] { law.set_table({0.0, 1.0}, {1.0}); }) == DELAM_ERROR_ARGUMENT, "unequal sizes");
+    delam::Mesh mesh(context, 2, {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0});
+    expect(status_of([&] { mesh.add_cells(DELAM_QUAD4, {0, 1, 2}); }) == DELAM_ERROR_ARGUMENT, "three nodes of four");
+    expect(status_of([&] { mesh.add_cells(77, {0, 1, 2}); }) == DELAM_ERROR_ARGUMENT, "an unknown type of cell");
+    mesh.add_cells(DELAM_QUAD4, {0, 1, 2, 3});
+    expect(mesh.size().cells == 1 && mesh.node_bodies() == std::vector<std::int32_t>(4, 0), "no bodies are body 0");
+    delam::Problem problem(context, mesh);
+    expect(status_of([&] { problem.prescribe_nodes({0}, {1.0, 0.0, 0.0}); }) == DELAM_ERROR_ARGUMENT, "three of two");
+    delam::Mesh other = std::move(mesh);
+    expect(other.size().nodes == 4, "a mesh moves");
+}
+
+void test_law() {
+    const delam::Context context;
+    bool failing = false;
+    auto ours = make_law(context, true, &failing);
+    auto theirs = make_law(context, false);
+    ours.check();
+    const std::vector<double> jump{1e-6, 0.0, 5e-6, 1e-6, 8e-6, 2e-6, 1e-3, 0.0};
+    const std::vector<double> mixity{0.0, 0.1, 0.3, 0.0};
+    const auto a = ours.respond(2, jump, mixity, {1.0, 1.0, 1.0, 1.0});
+    const auto b = theirs.respond(2, jump, mixity, {1.0, 1.0, 1.0, 1.0});
+    for (std::size_t i = 0; i < 4; ++i) expect(std::abs(a.adhesion[i] - b.adhesion[i]) < 1e-12, "a host's law");
+    expect(a.adhesion[1] > 0.1 && a.adhesion[1] < 0.9, "softening was met");
+    failing = true;
+    expect(stopped([&] { ours.check(); }), "what a law throws comes out of the call");
+    failing = false;
+    ours.check();
+
+    std::optional<delam::Context> gone(std::in_place);
+    auto host = make_solver(*gone, true, &failing);
+    auto library = make_solver(*gone, false);
+    gone.reset();
+    for (int step = 1; step <= 5; ++step) {
+        expect(host.advance(0.16 * step) == delam::Outcome::done, "a step");
+        expect(library.advance(0.16 * step) == delam::Outcome::done, "a step");
+        host.commit();
+        library.commit();
+    }
+    const double dissipated = library.value("dissipated");
+    expect(dissipated > 0.1 && std::abs(host.value("dissipated") - dissipated) < 1e-8 * dissipated, "the same march");
+    failing = true;
+    expect(stopped([&] { (void)host.advance(1.0); }), "what a law throws comes out of a step");
+    failing = false;
+    expect(host.advance(1.0) == delam::Outcome::done, "and the solver is usable");
+}
+
+void test_solver() {
+    const delam::Context context;
+    auto solver = make_solver(context, false);
+    expect(solver.initial() == delam::Outcome::done, "the first displacement");
+    expect(solver.advance(0.5) == delam::Outcome::done, "a step");
+    expect(status_of([&] { (void)solver.advance(0.6); }) == DELAM_ERROR_STATE, "a step is pending");
+    const double reaction = solver.value("reaction:opening");
+    solver.rollback();
+    expect(solver.advance(0.5) == delam::Outcome::done && solver.value("reaction:opening") == reaction,
+           "the same again");
+    solver.commit();
+    const auto jump = solver.field("jump", 0);
+    expect(jump.rows == 61 && jump.columns == 2 && jump.values.size() == 122, "a field is [rows][columns]");
+    std::vector<double> buffer(122);
+    solver.field("jump", 0, buffer.data(), buffer.size());
+    expect(buffer == jump.values, "a field in the caller's buffer");
+    expect(status_of([&] { solver.field("jump", 0, buffer.data(), 5); }) == DELAM_ERROR_ARGUMENT, "a small buffer");
+    const auto fronts = solver.fronts(0);
+    expect(fronts.starts.front() == 0 && fronts.rates.size() == 3 * fronts.lengths.size(), "fronts");
+    expect(std::abs(solver.average().volume - 60e-6) < 1e-15, "the volume");
+    expect(solver.tangent(1).size() == 1, "the tangent");
+    bool listed = false;
+    for (const auto& name : solver.value_names()) listed = listed || name == "reaction:opening";
+    expect(listed, "names of values");
+    expect(solver.option("solution") == "local" && solver.option("no such option").empty(), "options");
+    const auto items = solver.plan_items();
+    expect(!items.empty() && solver.plan().rfind(items[0].subject, 0) == 0, "the plan");
+    expect(solver.jumps().empty(), "no jumps were looked for");
+
+    auto bytes = solver.save();
+    auto again = make_solver(context, false);
+    again.load(bytes);
+    expect(again.advance(1.0) == delam::Outcome::done && solver.advance(1.0) == delam::Outcome::done, "a step");
+    expect(again.value("dissipated") == solver.value("dissipated"), "saved and gone on with");
+    bytes[bytes.size() / 2] ^= 0xff;
+    auto third = make_solver(context, false);
+    expect(status_of([&] { third.load(bytes); }) == DELAM_ERROR_SNAPSHOT, "damaged bytes are refused");
+    solver.rollback();
+    expect(status_of([&] {
+               (void)solver.equilibrate(0.5, {1.0, 1.0});
+           }) == DELAM_ERROR_ARGUMENT,
+           "adhesion of two pairs");
+    solver = std::move(again);
+    expect(solver.value("time") == 1.0, "a solver moves");
+}
+
+void test_callbacks() {
+    delam::Context context;
+    int calls = 0;
+    int last = -1;
+    bool throwing = false;
+    context.on_progress([&](std::string_view stage, std::int64_t, std::int64_t) {
+        ++calls;
+        if (throwing) throw Stop("enough");
+        return !stage.empty() && calls != last;
+    });
+    auto solver = make_solver(context, false);
+    expect(solver.advance(0.5) == delam::Outcome::done && calls > 0, "progress is told");
+    solver.rollback();
+    last = calls + 2;
+    expect(solver.advance(0.5) == delam::Outcome::cancelled && calls == last, "cancelled at the second call");
+    throwing = true;
+    expect(stopped([&] { (void)solver.advance(0.5); }) && calls == last + 1, "what it throws comes out of the call");
+    throwing = false;
+    context.on_progress(nullptr);
+    expect(solver.advance(0.5) == delam::Outcome::done && calls == last + 1,
+           "switched off, and the solver is usable");
+    solver.rollback();
+    context.cancel();
+    expect(solver.advance(0.5) == delam::Outcome::cancelled, "a request for the next call");
+    std::string said;
+    context.on_log([&](std::int32_t, std::string_view text) { said = text; });
+    context.on_log({});
+}
+
+}  // namespace
+
+int main() {
+    expect(delam_abi() == DELAM_ABI && !delam::version().empty(), "the library has the interface of the header");
+    test_errors();
+    test_law();
+    test_solver();
+    test_callbacks();
+    std::printf("%d checked, %d broken\n", checked, broken);
+    return broken == 0 ? 0 : 1;
+}

@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The library itself; the bindings install their own parts.
+set(DELAM_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/delam)
+install(TARGETS delam EXPORT delam LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime
+                                           NAMELINK_COMPONENT development)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/delam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
+        FILES_MATCHING PATTERN "*.h")
+install(EXPORT delam NAMESPACE delam:: FILE delam-targets.cmake DESTINATION ${DELAM_CMAKE_DIR} COMPONENT development)
+# Before 1.0 a minor version may change the interface.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/delam-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_LIST_DIR}/delam-config.cmake ${PROJECT_BINARY_DIR}/delam-config-version.cmake
+        DESTINATION ${DELAM_CMAKE_DIR} COMPONENT development)
+# Relative to the file itself, so that an installed tree may be moved.
+file(RELATIVE_PATH DELAM_PC_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+configure_file(${CMAKE_CURRENT_LIST_DIR}/delam.pc.in ${PROJECT_BINARY_DIR}/delam.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/delam.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)

@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Each component by itself has what it is for and no more; together they are the whole installation.
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+keep_manifests
+
+# files COMPONENT: its files below the prefix; library folders of any name are "lib".
+files() {
+    quietly "$CMAKE" --install "$BUILD" --prefix "$work/$1" --component "$1"
+    (cd "$work/$1" && find . -type f -o -type l) | sed -e 's|^\./||' -e 's|^lib/[^/]*-linux-gnu[^/]*/|lib/|' | sort
+}
+
+# only COMPONENT PATTERN NEEDED...: every file fits the pattern, and the needed ones are there.
+only() {
+    local component=$1 pattern=$2 found name
+    shift 2
+    found=$(files "$component")
+    if grep -vE "^($pattern)\$" <<<"$found"; then
+        fail "these do not belong to component $component"
+    fi
+    for name in "$@"; do
+        grep -qxF "$name" <<<"$found" || fail "component $component has no $name"
+    done
+    printf '%s: %d files\n' "$component" "$(wc -l <<<"$found")"
+}
+
+only runtime 'lib/libdelam\.so\.[0-9.]+|share/doc/.*' "lib/libdelam.so.$ABI" "lib/libdelam.so.$VERSION"
+only development 'lib/libdelam\.so|include/delam/[a-z_]+\.h|lib/cmake/delam/delam-(config|targets).*\.cmake|lib/pkgconfig/delam\.pc' \
+    lib/libdelam.so include/delam/delam.h lib/cmake/delam/delam-config.cmake lib/pkgconfig/delam.pc
+if has cli; then
+    only cli 'bin/delam|share/delam/[a-z_]+\.py' bin/delam share/delam/plot.py
+fi
+if has cpp; then
+    only cpp 'include/delam/delam\.hpp|lib/cmake/delam/delam-cpp.*\.cmake' include/delam/delam.hpp
+fi
+if has fortran; then
+    only fortran 'share/delam/fortran/.*\.f90|include/delam/fortran/.*\.mod|lib/libdelam_fortran\.a|lib/cmake/delam/delam-fortran.*\.cmake' \
+        share/delam/fortran/delam.f90 share/delam/fortran/delam_raw.f90 lib/libdelam_fortran.a
+else
+    # The sources serve compilers that were not there when the library was built.
+    only fortran 'share/delam/fortran/.*\.f90' share/delam/fortran/delam.f90
+fi
+
+quietly "$CMAKE" --install "$BUILD" --prefix "$work/all"
+if ! difference=$(diff <(cd "$work/all" && find . ! -type d | sort) \
+    <(for component in runtime development cli fortran cpp; do
+        [[ ! -d $work/$component ]] || (cd "$work/$component" && find . ! -type d)
+    done | sort)); then
+    fail "the whole (<) and its components (>) differ:"$'\n'"$difference"
+fi

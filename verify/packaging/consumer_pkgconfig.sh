@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Hosts find the installation with pkg-config; the one in Fortran compiles the installed sources of the module.
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+PKG_CONFIG_PATH=$(dirname "$(find "$STAGE" -name delam.pc)")
+export PKG_CONFIG_PATH
+[[ $(pkg-config --modversion delam) == "$VERSION" ]] || fail "delam.pc has version $(pkg-config --modversion delam), expected $VERSION"
+read -ra flags <<<"$(pkg-config --cflags delam)"
+read -ra links <<<"$(pkg-config --libs delam) -Wl,-rpath,$(pkg-config --variable=libdir delam)"
+cd "$work"
+
+quietly "$CC" -std=c99 "${flags[@]}" "$SOURCE/examples/enf/enf.c" -o enf_c "${links[@]}"
+same_history ./enf_c
+if has cpp; then
+    quietly "$CXX" -std=c++17 "${flags[@]}" "$SOURCE/examples/enf/enf.cpp" -o enf_cpp "${links[@]}"
+    same_history ./enf_cpp
+fi
+fortran=$(pkg-config --variable=fortrandir delam)
+[[ -f $fortran/delam.f90 ]] || fail "no $fortran/delam.f90"
+if [[ -n ${FC:-} ]]; then
+    quietly "$FC" "$fortran/delam_raw.f90" "$fortran/delam.f90" "$SOURCE/examples/enf/enf.f90" -o enf_fortran "${links[@]}"
+    same_history ./enf_fortran
+else
+    printf 'the host in Fortran was left out: no Fortran compiler was found\n'
+fi

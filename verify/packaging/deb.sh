@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# The Debian packages hold what they should, depend on what they need, and work unpacked.
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+for tool in dpkg-deb dpkg-shlibdeps; do
+    command -v $tool >/dev/null || skip "$tool is not installed"
+done
+keep_manifests
+(cd "$work" && quietly "$CPACK" -G DEB --config "$BUILD/CPackConfig.cmake" -B "$work/out")
+packages=("libdelam$ABI" libdelam-dev)
+if has cli; then
+    packages+=(delam)
+fi
+for package in "${packages[@]}"; do
+    file=$(find "$work/out" -maxdepth 1 -name "${package}_${VERSION}*.deb")
+    [[ -n $file ]] || fail "no package $package: $(ls "$work/out")"
+    [[ $(dpkg-deb --field "$file" Package) == "$package" ]] || fail "$file is not named $package"
+    dpkg-deb --field "$file" Package Version Depends Maintainer
+    dpkg-deb --contents "$file" | awk '{print $6}' | grep -v '/$' >"$work/$package.list"
+    dpkg-deb --extract "$file" "$work/root"
+done
+
+# holds PACKAGE PATTERN; lacks PACKAGE PATTERN
+holds() {
+    grep -qE "$2" "$work/$1.list" || fail "$1 has nothing like $2"
+}
+lacks() {
+    if grep -E "$2" "$work/$1.list"; then
+        fail "$1 has what it should not"
+    fi
+}
+depends() {
+    dpkg-deb --field "$(find "$work/out" -maxdepth 1 -name "${1}_${VERSION}*.deb")" Depends | grep -q "$2" || fail "$1 does not depend on $2"
+}
+holds "libdelam$ABI" "^\./usr/lib/.*libdelam\.so\.$ABI\$"
+holds "libdelam$ABI" '/LICENSE$'
+lacks "libdelam$ABI" '\.h$|\.hpp$|\.py$|/bin/|\.a$'
+depends "libdelam$ABI" libcholmod
+holds libdelam-dev '^\./usr/include/delam/delam\.h$'
+holds libdelam-dev 'cmake/delam/delam-config\.cmake$'
+holds libdelam-dev 'pkgconfig/delam\.pc$'
+holds libdelam-dev 'share/delam/fortran/delam\.f90$'
+holds libdelam-dev 'libdelam\.so$'
+lacks libdelam-dev 'libdelam\.so\.|/bin/'
+depends libdelam-dev "libdelam$ABI (= $VERSION)"
+if has cpp; then
+    holds libdelam-dev '^\./usr/include/delam/delam\.hpp$'
+fi
+if has cli; then
+    holds delam '^\./usr/bin/delam$'
+    lacks delam '/include/|\.so'
+    depends delam "libdelam$ABI"
+    "$work/root/usr/bin/delam" --version
+fi
+library=$(find "$work/root/usr/lib" -name "libdelam.so.$ABI")
+if readelf -S "$library" | grep -q '\.debug_info'; then
+    fail "the library in the package has debug information"
+fi
+STAGE=$work/root
+cd "$work"
+quietly "$CC" -std=c99 -I"$work/root/usr/include" "$SOURCE/examples/enf/enf.c" -o enf_c "$library" \
+    "-Wl,-rpath,$(dirname "$library")"
+same_history ./enf_c
