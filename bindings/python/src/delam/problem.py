@@ -62,8 +62,8 @@ class Problem(Object):
     def __init__(self, mesh, plane=None, progress=None):
         context = Context()
         self._keep = []
-        self._make(context, _raw.delam_problem, library.delam_problem_destroy, library.delam_problem_create, context.handle,
-                   mesh._handle, keep=self._keep, other=mesh.context)
+        self._make(context, _raw.delam_problem, library.delam_problem_destroy, library.delam_problem_create,
+                   context.handle, mesh._handle, keep=self._keep, other=mesh.context)
         self.mesh = mesh
         self.dimension, self._node_count, self._cell_count = mesh._size()[:3]
         self._pair_counts = [interface.pair_count for interface in mesh.interfaces]

@@ -114,9 +114,9 @@ class Solver(Object):
         if not_converged not in ("warn", "raise", "ignore"):
             raise ArgumentError(f"not_converged = {not_converged!r}, expected 'warn', 'raise' or 'ignore'")
         self.not_converged = not_converged
-        outcome = self._make(problem.context, _raw.delam_solver, library.delam_solver_destroy, library.delam_solver_create,
-                             problem._handle, number("time", time), keep=tuple(problem._keep), long=True,
-                             outcomes=(_raw.DELAM_NOT_CONVERGED,))
+        outcome = self._make(problem.context, _raw.delam_solver, library.delam_solver_destroy,
+                             library.delam_solver_create, problem._handle, number("time", time),
+                             keep=problem._keep, long=True, outcomes=(_raw.DELAM_NOT_CONVERGED,))
         self.problem = problem
         self.pending = False
         count = ctypes.c_int64()
