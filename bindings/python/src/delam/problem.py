@@ -17,7 +17,8 @@ from .options import Options, initial_values
 
 
 class Sparse(NamedTuple):
-    """A matrix by rows: the entries of row i are row_starts[i] .. row_starts[i+1]-1 of columns and values."""
+    """A matrix by rows: the entries of row i are row_starts[i] .. row_starts[i+1]-1 of columns and values. For SciPy:
+    csr_matrix((m.values, m.columns, m.row_starts), m.shape)."""
 
     shape: tuple
     row_starts: np.ndarray
@@ -29,12 +30,6 @@ class Sparse(NamedTuple):
         rows = np.repeat(np.arange(self.shape[0]), np.diff(self.row_starts))
         np.add.at(out, (rows, self.columns), self.values)
         return out
-
-    def toscipy(self):
-        """A scipy.sparse.csr_matrix over the same arrays."""
-        from scipy.sparse import csr_matrix
-        return csr_matrix((self.values, self.columns, self.row_starts), shape=self.shape)
-
 
 class Pattern:
     """A load pattern of a problem; stands for its index wherever one is asked for."""
