@@ -7,11 +7,13 @@ import sys
 import threading
 import time
 import unittest
+from unittest import mock
 
 import support
 import numpy as np
 
 import delam
+from delam._library import library
 
 
 def at_poll(number, action):
@@ -90,6 +92,20 @@ class Interrupts(unittest.TestCase):
             solver.advance(0.6)
             solver.commit()
             self.assertEqual(solver.save(), self.after)
+
+    def test_control_c_when_all_is_done_already(self):
+        for name, make in (("delam_solver_advance", lambda: self.solver.advance(0.6)),
+                           ("delam_solver_create", lambda: delam.Solver(self.problem))):
+            function = getattr(library, name)
+
+            def late(*arguments):
+                status = function(*arguments)
+                signal.raise_signal(signal.SIGINT)
+                return status
+
+            with mock.patch.object(library, name, late), self.assertRaises(KeyboardInterrupt):
+                make()
+            self.assertEqual(self.solver.time, 0.4)
 
     def test_control_c_in_a_march(self):
         self.problem.progress = at_poll(3, lambda: signal.raise_signal(signal.SIGINT))
@@ -213,6 +229,25 @@ class Laws(unittest.TestCase):
             self.assertEqual(solver.save(), before)
         solver.advance(0.6)
         solver.commit()
+
+    def test_the_step_ends_at_once(self):
+        calls, raised = [], []
+
+        def progress(stage, done, total):
+            if stage == "minimise":
+                raised.append(len(calls))
+                raise LookupError
+
+        problem = self.scene(calls.append)
+        solver = delam.Solver(problem)
+        problem.progress = progress
+        calls.clear()
+        with self.assertRaises(LookupError):
+            solver.advance(1.0)
+        self.assertEqual(raised, [len(calls)])
+        problem.progress = None
+        solver.advance(1.0)
+        self.assertGreater(len(calls), 2 * raised[0] + 50)
 
     def test_control_c_inside_a_law(self):
         armed = []

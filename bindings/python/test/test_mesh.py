@@ -45,6 +45,11 @@ class Arrays(unittest.TestCase):
             mesh = delam.Mesh(SQUARES)
             mesh.add_cells("quad4", cells)
             np.testing.assert_array_equal(mesh.cells.connectivity, [0, 1, 2, 3])
+        both = np.array([[0, 1, 2, 3], [3, 2, 4, 5]])
+        for cells in (np.asfortranarray(both), np.repeat(both, 2, 0)[::2], both[:, ::-1].copy()[:, ::-1]):
+            mesh = delam.Mesh(SQUARES)
+            mesh.add_cells("quad4", cells)
+            np.testing.assert_array_equal(mesh.cells.of("quad4"), both)
 
     def test_the_gate_names_the_argument(self):
         mesh = delam.Mesh(SQUARES)

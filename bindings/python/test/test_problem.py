@@ -43,6 +43,93 @@ class Options(unittest.TestCase):
             self.assertEqual(dict(options), before)
 
 
+def grid(columns, rows, extra=()):
+    """Quadrilaterals over the unit square, and nodes without cells behind the others."""
+    x, y = np.meshgrid(np.linspace(0, 1, columns + 1), np.linspace(0, 1, rows + 1))
+    nodes = np.vstack([np.column_stack([x.ravel(), y.ravel()]), np.reshape(extra, (-1, 2))])
+    corner = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
+    mesh = delam.Mesh(nodes)
+    mesh.add_cells("quad4", corner[:, None] + np.array([0, 1, columns + 2, columns + 1]))
+    return mesh
+
+
+class Materials(unittest.TestCase):
+    YOUNG, POISSON = 3.0, 0.25
+
+    def stiffness(self, material):
+        """Homogenised stiffness (xx, yy) of a periodic square, by the tangent of its control nodes' patterns."""
+        mesh = grid(3, 2, [[2, 0], [0, 2]])
+        first, second = 12, 13
+        problem = delam.Problem(mesh, plane="plane-stress")
+        material(problem)
+        problem.add_periodic(np.eye(2), [first, second])
+        problem.prescribe(0, "x")
+        problem.prescribe(0, "y")
+        problem.prescribe(first, "x", problem.add_pattern("xx", [0, 1], [0, 1]))
+        problem.prescribe(second, "y", problem.add_pattern("yy", [0, 1], [0, 1]))
+        problem.prescribe(first, "y")
+        problem.prescribe(second, "x")
+        return delam.Solver(problem).tangent()
+
+    def test_periodic_square_has_the_elasticity_of_its_material(self):
+        modulus = self.YOUNG / (1 - self.POISSON ** 2)
+        found = self.stiffness(lambda problem: problem.set_elastic(self.YOUNG, self.POISSON))
+        np.testing.assert_allclose(found, modulus * np.array([[1, self.POISSON], [self.POISSON, 1]]), rtol=1e-9)
+
+    def test_orthotropic_and_its_orientation(self):
+        shear = self.YOUNG / 2 / (1 + self.POISSON)
+        constants = [self.YOUNG] * 3 + [self.POISSON] * 3 + [shear] * 3
+        same = self.stiffness(lambda problem: problem.set_orthotropic(constants))
+        isotropic = self.stiffness(lambda problem: problem.set_elastic(self.YOUNG, self.POISSON))
+        np.testing.assert_allclose(same, isotropic, rtol=1e-9)
+
+        def along_y(problem, **cells):
+            problem.set_orthotropic([10.0, 1.0, 1.0, 0.3, 0.3, 0.3, 1.0, 1.0, 1.0])
+            problem.set_orientation([[0, 1, 0], [-1, 0, 0]], **cells)
+
+        straight = self.stiffness(lambda problem: problem.set_orthotropic([10.0, 1.0, 1.0, 0.3, 0.3, 0.3, 1.0, 1.0,
+                                                                           1.0]))
+        turned = self.stiffness(along_y)
+        np.testing.assert_allclose(turned, straight[::-1, ::-1], rtol=1e-9)
+        np.testing.assert_allclose(self.stiffness(lambda problem: along_y(problem, cells=range(6))), turned, rtol=1e-9)
+        with self.assertRaisesRegex(delam.ArgumentError, r"constants has shape \(3,\), expected \(9,\)"):
+            self.stiffness(lambda problem: problem.set_orthotropic([1, 2, 3]))
+
+    def test_plane(self):
+        problem = delam.Problem(grid(1, 1))
+        problem.set_plane("plane-stress")
+        with self.assertRaisesRegex(delam.ArgumentError, "known are plane-strain, plane-stress"):
+            problem.set_plane("flat")
+
+
+class Interfaces(unittest.TestCase):
+    def reaction(self, how, sign):
+        mesh = delam.Mesh.layers(1.0, 2, [1.0, 1.0], [1, 1])
+        interface = mesh.add_interface(0, 1)
+        problem = delam.Problem(mesh)
+        problem.set_elastic(1e3, 0.3)
+        how(problem, interface)
+        low, high = mesh.find_nodes((0, 0), (1, 0)), mesh.find_nodes((0, 2), (1, 2))
+        for axis in "xy":
+            problem.prescribe(low, axis)
+        problem.prescribe(high, "x")
+        problem.prescribe(high, "y", problem.add_pattern("pull", [0, 1], [0, sign * 1e-3]))
+        solver = delam.Solver(problem)
+        solver.advance(1.0)
+        return solver.values["reaction:pull"]
+
+    def test_bonded_contact_and_law(self):
+        bonded, contact = delam.Problem.set_bonded, delam.Problem.set_contact
+        self.assertAlmostEqual(self.reaction(bonded, 1), -self.reaction(bonded, -1), delta=1e-9)
+        self.assertAlmostEqual(self.reaction(contact, 1), 0.0, delta=1e-12)
+        self.assertAlmostEqual(self.reaction(contact, -1), self.reaction(bonded, -1), delta=1e-3)
+
+    def test_process_zone(self):
+        length, spacing = support.double_cantilever().process_zone(0)
+        self.assertAlmostEqual(spacing, 0.1 / 51, delta=1e-4)
+        self.assertGreater(length, 0.0)
+
+
 class Scene(unittest.TestCase):
     def test_adhesion_by_mask_and_by_index(self):
         hashes = set()

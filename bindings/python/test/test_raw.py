@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The raw layer is what the generator makes of the header, and what the loaded functions are given."""
 import pathlib
+import re
 import sys
 import unittest
 
@@ -39,6 +40,13 @@ class Bound(unittest.TestCase):
             function = getattr(library, name)
             self.assertIs(function.restype, result, name)
             self.assertEqual(function.argtypes, [kind for _, kind in arguments], name)
+
+    def test_the_package_reaches_every_function(self):
+        from delam import _raw
+        sources = [path.read_text(encoding="utf-8") for path in check_raw.RAW.parent.glob("*.py")
+                   if path != check_raw.RAW]
+        for name in _raw.FUNCTIONS:
+            self.assertTrue(any(re.search(rf"\b{name}\b", text) for text in sources), name)
 
     def test_a_library_that_lacks_functions_is_told(self):
         from delam import _raw

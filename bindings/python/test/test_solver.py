@@ -72,6 +72,19 @@ class Steps(unittest.TestCase):
         self.assertFalse(self.solver.pending)
         self.assertAlmostEqual(self.solver.time, 0.4)
 
+    def test_looking_back(self):
+        self.problem.options["backtracking"] = "on"
+        solver = delam.Solver(self.problem)
+        history = solver.history([0.2, 0.4, 0.6])
+        with solver.looking(1):
+            self.assertEqual(solver.time, 0.2)
+        self.assertEqual(solver.time, 0.6)
+        solver.look(2)
+        self.assertEqual(solver.values["reaction:opening"], history["reaction:opening"][2])
+        solver.look(-1)
+        with self.assertRaises(delam.ArgumentError):
+            solver.look(7)
+
     def test_history(self):
         history = self.solver.history(np.linspace(0.1, 1.0, 10))
         self.assertEqual(len(history), 11)
@@ -81,6 +94,7 @@ class Steps(unittest.TestCase):
                                    history["stored_bulk"] + history["stored_interface"] + history["dissipated"],
                                    rtol=0.05)
         self.assertEqual(history.row(3)["time"], history["time"][3])
+        self.assertEqual(list(dict(history)), list(history.keys()))
         self.assertNotIn("rotation_max", history)
         with self.assertRaises(KeyError):
             history["rotation_max"]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Threads: distinct problems side by side, one problem in turns."""
+import sys
 import threading
 import unittest
 from concurrent.futures import ThreadPoolExecutor
@@ -25,6 +26,34 @@ class Threads(unittest.TestCase):
             np.testing.assert_array_equal(result, march(size))
 
     def test_the_interpreter_is_free_during_a_call(self):
+        """A thread that is told that a call begins gets its turn while that lasts, in time to stop it. The interpreter
+        itself takes no turns meanwhile, so it must be the call that gives it free."""
+        mesh = delam.Mesh.layers(0.12, 1200, [3e-3, 3e-3], [30, 30])
+        mesh.add_interface(0, 1)
+        problem = delam.Problem(mesh)
+        problem.set_elastic(75e9, 0.3)
+        problem.set_law(0, support.bilinear())
+        problem.prescribe(mesh.find_nodes((0, 0), (0, 6e-3)), "x")
+        problem.prescribe(mesh.find_nodes((0, 0), (0, 6e-3)), "y")
+        begins = threading.Event()
+
+        def stop():
+            begins.wait()
+            problem.cancel()
+
+        interval = sys.getswitchinterval()
+        thread = threading.Thread(target=stop)
+        thread.start()
+        sys.setswitchinterval(1000.0)
+        try:
+            begins.set()
+            with self.assertRaises(delam.Cancelled):
+                delam.Solver(problem)
+        finally:
+            sys.setswitchinterval(interval)
+            thread.join()
+
+    def test_calls_side_by_side(self):
         """Two marches, each of which waits inside a call until the other is inside one too."""
         meeting = threading.Barrier(2, timeout=60)
         met = []

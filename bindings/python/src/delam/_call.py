@@ -120,16 +120,17 @@ class Context:
         """Ask the running call to stop at its next check; from any thread."""
         library.delam_context_cancel(self.handle)
 
-    def call(self, function, *arguments, other=None, long=False, outcomes=()):
+    def call(self, function, *arguments, other=None, whole=False, long=False, outcomes=()):
         """Calls a function of the library and raises what went wrong.
 
         other     a further context that is used
-        long      Ctrl-C and progress are looked after
+        whole     Ctrl-C waits for the end of the function, which may be Python's own
+        long      so it does, but asks the library to stop; progress is told
         outcomes  statuses > 0 that are given back instead of being raised
         Returns (status, message).
         """
         call = Call(self)
-        status, message = self._locked(call, other, self._checked, call, function, arguments, long)
+        status, message = self._locked(call, other, self._checked, call, function, arguments, whole, long)
         for level, line in call.lines:
             text = line.decode(errors="replace")
             # An error's text, and an outcome's, go with the exception or warning.
@@ -150,8 +151,8 @@ class Context:
         value = self._locked(Call(self), None, function, *arguments)
         return None if value is None else value.decode(errors="replace")
 
-    def _checked(self, call, function, arguments, long):
-        interrupt = Interrupt(call) if long or self.hosted else None
+    def _checked(self, call, function, arguments, whole, long):
+        interrupt = Interrupt(call) if whole or long or self.hosted else None
         if interrupt is not None:
             interrupt.begin()
         try:

@@ -24,10 +24,8 @@ class DelamError(Exception):
 
     @property
     def name(self):
-        for name, value in vars(_raw).items():
-            if name.startswith(("DELAM_ERROR", "DELAM_NOT", "DELAM_CANCELLED", "DELAM_LIMIT")) and value == self.status:
-                return name
-        return f"status {self.status}"
+        from ._library import library
+        return library.delam_status_name(self.status).decode()
 
 
 class ArgumentError(DelamError, ValueError):

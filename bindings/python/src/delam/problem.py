@@ -17,7 +17,8 @@ from .options import Options, initial_values
 
 
 class Sparse(NamedTuple):
-    """A matrix by rows: the entries of row i are row_starts[i] .. row_starts[i+1]-1 of columns and values."""
+    """A matrix by rows: the entries of row i are row_starts[i] .. row_starts[i+1]-1 of columns and values. For SciPy:
+    csr_matrix((m.values, m.columns, m.row_starts), m.shape)."""
 
     shape: tuple
     row_starts: np.ndarray
@@ -29,12 +30,6 @@ class Sparse(NamedTuple):
         rows = np.repeat(np.arange(self.shape[0]), np.diff(self.row_starts))
         np.add.at(out, (rows, self.columns), self.values)
         return out
-
-    def toscipy(self):
-        """A scipy.sparse.csr_matrix over the same arrays."""
-        from scipy.sparse import csr_matrix
-        return csr_matrix((self.values, self.columns, self.row_starts), shape=self.shape)
-
 
 class Pattern:
     """A load pattern of a problem; stands for its index wherever one is asked for."""
@@ -62,8 +57,8 @@ class Problem(Object):
     def __init__(self, mesh, plane=None, progress=None):
         context = Context()
         self._keep = []
-        self._make(context, _raw.delam_problem, library.delam_problem_destroy, library.delam_problem_create, context.handle,
-                   mesh._handle, keep=self._keep, other=mesh.context)
+        self._make(context, _raw.delam_problem, library.delam_problem_destroy, library.delam_problem_create,
+                   context.handle, mesh._handle, keep=self._keep, other=mesh.context)
         self.mesh = mesh
         self.dimension, self._node_count, self._cell_count = mesh._size()[:3]
         self._pair_counts = [interface.pair_count for interface in mesh.interfaces]

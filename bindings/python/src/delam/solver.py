@@ -12,7 +12,7 @@ from . import _raw
 from ._arrays import floats, pointer
 from ._call import Object, integer, number, text
 from ._library import library
-from .errors import ArgumentError, NotConverged, NotConvergedWarning, StateError
+from .errors import ArgumentError, NotConverged, NotConvergedWarning
 from .history import History, steps_of
 from .mesh import body_label
 from .options import unknown
@@ -114,9 +114,9 @@ class Solver(Object):
         if not_converged not in ("warn", "raise", "ignore"):
             raise ArgumentError(f"not_converged = {not_converged!r}, expected 'warn', 'raise' or 'ignore'")
         self.not_converged = not_converged
-        outcome = self._make(problem.context, _raw.delam_solver, library.delam_solver_destroy, library.delam_solver_create,
-                             problem._handle, number("time", time), keep=tuple(problem._keep), long=True,
-                             outcomes=(_raw.DELAM_NOT_CONVERGED,))
+        outcome = self._make(problem.context, _raw.delam_solver, library.delam_solver_destroy,
+                             library.delam_solver_create, problem._handle, number("time", time),
+                             keep=problem._keep, long=True, outcomes=(_raw.DELAM_NOT_CONVERGED,))
         self.problem = problem
         self.pending = False
         count = ctypes.c_int64()
@@ -127,9 +127,6 @@ class Solver(Object):
 
     def _call(self, function, *arguments):
         self.context.call(function, self._handle, *arguments)
-
-    def _long(self, function, *arguments):
-        return self.context.call(function, self._handle, *arguments, long=True, outcomes=(_raw.DELAM_NOT_CONVERGED,))
 
     def _outcome(self, outcome, level):
         status, message = outcome
@@ -151,16 +148,26 @@ class Solver(Object):
 
     # ---- steps
 
+    def _leaves(self, pending, function, *arguments, long=True):
+        """Calls a function that makes a step pending, or none; `pending` is true to that whenever Ctrl-C comes."""
+        handle = self._handle
+
+        def call():
+            status = function(handle, *arguments)
+            if status in (_raw.DELAM_OK, _raw.DELAM_NOT_CONVERGED):
+                self.pending = pending
+            return status
+
+        return self.context.call(call, whole=True, long=long, outcomes=(_raw.DELAM_NOT_CONVERGED,))
+
     def _step(self, function, *arguments):
-        already, self.pending = self.pending, True
+        already = self.pending
         try:
-            outcome = self._long(function, *arguments)
+            outcome = self._leaves(True, function, *arguments)
         except BaseException:
-            # Ctrl-C may also come when the step is done: none must be left that nobody knows of.
-            if not already:
-                with contextlib.suppress(StateError):
-                    self._call(library.delam_solver_rollback)
-            self.pending = already
+            # The step was done when the interruption was seen.
+            if self.pending and not already:
+                self.rollback()
             raise
         self._outcome(outcome, 4)
 
@@ -176,13 +183,11 @@ class Solver(Object):
         self._step(library.delam_solver_equilibrate, number("time", time), pointer(adhesion))
 
     def commit(self):
-        self._call(library.delam_solver_commit)
-        self.pending = False
+        self._leaves(False, library.delam_solver_commit, long=False)
 
     def rollback(self):
         """The state before the pending step, bit for bit."""
-        self._call(library.delam_solver_rollback)
-        self.pending = False
+        self._leaves(False, library.delam_solver_rollback, long=False)
 
     def march(self, times, values=None, progress=False):
         """Advances and commits, time after time; yields a dict of values after each step.
@@ -250,8 +255,7 @@ class Solver(Object):
             state = np.frombuffer(state, np.uint8)
         except (TypeError, ValueError) as error:
             raise ArgumentError(f"state: {error}") from None
-        self._long(library.delam_solver_load, state.size, pointer(state))
-        self.pending = False
+        self._leaves(False, library.delam_solver_load, state.size, pointer(state))
 
     # ---- fields
 
@@ -292,7 +296,7 @@ class Solver(Object):
     def tangent(self):
         """[patterns][patterns]: change of reactions with factors at the adhesion and contact held; symmetric."""
         out = np.empty((len(self.problem.patterns),) * 2)
-        self._long(library.delam_solver_tangent, out.size, pointer(out))
+        self.context.call(library.delam_solver_tangent, self._handle, out.size, pointer(out), long=True)
         return out
 
     # ---- what was done
