@@ -13,7 +13,7 @@ endif()
 
 set(CPACK_PACKAGE_NAME delam)
 # Whoever hands packages on puts an address of theirs here.
-set(DELAM_PACKAGER "libdelam maintainers <maintainers@libdelam.invalid>" CACHE STRING "maintainer in the Debian packages")
+set(DELAM_PACKAGER "libdelam maintainers <maintainers@libdelam.invalid>" CACHE STRING "maintainer of the packages")
 set(CPACK_PACKAGE_CONTACT ${DELAM_PACKAGER})
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
