@@ -13,7 +13,7 @@ endif()
 
 set(CPACK_PACKAGE_NAME delam)
 # Whoever hands packages on puts an address of theirs here.
-set(DELAM_PACKAGER "libdelam maintainers <maintainers@libdelam.invalid>" CACHE STRING "maintainer in the Debian packages")
+set(DELAM_PACKAGER "libdelam maintainers <maintainers@libdelam.invalid>" CACHE STRING "maintainer of the packages")
 set(CPACK_PACKAGE_CONTACT ${DELAM_PACKAGER})
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
@@ -26,6 +26,9 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+# The program's own library is in another of these packages.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libdelam${DELAM_ABI} (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libdelam${DELAM_ABI})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_HEADERS_PACKAGE_NAME libdelam-dev)

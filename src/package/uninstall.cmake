@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# cmake -DBUILD=FOLDER -P uninstall.cmake: removes what the install manifests of a build folder list (below DESTDIR, if set), the folders
-# named delam that are empty then, and the manifests.
+# cmake -DBUILD=FOLDER -P uninstall.cmake: removes what the install manifests of a build folder list (below DESTDIR, if
+# set), the folders named delam that are empty then, and the manifests.
 cmake_minimum_required(VERSION 3.25)
 file(GLOB manifests ${BUILD}/install_manifest*.txt)
 if(NOT manifests)

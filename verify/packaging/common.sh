@@ -6,7 +6,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 fail() {
-    printf '%s\n' "$*"
+    printf '%s\n' "$*" >&2
     exit 1
 }
 
@@ -22,7 +22,7 @@ has() {
 # quietly COMMAND...: its output only when it fails.
 quietly() {
     "$@" >"$work/log" 2>&1 || {
-        cat "$work/log"
+        cat "$work/log" >&2
         fail "failed: $*"
     }
 }

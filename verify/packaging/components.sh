@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Each component by itself has what it is for and no more; together they are the whole installation.
+# shellcheck source=verify/packaging/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 keep_manifests
 
@@ -25,7 +26,8 @@ only() {
 }
 
 only runtime 'lib/libdelam\.so\.[0-9.]+|share/doc/.*' "lib/libdelam.so.$ABI" "lib/libdelam.so.$VERSION"
-only development 'lib/libdelam\.so|include/delam/[a-z_]+\.h|lib/cmake/delam/delam-(config|targets).*\.cmake|lib/pkgconfig/delam\.pc' \
+headers='include/delam/[a-z_]+\.h'
+only development "lib/libdelam\.so|$headers|lib/cmake/delam/delam-(config|targets).*\.cmake|lib/pkgconfig/delam\.pc" \
     lib/libdelam.so include/delam/delam.h lib/cmake/delam/delam-config.cmake lib/pkgconfig/delam.pc
 if has cli; then
     only cli 'bin/delam|share/delam/[a-z_]+\.py' bin/delam share/delam/plot.py
@@ -34,7 +36,8 @@ if has cpp; then
     only cpp 'include/delam/delam\.hpp|lib/cmake/delam/delam-cpp.*\.cmake' include/delam/delam.hpp
 fi
 if has fortran; then
-    only fortran 'share/delam/fortran/.*\.f90|include/delam/fortran/.*\.mod|lib/libdelam_fortran\.a|lib/cmake/delam/delam-fortran.*\.cmake' \
+    built='include/delam/fortran/.*\.mod|lib/libdelam_fortran\.a|lib/cmake/delam/delam-fortran.*\.cmake'
+    only fortran "share/delam/fortran/.*\.f90|$built" \
         share/delam/fortran/delam.f90 share/delam/fortran/delam_raw.f90 lib/libdelam_fortran.a
 else
     # The sources serve compilers that were not there when the library was built.

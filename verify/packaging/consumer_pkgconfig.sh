@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Hosts find the installation with pkg-config; the one in Fortran compiles the installed sources of the module.
+# shellcheck source=verify/packaging/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 PKG_CONFIG_PATH=$(dirname "$(find "$STAGE" -name delam.pc)")
 export PKG_CONFIG_PATH
-[[ $(pkg-config --modversion delam) == "$VERSION" ]] || fail "delam.pc has version $(pkg-config --modversion delam), expected $VERSION"
+found=$(pkg-config --modversion delam)
+[[ $found == "$VERSION" ]] || fail "delam.pc has version $found, expected $VERSION"
 read -ra flags <<<"$(pkg-config --cflags delam)"
 read -ra links <<<"$(pkg-config --libs delam) -Wl,-rpath,$(pkg-config --variable=libdir delam)"
-cd "$work"
+cd "$work" || exit
 
 quietly "$CC" -std=c99 "${flags[@]}" "$SOURCE/examples/enf/enf.c" -o enf_c "${links[@]}"
 same_history ./enf_c
@@ -18,7 +20,8 @@ fi
 fortran=$(pkg-config --variable=fortrandir delam)
 [[ -f $fortran/delam.f90 ]] || fail "no $fortran/delam.f90"
 if [[ -n ${FC:-} ]]; then
-    quietly "$FC" "$fortran/delam_raw.f90" "$fortran/delam.f90" "$SOURCE/examples/enf/enf.f90" -o enf_fortran "${links[@]}"
+    quietly "$FC" "$fortran/delam_raw.f90" "$fortran/delam.f90" "$SOURCE/examples/enf/enf.f90" -o enf_fortran \
+        "${links[@]}"
     same_history ./enf_fortran
 else
     printf 'the host in Fortran was left out: no Fortran compiler was found\n'

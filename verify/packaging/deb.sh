@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # The Debian packages hold what they should, depend on what they need, and work unpacked.
+# shellcheck source=verify/packaging/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 for tool in dpkg-deb dpkg-shlibdeps; do
     command -v $tool >/dev/null || skip "$tool is not installed"
@@ -30,7 +31,9 @@ lacks() {
     fi
 }
 depends() {
-    dpkg-deb --field "$(find "$work/out" -maxdepth 1 -name "${1}_${VERSION}*.deb")" Depends | grep -q "$2" || fail "$1 does not depend on $2"
+    local file
+    file=$(find "$work/out" -maxdepth 1 -name "${1}_${VERSION}*.deb")
+    dpkg-deb --field "$file" Depends | grep -q "$2" || fail "$1 does not depend on $2"
 }
 holds "libdelam$ABI" "^\./usr/lib/.*libdelam\.so\.$ABI\$"
 holds "libdelam$ABI" '/LICENSE$'
@@ -56,8 +59,9 @@ library=$(find "$work/root/usr/lib" -name "libdelam.so.$ABI")
 if readelf -S "$library" | grep -q '\.debug_info'; then
     fail "the library in the package has debug information"
 fi
-STAGE=$work/root
-cd "$work"
+# The history below must come from this library.
+export STAGE=$work/root
+cd "$work" || exit
 quietly "$CC" -std=c99 -I"$work/root/usr/include" "$SOURCE/examples/enf/enf.c" -o enf_c "$library" \
     "-Wl,-rpath,$(dirname "$library")"
 same_history ./enf_c

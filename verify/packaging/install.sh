@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs the build folder into a temporary prefix and moves it: nothing there may remember where it was made.
+# shellcheck source=verify/packaging/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 keep_manifests
 rm -rf "$STAGE" "$STAGE.first"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # The target `uninstall` removes what was installed and leaves what was there before.
+# shellcheck source=verify/packaging/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 keep_manifests
 mkdir -p "$work/prefix/lib" "$work/prefix/share/delam" "$work/destination"

@@ -132,6 +132,17 @@ void test_errors() {
     expect(other.size().nodes == 4, "a mesh moves");
 }
 
+void test_descriptions() {
+    bool found = false;
+    for (const auto& option : delam::options())
+        found = found || (option.key == "solution" && !option.meaning.empty());
+    expect(found, "options are described");
+    found = false;
+    for (const auto& one : delam::law_parameters("tabulated"))
+        found = found || (one.key == "normal_onset" && one.type == "real");
+    expect(found && delam::law_parameters("no-such-law").empty(), "parameters are described");
+}
+
 void test_law() {
     const delam::Context context;
     bool failing = false;
@@ -247,6 +258,7 @@ void test_callbacks() {
 int main() {
     expect(delam_abi() == DELAM_ABI && !delam::version().empty(), "the library has the interface of the header");
     test_errors();
+    test_descriptions();
     test_law();
     test_solver();
     test_callbacks();

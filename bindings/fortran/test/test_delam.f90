@@ -170,6 +170,27 @@ contains
     call expect(status == DELAM_ERROR_ARGUMENT, 'three nodes are no quadrilateral')
   end subroutine test_errors
 
+  ! What there is to set, in words.
+  subroutine test_descriptions()
+    character(:), allocatable :: key, meaning, type, none
+    integer :: i
+    logical :: found
+    found = .false.
+    do i = 1, int(delam_option_count())
+      call delam_describe_option(i, key, meaning=meaning)
+      found = found .or. (key == 'solution' .and. len(meaning) > 0)
+    end do
+    call expect(found, 'options are described')
+    call delam_describe_option(0, key=none)
+    call expect(none == '', 'no option 0')
+    found = .false.
+    do i = 1, delam_parameter_count('tabulated')
+      call delam_describe_parameter('tabulated', i, key=key, type=type)
+      found = found .or. (key == 'normal_onset' .and. type == 'real')
+    end do
+    call expect(found .and. delam_parameter_count('no-such-law') == 0, 'parameters are described')
+  end subroutine test_descriptions
+
   ! Two squares beside each other, a body each, joined by an interface of two pairs.
   subroutine test_mesh()
     type(delam_context) :: context
@@ -419,6 +440,7 @@ program test_delam
   call expect(delam_abi() == DELAM_HEADER_ABI, 'the library has the interface of the header')
   call expect(index(delam_version_text(), '.') > 0, 'a version')
   call test_errors()
+  call test_descriptions()
   call test_mesh()
   call test_host_law()
   call test_solver()
