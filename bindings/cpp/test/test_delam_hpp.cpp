@@ -143,6 +143,99 @@ void test_descriptions() {
     expect(found && delam::law_parameters("no-such-law").empty(), "parameters are described");
 }
 
+// Two squares beside each other with an interface of two pairs, and two nodes without cells.
+delam::Mesh make_squares(const delam::Context& context) {
+    delam::Mesh mesh(context, 2, {0., 0., 1., 0., 0., 1., 1., 1., 1., 0., 2., 0., 1., 1., 2., 1., 9., 9., 9., 8.});
+    mesh.add_cells(DELAM_QUAD4, {0, 1, 3, 2, 4, 5, 7, 6}, {0, 1});
+    mesh.add_interface(0, 1);
+    return mesh;
+}
+
+void test_mesh() {
+    using Indices = std::vector<std::int64_t>;
+    const delam::Context context;
+    auto mesh = make_squares(context);
+    const auto size = mesh.size();
+    expect(size.dimension == 2 && size.nodes == 10 && size.cells == 2 && size.bodies == 2 && size.interfaces == 1,
+           "sizes");
+    expect(mesh.nodes()[10] == 2.0 && mesh.node_bodies()[7] == 1 && mesh.node_bodies()[9] == -1, "nodes");
+    const auto cells = mesh.cells();
+    expect(cells.offsets == Indices{0, 4, 8} && cells.connectivity == Indices{0, 1, 3, 2, 4, 5, 7, 6}, "cells");
+    expect(
+        cells.types == std::vector<std::int32_t>(2, DELAM_QUAD4) && cells.bodies == std::vector<std::int32_t>{0, 1},
+        "types");
+    const auto of = mesh.interface_size(0);
+    expect(of.body_a == 0 && of.body_b == 1 && of.pairs == 2 && of.faces == 1 && of.nodes_per_face == 2,
+           "an interface");
+    const auto pairs = mesh.interface_pairs(0);
+    expect(pairs.nodes_a == Indices{1, 3} && pairs.nodes_b == Indices{4, 6} && pairs.frames[0] == 1.0, "pairs");
+    expect(mesh.interface_faces(0).size() == 2 && std::abs(pairs.weights[0] - 0.5) < 1e-14, "faces and weights");
+    const auto patch = mesh.find_patch(0, {0.0, 0.0}, {0.5, 0.0}, {0.0, -1.0});
+    expect(patch.nodes == Indices{0, 1} && std::abs(patch.weights[0] + patch.weights[1] - 0.5) < 1e-14, "a patch");
+    expect(mesh.add_obstacle({0, 1}, {0.0, 1.0, 0.0, 1.0}, 9) == 1, "an obstacle");
+    expect(mesh.interface_size(1).body_a == -1 && mesh.interface_pairs(1).nodes_b == Indices{0, 1}, "its pairs");
+
+    // One cell below two, whose middle node at the bottom lies on the first one's edge.
+    delam::Mesh stack(context, 2, {0., 0., 2., 0., 0., 1., 2., 1., 0., 1., 1., 1., 2., 1., 0., 2., 1., 2., 2., 2.});
+    stack.add_cells(DELAM_QUAD4, {0, 1, 3, 2, 4, 5, 8, 7, 5, 6, 9, 8}, {0, 1, 1});
+    expect(stack.add_projected_interface(0, 1) == 0, "a projected interface");
+    const auto ties = stack.node_ties();
+    expect(!ties.nodes.empty() && ties.nodes.front() == 10 && ties.starts.size() == ties.nodes.size() + 1, "ties");
+    expect(ties.starts.back() == static_cast<std::int64_t>(ties.of.size()) && ties.weights.size() == ties.of.size(),
+           "entries");
+
+    delam::Mesh touching(context, 2, {0., 0., 1., 0., 2., 0., 0., 1., 1., 1., 2., 1.});
+    touching.add_conforming_cells(DELAM_QUAD4, {0, 1, 4, 3, 1, 2, 5, 4}, {3, 7});
+    expect(touching.add_all_interfaces() == 1 && touching.node_origins() == Indices{0, 1, 2, 3, 4, 5, 1, 4},
+           "doubled nodes");
+}
+
+void test_problem() {
+    const delam::Context context;
+    auto mesh = make_squares(context);
+    delam::Problem problem(context, mesh);
+    problem.set_plane("plane-stress");
+    problem.set_elastic(-1, 1.0, 0.3);
+    problem.set_orthotropic(1, {3.0, 1.0, 1.0, 0.2, 0.2, 0.2, 0.5, 0.5, 0.5});
+    problem.set_orientation(1, {1}, {0.0, 1.0, 0.0, 1.0, 0.0, 0.0});
+    problem.set_orientation(1, {0.0, 1.0, 0.0, 1.0, 0.0, 0.0});
+    problem.set_formulation(0, "incompatible");
+    problem.set_bonded(0);
+    problem.set_contact(0);
+    problem.set_law(0, make_law(context, false));
+    problem.set_adhesion(0, {1}, {0.5});
+    expect(problem.process_zone(0).spacing > 0.0, "the distance of pairs");
+    const auto pull = problem.add_pattern("pull", {0.0}, {1.0});
+    const auto push = problem.add_pattern("push", {0.0, 1.0}, {0.0, 2.0});
+    const auto heat = problem.add_pattern("heat", {0.0}, {3.0});
+    expect(problem.pattern_count() == 3 && problem.pattern_name(heat) == "heat", "patterns");
+    expect(problem.factors(0.5) == std::vector<double>{1.0, 1.0, 3.0}, "factors");
+    problem.add_forces(push, {7}, {4.0, 5.0});
+    expect(problem.forces(push)[14] == 4.0 && problem.forces(push)[15] == 5.0, "forces of the last node");
+    problem.add_eigenstrain(heat, 1, {1e-3, 0.0, 0.0, 0.0, 0.0, 0.0});
+    expect(problem.eigenstrain_energy()[8] > 0.0, "energy of strains");
+    problem.prescribe_nodes({0, 9}, {0.0, 1.0});
+    problem.prescribe_nodes({9}, {1.0, 0.0}, {pull}, {7.0});
+    problem.prescribe_mean({8, 9}, {1.0, 3.0}, {1.0, 0.0}, {pull}, {2.0});
+    problem.add_equation({7, 9}, {0.0, 1.0, 1.0, 0.0}, {pull}, {6.0});
+    const auto all = problem.constraints();
+    expect(all.matrix.row_starts == std::vector<std::int64_t>{0, 1, 2, 3, 5, 7}, "rows of constraints");
+    expect(all.matrix.columns == std::vector<std::int64_t>{1, 19, 18, 16, 18, 15, 18}, "their DOFs");
+    expect(all.coefficients[6] == 7.0 && all.coefficients[9] == 2.0 && all.coefficients[12] == 6.0,
+           "what they prescribe");
+    const auto matrix = problem.body_matrix(0);
+    expect(
+        matrix.row_starts.size() == 9 && matrix.row_starts.back() == static_cast<std::int64_t>(matrix.values.size()),
+        "a body");
+    expect(problem.hash().size() == 16 && problem.dofs().dual == 4, "hash and DOFs");
+
+    delam::Mesh square(context, 2, {0., 0., 1., 0., 0., 1., 1., 1., 9., 9., 9., 8.});
+    square.add_cells(DELAM_QUAD4, {0, 1, 3, 2});
+    delam::Problem cell(context, square);
+    cell.add_periodic({1.0, 0.0, 0.0, 1.0}, {4, 5});
+    expect(cell.constraints().matrix.row_starts.size() > 1, "a periodic cell");
+}
+
 void test_law() {
     const delam::Context context;
     bool failing = false;
@@ -259,6 +352,8 @@ int main() {
     expect(delam_abi() == DELAM_ABI && !delam::version().empty(), "the library has the interface of the header");
     test_errors();
     test_descriptions();
+    test_mesh();
+    test_problem();
     test_law();
     test_solver();
     test_callbacks();

@@ -189,6 +189,8 @@ contains
       found = found .or. (key == 'normal_onset' .and. type == 'real')
     end do
     call expect(found .and. delam_parameter_count('no-such-law') == 0, 'parameters are described')
+    call delam_describe_parameter('tabulated', delam_parameter_count('tabulated'), key=key)
+    call expect(len(key) > 0, 'to the last')
   end subroutine test_descriptions
 
   ! Two squares beside each other, a body each, joined by an interface of two pairs.
@@ -231,7 +233,7 @@ contains
     found = mesh%find_nodes([1.0_dp, 0.0_dp], [1.0_dp, 0.0_dp], 3)
     call expect(size(found) == 1 .and. found(1) == 2, 'nodes of one body')
     call mesh%find_patch(3, [0.0_dp, 0.0_dp], [0.5_dp, 0.0_dp], [0.0_dp, -1.0_dp], found, weights)
-    call expect(abs(sum(weights) - 0.5_dp) < 1e-14_dp, 'a patch')
+    call expect(abs(sum(weights) - 0.5_dp) < 1e-14_dp .and. all(found == [1, 2]), 'a patch')
 
     wide = reshape([real(dp) :: 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1], [3, 8])
     spread_out = 7
@@ -241,6 +243,148 @@ contains
     call expect(all(solid%nodes() == wide), 'every other column')
     call expect(all(solid%node_bodies() == 0), 'absent bodies are all 0')
   end subroutine test_mesh
+
+  ! Two squares beside each other with an interface of two pairs, and two nodes without cells.
+  subroutine make_squares(mesh, context)
+    type(delam_mesh), intent(inout) :: mesh
+    type(delam_context), intent(in) :: context
+    call mesh%create(context, reshape([real(dp) :: 0, 0, 1, 0, 0, 1, 1, 1, 1, 0, 2, 0, 1, 1, 2, 1, 9, 9, 9, 8], &
+                                      [2, 10]))
+    call mesh%add_cells(DELAM_QUAD4, reshape([integer(delam_index) :: 1, 2, 4, 3, 5, 6, 8, 7], [4, 2]), [0, 1])
+    call mesh%add_interface(0, 1)
+  end subroutine make_squares
+
+  ! Whatever has an index takes the last one there is, which counted from 0 would be outside.
+  subroutine test_problem()
+    type(delam_context) :: context
+    type(delam_mesh) :: mesh
+    type(delam_law) :: law
+    type(delam_problem) :: problem
+    integer(delam_index) :: one, two, three
+    integer(delam_index), allocatable :: starts(:), columns(:)
+    real(dp), allocatable :: values(:), coefficients(:,:), forces(:), work(:,:)
+    real(dp) :: length
+    integer :: status
+    call context%create()
+    call make_squares(mesh, context)
+    call problem%create(context, mesh)
+    call problem%set_elastic(1.0_dp, 0.3_dp)
+    call problem%set_orthotropic([3.0_dp, 1.0_dp, 1.0_dp, 0.2_dp, 0.2_dp, 0.2_dp, 0.5_dp, 0.5_dp, 0.5_dp], 1)
+    call problem%set_orientation(reshape([real(dp) :: 0, 1, 0, 1, 0, 0], [3, 2, 1]), [2_delam_index], 1)
+    call problem%set_bonded(1)
+    call problem%set_contact(1)
+    call problem%set_contact(2, status)
+    call expect(status == DELAM_ERROR_ARGUMENT, 'there is no interface 2')
+    call law%create(context, 'griffith')
+    call law%set('normal_stiffness', 1.0_dp)
+    call law%set('tangential_stiffness', 1.0_dp)
+    call law%set('normal_toughness', 1.0_dp)
+    call law%set('tangential_toughness', 1.0_dp)
+    call problem%set_law(1, law)
+    call problem%set_adhesion(1, [1_delam_index, 2_delam_index], [0.5_dp, 1.0_dp])
+    call problem%process_zone(1, length)
+    call expect(length >= 0, 'a process zone')
+    call problem%add_pattern('pull', [0.0_dp], [1.0_dp], one)
+    call problem%add_pattern('push', [0.0_dp, 1.0_dp], [0.0_dp, 2.0_dp], two)
+    call problem%add_pattern('heat', [0.0_dp], [3.0_dp], three)
+    call expect(all([one, two, three] == [1, 2, 3]) .and. problem%pattern_count() == 3, 'patterns count from 1')
+    call expect(problem%pattern_name(three) == 'heat' .and. problem%pattern_name(one) == 'pull', 'names of patterns')
+    call expect(all(abs(problem%factors(0.5_dp) - [1, 1, 3]) < 1e-14_dp), 'factors')
+    call problem%add_forces(two, [8_delam_index], reshape([4.0_dp, 5.0_dp], [2, 1]))
+    forces = problem%forces(two)
+    call expect(all(abs(forces(15:16) - [4, 5]) < 1e-14_dp) .and. all(abs(forces(:14)) < 1e-14_dp), 'forces of node 8')
+    call problem%add_eigenstrain(three, [1e-3_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp], 1)
+    work = problem%eigenstrain_energy()
+    call expect(work(3, 3) > 0 .and. all(abs(work(:2, :)) < 1e-14_dp), 'energy of the strains of pattern 3')
+
+    call problem%prescribe_nodes([1_delam_index], [1.0_dp, 0.0_dp])
+    call problem%prescribe_nodes([1_delam_index, 10_delam_index], [0.0_dp, 1.0_dp])
+    call problem%prescribe_nodes([10_delam_index], [1.0_dp, 0.0_dp], one, 7.0_dp)
+    call problem%prescribe_mean([9_delam_index, 10_delam_index], [1.0_dp, 3.0_dp], [1.0_dp, 0.0_dp], [one], [2.0_dp])
+    call problem%add_equation([8_delam_index, 10_delam_index], reshape([real(dp) :: 0, 1, 1, 0], [2, 2]), [one], &
+                              [6.0_dp])
+    call problem%constraints(starts, columns, values, coefficients)
+    call expect(all(starts == [1, 2, 3, 4, 5, 7, 9]), 'rows of constraints')
+    call expect(all(columns == [1, 2, 20, 19, 17, 19, 16, 19]), 'DOFs of constraints')
+    call expect(all(abs(4*values - [4, 4, 4, 4, 1, 3, 4, 4]) < 1e-13_dp), 'entries of constraints')
+    call expect(all(shape(coefficients) == [3, 6]) .and. all(abs(coefficients(1, :) - [0, 0, 0, 7, 2, 6]) < 1e-14_dp), &
+                'prescribed: (patterns, rows)')
+    call problem%body_matrix(0, starts, columns, values)
+    call expect(starts(1) == 1 .and. size(starts) == 9 .and. starts(9) == size(columns) + 1, 'rows of a body')
+    call expect(minval(columns) == 1 .and. maxval(columns) == 8 .and. abs(sum(values)) < 1e-12_dp, 'a body floats')
+    call expect(len_trim(problem%hash()) == 16, 'a hash')
+  end subroutine test_problem
+
+  subroutine test_obstacles_ties_periods()
+    type(delam_context) :: context
+    type(delam_mesh) :: squares, stack
+    type(delam_problem) :: cell
+    integer(delam_index), allocatable :: a(:), b(:), nodes(:), starts(:), of(:)
+    real(dp), allocatable :: weights(:), xy(:,:)
+    integer :: interface, status, i
+    call context%create()
+    call make_squares(squares, context)
+    call squares%add_obstacle([1_delam_index, 2_delam_index], reshape([real(dp) :: 0, 1, 0, 1], [2, 2]), &
+                              10_delam_index, interface=interface)
+    call squares%interface_pairs(interface, a, b, weights)
+    call expect(interface == 2 .and. all(a == 10) .and. all(b == [1, 2]), 'an obstacle')
+    call expect(all(abs(weights - 0.5_dp) < 1e-14_dp), 'nodal weights')
+
+    ! One cell below two, whose middle node at the bottom lies on the first one's edge.
+    call stack%create(context, reshape([real(dp) :: 0, 0, 2, 0, 0, 1, 2, 1, 0, 1, 1, 1, 2, 1, 0, 2, 1, 2, 2, 2], &
+                                       [2, 10]))
+    call stack%add_cells(DELAM_QUAD4, reshape([integer(delam_index) :: 1, 2, 4, 3, 5, 6, 9, 8, 6, 7, 10, 9], [4, 3]), &
+                         [0, 1, 1])
+    call stack%add_projected_interface(0, 1, interface=interface)
+    call expect(interface == 1, 'a projected interface')
+    call stack%node_ties(nodes, starts, of, weights)
+    xy = stack%nodes()
+    call expect(size(nodes) > 0 .and. minval(nodes) == 11 .and. maxval(nodes) == size(xy, 2), 'tied nodes are appended')
+    call expect(starts(1) == 1 .and. starts(size(starts)) == size(of) + 1, 'starts of ties')
+    do i = 1, size(nodes)
+      call expect(all(abs(matmul(xy(:, of(starts(i):starts(i + 1) - 1)), weights(starts(i):starts(i + 1) - 1)) &
+                          - xy(:, nodes(i))) < 1e-12_dp), 'a tied node lies where its nodes put it')
+    end do
+
+    call squares%create(context, reshape([real(dp) :: 0, 0, 1, 0, 0, 1, 1, 1, 9, 9, 9, 8], [2, 6]))
+    call squares%add_cells(DELAM_QUAD4, reshape([integer(delam_index) :: 1, 2, 4, 3], [4, 1]))
+    call cell%create(context, squares)
+    call cell%add_periodic(reshape([real(dp) :: 1, 0, 0, 1], [2, 2]), [5_delam_index, 6_delam_index], status=status)
+    call expect(status == DELAM_OK, 'a periodic cell with its control nodes')
+  end subroutine test_obstacles_ties_periods
+
+  ! A stiff, brittle interface between two soft squares breaks all at once.
+  subroutine test_jump()
+    type(delam_context) :: context
+    type(delam_mesh) :: mesh
+    type(delam_law) :: law
+    type(delam_problem) :: problem
+    type(delam_solver) :: solver
+    integer(delam_index) :: pull, step, interface, first, last
+    real(dp) :: before, time
+    call context%create()
+    call make_squares(mesh, context)
+    call law%create(context, 'griffith')
+    call law%set('normal_stiffness', 1e3_dp)
+    call law%set('tangential_stiffness', 1e3_dp)
+    call law%set('normal_toughness', 1e-3_dp)
+    call law%set('tangential_toughness', 1e-3_dp)
+    call problem%create(context, mesh)
+    call problem%set_elastic(1.0_dp, 0.0_dp)
+    call problem%set_law(1, law)
+    call problem%add_pattern('pull', [0.0_dp, 1.0_dp], [0.0_dp, 4.0_dp], pull)
+    call problem%prescribe_nodes([1_delam_index, 3_delam_index], [1.0_dp, 0.0_dp])
+    call problem%prescribe_nodes([1_delam_index, 5_delam_index], [0.0_dp, 1.0_dp])
+    call problem%prescribe_nodes([6_delam_index, 8_delam_index], [1.0_dp, 0.0_dp], pull)
+    call problem%set('jump_tolerance', 1e-3_dp)
+    call solver%create(problem, 0.0_dp)
+    call solver%advance(1.0_dp)
+    call expect(solver%jump_count() >= 1, 'a jump')
+    if (solver%jump_count() < 1) return
+    call solver%jump(1, step, before, time, interface=interface, first_pair=first, last_pair=last)
+    call expect(step == 1 .and. before < time .and. time < 1, 'in the first step')
+    call expect(interface == 1 .and. first == 1 .and. last == 2, 'of both pairs')
+  end subroutine test_jump
 
   ! A law by Fortran procedures does what the same law of the library does, also once its names are gone.
   subroutine test_host_law()
@@ -328,7 +472,7 @@ contains
     do i = 1, solver%value_count()
       listed = listed .or. solver%value_name(i) == 'reaction:opening'
     end do
-    call expect(listed, 'names of values')
+    call expect(listed .and. len(solver%value_name(solver%value_count())) > 0, 'names of values, to the last')
     call expect(solver%option('solution') == 'local' .and. solver%option('no such option') == '', 'options')
     call solver%plan_item(1, subject=subject, reason=reason)
     call expect(solver%plan_count() > 0 .and. index(solver%plan(), subject) == 1 .and. len(reason) > 0, 'the plan')
@@ -442,6 +586,9 @@ program test_delam
   call test_errors()
   call test_descriptions()
   call test_mesh()
+  call test_problem()
+  call test_obstacles_ties_periods()
+  call test_jump()
   call test_host_law()
   call test_solver()
   call test_observer()
