@@ -51,28 +51,32 @@ void FetiPreconditioner::build_pattern() {
         std::int64_t dof;
         double value;
     };
-    std::vector<Triplet> triplets;
+    std::vector<std::vector<Touch>> touched(subdomains_.size());
+    std::vector<std::vector<std::int64_t>> met(subdomains_.size());
+    std::size_t entries = 0;
     for (std::size_t s = 0; s < subdomains_.size(); ++s) {
-        std::vector<Touch> touches;
-        std::vector<std::int64_t> met;
         for (std::int64_t d = rows_.offset[s]; d < rows_.offset[s + 1]; ++d)
             for (std::int64_t e = scaled_transposed_.start[index(d)]; e < scaled_transposed_.start[index(d) + 1]; ++e)
                 if (scaled_transposed_.column[index(e)] < rows_.jump_count) {
-                    touches.push_back({scaled_transposed_.column[index(e)], d - rows_.offset[s], scaled_transposed_.value[index(e)]});
-                    met.push_back(touches.back().row);
+                    touched[s].push_back({scaled_transposed_.column[index(e)], d - rows_.offset[s], scaled_transposed_.value[index(e)]});
+                    met[s].push_back(touched[s].back().row);
                 }
-        std::sort(met.begin(), met.end());
-        met.erase(std::unique(met.begin(), met.end()), met.end());
-        for (Touch& t : touches) t.row = std::lower_bound(met.begin(), met.end(), t.row) - met.begin();
-        const auto rows = static_cast<std::int64_t>(met.size());
+        std::sort(met[s].begin(), met[s].end());
+        met[s].erase(std::unique(met[s].begin(), met[s].end()), met[s].end());
+        for (Touch& t : touched[s]) t.row = std::lower_bound(met[s].begin(), met[s].end(), t.row) - met[s].begin();
+        entries += met[s].size() * met[s].size();
+    }
+    std::vector<Triplet> triplets;
+    triplets.reserve(entries + index(rows_.jump_count));
+    for (std::size_t s = 0; s < subdomains_.size(); ++s) {
+        const auto rows = static_cast<std::int64_t>(met[s].size());
         DenseMatrix half(subdomains_[s].schur.rows, rows), block(rows, rows);  // S W^T, W S W^T
-        for (const Touch& t : touches)
+        for (const Touch& t : touched[s])
             for (std::int64_t i = 0; i < half.rows; ++i) half(i, t.row) += t.value * subdomains_[s].schur(i, t.dof);
         for (std::int64_t j = 0; j < rows; ++j)
-            for (const Touch& t : touches) block(t.row, j) += t.value * half(t.dof, j);
-        triplets.reserve(triplets.size() + met.size() * met.size());
+            for (const Touch& t : touched[s]) block(t.row, j) += t.value * half(t.dof, j);
         for (std::int64_t j = 0; j < rows; ++j)
-            for (std::int64_t i = 0; i < rows; ++i) triplets.push_back({met[index(i)], met[index(j)], block(i, j)});
+            for (std::int64_t i = 0; i < rows; ++i) triplets.push_back({met[s][index(i)], met[s][index(j)], block(i, j)});
     }
     for (const auto& dependency : scaling_.dependencies)  // room for z z^T
         for (const std::int64_t i : dependency.row)
