@@ -74,6 +74,7 @@ extern "C" {
 #define DELAM_ERROR_NUMERICAL -7 /* a factorisation broke down */
 #define DELAM_ERROR_SNAPSHOT -8  /* bytes that are damaged, of another version or of another scene */
 #define DELAM_ERROR_INTERNAL -9  /* a defect of the library: please report */
+#define DELAM_ERROR_FILE -10     /* a file that cannot be opened, read or written: the message says why */
 
 typedef struct delam_context delam_context;   /* messages, log, progress, cancel; what everything else is made with */
 typedef struct delam_mesh delam_mesh;         /* nodes, cells, bodies, interfaces */
@@ -93,6 +94,10 @@ DELAM_API int32_t delam_abi(void);
 /* Name of a status, e.g. "DELAM_ERROR_MESH"; "unknown status" for others.
  * [owns result static; status -; thread any; since 0.1] */
 DELAM_API const char *delam_status_name(int32_t status);
+/* Threads that the BLAS of this process uses; 0: it does not say. The library leaves them alone (its own: option
+ * threads). Equal digits from run to run need an equal number.
+ * [status -; thread any; since 0.1] */
+DELAM_API int32_t delam_blas_threads(void);
 
 /* ---- context: messages, log, progress, cancel -------------------------------------------------------------------- */
 
@@ -238,6 +243,27 @@ DELAM_API int32_t delam_mesh_add_projected_interface(delam_mesh *mesh, int32_t b
 DELAM_API int32_t delam_mesh_add_obstacle(delam_mesh *mesh, int64_t count, const int64_t *nodes, const double *normals,
                                           const double *weights, int64_t control_node, int32_t index_base,
                                           int64_t *out_interface);
+/* A body without cells, of which the host gives the stiffness (delam_problem_set_stiffness): nodes [count] of the mesh
+ * that belong to no body yet, each once; body: a label >= 0 that no cell has. Its interfaces are made of pairs
+ * (delam_mesh_add_pairs, delam_mesh_add_obstacle with weights). Of where its nodes lie only rigid motions and places in
+ * the output depend.
+ * [null none; status argument, mesh; since 0.1] */
+DELAM_API int32_t delam_mesh_add_host_body(delam_mesh *mesh, int32_t body, int64_t count, const int64_t *nodes,
+                                           int32_t index_base);
+/* An interface of pairs that the host knows, of bodies with or without cells, in the order given; *out_interface its
+ * index. Nodes of a pair may lie apart: the jump is u_b - u_a.
+ *   nodes_a, nodes_b  [count], of body_a and of body_b, each once
+ *   normals   [count][dimension], of any length > 0, from a to b
+ *   weights   [count] > 0, length (2D) or area (3D) that a pair stands for
+ *   faces     [face_count][nodes_per_face] indices into the pairs (from index_base too), corners then mid-sides: 2 or 3
+ *             in 2D; 3, 4, 6 or 8 in space, seen from b counter-clockwise; triangles among quadrilaterals repeat their
+ *             last corner. face_count 0: none. Fronts, the gradient term and the neighbours that an energetic search
+ *             advances to are known from faces alone
+ * [unit normals 1, weights L or L2 > 0; null none; status argument, mesh; since 0.1] */
+DELAM_API int32_t delam_mesh_add_pairs(delam_mesh *mesh, int32_t body_a, int32_t body_b, int64_t count,
+                                       const int64_t *nodes_a, const int64_t *nodes_b, const double *normals,
+                                       const double *weights, int64_t face_count, int32_t nodes_per_face,
+                                       const int64_t *faces, int32_t index_base, int64_t *out_interface);
 /* Destroys a mesh; problems made of it have their own.
  * [null mesh, *mesh; owns mesh destroyed; status -; since 0.1] */
 DELAM_API void delam_mesh_destroy(delam_mesh **mesh);
@@ -438,6 +464,28 @@ DELAM_API int32_t delam_problem_set_orientation(delam_problem *problem, int32_t 
  * [null none; status argument; source R. Taylor, P. Beresford, E. Wilson, Int. J. Numer. Meth. Eng. 10 (1976) 1211-1219
  * and T. Hughes, ibid. 15 (1980) 1413-1418; since 0.1] */
 DELAM_API int32_t delam_problem_set_formulation(delam_problem *problem, int32_t body, const char *formulation);
+/* The stiffness of whole bodies as the host has assembled it, in the place of cells and material; of bodies with cells
+ * and of those without (delam_mesh_add_host_body). A material, if there is one, then serves the stresses of the output
+ * alone; eigenstrains of such a body are refused, their forces are the host's (delam_problem_add_forces). Of a body
+ * without cells or material stresses are NaN.
+ *   nodes       [count] all nodes of one or several bodies, each once
+ *   dofs        [count][dimension] row of each displacement, each of 0 .. dimension*count-1 (from index_base) once;
+ *               NULL: dimension*i + component of nodes[i]. All rows are displacements of nodes: others are to be
+ *               condensed before
+ *   row_starts  [dimension*count + 1], from index_base too; columns, values [entries]: CSR, both triangles; entries
+ *               that come twice add up. Symmetric to 1e-9, positive on what deforms (one sparse factorisation tells)
+ *   kernel      [kernel_count][dimension*count] motions without energy, by row. Parts that hang together in the matrix
+ *               are rigid pieces, their free motions rigid ones: a mechanism within is refused. kernel_count -1 (kernel
+ *               NULL): the library finds how far a piece is held by the host's own supports; what is held by less than
+ *               1e-9 of the largest diagonal entry but more than 1e-12 must be told
+ * DELAM_ERROR_ARGUMENT names the node, row or entry.
+ * FETI takes each piece whole. Later calls replace the stiffness of the bodies that they have.
+ * [unit values F/L, kernel 1; null dofs; status argument; source C. Farhat, M. Geradin, Int. J. Numer. Meth.
+ * Eng. 41 (1998) 675-696 (motions without energy); since 0.1] */
+DELAM_API int32_t delam_problem_set_stiffness(delam_problem *problem, int64_t count, const int64_t *nodes,
+                                              const int64_t *dofs, const int64_t *row_starts, const int64_t *columns,
+                                              const double *values, int64_t kernel_count, const double *kernel,
+                                              int32_t index_base);
 /* The law of an interface; its parameters are taken as they are now. Initial adhesion 1 everywhere.
  * [status argument, problem; since 0.1] */
 DELAM_API int32_t delam_problem_set_law(delam_problem *problem, int64_t interface_index, const delam_law *law);
@@ -623,6 +671,16 @@ DELAM_API int32_t delam_solver_commit(delam_solver *solver);
 /* Throws the pending step away.
  * [status state; since 0.1] */
 DELAM_API int32_t delam_solver_rollback(delam_solver *solver);
+/* *pending: 1 if there is a step to be committed or rolled back, else 0.
+ * [null none; status argument; since 0.1] */
+DELAM_API int32_t delam_solver_pending(const delam_solver *solver, int32_t *pending);
+/* Another history of a load pattern from the committed time on, for hosts that learn of it as they go: straight from
+ * the factor there to values[0] at times[0], and on through the points, constant beyond the last. Steps up to the
+ * committed one keep theirs. times: [count] strictly increasing, the first after the committed time; values: [count];
+ * count >= 1. It is part of what delam_solver_save saves. DELAM_ERROR_STATE: a step is pending.
+ * [unit times t, values 1; null none; status argument, state; since 0.1] */
+DELAM_API int32_t delam_solver_set_history(delam_solver *solver, int64_t pattern, int64_t count, const double *times,
+                                           const double *values);
 /* One displacement step alone: minimal-energy displacements at `time` with the given adhesion held: [pairs of all
  * interfaces, one after another]; NULL takes the committed one. Pending like a step, but the ledger does not move
  * (energies stored are those of the new state; dissipated, work and bounds stay). Once it is committed, steps before it
@@ -782,13 +840,44 @@ DELAM_API int32_t delam_solver_front(const delam_solver *solver, int64_t interfa
  * [unit matrix of factors; null none; status cancelled, argument, state, numerical; source none; since 0.1] */
 DELAM_API int32_t delam_solver_tangent(delam_solver *solver, int64_t capacity, double *matrix);
 
+/* Consistent tangent of the pending step: how reaction:p at its end changes with the factor of pattern q there, damage
+ * included, from the committed state on; contact set and the branch of each pair's law as they are. matrix:
+ * [pattern_count][pattern_count], row p, column q; symmetric but with mixity_rule = converged. With it a structure with
+ * its interfaces is one element of a host that iterates: a pattern for each displacement of its boundary, reactions as
+ * the element's forces. It is the derivative of advance where no pair is at the end of a branch and no jump happens;
+ * past a limit point it may be indefinite. In the very first loaded step the mixity, that of its elastic solution with
+ * mixity_rule = frozen, counts as given. One displacement solve a pattern and one a damaging pair (mixity_rule =
+ * variational: a component); the state does not change. DELAM_ERROR_STATE: no step is pending, or it has been replaced
+ * after a return. DELAM_ERROR_NUMERICAL: singular, a jump is about to happen.
+ * [unit matrix of factors; null none; status cancelled, argument, state, numerical; source J. Simo, R. Taylor, Comput.
+ * Methods Appl. Mech. Eng. 48 (1985) 101-118; since 0.1] */
+DELAM_API int32_t delam_solver_step_tangent(delam_solver *solver, int64_t capacity, double *matrix);
+
+/* Sizes of the condensed interface operator (delam_solver_condensed): *unknowns, *entries of the rows.
+ * DELAM_ERROR_STATE: the solver works by FETI, which has none (option reduction).
+ * [null unknowns, entries; status argument, state; since 0.1] */
+DELAM_API int32_t delam_solver_condensed_size(const delam_solver *solver, int64_t *unknowns, int64_t *entries);
+/* All bodies condensed onto the interfaces, and the loads with them: with x [unknowns], factors theta [patterns] and
+ * the local jumps j [pairs of all interfaces, times dimension] of delam_mesh_interface_pairs,
+ *   E = 1/2 x.S x - sum theta_p L_p.x + 1/2 theta.A theta,   j = N x + O theta
+ * is the energy of bodies and dead forces, all else minimised out. What the interfaces store comes on top. Where a row
+ * of N is empty the loads alone prescribe the jump. stiffness S [unknowns][unknowns], symmetric, semidefinite where
+ * bodies float; load L [patterns][unknowns]; constant A [patterns][patterns]; N in rows, row_starts [rows+1], columns
+ * and values [entries]; offset O [rows][patterns]. capacity: unknowns^2, of stiffness.
+ * [unit stiffness F/L, load F, constant F L, values 1, offset L; null stiffness, load, constant, row_starts, columns,
+ * values, offset; status argument, state; source src/reduction/README.md; since 0.1] */
+DELAM_API int32_t delam_solver_condensed(const delam_solver *solver, int64_t capacity, double *stiffness, double *load,
+                                         double *constant, int64_t *row_starts, int64_t *columns, double *values,
+                                         double *offset);
+
 /* What the scene needs and what was left out, each with its reason, its predicted cost and what the decision saves. In
  * words, a line each, "subject: decision, reason (cost ..., saves ...)\n". Never NULL.
  * [owns result until the next call with this solver; status -; since 0.1] */
 DELAM_API const char *delam_solver_plan(delam_solver *solver);
 /* The same as data, settled when the solver is made: *count items. Subjects: condensed operator, FETI, memory,
- * subdomains, longest uninterruptible factorisation, contact of interface I, mixity of interface I (each I), gradient
- * term, acceleration of the minimisation, displacements and stresses inside the bodies, energetic search, backtracking.
+ * subdomains, threads, longest uninterruptible factorisation, contact of interface I, mixity of interface I (each I),
+ * gradient term, acceleration of the minimisation, displacements and stresses inside the bodies, energetic search,
+ * backtracking.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_plan_count(const delam_solver *solver, int64_t *count);
 /* An item of the plan. decision: "used" or "left out". *cost: predicted, of what is used (0 for what is left out);
@@ -839,6 +928,14 @@ DELAM_API int32_t delam_solver_save(const delam_solver *solver, int64_t capacity
  * bytes, and those of another scene or version, are refused: DELAM_ERROR_SNAPSHOT says what is wrong with them.
  * [null none; status cancelled, argument, numerical, snapshot; since 0.1] */
 DELAM_API int32_t delam_solver_load(delam_solver *solver, int64_t size, const uint8_t *bytes);
+/* The same bytes as a file, path in the encoding of the file system: written beside it first and put in its place when
+ * complete and on disk, so that a full disk or an interruption leaves what was there. DELAM_ERROR_FILE says what
+ * failed.
+ * [null none; status argument, file; since 0.1] */
+DELAM_API int32_t delam_solver_save_file(const delam_solver *solver, const char *path);
+/* Takes the file at path, of bytes that delam_solver_save or delam_solver_save_file has written, as delam_solver_load.
+ * [null none; status cancelled, argument, numerical, snapshot, file; since 0.1] */
+DELAM_API int32_t delam_solver_load_file(delam_solver *solver, const char *path);
 
 #ifdef __cplusplus
 }

@@ -43,4 +43,27 @@ std::int64_t require_index(std::int64_t value, std::int64_t size, std::int32_t i
     return value - index_base;
 }
 
+std::vector<std::int64_t> require_indices(const std::int64_t* values, std::int64_t count, std::int64_t size,
+                                          std::int32_t index_base, const char* name) {
+    require_array(values, count, name);
+    std::vector<std::int64_t> list(values, values + count);
+    for (std::int64_t i = 0; i < count; ++i) {
+        std::int64_t& value = list[static_cast<std::size_t>(i)];
+        if (value < index_base || value - index_base >= size) require_index(value, size, index_base, text(name, "[", i, "]"));
+        value -= index_base;
+    }
+    return list;
+}
+
+void require_history(std::int64_t count, const double* times, const double* values) {
+    require_count(count, "count", 1);
+    require_array(times, count, "times");
+    require_array(values, count, "values");
+    require_finite(times, count, "times");
+    require_finite(values, count, "values");
+    for (std::int64_t i = 1; i < count; ++i)
+        if (times[i] <= times[i - 1])
+            fail(DELAM_ERROR_ARGUMENT, "times[", i, "] = ", times[i], " must be > times[", i - 1, "] = ", times[i - 1]);
+}
+
 }  // namespace delam

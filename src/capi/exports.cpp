@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "body/assembly.hpp"
 #include "capi/handles.hpp"
 #include "scene/problem.hpp"
 #include "scene/process_zone.hpp"
@@ -33,12 +32,13 @@ void require_materials(const Problem& problem) {
 // The mesh of a problem is fixed; what its bodies are made of may change between two calls.
 const SparseMatrix& body_matrix(const delam_problem& problem, std::int32_t body) {
     const Problem& core = *problem.core;
+    if (const auto& own = core.stiffness[static_cast<std::size_t>(body)]) return own->matrix;
     require_material(core, body);
     const BodyModel model = core.model(body);
     delam_problem::BodyMatrix& last = problem.assembled;
     if (last.body != body || last.model != model) {
         last = {body, model,
-                assemble_stiffness(*core.mesh, core.mesh->body_cells(body), core.mesh->body_nodes(body), model)};
+                core.body_stiffness(body)};
     }
     return last.matrix;
 }

@@ -147,4 +147,11 @@ void require_handle(const H* handle, const char* name) {
 // The index as 0-based, after a check of base <= value < base + size. what: "nodes[3]".
 std::int64_t require_index(std::int64_t value, std::int64_t size, std::int32_t index_base, const std::string& what);
 
+// count of them, 0-based. name: of the argument.
+std::vector<std::int64_t> require_indices(const std::int64_t* values, std::int64_t count, std::int64_t size,
+                                          std::int32_t index_base, const char* name);
+
+// times and values [count] of a load history, count >= 1, times increasing.
+void require_history(std::int64_t count, const double* times, const double* values);
+
 }  // namespace delam

@@ -165,17 +165,7 @@ int32_t delam_problem_add_pattern(delam_problem* problem, const char* name, int6
     return guard(problem, [&] {
         require_pointer(out_pattern, "out_pattern");
         require_name(name);
-        require_count(count, "count", 1);
-        require_array(times, count, "times");
-        require_array(values, count, "values");
-        require_finite(times, count, "times");
-        require_finite(values, count, "values");
-        for (std::int64_t i = 1; i < count; ++i) {
-            if (times[i] <= times[i - 1]) {
-                fail(DELAM_ERROR_ARGUMENT, "times[", i, "] = ", times[i], " must be > times[", i - 1,
-                     "] = ", times[i - 1]);
-            }
-        }
+        require_history(count, times, values);
         std::vector<Pattern>& patterns = problem->core->patterns;
         for (const Pattern& other : patterns) {
             if (other.name == name) fail(DELAM_ERROR_ARGUMENT, "name = '", name, "' is taken by another pattern");

@@ -222,15 +222,44 @@ int32_t delam_mesh_add_obstacle(delam_mesh* mesh, int64_t count, const int64_t* 
         Mesh& core = *mesh->core;
         require_pointer(out_interface, "out_interface");
         require_count(count, "count", 1);
-        require_array(nodes, count, "nodes");
         require_array(normals, count, "normals");
         require_base(index_base);
-        std::vector<std::int64_t> own(size(count));
-        for (std::int64_t i = 0; i < count; ++i)
-            own[size(i)] = require_index(nodes[i], core.node_count(), index_base, text("nodes[", i, "]"));
+        const std::vector<std::int64_t> own = require_indices(nodes, count, core.node_count(), index_base, "nodes");
         require_index(control_node, core.node_count(), 0, "control_node");
         *out_interface = core.add_obstacle(own, view(normals, count * core.dimension()),
                                            view(weights, weights == nullptr ? 0 : count), control_node);
+    });
+}
+
+int32_t delam_mesh_add_host_body(delam_mesh* mesh, int32_t body, int64_t count, const int64_t* nodes, int32_t index_base) {
+    return guard(mesh, [&] {
+        Mesh& core = *mesh->core;
+        require_count(count, "count", 1);
+        require_base(index_base);
+        core.add_host_body(body, require_indices(nodes, count, core.node_count(), index_base, "nodes"));
+    });
+}
+
+int32_t delam_mesh_add_pairs(delam_mesh* mesh, int32_t body_a, int32_t body_b, int64_t count, const int64_t* nodes_a,
+                             const int64_t* nodes_b, const double* normals, const double* weights, int64_t face_count,
+                             int32_t nodes_per_face, const int64_t* faces, int32_t index_base, int64_t* out_interface) {
+    return guard(mesh, [&] {
+        Mesh& core = *mesh->core;
+        require_pointer(out_interface, "out_interface");
+        require_body(core, body_a, "body_a", false);
+        require_body(core, body_b, "body_b", false);
+        require_count(count, "count", 1);
+        require_array(normals, count, "normals");
+        require_array(weights, count, "weights");
+        require_count(face_count, "face_count");
+        if (face_count > 0 && (nodes_per_face < 2 || nodes_per_face > 8))
+            fail(DELAM_ERROR_ARGUMENT, "nodes_per_face = ", nodes_per_face, " is outside 2 .. 8");
+        require_base(index_base);
+        const std::int64_t corners = face_count > 0 ? face_count * nodes_per_face : 0;
+        *out_interface = core.add_pairs(body_a, body_b, require_indices(nodes_a, count, core.node_count(), index_base, "nodes_a"),
+                                        require_indices(nodes_b, count, core.node_count(), index_base, "nodes_b"),
+                                        view(normals, count * core.dimension()), view(weights, count), nodes_per_face,
+                                        require_indices(faces, corners, count, index_base, "faces"));
     });
 }
 

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "capi/handles.hpp"
+#include "scene/given_stiffness.hpp"
 
 namespace {
 
@@ -145,6 +146,41 @@ int32_t delam_problem_set_formulation(delam_problem* problem, int32_t body, cons
             changed[static_cast<std::size_t>(i)] = *chosen;
         }
         core.formulation = std::move(changed);
+    });
+}
+
+int32_t delam_problem_set_stiffness(delam_problem* problem, int64_t count, const int64_t* nodes, const int64_t* dofs,
+                                    const int64_t* row_starts, const int64_t* columns, const double* values,
+                                    int64_t kernel_count, const double* kernel, int32_t index_base) {
+    return guard(problem, [&] {
+        Problem& core = *problem->core;
+        require_count(count, "count", 1);
+        require_base(index_base);
+        const std::int64_t rows = count * core.mesh->dimension();
+        require_pointer(row_starts, "row_starts");
+        GivenMatrix given{require_indices(nodes, count, core.mesh->node_count(), index_base, "nodes"), {}, {}, {}, {}, {}};
+        if (dofs != nullptr) given.dofs = require_indices(dofs, rows, rows, index_base, "dofs");
+        for (std::int64_t r = 0; r <= rows; ++r) {
+            const std::int64_t start = row_starts[r] - index_base, before = r == 0 ? 0 : given.row_starts.back();
+            if (start < before || (r == 0 && start != 0) || start > (std::int64_t{1} << 48))
+                fail(DELAM_ERROR_ARGUMENT, "row_starts[", r, "] = ", row_starts[r], r == 0 ? ": must be " : ": must be at least ",
+                     before + index_base);
+            given.row_starts.push_back(start);
+        }
+        const std::int64_t entries = given.row_starts.back();
+        require_array(values, entries, "values");
+        require_finite(values, entries, "values");
+        given.columns = require_indices(columns, entries, rows, index_base, "columns");
+        given.values.assign(values, values + entries);
+        if (kernel_count < -1 || kernel_count > 6 * count) fail(DELAM_ERROR_ARGUMENT, "kernel_count = ", kernel_count, " is outside -1 .. ", 6 * count);
+        given.kernel.told = kernel_count >= 0;
+        if (kernel_count > 0) {
+            require_array(kernel, kernel_count * rows, "kernel");
+            require_finite(kernel, kernel_count * rows, "kernel");
+            given.kernel.motions = DenseMatrix(rows, kernel_count);
+            std::copy(kernel, kernel + kernel_count * rows, given.kernel.motions.value.begin());
+        }
+        take_stiffness(core, given);
     });
 }
 

@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "base/file.hpp"
 #include "capi/handles.hpp"
 #include "evolution/fields.hpp"
 #include "evolution/snapshot.hpp"
 #include "evolution/solver.hpp"
 #include "evolution/values.hpp"
+#include "reduction/condensed/bulk.hpp"
 
 using namespace delam;
 
@@ -35,6 +37,12 @@ void copy_out(const std::vector<T>& values, std::int64_t capacity, T* out, const
 const std::vector<CrackFront>& fronts_of(const delam_solver& solver, std::int64_t interface_index) {
     const auto count = static_cast<std::int64_t>(solver.core->problem().interfaces.size());
     return solver.core->crack_fronts(require_index(interface_index, count, 0, "interface_index"));
+}
+
+const Bulk& bulk_of(const delam_solver& solver) {
+    const Bulk* bulk = solver.core->jump_operator().bulk();
+    if (bulk == nullptr) fail(DELAM_ERROR_STATE, "the solver works by FETI, which has no condensed operator: option reduction = condensed");
+    return *bulk;
 }
 
 }  // namespace
@@ -69,6 +77,22 @@ int32_t delam_solver_commit(delam_solver* solver) {
 
 int32_t delam_solver_rollback(delam_solver* solver) {
     return guard(solver, [&] { solver->core->rollback(); });
+}
+
+int32_t delam_solver_pending(const delam_solver* solver, int32_t* pending) {
+    return guard(solver, [&] {
+        require_pointer(pending, "pending");
+        *pending = solver->core->pending() ? 1 : 0;
+    });
+}
+
+int32_t delam_solver_set_history(delam_solver* solver, int64_t pattern, int64_t count, const double* times, const double* values) {
+    return guard(solver, [&] {
+        const auto patterns = static_cast<std::int64_t>(solver->core->problem().patterns.size());
+        require_index(pattern, patterns, 0, "pattern");
+        require_history(count, times, values);
+        solver->core->set_history(pattern, {times, static_cast<std::size_t>(count)}, {values, static_cast<std::size_t>(count)});
+    });
 }
 
 int32_t delam_solver_equilibrate(delam_solver* solver, double time, const double* adhesion) {
@@ -180,6 +204,54 @@ int32_t delam_solver_tangent(delam_solver* solver, int64_t capacity, double* mat
     });
 }
 
+int32_t delam_solver_step_tangent(delam_solver* solver, int64_t capacity, double* matrix) {
+    return guard(solver, [&] {
+        const auto patterns = static_cast<int64_t>(solver->core->problem().patterns.size());
+        require_capacity(capacity, patterns * patterns, "matrix");
+        copy_out(solver->core->step_tangent(), capacity, matrix, "matrix");
+    });
+}
+
+int32_t delam_solver_condensed_size(const delam_solver* solver, int64_t* unknowns, int64_t* entries) {
+    return guard(solver, [&] {
+        const Bulk& bulk = bulk_of(*solver);
+        if (unknowns != nullptr) *unknowns = bulk.energy().rows();
+        if (entries == nullptr) return;
+        *entries = 0;
+        for (const Bulk::Row& row : bulk.rows()) *entries += static_cast<std::int64_t>(row.unknowns.size());
+    });
+}
+
+int32_t delam_solver_condensed(const delam_solver* solver, int64_t capacity, double* stiffness, double* load, double* constant,
+                               int64_t* row_starts, int64_t* columns, double* values, double* offset) {
+    return guard(solver, [&] {
+        const Bulk& bulk = bulk_of(*solver);
+        const DenseEnergy& energy = bulk.energy();
+        const std::size_t patterns = solver->core->problem().patterns.size();
+        if (stiffness != nullptr) {
+            require_capacity(capacity, energy.rows() * energy.rows(), "stiffness");
+            for (std::int64_t j = 0; j < energy.rows(); ++j)  // its lower triangle is the one that holds
+                for (std::int64_t i = j; i < energy.rows(); ++i)
+                    stiffness[i * energy.rows() + j] = stiffness[j * energy.rows() + i] = energy.stiffness(i, j);
+        }
+        if (load != nullptr) std::copy(energy.load.value.begin(), energy.load.value.end(), load);
+        if (constant != nullptr) std::copy(bulk.pattern_stiffness().value.begin(), bulk.pattern_stiffness().value.end(), constant);
+        std::int64_t entry = 0;
+        if (row_starts != nullptr) row_starts[0] = 0;
+        for (std::size_t r = 0; r < bulk.rows().size(); ++r) {
+            const Bulk::Row& row = bulk.rows()[r];
+            for (const auto& [unknown, value] : row.unknowns) {
+                if (columns != nullptr) columns[entry] = unknown;
+                if (values != nullptr) values[entry] = value;
+                ++entry;
+            }
+            if (row_starts != nullptr) row_starts[r + 1] = entry;
+            for (std::size_t p = 0; p < patterns && offset != nullptr; ++p)
+                offset[r * patterns + p] = row.offset.empty() ? 0.0 : row.offset[p];
+        }
+    });
+}
+
 const char* delam_solver_plan(delam_solver* solver) {
     const std::int32_t status = guard(solver, [&] { solver->plan_words = plan_in_words(solver->plan); });
     return status == DELAM_OK ? solver->plan_words.c_str() : "";
@@ -270,6 +342,20 @@ int32_t delam_solver_load(delam_solver* solver, int64_t size, const uint8_t* byt
         require_count(size, "size");
         require_array(bytes, size, "bytes");
         load(*solver->core, {bytes, static_cast<std::size_t>(size)});
+    });
+}
+
+int32_t delam_solver_save_file(const delam_solver* solver, const char* path) {
+    return guard(solver, [&] {
+        require_pointer(path, "path");
+        write_file(path, save(*solver->core));
+    });
+}
+
+int32_t delam_solver_load_file(delam_solver* solver, const char* path) {
+    return guard(solver, [&] {
+        require_pointer(path, "path");
+        load(*solver->core, read_file(path));
     });
 }
 

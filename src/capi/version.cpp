@@ -2,12 +2,15 @@
 // What the library is: version, commit, binary interface, names of statuses.
 #include "delam/delam.h"
 #include "delam_commit.h"
+#include "linalg/blas_threads.hpp"
 
 const char* delam_version(void) { return DELAM_VERSION_TEXT; }
 
 const char* delam_commit(void) { return DELAM_COMMIT_TEXT; }
 
 int32_t delam_abi(void) { return DELAM_ABI; }
+
+int32_t delam_blas_threads(void) { return delam::blas_threads(); }
 
 const char* delam_status_name(int32_t status) {
 #define DELAM_NAME(status) \
@@ -26,6 +29,7 @@ const char* delam_status_name(int32_t status) {
         DELAM_NAME(DELAM_ERROR_NUMERICAL);
         DELAM_NAME(DELAM_ERROR_SNAPSHOT);
         DELAM_NAME(DELAM_ERROR_INTERNAL);
+        DELAM_NAME(DELAM_ERROR_FILE);
         default: return "unknown status";
     }
 #undef DELAM_NAME

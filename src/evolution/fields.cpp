@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "body/assembly.hpp"
 #include "body/rotation.hpp"
 #include "delam/delam.h"
 #include "scene/strain_loads.hpp"
@@ -54,7 +53,7 @@ std::vector<double> field(const Solver& solver, const std::string& key, std::int
     const Problem& problem = solver.problem();
     if (key == "displacement") return solver.displacement();
     if (key == "reaction") return solver.reaction();
-    if (key == "stress") return centre_stress(*problem.mesh, solver.models(), solver.displacement(), solver.eigenstrains());
+    if (key == "stress") return solver.stress();
     if (key == "rotation") return centre_rotation(*problem.mesh, solver.displacement());
     const auto first = static_cast<std::size_t>(pair_range(solver, part).first);
     const auto columns = static_cast<std::size_t>(shape.columns);

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "evolution/solver.hpp"
+#include "linalg/blas_threads.hpp"
 
 namespace delam {
 
@@ -46,6 +47,12 @@ void add_reduction(std::vector<PlanItem>& items, const Solver& solver) {
              text(choice.subdomains, solver.problem().options.subdomains > 0 ? " asked for" : " chosen by size",
                   ", predicted boundary ", std::round(choice.boundary), " DOFs each"),
              0.0, 0.0, "-"});
+    const std::int64_t own = solver.problem().options.threads, blas = blas_threads();
+    const std::string of_blas = blas > 0 ? text(blas) : std::string("an unknown number");
+    items.push_back({"threads", own > 1 && !choice.condensed ? used : left_out,
+                     choice.condensed ? text("the condensed operator works by BLAS, which has ", of_blas, own > 1 ? text(" (", own, " of the library asked for)") : std::string())
+                                      : text(own, " of the library, option threads; BLAS has ", of_blas, " in each"),
+                     0.0, 0.0, "-"});
     const double longest = choice.condensed ? c.longest : f.longest;
     items.push_back(
         {"longest uninterruptible factorisation", used,

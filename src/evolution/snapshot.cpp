@@ -13,7 +13,8 @@ namespace delam {
 namespace {
 
 constexpr std::uint64_t magic = 0x31305453'4d4c4544;  // "DELMST01" in memory on a little-endian machine
-constexpr std::uint32_t version = 5;
+// 5: the first that was ever published. 6: histories of patterns that the host has changed.
+constexpr std::uint32_t version = 6, oldest = 5;
 
 std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
     std::uint64_t h = 14695981039346656037ULL;
@@ -113,13 +114,47 @@ void check(const State& state, const State& mine) {
             if (!std::isfinite(v)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a number that is not finite");
 }
 
+// Histories that the host has changed since the solver was made: pattern, times, values.
+void write_histories(Writer& w, const Solver& solver) {
+    const std::vector<std::int64_t> changed = solver.changed_histories();
+    w.item(static_cast<std::uint64_t>(changed.size()));
+    for (const std::int64_t p : changed) {
+        const Pattern& pattern = solver.problem().patterns[static_cast<std::size_t>(p)];
+        w.item(p);
+        w.item(pattern.times);
+        w.item(pattern.values);
+    }
+}
+
+std::vector<Pattern> read_histories(Reader& r, std::vector<Pattern> patterns) {
+    std::uint64_t changed = 0;
+    r.item(changed);
+    std::int64_t last = -1;
+    for (std::uint64_t i = 0; i < changed; ++i) {
+        std::int64_t p = 0;
+        r.item(p);
+        if (p <= last || p >= static_cast<std::int64_t>(patterns.size()))
+            fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a history of pattern ", p, ", this scene has ", patterns.size());
+        last = p;
+        Pattern& pattern = patterns[static_cast<std::size_t>(p)];
+        r.item(pattern.times);
+        r.item(pattern.values);
+        bool sound = !pattern.times.empty() && pattern.times.size() == pattern.values.size();
+        for (std::size_t k = 0; sound && k < pattern.times.size(); ++k)
+            sound = std::isfinite(pattern.times[k]) && std::isfinite(pattern.values[k]) && (k == 0 || pattern.times[k] > pattern.times[k - 1]);
+        if (!sound) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a history of pattern '", pattern.name, "' whose times do not increase");
+    }
+    return patterns;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> save(const Solver& solver) {
     Writer w;
     w.item(magic);
     w.item(version);
-    w.item(hash(solver.problem()));
+    w.item(solver.scene_hash());
+    write_histories(w, solver);
     walk(w, solver.committed());
     w.item(static_cast<std::uint64_t>(solver.past().size()));
     for (const State& state : solver.past()) walk(w, state);
@@ -135,14 +170,17 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
     r.item(found_magic);
     if (found_magic != magic) fail(DELAM_ERROR_SNAPSHOT, "not a snapshot of a libdelam solver");
     r.item(found_version);
-    if (found_version != version) fail(DELAM_ERROR_SNAPSHOT, "snapshot version ", found_version, ", this library reads ", version);
+    if (found_version < oldest || found_version > version)
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot version ", found_version, ", this library reads ", oldest, " to ", version);
     if (bytes.size() < sizeof(found_sum)) fail(DELAM_ERROR_SNAPSHOT, "snapshot ends early");
     std::memcpy(&found_sum, bytes.data() + bytes.size() - sizeof(found_sum), sizeof(found_sum));
     if (found_sum != checksum(bytes.first(bytes.size() - sizeof(found_sum))))
         fail(DELAM_ERROR_SNAPSHOT, "snapshot is damaged: its checksum does not match its ", bytes.size(), " bytes");
     r.item(found_hash);
-    if (found_hash != hash(solver.problem()))
+    if (found_hash != solver.scene_hash())
         fail(DELAM_ERROR_SNAPSHOT, "snapshot belongs to another scene or other options (its hash differs)");
+    std::vector<Pattern> patterns = solver.first_patterns();
+    if (found_version >= 6) patterns = read_histories(r, std::move(patterns));
     State state;
     walk(r, state);
     std::uint64_t kept = 0;
@@ -159,7 +197,7 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
         check(earlier, solver.committed());
         if (earlier.step != step++) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", earlier.step, " instead of ", step - 1);
     }
-    solver.restore(std::move(state), std::move(past), std::move(jumps));
+    solver.restore(std::move(state), std::move(past), std::move(jumps), std::move(patterns));
 }
 
 }  // namespace delam

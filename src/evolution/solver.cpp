@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
+#include "body/assembly.hpp"
 #include "body/rotation.hpp"
 #include "evolution/backtrack.hpp"
 #include "evolution/fronts.hpp"
@@ -17,11 +19,12 @@ namespace {
 
 constexpr double resolving_pairs = 3.0;  // in a process zone; with fewer its traction depends on the mesh
 constexpr double small_rotation = 0.1;   // rad
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
 Solver::Solver(const Problem& problem, Monitor& monitor, double time)
-    : problem_(problem), monitor_(monitor), stepper_(problem_, monitor), graph_(problem_.mesh->interfaces()) {
+    : problem_(problem), first_patterns_(problem.patterns), scene_hash_(hash(problem)), monitor_(monitor), stepper_(problem_, monitor), graph_(problem_.mesh->interfaces()) {
     Stepper::Result first = stepper_.initial(time);
     committed_ = std::move(first.state);
     if (!first.converged) initial_outcome_ = unconverged_displacement(committed_);
@@ -116,6 +119,39 @@ void Solver::rollback() {
     forget();
 }
 
+void Solver::set_history(std::int64_t pattern, std::span<const double> times, std::span<const double> values) {
+    if (pending_) fail(DELAM_ERROR_STATE, "a step is pending: commit it or roll it back before a history changes");
+    const double now = committed_.time;
+    if (times.front() <= now) fail(DELAM_ERROR_ARGUMENT, "times[0] = ", times.front(), " is not after the committed time ", now);
+    Pattern& changed = problem_.patterns[static_cast<std::size_t>(pattern)];
+    std::vector<double> t, v;
+    for (std::size_t i = 0; i < changed.times.size() && changed.times[i] < now; ++i) {
+        t.push_back(changed.times[i]);
+        v.push_back(changed.values[i]);
+    }
+    t.push_back(now);
+    v.push_back(changed.at(now));
+    t.insert(t.end(), times.begin(), times.end());
+    v.insert(v.end(), values.begin(), values.end());
+    changed.times = std::move(t);
+    changed.values = std::move(v);
+}
+
+std::vector<std::int64_t> Solver::changed_histories() const {
+    std::vector<std::int64_t> changed;
+    for (std::size_t p = 0; p < first_patterns_.size(); ++p)
+        if (problem_.patterns[p].times != first_patterns_[p].times || problem_.patterns[p].values != first_patterns_[p].values)
+            changed.push_back(static_cast<std::int64_t>(p));
+    return changed;
+}
+
+std::vector<double> Solver::step_tangent() const {
+    if (!pending_ || pending_->state.step == committed_.step) fail(DELAM_ERROR_STATE, "step tangent: no step is pending");
+    if (!pending_->revised.empty())
+        fail(DELAM_ERROR_STATE, "step tangent: a return has replaced steps from ", pending_->revised.front().step, " on");
+    return stepper_.step_tangent(committed_, pending_->state);
+}
+
 void Solver::look(std::int64_t step) {
     const State* found = nullptr;
     if (step != -1) {
@@ -144,8 +180,9 @@ std::vector<Jump> Solver::jumps(bool pending) const {
     return all;
 }
 
-void Solver::restore(State restored, std::vector<State> past, std::vector<Jump> jumps) {
+void Solver::restore(State restored, std::vector<State> past, std::vector<Jump> jumps, std::vector<Pattern> patterns) {
     stepper_.op().recall(restored.memory);
+    problem_.patterns = std::move(patterns);
     committed_ = std::move(restored);
     past_ = std::move(past);
     jumps_ = std::move(jumps);
@@ -207,7 +244,8 @@ double Solver::largest_rotation() const {
 
 std::vector<BodyModel> Solver::models() const {
     std::vector<BodyModel> models;
-    for (std::int32_t body = 0; body < problem_.mesh->body_count(); ++body) models.push_back(problem_.model(body));
+    for (std::int32_t body = 0; body < problem_.mesh->body_count(); ++body)
+        models.push_back(known(body) ? problem_.model(body) : BodyModel{Elastic{1.0, 0.0}, problem_.plane, Formulation::standard, nullptr});
     return models;
 }
 
@@ -218,8 +256,23 @@ std::vector<Strain> Solver::eigenstrains() const {
     return strains;
 }
 
+std::vector<double> Solver::stress() const {
+    const Mesh& mesh = *problem_.mesh;
+    std::vector<double> stress = centre_stress(mesh, models(), displacement(), eigenstrains());
+    const std::int64_t columns = mesh.dimension() == 2 ? 4 : 6;
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c)
+        if (!known(mesh.cell_body(c))) std::fill_n(stress.begin() + c * columns, columns, unknown);
+    return stress;
+}
+
 VolumeAverage Solver::average(std::int32_t body) const {
-    return volume_average(*problem_.mesh, models(), displacement(), eigenstrains(), body);
+    VolumeAverage average = volume_average(*problem_.mesh, models(), displacement(), eigenstrains(), body);
+    for (std::int32_t b = 0; b < problem_.mesh->body_count(); ++b) {
+        if ((body >= 0 && b != body) || known(b) || problem_.mesh->host_body(b)) continue;
+        average.stress.fill(unknown);
+        if (problem_.mesh->dimension() == 2 && problem_.plane == Plane::stress) std::fill(average.strain.begin() + 2, average.strain.end(), unknown);
+    }
+    return average;
 }
 
 const std::vector<CrackFront>& Solver::crack_fronts(std::int64_t interface) const {

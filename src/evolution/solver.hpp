@@ -35,6 +35,12 @@ public:
     void commit();
     void rollback();
     bool pending() const { return pending_.has_value(); }
+    // Another history of a pattern from the committed time on.
+    void set_history(std::int64_t pattern, std::span<const double> times, std::span<const double> values);
+    // Patterns whose history was changed, with those that hold now.
+    std::vector<std::int64_t> changed_histories() const;
+    // Hash of the scene as the solver was made with it.
+    std::uint64_t scene_hash() const { return scene_hash_; }
     // state() is then that of an earlier step which is still kept, of the pending chain or the committed one; -1: the present.
     void look(std::int64_t step);
     // Steps that can be looked at and returned to: from this one on.
@@ -51,7 +57,9 @@ public:
     // Jumps of the march up to the committed state, and with `pending` those of the pending step.
     std::vector<Jump> jumps(bool pending) const;
     // Replaces the committed states (of the same scene); drops a pending one.
-    void restore(State state, std::vector<State> past, std::vector<Jump> jumps);
+    void restore(State state, std::vector<State> past, std::vector<Jump> jumps, std::vector<Pattern> patterns);
+    // Of the scene as the solver was made with it.
+    const std::vector<Pattern>& first_patterns() const { return first_patterns_; }
     bool keeps_past() const;
     const PairLaws& pairs() const { return stepper_.pairs(); }
     const ContactScene& contact() const { return stepper_.contact(); }
@@ -61,6 +69,8 @@ public:
     std::vector<double> reaction() const { return stepper_.op().reaction(state().theta, state().response); }
     // d2E / dtheta2 at the adhesion and contact set of state(), [patterns][patterns].
     std::vector<double> tangent() const { return stepper_.tangent(state()); }
+    // Consistent tangent of the pending step, [patterns][patterns].
+    std::vector<double> step_tangent() const;
     // How often displacements were recovered.
     std::int64_t recoveries() const { return stepper_.op().recoveries(); }
     const JumpOperator& jump_operator() const { return stepper_.op(); }
@@ -80,7 +90,8 @@ public:
     double largest_rotation() const;
     // Of a body (index), -1: of all; recovers the displacements.
     VolumeAverage average(std::int32_t body) const;
-    std::vector<BodyModel> models() const;
+    // At the centres of the cells (centre_stress); NaN where a body has the host's stiffness and no material.
+    std::vector<double> stress() const;
     // e* of the bodies at this state, in material axes; empty: there are none.
     std::vector<Strain> eigenstrains() const;
     // What the last search looked at, in words.
@@ -93,6 +104,9 @@ private:
         std::vector<Jump> jumps;
     };
 
+    bool known(std::int32_t body) const { return problem_.material[static_cast<std::size_t>(body)].has_value(); }
+    // Of each body; anything where the material is not known.
+    std::vector<BodyModel> models() const;
     void require_nothing_pending(double time) const;
     // Of what was found on request.
     void forget();
@@ -101,6 +115,8 @@ private:
     Outcome unconverged_displacement(const State& state) const;
 
     Problem problem_;
+    std::vector<Pattern> first_patterns_;  // before any history was changed
+    std::uint64_t scene_hash_;
     Monitor& monitor_;
     Stepper stepper_;
     PairGraph graph_;

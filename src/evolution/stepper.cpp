@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "evolution/step_tangent.hpp"
 #include "interface/contact_levels.hpp"
 #include "scene/strain_loads.hpp"
 
@@ -291,30 +292,13 @@ Stepper::Result Stepper::equilibrate(const State& before, double time, std::span
     return result;
 }
 
-// With springs and held rows fixed all is linear: the conjugates of a unit load, pattern by pattern, are the columns.
 std::vector<double> Stepper::tangent(const State& state) const {
-    const auto dim = static_cast<std::size_t>(contact_.dimension);
-    const std::size_t patterns = state.theta.size();
-    Springs springs{spring_stiffness(pairs_, state.adhesion), {}, {}};
-    springs.held.assign(springs.stiffness.size(), 0);
-    for (std::size_t p = 0; p < state.closed.size(); ++p)
-        for (std::size_t c = 0; c < dim; ++c)
-            springs.held[p * dim + c] = contact_.bonded[p] != 0 || (c == 0 && state.closed[p] != 0) ? 1 : 0;
-    std::vector<double> matrix(patterns * patterns), unit(patterns, 0.0);
-    const std::vector<double> memory = operator_->memory();
-    for (std::size_t q = 0; q < patterns; ++q) {
-        unit[q] = 1.0;
-        Response response;
-        operator_->solve(springs, unit, response);
-        unit[q] = 0.0;
-        if (!response.balanced) {
-            operator_->recall(memory);
-            fail(DELAM_ERROR_STATE, "tangent: pattern '", problem_.patterns[q].name, "' acts along a motion that nothing holds at this contact set");
-        }
-        for (std::size_t p = 0; p < patterns; ++p) matrix[p * patterns + q] = response.conjugate[p];
-    }
-    operator_->recall(memory);
-    return matrix;
+    return Linearised(*operator_, pairs_, contact_, state).tangent(problem_.patterns);
+}
+
+std::vector<double> Stepper::step_tangent(const State& before, const State& state) const {
+    return Linearised(*operator_, pairs_, contact_, state)
+        .step_tangent(problem_.patterns, rule_, before.adhesion, problem_.options.damage_tolerance);
 }
 
 }  // namespace delam

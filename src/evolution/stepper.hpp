@@ -43,6 +43,8 @@ public:
     Result equilibrate(const State& before, double time, std::span<const double> adhesion);
     // d2E / dtheta2 at the state's adhesion and contact set, [patterns][patterns].
     std::vector<double> tangent(const State& state) const;
+    // d conjugate / d theta of a step from `before` to `state` (step_tangent.hpp).
+    std::vector<double> step_tangent(const State& before, const State& state) const;
     // Does the lower bound of a step fail by more than eta: is there a lower state than `before` at its own time?
     // Relative excess over the larger of energy and work.
     double lower_excess(const State& state) const;

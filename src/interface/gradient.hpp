@@ -38,6 +38,8 @@ public:
     std::int64_t coupled_pairs() const;
     double diagonal(std::size_t pair) const { return diagonal_[pair]; }  // kappa A_ii
 
+    const SparseMatrix& matrix() const { return matrix_; }  // kappa A
+
     double energy(std::span<const double> zeta) const;
     // kappa A zeta. From differences of zeta, so that a uniform adhesion has none, to the last digit.
     std::vector<double> force(std::span<const double> zeta) const;

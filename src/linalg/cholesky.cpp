@@ -196,6 +196,35 @@ double SparseCholesky::factor_entries() const {
 
 FactorSize SparseCholesky::size() const { return impl_->size_of_factor; }
 
+SparseCholesky::Pivot SparseCholesky::smallest_pivot() const {
+    const cholmod_factor* l = impl_->factor;
+    if (l == nullptr) return {};
+    const auto* order = static_cast<const std::int64_t*>(l->Perm);
+    if (l->minor < l->n) return {order[l->minor], 0.0};
+    const auto* x = static_cast<const double*>(l->x);
+    std::int64_t smallest = 0;
+    double least = 0.0, largest = 0.0;
+    const auto look = [&](std::int64_t j, double diagonal) {
+        if (j == 0 || diagonal < least) {
+            least = diagonal;
+            smallest = j;
+        }
+        largest = std::max(largest, diagonal);
+    };
+    if (l->is_super != 0) {
+        const auto* super = static_cast<const std::int64_t*>(l->super);
+        const auto* row_start = static_cast<const std::int64_t*>(l->pi);
+        const auto* value_start = static_cast<const std::int64_t*>(l->px);
+        for (std::size_t s = 0; s < l->nsuper; ++s)
+            for (std::int64_t j = super[s]; j < super[s + 1]; ++j)
+                look(j, x[value_start[s] + (j - super[s]) * (row_start[s + 1] - row_start[s] + 1)]);
+    } else {
+        const auto* start = static_cast<const std::int64_t*>(l->p);
+        for (std::int64_t j = 0; j < impl_->size; ++j) look(j, x[start[j]]);
+    }
+    return {order[smallest], least / largest * (least / largest)};
+}
+
 DenseMatrix SparseCholesky::trailing_factor() const {
     const Impl& impl = *impl_;
     DenseMatrix lower(impl.trailing, impl.trailing);

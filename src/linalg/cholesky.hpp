@@ -34,6 +34,12 @@ public:
     void solve_leading(std::span<const double> b, std::span<double> x) const;
     // Lower factor L_tt of the trailing variables: L_tt L_tt^T is the Schur complement onto them.
     DenseMatrix trailing_factor() const;
+    // After factorise(), whether it succeeded or not: the variable with the smallest pivot, and that over the largest; 0 where it broke down.
+    struct Pivot {
+        std::int64_t variable = -1;
+        double ratio = 1.0;
+    };
+    Pivot smallest_pivot() const;
     double factor_entries() const;
     FactorSize size() const;
 

@@ -24,6 +24,8 @@ void dgemv_(const char*, const int*, const int*, const double*, const double*, c
             const double*, double*, const int*);
 void dpotrf_(const char*, const int*, double*, const int*, int*);
 void dpotri_(const char*, const int*, double*, const int*, int*);
+void dgetrf_(const int*, const int*, double*, const int*, int*, int*);
+void dgetrs_(const char*, const int*, const int*, const double*, const int*, const int*, double*, const int*, int*);
 void dsyev_(const char*, const char*, const int*, double*, const int*, double*, double*, const int*, int*);
 void dgeqp3_(const int*, const int*, double*, const int*, int*, double*, double*, const int*, int*);
 void dpstrf_(const char*, const int*, double*, const int*, int*, int*, const double*, double*, int*);
@@ -245,6 +247,29 @@ std::vector<std::int64_t> independent_rows(DenseMatrix a, double tolerance) {
     for (int i = 0; i < rank; ++i) rows.push_back(pivot[static_cast<std::size_t>(i)] - 1);
     std::sort(rows.begin(), rows.end());
     return rows;
+}
+
+bool solve_general(DenseMatrix& a, DenseMatrix& b, double tolerance) {
+    const int n = narrow(a.rows), lda = leading(a.rows), columns = narrow(b.columns);
+    if (n == 0) return true;
+    for (std::int64_t i = 0; i < a.rows; ++i) {
+        double largest = 0.0;
+        for (std::int64_t j = 0; j < a.columns; ++j) largest = std::max(largest, std::abs(a(i, j)));
+        if (!(largest > 0.0)) return false;
+        for (std::int64_t j = 0; j < a.columns; ++j) a(i, j) /= largest;
+        for (std::int64_t j = 0; j < b.columns; ++j) b(i, j) /= largest;
+    }
+    std::vector<int> pivot(static_cast<std::size_t>(n));
+    int info = 0;
+    dgetrf_(&n, &n, a.value.data(), &lda, pivot.data(), &info);
+    double least = std::numeric_limits<double>::infinity(), most = 0.0;
+    for (std::int64_t i = 0; i < a.rows; ++i) {
+        least = std::min(least, std::abs(a(i, i)));
+        most = std::max(most, std::abs(a(i, i)));
+    }
+    if (info != 0 || !(least > tolerance * most)) return false;
+    dgetrs_("N", &n, &columns, a.value.data(), &lda, pivot.data(), b.value.data(), &lda, &info);
+    return true;
 }
 
 SemidefiniteFactor::SemidefiniteFactor(const DenseMatrix& a, std::span<const std::int64_t> rows)

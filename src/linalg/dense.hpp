@@ -49,6 +49,9 @@ void add_gram(DenseMatrix& c, const DenseMatrix& v);
 void subtract_product(DenseMatrix& c, const DenseMatrix& v, const DenseMatrix& w);
 // A^-1, full symmetric, of a positive definite A (LAPACK dpotrf, dpotri).
 DenseMatrix inverse_definite(DenseMatrix a);
+// A X = B in place of B, A spoilt, by LU with its rows scaled to 1 (LAPACK dgetrf, dgetrs). False: singular, no pivot larger than `tolerance` of the
+// largest; B is then not set.
+bool solve_general(DenseMatrix& a, DenseMatrix& b, double tolerance);
 // Orthonormal basis of the columns' span (modified Gram-Schmidt, twice); they must be independent.
 DenseMatrix orthonormalised(DenseMatrix a);
 // Eigenpairs of a symmetric matrix, ascending; vectors in columns (LAPACK dsyev).

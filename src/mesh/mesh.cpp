@@ -62,6 +62,8 @@ void Mesh::add_cells(CellType type, std::span<const std::int64_t> connectivity, 
         const std::size_t number = cell_type_.size() + c;
         const std::int32_t label = label_of(c);
         if (label < 0) fail(DELAM_ERROR_ARGUMENT, "cell ", number, ": body ", label, ": must be >= 0");
+        if (std::binary_search(host_labels_.begin(), host_labels_.end(), label))
+            fail(DELAM_ERROR_MESH, "cell ", number, ": body ", label, " was made without cells (delam_mesh_add_host_body)");
         if (std::binary_search(joined.begin(), joined.end(), label))
             fail(DELAM_ERROR_STATE, "cell ", number, ": body ", label,
                  " has an interface already; add all its cells before");
@@ -107,14 +109,8 @@ void Mesh::add_cells(CellType type, std::span<const std::int64_t> connectivity, 
         throw;
     }
 
-    // Nothing below can fail. A new label shifts the indices of the bodies above it.
-    for (InterfaceGeometry& i : interfaces_) {
-        for (std::int32_t* body : {&i.body_a, &i.body_b}) {
-            if (*body < 0) continue;
-            const auto place = std::lower_bound(new_labels.begin(), new_labels.end(), body_label(*body));
-            *body = static_cast<std::int32_t>(place - new_labels.begin());
-        }
-    }
+    // Nothing below can fail.
+    rename_bodies(new_labels);
     labels_.swap(new_labels);
     for (std::size_t c = 0; c < count; ++c) {
         cell_type_.push_back(type);
@@ -122,6 +118,20 @@ void Mesh::add_cells(CellType type, std::span<const std::int64_t> connectivity, 
         cell_offset_.push_back(cell_offset_.back() + shape.nodes);
     }
     connectivity_.insert(connectivity_.end(), connectivity.begin(), connectivity.end());
+}
+
+void Mesh::rename_bodies(const std::vector<std::int32_t>& new_labels) {
+    for (InterfaceGeometry& i : interfaces_) {
+        for (std::int32_t* body : {&i.body_a, &i.body_b}) {
+            if (*body < 0) continue;
+            const auto place = std::lower_bound(new_labels.begin(), new_labels.end(), body_label(*body));
+            *body = static_cast<std::int32_t>(place - new_labels.begin());
+        }
+    }
+}
+
+bool Mesh::host_body(std::int32_t body) const {
+    return std::binary_search(host_labels_.begin(), host_labels_.end(), body_label(body));
 }
 
 std::int32_t Mesh::body_of_label(std::int32_t label) const {

@@ -63,6 +63,13 @@ public:
     std::int64_t add_obstacle(std::span<const std::int64_t> nodes, std::span<const double> normals,
                               std::span<const double> weights, std::int64_t control);
 
+    // A body without cells, whose stiffness the host gives, and interfaces of pairs that the host knows (host_body.cpp).
+    void add_host_body(std::int32_t label, std::span<const std::int64_t> nodes);
+    // normals: [pairs][dimension] from a to b, any length; face: indices of pairs, [faces][nodes_per_face].
+    std::int64_t add_pairs(std::int32_t label_a, std::int32_t label_b, std::span<const std::int64_t> nodes_a,
+                           std::span<const std::int64_t> nodes_b, std::span<const double> normals,
+                           std::span<const double> weights, int nodes_per_face, std::span<const std::int64_t> face);
+
     int dimension() const { return dimension_; }
     std::int64_t node_count() const { return static_cast<std::int64_t>(nodes_.size()) / dimension_; }
     std::span<const double> nodes() const { return nodes_; }
@@ -86,7 +93,9 @@ public:
     std::int32_t body_label(std::int32_t body) const { return labels_[static_cast<std::size_t>(body)]; }
     // Index of the body with a label; -1 when there is none.
     std::int32_t body_of_label(std::int32_t label) const;
-    // Body index of a node, -1 for a node without cells.
+    // Does a body have no cells?
+    bool host_body(std::int32_t body) const;
+    // Body index of a node, -1 for a node of none.
     std::int32_t node_body(std::int64_t node) const;
     // The node that a node was doubled from, itself otherwise.
     std::int64_t node_origin(std::int64_t node) const { return node_origin_[static_cast<std::size_t>(node)]; }
@@ -104,6 +113,10 @@ public:
 private:
     // Body indices of two labels that differ and have no interface.
     std::pair<std::int32_t, std::int32_t> require_unjoined(std::int32_t label_a, std::int32_t label_b) const;
+    // Error(DELAM_ERROR_MESH) where a body has no faces.
+    void require_cells(std::int32_t body) const;
+    // Room for a label in labels_: indices of bodies above it move up by one.
+    void rename_bodies(const std::vector<std::int32_t>& new_labels);
     std::int64_t node_for(std::int64_t node, std::int32_t label, std::vector<std::int64_t>& taken);
 
     int dimension_;
@@ -113,6 +126,7 @@ private:
     std::vector<std::int64_t> cell_offset_{0};
     std::vector<std::int64_t> connectivity_;
     std::vector<std::int32_t> labels_;      // distinct labels, ascending
+    std::vector<std::int32_t> host_labels_; // of bodies without cells, ascending
     static constexpr std::int32_t reserved = -2;
     std::vector<std::int32_t> node_label_;  // -1: none; reserved: tied, or the control node of an obstacle
     std::vector<std::int64_t> node_origin_;

@@ -184,8 +184,15 @@ std::pair<std::int32_t, std::int32_t> Mesh::require_unjoined(std::int32_t label_
     return {a, b};
 }
 
+void Mesh::require_cells(std::int32_t body) const {
+    if (host_body(body))
+        fail(DELAM_ERROR_MESH, "body ", body_label(body), " has no cells and so no faces: give its pairs (delam_mesh_add_pairs)");
+}
+
 std::int64_t Mesh::add_interface(std::int32_t label_a, std::int32_t label_b, double tolerance) {
     const auto [a, b] = require_unjoined(label_a, label_b);
+    require_cells(a);
+    require_cells(b);
     require_tolerance(tolerance);
     const double edge = std::min(shortest_edge(*this, body_cells(a)), shortest_edge(*this, body_cells(b)));
     const double distance = relative(tolerance) * edge;

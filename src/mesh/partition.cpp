@@ -241,19 +241,21 @@ void share_out(std::vector<Component>& components, std::int64_t subdomains) {
 
 }  // namespace
 
-Partition partition(const Mesh& mesh, std::int64_t subdomains) {
-    const std::int64_t cells = mesh.cell_count();
+Partition partition(const Mesh& mesh, std::int64_t subdomains, std::span<const std::uint8_t> left_out) {
+    std::vector<std::int64_t> all;
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c)
+        if (left_out.empty() || left_out[at(mesh.cell_body(c))] == 0) all.push_back(c);
+    const auto cells = static_cast<std::int64_t>(all.size());
     if (subdomains < 0 || subdomains > std::max<std::int64_t>(cells, 1))
         fail(DELAM_ERROR_ARGUMENT, "subdomains ", subdomains, ": must be in 0..", cells, ", the number of cells");
     if (cells > std::numeric_limits<idx_t>::max() / FaceTable::stride)
         fail(DELAM_ERROR_ARGUMENT, cells, " cells: METIS was built for fewer");
 
-    std::vector<std::int64_t> all(at(cells));
+    Partition result;
+    result.cell_subdomain.assign(at(mesh.cell_count()), -1);
+    if (all.empty()) return result;
     Parts body(at(cells));
-    for (std::int64_t c = 0; c < cells; ++c) {
-        all[at(c)] = c;
-        body[at(c)] = mesh.cell_body(c);
-    }
+    for (std::size_t c = 0; c < all.size(); ++c) body[c] = mesh.cell_body(all[c]);
     const FaceTable table = match_faces(mesh, all);  // bodies share no nodes, hence no faces
     std::vector<std::size_t> members(at(cells));
     std::vector<idx_t> number(at(cells));
@@ -274,8 +276,6 @@ Partition partition(const Mesh& mesh, std::int64_t subdomains) {
                      [](const Component& a, const Component& b) { return a.body < b.body; });
     share_out(components, subdomains);
 
-    Partition result;
-    result.cell_subdomain.assign(at(cells), -1);
     for (const Component& component : components) {
         Graph graph = graph_of(table, component.cells, number);
         const Parts part = cut(graph, static_cast<std::int32_t>(component.parts));
@@ -286,7 +286,7 @@ Partition partition(const Mesh& mesh, std::int64_t subdomains) {
                 n = static_cast<std::int32_t>(result.subdomain_body.size());
                 result.subdomain_body.push_back(component.body);
             }
-            result.cell_subdomain[component.cells[k]] = n;
+            result.cell_subdomain[at(all[component.cells[k]])] = n;
         }
     }
     return result;

@@ -90,7 +90,7 @@ ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, doub
     const int dim = mesh.dimension();
     const double dofs = number(mesh.node_count() * dim), parts = number(subdomains);
     const Carriers carriers(problem);
-    const auto of_a_body = [&](std::int64_t node) { return carriers.kind(node) == Carriers::Kind::cells; };
+    const auto of_a_body = [&](std::int64_t node) { return carriers.kind(node) == Carriers::Kind::body; };
     std::set<std::int64_t> touched;
     for (const InterfaceGeometry& face : mesh.interfaces())
         for (const auto* side : {&face.node_a, &face.node_b})
@@ -106,6 +106,8 @@ ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, doub
     double element_entries = 0.0;
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c)
         element_entries += square(number(static_cast<std::int64_t>(mesh.cell(c).size()) * dim));
+    for (const auto& own : problem.stiffness)
+        if (own != nullptr) element_entries += 2.0 * number(own->matrix.entries());
     for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
         std::array<double, 3> low{}, high{}, side{1.0, 1.0, 1.0};
         const std::vector<std::int64_t> nodes = mesh.body_nodes(body);

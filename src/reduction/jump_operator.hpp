@@ -14,6 +14,8 @@
 
 namespace delam {
 
+class Bulk;
+
 // What an interface row is at the moment.
 struct Springs {
     std::vector<double> stiffness;    // [rows] s = weight k zeta >= 0, F/L; 0: debonded (no force)
@@ -53,6 +55,8 @@ public:
     virtual void recall(std::span<const double> /*memory*/) {}
     // Another operator over the same condensed bodies, with a memory of its own; null: there is none that is cheap.
     virtual std::unique_ptr<JumpOperator> twin() const { return nullptr; }
+    // The bodies condensed onto the jumps; null: they are not.
+    virtual const Bulk* bulk() const { return nullptr; }
     // Sparse factorisations of the bodies since the operator was made, and how often displacements were recovered.
     virtual std::int64_t factorisations() const { return 0; }
     virtual std::int64_t recoveries() const { return 0; }

@@ -8,8 +8,8 @@ namespace delam {
 Carriers::Carriers(const Problem& problem) : mesh_(*problem.mesh) {
     const std::int64_t dim = mesh_.dimension();
     kind_.assign(static_cast<std::size_t>(mesh_.node_count()), Kind::nothing);
-    for (std::int64_t c = 0; c < mesh_.cell_count(); ++c)
-        for (const std::int64_t node : mesh_.cell(c)) kind_[static_cast<std::size_t>(node)] = Kind::cells;
+    for (std::int64_t node = 0; node < mesh_.node_count(); ++node)
+        if (mesh_.node_body(node) >= 0) kind_[static_cast<std::size_t>(node)] = Kind::body;
     for (const NodeTie& tie : mesh_.ties()) kind_[static_cast<std::size_t>(tie.node)] = Kind::tied;
     const auto refer = [&](std::int64_t node) {
         Kind& kind = kind_[static_cast<std::size_t>(node)];

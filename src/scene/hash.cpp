@@ -83,6 +83,20 @@ void add_orientation(Fnv& fnv, const Orientation& orientation) {
     for (const Axes& axes : orientation.axes) fnv.add_all(std::span<const double>(axes));
 }
 
+// Scenes without it hash as they did before there was such a thing.
+void add_stiffness(Fnv& fnv, const Problem& problem) {
+    for (std::int32_t body = 0; body < problem.mesh->body_count(); ++body) {
+        const auto& own = problem.stiffness[static_cast<std::size_t>(body)];
+        if (own == nullptr) continue;
+        fnv.add(problem.mesh->body_label(body));
+        fnv.add_all(problem.mesh->body_nodes(body));
+        fnv.add_all(own->matrix.start);
+        fnv.add_all(own->matrix.column);
+        fnv.add_all(own->matrix.value);
+        for (const HostPiece& piece : own->pieces) fnv.add(piece.free.columns);
+    }
+}
+
 void add_law(Fnv& fnv, const Law& law) {
     for (const double parameter :
          {law.normal_stiffness, law.tangential_stiffness, law.normal_onset, law.tangential_onset, law.normal_toughness,
@@ -170,6 +184,7 @@ std::uint64_t hash(const Problem& problem) {
     for (const std::optional<Material>& material : problem.material) add_material(fnv, material);
     if (problem.orientation != nullptr) add_orientation(fnv, *problem.orientation);
     for (const Formulation formulation : problem.formulation) fnv.add(static_cast<std::int64_t>(formulation));
+    add_stiffness(fnv, problem);
     for (const InterfaceProperties& interface : problem.interfaces) {
         fnv.add(interface.bonded);
         fnv.add(interface.contact);

@@ -27,8 +27,8 @@ struct Row {
 constexpr double below = 1e-300;  // makes an end of an open interval a member
 constexpr double most = 9007199254740992.0;  // 2^53: beyond it a double no longer holds every whole number
 
-const std::array<Row, 27>& rows() {
-    static const std::array<Row, 27> table{{
+const std::array<Row, 28>& rows() {
+    static const std::array<Row, 28> table{{
         {{"damage_tolerance", "real", "-", "1e-5", "0 < value < 1",
           "alternate minimisation stops when no adhesion changes by more (delta)"},
          &Options::damage_tolerance,
@@ -148,6 +148,12 @@ const std::array<Row, 27>& rows() {
          &Options::linear_limit,
          1.0,
          most},
+        {{"threads", "integer", "-", "1", "1 <= value <= 1024",
+          "threads of the library's own, within a call: subdomains of FETI side by side; no digit depends on it. BLAS has its own (delam_blas_threads), "
+          "best one where this is more"},
+         &Options::threads,
+         1.0,
+         1024.0},
     }};
     return table;
 }

@@ -44,6 +44,9 @@ struct Options {
     double linear_tolerance = 1e-13;
     std::int64_t linear_limit = 2000;
 
+    // effort; no digit depends on it, so it is not hashed
+    std::int64_t threads = 1;                   // of the library's own
+
     void set_number(const std::string& key, double value);
     void set_text(const std::string& key, const std::string& value);
     // As people write it.

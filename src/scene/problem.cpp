@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "body/assembly.hpp"
 #include "delam/delam.h"
 
 namespace delam {
@@ -21,6 +22,7 @@ double Pattern::at(double time) const {
 Problem::Problem(std::shared_ptr<const Mesh> mesh_) : mesh(std::move(mesh_)) {
     material.resize(static_cast<std::size_t>(mesh->body_count()));
     formulation.resize(material.size(), Formulation::standard);
+    stiffness.resize(material.size());
     interfaces.resize(mesh->interfaces().size());
     for (std::size_t i = 0; i < interfaces.size(); ++i) {
         interfaces[i].adhesion.assign(static_cast<std::size_t>(mesh->interfaces()[i].pair_count()), 1.0);
@@ -39,6 +41,11 @@ BodyModel Problem::model(std::int32_t body) const {
         fail(DELAM_ERROR_PROBLEM, "body ", mesh->body_label(body),
              ": formulation 'mean-dilatation' is for plane strain and space; in plane stress the thickness gives way and nothing locks");
     return {*material[i], plane, formulation[i], orientation};
+}
+
+SparseMatrix Problem::body_stiffness(std::int32_t body) const {
+    if (const auto& own = stiffness[static_cast<std::size_t>(body)]) return own->matrix;
+    return assemble_stiffness(*mesh, mesh->body_cells(body), mesh->body_nodes(body), model(body));
 }
 
 std::vector<double> Problem::factors(double time) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "body/eigenstrain.hpp"
+#include "body/host_stiffness.hpp"
 #include "body/model.hpp"
 #include "interface/law.hpp"
 #include "linalg/sparse.hpp"
@@ -62,6 +63,7 @@ struct Problem {
     Plane plane = Plane::strain;
     std::vector<std::optional<Material>> material;   // [bodies]
     std::vector<Formulation> formulation;            // [bodies]
+    std::vector<std::shared_ptr<const HostStiffness>> stiffness;  // [bodies] given by the host; null: from cells and material
     std::shared_ptr<const Orientation> orientation;  // of the cells; null: none
     std::vector<InterfaceProperties> interfaces;
     std::vector<Pattern> patterns;
@@ -74,6 +76,8 @@ struct Problem {
     std::int64_t pair_count() const;
     // Of a body whose material is there. Error(DELAM_ERROR_PROBLEM) where the plane does not go with the formulation.
     BodyModel model(std::int32_t body) const;
+    // K of a body over its nodes in ascending order, both triangles.
+    SparseMatrix body_stiffness(std::int32_t body) const;
     std::int64_t jump_count() const { return pair_count() * mesh->dimension(); }
     std::vector<double> factors(double time) const;
     // Right-hand side coefficients [constraints][patterns], row-major.

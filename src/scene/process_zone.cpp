@@ -53,7 +53,7 @@ ProcessZone predicted_process_zone(const Problem& problem, std::int64_t interfac
 
     zone.length = std::numeric_limits<double>::infinity();
     for (const std::int32_t body : {geometry.body_a, geometry.body_b}) {
-        if (body < 0 || !problem.material[at(body)]) continue;
+        if (body < 0 || !problem.material[at(body)] || mesh.host_body(body)) continue;
         const double modulus = plane_modulus(problem.model(body), mesh.dimension()), arm = volume_of(mesh, body) / area;
         for (const double mixity : {0.0, 1.0}) {
             const Toughness toughness = properties.law->toughness(mixity);

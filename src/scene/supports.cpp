@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The search runs on rigid pieces, not on nodes. Face-connected cells are one piece; pieces that enough tied pairs join
+// The search runs on rigid pieces, not on nodes. Face-connected cells are one piece (pieces.hpp); pieces that enough tied pairs join
 // become one as well. What is left are a few pieces, hinges between them (a single pair, say), control nodes, which move by
-// translations, and rows: constraints and pairs that join control nodes. Rows act on three or six motions per piece, and the
+// translations, and rows: constraints, pairs that join control nodes, and what the host's own supports resist. Rows act on three or six motions per piece, and the
 // null space of their small Gram matrix is what nothing resists.
 #include "scene/supports.hpp"
 
@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "mesh/partition.hpp"
 #include "scene/carriers.hpp"
+#include "scene/pieces.hpp"
 
 namespace delam {
 namespace {
@@ -92,8 +92,7 @@ struct Tie {
     Point place;
 };
 
-// sum of coefficient u[dof] = 0
-using Row = std::vector<std::pair<std::int64_t, double>>;
+using Row = Pieces::Row;
 
 struct Frame {
     Point centre{};
@@ -108,9 +107,9 @@ public:
           carriers_(problem),
           dimension_(at(mesh_.dimension())),
           modes_(dimension_ == 2 ? 3 : 6),
-          cut_(partition(mesh_, 1)),
-          groups_(cut_.subdomain_body.size() + carriers_.controls().size()) {
-        find_pieces();
+          pieces_(rigid_pieces(problem)),
+          groups_(pieces_.count() + carriers_.controls().size()) {
+        take_pieces();
         find_ties(tied);
         merge();
     }
@@ -122,7 +121,7 @@ private:
     Carriers carriers_;
     std::size_t dimension_;
     std::size_t modes_;
-    Partition cut_;
+    Pieces pieces_;
     Sets groups_;  // of the pieces, then of the control nodes
     std::vector<std::int64_t> node_piece_;
     std::vector<Tie> ties_;
@@ -136,7 +135,7 @@ private:
     }
     std::size_t group(std::int64_t node) { return groups_.find(at(node_piece_[at(node)])); }
     bool control(std::int64_t node) const { return carriers_.kind(node) == Carriers::Kind::control; }
-    bool control_group(std::size_t group) const { return group >= cut_.subdomain_body.size(); }
+    bool control_group(std::size_t group) const { return group >= pieces_.count(); }
 
     // Component c of rigid mode m at p: translations, then rotations about the centre, of unit displacement at distance
     // `length`.
@@ -150,7 +149,7 @@ private:
         return 0.0;
     }
 
-    void find_pieces();
+    void take_pieces();
     void find_ties(bool tied);
     void merge();
     void measure();
@@ -161,18 +160,12 @@ private:
     std::string words(const Frame& f, const double* motion) const;
 };
 
-// A node where two pieces of one body meet is a hinge: a tie of the pieces at one place.
-void Search::find_pieces() {
-    node_piece_.assign(at(mesh_.node_count()), -1);
-    for (std::int64_t c = 0; c < mesh_.cell_count(); ++c) {
-        const std::int64_t piece = cut_.cell_subdomain[at(c)];
-        for (const std::int64_t node : mesh_.cell(c)) {
-            if (node_piece_[at(node)] < 0) node_piece_[at(node)] = piece;
-            if (node_piece_[at(node)] != piece) ties_.push_back({at(node_piece_[at(node)]), at(piece), place(node)});
-        }
-    }
+void Search::take_pieces() {
+    node_piece_ = pieces_.of_node;
+    for (const Pieces::Hinge& hinge : pieces_.hinges) ties_.push_back({at(hinge.piece_a), at(hinge.piece_b), place(hinge.node)});
+    rows_ = pieces_.resisted;
     for (std::size_t c = 0; c < carriers_.controls().size(); ++c)
-        node_piece_[at(carriers_.controls()[c])] = static_cast<std::int64_t>(cut_.subdomain_body.size() + c);
+        node_piece_[at(carriers_.controls()[c])] = static_cast<std::int64_t>(pieces_.count() + c);
 }
 
 // A tied node moves with the piece that it is tied to: its combination is exact in rigid motions. A control node is nowhere: pairs with one are
@@ -363,14 +356,14 @@ FreeMotion Search::describe(const std::vector<std::size_t>& cluster, const std::
     for (std::size_t i = 0; i < cluster.size(); ++i)
         if (size[mover] <= 1e-6 * largest && size[i] > size[mover]) mover = i;
     free.description = words(frame_[cluster[mover]], &motion[mover * modes_]);
-    for (std::size_t piece = 0; piece < cut_.subdomain_body.size(); ++piece) {
+    for (std::size_t piece = 0; piece < pieces_.count(); ++piece) {
         const auto found = std::find(cluster.begin(), cluster.end(), groups_.find(piece));
         if (found != cluster.end() && size[static_cast<std::size_t>(found - cluster.begin())] > 1e-6 * largest) {
-            free.bodies.push_back(cut_.subdomain_body[piece]);
+            free.bodies.push_back(pieces_.body[piece]);
         }
     }
     for (std::size_t i = 0; i < cluster.size(); ++i)
-        if (control_group(cluster[i]) && size[i] > 1e-6 * largest) free.controls.push_back(carriers_.controls()[cluster[i] - cut_.subdomain_body.size()]);
+        if (control_group(cluster[i]) && size[i] > 1e-6 * largest) free.controls.push_back(carriers_.controls()[cluster[i] - pieces_.count()]);
     std::sort(free.bodies.begin(), free.bodies.end());
     free.bodies.erase(std::unique(free.bodies.begin(), free.bodies.end()), free.bodies.end());
 
@@ -436,7 +429,7 @@ std::vector<FreeMotion> Search::examine(const std::vector<std::size_t>& cluster)
 }
 
 std::vector<FreeMotion> Search::run() {
-    Sets clusters(cut_.subdomain_body.size() + carriers_.controls().size());
+    Sets clusters(pieces_.count() + carriers_.controls().size());
     for (const Tie& tie : ties_) clusters.join(groups_.find(tie.piece_a), groups_.find(tie.piece_b));
     for (const Row& row : rows_)
         for (const auto& [dof, coefficient] : row) clusters.join(group(row.front().first / mesh_.dimension()), group(dof / mesh_.dimension()));

@@ -19,8 +19,16 @@ namespace {
 
 void check_bodies(const Problem& problem) {
     const Mesh& mesh = *problem.mesh;
-    if (mesh.cell_count() == 0) fail(DELAM_ERROR_PROBLEM, "mesh: no cells");
+    if (mesh.body_count() == 0) fail(DELAM_ERROR_PROBLEM, "mesh: no cells");
     for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
+        if (problem.stiffness[static_cast<std::size_t>(body)] != nullptr) {
+            for (const Eigenstrain& e : problem.eigenstrains)
+                if (e.body == body)
+                    fail(DELAM_ERROR_PROBLEM, "body ", mesh.body_label(body), " has the host's stiffness and an eigenstrain of pattern '",
+                         problem.patterns[static_cast<std::size_t>(e.pattern)].name, "': give its forces instead (delam_problem_add_forces)");
+            continue;
+        }
+        if (mesh.host_body(body)) fail(DELAM_ERROR_PROBLEM, "body ", mesh.body_label(body), ": no cells and no stiffness (delam_problem_set_stiffness)");
         if (!problem.material[static_cast<std::size_t>(body)]) {
             fail(DELAM_ERROR_PROBLEM, "body ", mesh.body_label(body), ": no material (delam_problem_set_elastic or delam_problem_set_orthotropic)");
         }
@@ -53,6 +61,8 @@ void check_interfaces(const Problem& problem) {
             } catch (const Error& e) {
                 fail(e.status(), "interface ", i, ": ", e.what());
             }
+            if (interface.law->gradient > 0.0 && problem.mesh->interfaces()[i].face.empty())
+                fail(DELAM_ERROR_PROBLEM, "interface ", i, ": its law has a gradient term, but it has no faces (delam_mesh_add_pairs)");
         }
     }
 }
@@ -99,7 +109,10 @@ std::string names(const Mesh& mesh, const FreeMotion& motion) {
 }
 
 void check_supports(const Problem& problem) {
-    if (problem.constraints.empty())
+    const bool held_by_host = std::any_of(problem.stiffness.begin(), problem.stiffness.end(), [](const auto& own) {
+        return own != nullptr && std::any_of(own->pieces.begin(), own->pieces.end(), [](const HostPiece& p) { return p.held.columns > 0; });
+    });
+    if (problem.constraints.empty() && !held_by_host)
         fail(DELAM_ERROR_PROBLEM, "missing support: no displacement is prescribed anywhere");
     const std::vector<FreeMotion> missing = free_motions(problem, true);
     if (!missing.empty()) {

@@ -33,7 +33,7 @@ import header as headers  # noqa: E402
 
 FIELDS = ("unit", "null", "owns", "status", "thread", "source", "since", "deprecated")
 STATUSES = {"not_converged", "cancelled", "limit", "argument", "handle", "mesh", "problem", "state", "memory",
-            "numerical", "snapshot", "internal"}
+            "numerical", "snapshot", "file", "internal"}
 USUAL = {"handle", "memory", "internal"}
 EXPLAINED = {"out", "capacity", "index_base", "user", "interface_index", "index", "body", "context"}
 ONE_UNIT = r"(?:1|L2|L3|L|F/L2|F/L3|F/L|F L|F|L/F|rad|t|of key|of unit|of factors)"

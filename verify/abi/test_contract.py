@@ -18,6 +18,7 @@ import math
 import os
 import re
 import sys
+import tempfile
 from ctypes import c_double, c_int32, c_int64, c_uint8, c_void_p
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -31,6 +32,8 @@ CODES = {name: int(value) for name, value in header.constants.items() if re.full
 OK, ARGUMENT, HANDLE = 0, CODES["DELAM_ERROR_ARGUMENT"], CODES["DELAM_ERROR_HANDLE"]
 SCALARS = {"int32_t": c_int32, "int64_t": c_int64, "double": c_double, "uint8_t": c_uint8}
 PLACE = ctypes.POINTER(c_double)
+FOLDER = tempfile.TemporaryDirectory(prefix="delam-contract-")
+STATE_FILE = os.path.join(FOLDER.name, "state")
 failures = []
 calls_made = 0
 
@@ -213,6 +216,19 @@ def more_nodes(s):
     return [s.mesh, CODES["DELAM_QUAD4"], 1, whole(0, 1, 2, 3), short(0), 0]
 
 
+def stiffness(s):
+    """Of body 0: its nodes are 0 to 3, what it moves by is a rigid motion."""
+    starts, columns, values = room(c_int64, 9), room(c_int64, 64), room(c_double, 64)
+    fine("problem_body_matrix", s.problem, 0, None, None, starts, columns, values)
+    kernel = real(*[1, 0] * 4, *[0, 1] * 4, 0, 0, 0, 1, -1, 1, -1, 0)
+    return [s.problem, 4, whole(0, 1, 2, 3), whole(*range(8)), starts, columns, values, 3, kernel, 0]
+
+
+def saved_file(s):
+    fine("solver_save_file", s.solver, words(STATE_FILE))
+    return [s.solver, words(STATE_FILE)]
+
+
 def plan_item(s):
     return [s.solver, 0] + [c_void_p() for _ in range(3)] + [real(0), real(0), c_void_p()]
 
@@ -232,6 +248,9 @@ CALLS = {
     "mesh_add_all_interfaces": (loose, lambda s: [s.mesh, 0.0, whole(0)]),
     "mesh_add_projected_interface": (loose, lambda s: [s.mesh, 0, 1, 0.0, whole(0)]),
     "mesh_add_obstacle": (loose, lambda s: [s.mesh, 2, whole(0, 1), real(0, 1, 0, 1), real(0.5, 0.5), 8, 0, whole(0)]),
+    "mesh_add_host_body": (loose, lambda s: [s.mesh, 7, 1, whole(8), 0]),
+    "mesh_add_pairs": (loose, lambda s: [s.mesh, 0, 1, 2, whole(3, 2), whole(4, 5), real(0, 1, 0, 1), real(0.5, 0.5), 1,
+                                         2, whole(0, 1), 0, whole(0)]),
     "mesh_size": (bare, lambda s: [s.mesh, short(0), whole(0), whole(0), whole(0), whole(0)]),
     "mesh_nodes": (bare, lambda s: [s.mesh, 18, room(c_double, 18)]),
     "mesh_node_bodies": (bare, lambda s: [s.mesh, 9, room(c_int32, 9)]),
@@ -262,6 +281,7 @@ CALLS = {
     "problem_set_orthotropic": (bare, lambda s: [s.problem, 0, real(1e9, 1e9, 1e9, 0.3, 0.3, 0.3, 4e8, 4e8, 4e8)]),
     "problem_set_orientation": (bare, lambda s: [s.problem, 0, 1, whole(0), real(1, 1, 0, -1, 1, 0), 0]),
     "problem_set_formulation": (bare, lambda s: [s.problem, 0, words("incompatible")]),
+    "problem_set_stiffness": (bare, stiffness),
     "problem_set_law": (bare, lambda s: [s.problem, 0, s.law]),
     "problem_set_bonded": (bare, lambda s: [s.problem, 0]),
     "problem_set_contact": (bare, lambda s: [s.problem, 0]),
@@ -292,6 +312,8 @@ CALLS = {
     "solver_advance": (full, lambda s: [s.solver, 0.5]),
     "solver_commit": (lambda: full().marched(), lambda s: [s.solver]),
     "solver_rollback": (lambda: full().marched(), lambda s: [s.solver]),
+    "solver_pending": (full, lambda s: [s.solver, short(0)]),
+    "solver_set_history": (full, lambda s: [s.solver, 0, 2, real(0.5, 1), real(0.1, 0.2)]),
     "solver_equilibrate": (full, lambda s: [s.solver, 0.5, real(1, 1)]),
     "solver_value": (full, lambda s: [s.solver, words("kkt_gap"), real(0)]),
     "solver_value_count": (full, lambda s: [s.solver, whole(0)]),
@@ -303,6 +325,10 @@ CALLS = {
                                       room(c_double, 8), room(c_double, 4), room(c_double, 12), room(c_double, 4),
                                       room(c_double, 4)]),
     "solver_tangent": (full, lambda s: [s.solver, 9, room(c_double, 9)]),
+    "solver_step_tangent": (lambda: full().marched(), lambda s: [s.solver, 9, room(c_double, 9)]),
+    "solver_condensed_size": (full, lambda s: [s.solver, whole(0), whole(0)]),
+    "solver_condensed": (full, lambda s: [s.solver, 16, room(c_double, 16), room(c_double, 12), room(c_double, 9),
+                                          room(c_int64, 5), room(c_int64, 16), room(c_double, 16), room(c_double, 12)]),
     "solver_plan_count": (full, lambda s: [s.solver, whole(0)]),
     "solver_plan_item": (full, plan_item),
     "solver_look": (full, lambda s: [s.solver, -1]),
@@ -311,11 +337,13 @@ CALLS = {
                     lambda s: [s.solver, 0, whole(0)] + [real(0) for _ in range(6)] + [whole(0) for _ in range(3)]),
     "solver_save": (full, lambda s: [s.solver, len(s.saved()), s.saved(), whole(0)]),
     "solver_load": (lambda: full().committed(), lambda s: [s.solver, len(s.saved()), s.saved()]),
+    "solver_save_file": (full, lambda s: [s.solver, words(STATE_FILE)]),
+    "solver_load_file": (lambda: full().committed(), saved_file),
 }
 # Functions that return no status: what they give for the right call and for a wrong one.
 TEXTS = {
     "version": lambda: [], "commit": lambda: [], "status_name": lambda: [99], "abi": lambda: [],
-    "option_count": lambda: [], "law_parameter_count": lambda: [None], "context_message": None,
+    "option_count": lambda: [], "blas_threads": lambda: [], "law_parameter_count": lambda: [None], "context_message": None,
     "problem_pattern_name": None, "solver_value_name": None, "solver_plan": None, "solver_option": None,
     "solver_searched": None,
 }
@@ -401,10 +429,12 @@ def probe(function):
         if p.name == "capacity":
             attempt(function, "capacity -1", ARGUMENT, put(-1))
         if p.type == "int64_t" and (p.name == "size" or p.name.endswith("count")):
-            attempt(function, f"{p.name} -1", ARGUMENT, put(-1))
+            bad = -2 if p.name == "kernel_count" else -1  # -1: find it
+            attempt(function, f"{p.name} {bad}", ARGUMENT, put(bad))
         if p.type == "int32_t" and (p.name in ("cell_type", "dimension") or p.name.startswith("body")):
             for bad in (-7, 99):
-                attempt(function, f"{p.name} {bad}", ARGUMENT, put(bad))
+                if (short_name, bad) != ("mesh_add_host_body", 99):  # a new label
+                    attempt(function, f"{p.name} {bad}", ARGUMENT, put(bad))
         if p.name in ("interface_index", "index", "pattern") and p.type == "int64_t":
             for bad in (-1, 1 << 40):
                 attempt(function, f"{p.name} {bad}", ARGUMENT, put(bad))

@@ -21,6 +21,7 @@ module delam_raw
   integer(c_int32_t), parameter :: DELAM_ERROR_NUMERICAL = -7
   integer(c_int32_t), parameter :: DELAM_ERROR_SNAPSHOT = -8
   integer(c_int32_t), parameter :: DELAM_ERROR_INTERNAL = -9
+  integer(c_int32_t), parameter :: DELAM_ERROR_FILE = -10
   integer(c_int32_t), parameter :: DELAM_TRI3 = 1
   integer(c_int32_t), parameter :: DELAM_QUAD4 = 2
   integer(c_int32_t), parameter :: DELAM_TET4 = 3
@@ -87,6 +88,10 @@ module delam_raw
       integer(c_int32_t), value :: status
       type(c_ptr) :: text
     end function delam_status_name
+    function delam_blas_threads() bind(c, name="delam_blas_threads") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      integer(c_int32_t) :: status
+    end function delam_blas_threads
     function delam_context_create(out) bind(c, name="delam_context_create") result(status)
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
       type(c_ptr), intent(inout) :: out
@@ -208,6 +213,34 @@ module delam_raw
       integer(c_int64_t), intent(inout), optional :: out_interface
       integer(c_int32_t) :: status
     end function delam_mesh_add_obstacle
+    function delam_mesh_add_host_body(mesh, body, count, nodes, index_base) bind(c, &
+        name="delam_mesh_add_host_body") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), value :: body
+      integer(c_int64_t), value :: count
+      integer(c_int64_t), intent(in), optional :: nodes(*)
+      integer(c_int32_t), value :: index_base
+      integer(c_int32_t) :: status
+    end function delam_mesh_add_host_body
+    function delam_mesh_add_pairs(mesh, body_a, body_b, count, nodes_a, nodes_b, normals, weights, face_count, &
+        nodes_per_face, faces, index_base, out_interface) bind(c, name="delam_mesh_add_pairs") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), value :: body_a
+      integer(c_int32_t), value :: body_b
+      integer(c_int64_t), value :: count
+      integer(c_int64_t), intent(in), optional :: nodes_a(*)
+      integer(c_int64_t), intent(in), optional :: nodes_b(*)
+      real(c_double), intent(in), optional :: normals(*)
+      real(c_double), intent(in), optional :: weights(*)
+      integer(c_int64_t), value :: face_count
+      integer(c_int32_t), value :: nodes_per_face
+      integer(c_int64_t), intent(in), optional :: faces(*)
+      integer(c_int32_t), value :: index_base
+      integer(c_int64_t), intent(inout), optional :: out_interface
+      integer(c_int32_t) :: status
+    end function delam_mesh_add_pairs
     subroutine delam_mesh_destroy(mesh) bind(c, name="delam_mesh_destroy")
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
       type(c_ptr), intent(inout) :: mesh
@@ -470,6 +503,21 @@ module delam_raw
       character(kind=c_char), intent(in) :: formulation(*)
       integer(c_int32_t) :: status
     end function delam_problem_set_formulation
+    function delam_problem_set_stiffness(problem, count, nodes, dofs, row_starts, columns, values, kernel_count, &
+        kernel, index_base) bind(c, name="delam_problem_set_stiffness") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: problem
+      integer(c_int64_t), value :: count
+      integer(c_int64_t), intent(in), optional :: nodes(*)
+      integer(c_int64_t), intent(in), optional :: dofs(*)
+      integer(c_int64_t), intent(in), optional :: row_starts(*)
+      integer(c_int64_t), intent(in), optional :: columns(*)
+      real(c_double), intent(in), optional :: values(*)
+      integer(c_int64_t), value :: kernel_count
+      real(c_double), intent(in), optional :: kernel(*)
+      integer(c_int32_t), value :: index_base
+      integer(c_int32_t) :: status
+    end function delam_problem_set_stiffness
     function delam_problem_set_law(problem, interface_index, law) bind(c, name="delam_problem_set_law") &
         result(status)
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
@@ -735,6 +783,22 @@ module delam_raw
       type(c_ptr), value :: solver
       integer(c_int32_t) :: status
     end function delam_solver_rollback
+    function delam_solver_pending(solver, pending) bind(c, name="delam_solver_pending") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: solver
+      integer(c_int32_t), intent(inout), optional :: pending(*)
+      integer(c_int32_t) :: status
+    end function delam_solver_pending
+    function delam_solver_set_history(solver, pattern, count, times, values) bind(c, &
+        name="delam_solver_set_history") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: solver
+      integer(c_int64_t), value :: pattern
+      integer(c_int64_t), value :: count
+      real(c_double), intent(in), optional :: times(*)
+      real(c_double), intent(in), optional :: values(*)
+      integer(c_int32_t) :: status
+    end function delam_solver_set_history
     function delam_solver_equilibrate(solver, time, adhesion) bind(c, name="delam_solver_equilibrate") &
         result(status)
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
@@ -825,6 +889,36 @@ module delam_raw
       real(c_double), intent(inout), optional :: matrix(*)
       integer(c_int32_t) :: status
     end function delam_solver_tangent
+    function delam_solver_step_tangent(solver, capacity, matrix) bind(c, name="delam_solver_step_tangent") &
+        result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: solver
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout), optional :: matrix(*)
+      integer(c_int32_t) :: status
+    end function delam_solver_step_tangent
+    function delam_solver_condensed_size(solver, unknowns, entries) bind(c, name="delam_solver_condensed_size") &
+        result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: solver
+      integer(c_int64_t), intent(inout), optional :: unknowns(*)
+      integer(c_int64_t), intent(inout), optional :: entries
+      integer(c_int32_t) :: status
+    end function delam_solver_condensed_size
+    function delam_solver_condensed(solver, capacity, stiffness, load, constant, row_starts, columns, values, &
+        offset) bind(c, name="delam_solver_condensed") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: solver
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout), optional :: stiffness(*)
+      real(c_double), intent(inout), optional :: load(*)
+      real(c_double), intent(inout), optional :: constant(*)
+      integer(c_int64_t), intent(inout), optional :: row_starts(*)
+      integer(c_int64_t), intent(inout), optional :: columns
+      real(c_double), intent(inout), optional :: values(*)
+      real(c_double), intent(inout), optional :: offset(*)
+      integer(c_int32_t) :: status
+    end function delam_solver_condensed
     function delam_solver_plan(solver) bind(c, name="delam_solver_plan") result(text)
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
       type(c_ptr), value :: solver
@@ -904,5 +998,17 @@ module delam_raw
       integer(c_int8_t), intent(in), optional :: bytes(*)
       integer(c_int32_t) :: status
     end function delam_solver_load
+    function delam_solver_save_file(solver, path) bind(c, name="delam_solver_save_file") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: solver
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function delam_solver_save_file
+    function delam_solver_load_file(solver, path) bind(c, name="delam_solver_load_file") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: solver
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function delam_solver_load_file
   end interface
 end module delam_raw

@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "base/error.hpp"
-#include "body/assembly.hpp"
 #include "reduction/condensed/rigid_jumps.hpp"
 #include "scene/carriers.hpp"
 #include "scene/strain_loads.hpp"
@@ -20,7 +19,7 @@ std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 constexpr double dependent = dependent_equation;
 
-// The stiffness of all bodies over all mesh DOFs; rows of nodes without cells are empty.
+// The stiffness of all bodies over all mesh DOFs; rows of nodes of no body are empty.
 SparseMatrix assemble(const Problem& problem) {
     const Mesh& mesh = *problem.mesh;
     const std::int64_t dim = mesh.dimension();
@@ -29,7 +28,7 @@ SparseMatrix assemble(const Problem& problem) {
     std::vector<std::vector<std::int64_t>> nodes;
     for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
         nodes.push_back(mesh.body_nodes(body));
-        part.push_back(assemble_stiffness(mesh, mesh.body_cells(body), nodes.back(), problem.model(body)));
+        part.push_back(problem.body_stiffness(body));
     }
     SparseMatrix k;
     k.rows = k.columns = dofs;

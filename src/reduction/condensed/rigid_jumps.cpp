@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 
-#include "mesh/partition.hpp"
 #include "scene/carriers.hpp"
+#include "scene/pieces.hpp"
 
 namespace delam {
 
@@ -38,25 +38,20 @@ class Motions {
 public:
     explicit Motions(const Problem& problem)
         : mesh_(*problem.mesh), carriers_(problem), dim_(mesh_.dimension()), modes_(dim_ == 2 ? 3 : 6) {
-        const Partition parts = partition(mesh_, 1);
-        pieces_.resize(parts.subdomain_body.size());
-        piece_of_.assign(static_cast<std::size_t>(mesh_.node_count()), -1);
+        const Pieces parts = rigid_pieces(problem);
+        pieces_.resize(parts.count());
+        piece_of_ = parts.of_node;
+        hinges_ = parts.hinges;
+        resisted_ = parts.resisted;
         std::vector<std::array<std::array<double, 3>, 2>> box(pieces_.size());
-        std::vector<std::uint8_t> seen(pieces_.size(), 0);
-        for (std::int64_t c = 0; c < mesh_.cell_count(); ++c) {
-            const auto p = static_cast<std::size_t>(parts.cell_subdomain[static_cast<std::size_t>(c)]);
-            for (const std::int64_t node : mesh_.cell(c)) {
-                auto& owner = piece_of_[static_cast<std::size_t>(node)];
-                if (owner >= 0 && owner != static_cast<std::int64_t>(p)) hinges_.push_back({node, owner, static_cast<std::int64_t>(p)});
-                if (owner < 0) owner = static_cast<std::int64_t>(p);
+        for (std::size_t p = 0; p < pieces_.size(); ++p)
+            for (const std::int64_t node : parts.nodes[p])
                 for (std::size_t k = 0; k < static_cast<std::size_t>(dim_); ++k) {
                     const double x = mesh_.node(node)[k];
-                    box[p][0][k] = seen[p] != 0 ? std::min(box[p][0][k], x) : x;
-                    box[p][1][k] = seen[p] != 0 ? std::max(box[p][1][k], x) : x;
+                    const bool first = node == parts.nodes[p].front();
+                    box[p][0][k] = first ? x : std::min(box[p][0][k], x);
+                    box[p][1][k] = first ? x : std::max(box[p][1][k], x);
                 }
-                seen[p] = 1;
-            }
-        }
         for (std::size_t p = 0; p < pieces_.size(); ++p)
             for (std::size_t k = 0; k < static_cast<std::size_t>(dim_); ++k) {
                 pieces_[p].centre[k] = 0.5 * (box[p][0][k] + box[p][1][k]);
@@ -92,10 +87,8 @@ public:
         }
     }
 
-    struct Hinge {
-        std::int64_t node, piece_a, piece_b;
-    };
-    const std::vector<Hinge>& hinges() const { return hinges_; }
+    const std::vector<Pieces::Hinge>& hinges() const { return hinges_; }
+    const std::vector<Pieces::Row>& resisted() const { return resisted_; }
     std::int64_t dimension() const { return dim_; }
 
 private:
@@ -105,7 +98,8 @@ private:
     std::int64_t modes_;
     std::vector<Piece> pieces_;
     std::vector<std::int64_t> piece_of_;
-    std::vector<Hinge> hinges_;
+    std::vector<Pieces::Hinge> hinges_;
+    std::vector<Pieces::Row> resisted_;
 };
 
 void accumulate(DenseMatrix& gram, const std::map<std::int64_t, double>& row) {
@@ -123,6 +117,11 @@ DenseMatrix rigid_jumps(const Problem& problem) {
         std::map<std::int64_t, double> row;
         for (std::size_t i = 0; i < constraint.dof.size(); ++i)
             motions.add(row, constraint.dof[i] / dim, constraint.dof[i] % dim, constraint.coefficient[i]);
+        accumulate(gram, row);
+    }
+    for (const Pieces::Row& resisted : motions.resisted()) {
+        std::map<std::int64_t, double> row;
+        for (const auto& [dof, coefficient] : resisted) motions.add(row, dof / dim, dof % dim, coefficient);
         accumulate(gram, row);
     }
     for (const auto& hinge : motions.hinges())

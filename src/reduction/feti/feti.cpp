@@ -5,9 +5,13 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/team.hpp"
+#include "body/assembly.hpp"
+#include "body/rigid_modes.hpp"
 #include "mesh/partition.hpp"
 #include "reduction/feti/projected_cg.hpp"
 #include "scene/carriers.hpp"
+#include "scene/pieces.hpp"
 #include "scene/strain_loads.hpp"
 
 namespace delam {
@@ -20,6 +24,33 @@ std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr double unbalanced = 1e-8;
 // Residuals below this part of the loads' own energy norm are rounding.
 constexpr double rounding = 1e-14;
+
+const HostPiece& piece_with(const HostStiffness& own, const std::vector<std::int64_t>& nodes) {
+    return *std::find_if(own.pieces.begin(), own.pieces.end(), [&](const HostPiece& p) { return p.nodes == nodes; });
+}
+
+// The part of a matrix over the DOFs of `nodes` that belongs to some of them.
+SparseMatrix restricted(const SparseMatrix& k, std::span<const std::int64_t> nodes, std::span<const std::int64_t> some, std::int64_t dim) {
+    std::vector<std::int64_t> place(index(k.rows), -1), rows;
+    for (const std::int64_t node : some) {
+        const std::int64_t i = std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
+        for (std::int64_t c = 0; c < dim; ++c) {
+            place[index(i * dim + c)] = static_cast<std::int64_t>(rows.size());
+            rows.push_back(i * dim + c);
+        }
+    }
+    SparseMatrix part;
+    part.rows = part.columns = static_cast<std::int64_t>(rows.size());
+    for (const std::int64_t row : rows) {
+        for (std::int64_t e = k.start[index(row)]; e < k.start[index(row) + 1]; ++e) {
+            if (place[index(k.column[index(e)])] < 0) continue;  // a zero between pieces
+            part.column.push_back(place[index(k.column[index(e)])]);
+            part.value.push_back(k.value[index(e)]);
+        }
+        part.start.push_back(part.entries());
+    }
+    return part;
+}
 
 }  // namespace
 
@@ -37,16 +68,27 @@ Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monito
     DualRowBuilder builder(problem_, subdomains_, problem_.options.gluing);
     const auto touched = builder.touched(subdomains_.size());
     const bool with_schur = problem_.options.preconditioner == "dirichlet" || problem_.options.preconditioner == "series";
-    for (std::size_t s = 0; s < subdomains_.size(); ++s) {
-        monitor_.progress("condense", static_cast<std::int64_t>(s), static_cast<std::int64_t>(subdomains_.size()));
+    const auto parts = static_cast<std::int64_t>(subdomains_.size());
+    const auto condense = [&](std::int64_t i) {
+        const std::size_t s = index(i);
         Subdomain& subdomain = subdomains_[s];
         if (subdomain.body < 0) {
             subdomain.hold_controls(builder.scale(static_cast<std::int32_t>(s), static_cast<std::int64_t>(subdomain.nodes.size()) * problem_.mesh->dimension()));
-            continue;
+            return;
         }
         subdomain.boundary = touched[s];
-        subdomain.condense(*problem_.mesh, cells[s], problem_.model(subdomain.body), with_schur);
-    }
+        if (const auto& own = problem_.stiffness[index(subdomain.body)]; own == nullptr) {
+            subdomain.stiffness = assemble_stiffness(*problem_.mesh, cells[s], subdomain.nodes, problem_.model(subdomain.body));
+            subdomain.rigid = DenseMatrix(subdomain.stiffness.rows, problem_.mesh->dimension() == 2 ? 3 : 6);
+            subdomain.rigid.value = rigid_modes(*problem_.mesh, subdomain.nodes);
+        } else {
+            const HostPiece& piece = piece_with(*own, subdomain.nodes);
+            subdomain.stiffness = restricted(own->matrix, problem_.mesh->body_nodes(subdomain.body), piece.nodes, problem_.mesh->dimension());
+            subdomain.rigid = piece.free;
+        }
+        subdomain.condense(problem_.mesh->body_label(subdomain.body), with_schur);
+    };
+    Team(problem_.options.threads).run(parts, condense, [&](std::int64_t done) { monitor_.progress("condense", done, parts); });
     rows_ = builder.finish(subdomains_);
     copies_ = builder.copies();
     b_transposed_ = transpose(rows_.b);
@@ -83,11 +125,17 @@ Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monito
 // Cells of each subdomain.
 std::vector<std::vector<std::int64_t>> Feti::cut() {
     const Mesh& mesh = *problem_.mesh;
-    const Partition parts = partition(mesh, feti_subdomains(problem_));
+    const std::vector<std::uint8_t> given = given_by_host(problem_);
+    std::int64_t whole = 0, cut_cells = 0;  // pieces of the host's, each a subdomain; cells of the other bodies
+    for (const auto& own : problem_.stiffness) whole += own != nullptr ? static_cast<std::int64_t>(own->pieces.size()) : 0;
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c) cut_cells += given[index(mesh.cell_body(c))] == 0 ? 1 : 0;
+    const std::int64_t wanted = whole == 0 ? feti_subdomains(problem_) : std::clamp<std::int64_t>(feti_subdomains(problem_) - whole, 0, cut_cells);
+    const Partition parts = partition(mesh, wanted, given);
     subdomains_.resize(parts.subdomain_body.size());
     for (std::size_t s = 0; s < subdomains_.size(); ++s) subdomains_[s].body = parts.subdomain_body[s];
     std::vector<std::vector<std::int64_t>> cells(subdomains_.size());
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
+        if (parts.cell_subdomain[index(c)] < 0) continue;
         const std::size_t s = index(parts.cell_subdomain[index(c)]);
         cells[s].push_back(c);
         subdomains_[s].nodes.insert(subdomains_[s].nodes.end(), mesh.cell(c).begin(), mesh.cell(c).end());
@@ -95,6 +143,15 @@ std::vector<std::vector<std::int64_t>> Feti::cut() {
     for (Subdomain& s : subdomains_) {
         std::sort(s.nodes.begin(), s.nodes.end());
         s.nodes.erase(std::unique(s.nodes.begin(), s.nodes.end()), s.nodes.end());
+    }
+    for (std::size_t b = 0; b < problem_.stiffness.size(); ++b) {
+        if (problem_.stiffness[b] == nullptr) continue;
+        for (const HostPiece& piece : problem_.stiffness[b]->pieces) {
+            Subdomain& own = subdomains_.emplace_back();
+            own.body = static_cast<std::int32_t>(b);
+            own.nodes = piece.nodes;
+            cells.emplace_back();
+        }
     }
     if (const Carriers carriers(problem_); !carriers.controls().empty()) {
         subdomains_.emplace_back().nodes = carriers.controls();
@@ -152,14 +209,15 @@ void Feti::precompute_forces(std::span<const std::vector<std::int64_t>> cells) {
     }
 }
 
-void Feti::apply_flexibility(std::span<const double> lambda, std::span<double> jumps) const {
+void Feti::apply_flexibility(Team& team, std::span<const double> lambda, std::span<double> jumps) const {
     std::vector<double> f(index(rows_.boundary_count())), u(f.size());
     multiply(b_transposed_, lambda, f);
-    for (std::size_t s = 0; s < subdomains_.size(); ++s) {
-        const std::size_t first = index(rows_.offset[s]), size = subdomains_[s].boundary.size();
+    const auto apply = [&](std::int64_t i) {
+        const std::size_t s = index(i), first = index(rows_.offset[s]), size = subdomains_[s].boundary.size();
         multiply_symmetric(subdomains_[s].flexibility, std::span<const double>(f).subspan(first, size),
                            std::span<double>(u).subspan(first, size));
-    }
+    };
+    team.run(static_cast<std::int64_t>(subdomains_.size()), apply);
     multiply(rows_.b, u, jumps);
 }
 
@@ -167,6 +225,7 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     const std::size_t rows = index(rows_.count()), jumps = index(rows_.jump_count), patterns = theta.size();
     const std::size_t first_constraint = rows - index(rows_.constraint_count);
     monitor_.progress("displacement", 0, 0);
+    Team team(problem_.options.threads);
 
     // Rows whose jump the device prescribes have a known force s j: the system is solved without them, and that force is shared out
     // between spring and device afterwards (B_i = sum_k y_k B_k).
@@ -228,11 +287,11 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     for (const double w : weight) stiffness_scale = std::max(stiffness_scale, w);
     ProjectedSystem system;
     system.apply = [&](std::span<const double> x, std::span<double> y) {
-        apply_flexibility(x, y);
+        apply_flexibility(team, x, y);
         for (std::size_t i = 0; i < rows; ++i) y[i] = active[i] != 0 ? y[i] + compliance[i] * x[i] : 0.0;
     };
     system.precondition = [&](std::span<const double> r, std::span<double> z) {
-        preconditioner_->apply(r, z);
+        preconditioner_->apply(team, r, z);
         if (unpreconditioned)  // in units of a stiffness, like the others
             for (double& v : z) v *= stiffness_scale;
         mask(z);
@@ -256,7 +315,7 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
 
     // A lambda - b = G^T alpha, and B u = B K^+ f - F lambda + G^T alpha.
     std::vector<double> f_lambda(rows), residual(rows);
-    apply_flexibility(lambda, f_lambda);
+    apply_flexibility(team, lambda, f_lambda);
     for (std::size_t i = 0; i < rows; ++i)
         residual[i] = active[i] != 0 ? f_lambda[i] + compliance[i] * lambda[i] - rhs[i] : 0.0;
     response.rigid = coarse_->rigid_coefficients(residual);

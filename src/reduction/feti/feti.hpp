@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "base/monitor.hpp"
+#include "base/team.hpp"
 #include "reduction/feti/coarse.hpp"
 #include "reduction/feti/preconditioner.hpp"
 #include "reduction/jump_operator.hpp"
@@ -38,7 +39,7 @@ public:
 private:
     std::vector<std::vector<std::int64_t>> cut();
     void precompute_forces(std::span<const std::vector<std::int64_t>> cells);
-    void apply_flexibility(std::span<const double> lambda, std::span<double> jumps) const;
+    void apply_flexibility(Team& team, std::span<const double> lambda, std::span<double> jumps) const;
     std::vector<double> local_displacement(std::size_t subdomain, std::span<const double> theta, const Response& response) const;
 
     const Problem problem_;

@@ -142,18 +142,18 @@ void FetiPreconditioner::update(const Springs& springs) {
 }
 
 // z = S~ r (or its lumped form), dependent directions included.
-void FetiPreconditioner::apply_scaled(std::span<const double> r, std::span<double> z) const {
+void FetiPreconditioner::apply_scaled(Team& team, std::span<const double> r, std::span<double> z) const {
     std::vector<double> u(index(rows_.boundary_count())), f(u.size());
     multiply(scaled_transposed_, r, u);
-    for (std::size_t s = 0; s < subdomains_.size(); ++s) {
-        const std::size_t first = index(rows_.offset[s]), size = subdomains_[s].boundary.size();
+    team.run(static_cast<std::int64_t>(subdomains_.size()), [&](std::int64_t i) {
+        const std::size_t s = index(i), first = index(rows_.offset[s]), size = subdomains_[s].boundary.size();
         const auto in = std::span<const double>(u).subspan(first, size);
         const auto out = std::span<double>(f).subspan(first, size);
         if (kind_ == Kind::lumped)
             multiply(lumped_[s], in, out);
         else
             multiply_symmetric(subdomains_[s].schur, in, out);
-    }
+    });
     multiply(scaling_.b_d, f, z);
     for (std::size_t k = 0; k < dependency_weight_.size(); ++k) {
         const auto& d = scaling_.dependencies[k];
@@ -163,12 +163,12 @@ void FetiPreconditioner::apply_scaled(std::span<const double> r, std::span<doubl
     }
 }
 
-void FetiPreconditioner::apply(std::span<const double> r, std::span<double> z) const {
+void FetiPreconditioner::apply(Team& team, std::span<const double> r, std::span<double> z) const {
     if (kind_ == Kind::none) {
         std::copy(r.begin(), r.end(), z.begin());
         return;
     }
-    apply_scaled(r, z);
+    apply_scaled(team, r, z);
     if (kind_ != Kind::series) return;
     // z = S~ (r - E x) with T x = E^T S~ r; on the rows of E that is C^-1 x, free of cancellation.
     std::vector<double> x(index(rows_.jump_count), 0.0), y(index(rows_.jump_count));
@@ -177,7 +177,7 @@ void FetiPreconditioner::apply(std::span<const double> r, std::span<double> z) c
     std::vector<double> rest(r.begin(), r.end());
     for (std::size_t i = 0; i < x.size(); ++i)
         if (in_e_[i] != 0) rest[i] -= x[i];
-    apply_scaled(rest, z);
+    apply_scaled(team, rest, z);
     for (std::size_t i = 0; i < x.size(); ++i)
         if (in_e_[i] != 0) z[i] = current_.stiffness[i] * x[i];
 }

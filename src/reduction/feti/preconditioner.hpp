@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "linalg/cholesky.hpp"
+#include "base/team.hpp"
 #include "reduction/feti/scaling.hpp"
 #include "reduction/jump_operator.hpp"
 
@@ -27,11 +28,11 @@ public:
                        const std::string& kind);
     void update(const Springs& springs);
     // z = M r; both over all rows; entries of rows without force are ignored in r and not meaningful in z.
-    void apply(std::span<const double> r, std::span<double> z) const;
+    void apply(Team& team, std::span<const double> r, std::span<double> z) const;
 
 private:
     enum class Kind { none, lumped, dirichlet, series };
-    void apply_scaled(std::span<const double> r, std::span<double> z) const;
+    void apply_scaled(Team& team, std::span<const double> r, std::span<double> z) const;
     void build_pattern();
 
     const DualRows& rows_;

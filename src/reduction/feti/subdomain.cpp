@@ -4,8 +4,6 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "body/assembly.hpp"
-#include "body/rigid_modes.hpp"
 #include "delam/delam.h"
 
 namespace delam {
@@ -49,23 +47,18 @@ constexpr double rank_tolerance = 1e-8;
 
 }  // namespace
 
-void Subdomain::condense(const Mesh& mesh, std::span<const std::int64_t> cells, const BodyModel& model,
-                         bool with_schur) {
-    stiffness = assemble_stiffness(mesh, cells, nodes, model);
-    rigid_count = mesh.dimension() == 2 ? 3 : 6;
-    rigid = DenseMatrix(stiffness.rows, rigid_count);
-    rigid.value = rigid_modes(mesh, nodes);
+void Subdomain::condense(std::int32_t label, bool with_schur) {
+    rigid_count = rigid.columns;
+    if (boundary.empty()) boundary.push_back(0);  // nothing touches a body that the host's own supports hold
 
     // Where the boundary alone cannot hold the subdomain (a body touched at one point), DOFs of the interior join it.
-    PivotedColumns pivots = pivoted_columns(motions_at(rigid, boundary), rank_tolerance);
-    if (pivots.rank < rigid_count) {
+    if (rigid_count > 0 && pivoted_columns(motions_at(rigid, boundary), rank_tolerance).rank < rigid_count) {
         std::vector<std::int64_t> all(static_cast<std::size_t>(stiffness.rows));
         for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::int64_t>(i);
         const PivotedColumns whole = pivoted_columns(motions_at(rigid, all), rank_tolerance);
         for (std::int64_t r = 0; r < rigid_count; ++r) boundary.push_back(whole.order[static_cast<std::size_t>(r)]);
         std::sort(boundary.begin(), boundary.end());
         boundary.erase(std::unique(boundary.begin(), boundary.end()), boundary.end());
-        pivots = pivoted_columns(motions_at(rigid, boundary), rank_tolerance);
     }
     const auto nb = static_cast<std::int64_t>(boundary.size());
     std::vector<std::uint8_t> is_boundary(static_cast<std::size_t>(stiffness.rows), 0);
@@ -94,7 +87,7 @@ void Subdomain::condense(const Mesh& mesh, std::span<const std::int64_t> cells, 
             if (shifted.column[static_cast<std::size_t>(e)] == r) shifted.value[static_cast<std::size_t>(e)] += tau;
     factor_ = std::make_unique<SparseCholesky>(shifted, nb);
     if (!factor_->factorise(shifted))
-        fail(DELAM_ERROR_NUMERICAL, "the stiffness of body ", mesh.body_label(body),
+        fail(DELAM_ERROR_NUMERICAL, "the stiffness of body ", label,
              " is not positive definite beyond its rigid motions: check its material and the shapes of its cells");
     schur = lower_times_transpose(factor_->trailing_factor());
     for (std::int64_t i = 0; i < nb; ++i) schur(i, i) -= tau;

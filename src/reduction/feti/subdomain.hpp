@@ -17,10 +17,8 @@
 #include <span>
 #include <vector>
 
-#include "body/model.hpp"
 #include "linalg/cholesky.hpp"
 #include "linalg/dense.hpp"
-#include "mesh/mesh.hpp"
 
 namespace delam {
 
@@ -28,7 +26,7 @@ struct Subdomain {
     std::int32_t body = -1;              // -1: control nodes
     std::vector<std::int64_t> nodes;     // mesh nodes, ascending; local DOF = dimension*index + component
     std::vector<std::int64_t> boundary;  // local DOFs, ascending
-    std::int64_t rigid_count = 0;
+    std::int64_t rigid_count = 0;        // motions without energy: 3 or 6, fewer where the host's stiffness has supports of its own
 
     SparseMatrix stiffness;  // over all local DOFs
     DenseMatrix rigid;       // R, [local DOFs][rigid_count], orthonormal
@@ -37,8 +35,8 @@ struct Subdomain {
     DenseMatrix schur;              // S_s; empty unless asked for
     std::vector<double> diagonal;   // of the stiffness at the boundary
 
-    // Numerical set-up, after nodes, boundary and body are known.
-    void condense(const Mesh& mesh, std::span<const std::int64_t> cells, const BodyModel& model, bool with_schur);
+    // Numerical set-up, after stiffness, rigid, nodes, boundary and body are known. label: of the body, for messages.
+    void condense(std::int32_t label, bool with_schur);
     // The subdomain of the control nodes, instead. scale: of each DOF's motion.
     void hold_controls(std::span<const double> scale);
     // u over all local DOFs from its boundary values, in equilibrium with f inside. f: local DOFs, only the interior is read.

@@ -16,6 +16,7 @@ DELAM_ERROR_MEMORY = -6
 DELAM_ERROR_NUMERICAL = -7
 DELAM_ERROR_SNAPSHOT = -8
 DELAM_ERROR_INTERNAL = -9
+DELAM_ERROR_FILE = -10
 DELAM_TRI3 = 1
 DELAM_QUAD4 = 2
 DELAM_TET4 = 3
@@ -59,6 +60,7 @@ FUNCTIONS = {
     "delam_commit": (c_char_p, ()),
     "delam_abi": (c_int32, ()),
     "delam_status_name": (c_char_p, (("status", c_int32),)),
+    "delam_blas_threads": (c_int32, ()),
     "delam_context_create": (c_int32, (("out", POINTER(POINTER(delam_context))),)),
     "delam_context_destroy": (None, (("context", POINTER(POINTER(delam_context))),)),
     "delam_context_message": (c_char_p, (("context", POINTER(delam_context)),)),
@@ -92,6 +94,14 @@ FUNCTIONS = {
         ("mesh", POINTER(delam_mesh)), ("count", c_int64), ("nodes", POINTER(c_int64)), ("normals", POINTER(c_double)),
         ("weights", POINTER(c_double)), ("control_node", c_int64), ("index_base", c_int32),
         ("out_interface", POINTER(c_int64)))),
+    "delam_mesh_add_host_body": (c_int32, (
+        ("mesh", POINTER(delam_mesh)), ("body", c_int32), ("count", c_int64), ("nodes", POINTER(c_int64)),
+        ("index_base", c_int32))),
+    "delam_mesh_add_pairs": (c_int32, (
+        ("mesh", POINTER(delam_mesh)), ("body_a", c_int32), ("body_b", c_int32), ("count", c_int64),
+        ("nodes_a", POINTER(c_int64)), ("nodes_b", POINTER(c_int64)), ("normals", POINTER(c_double)),
+        ("weights", POINTER(c_double)), ("face_count", c_int64), ("nodes_per_face", c_int32),
+        ("faces", POINTER(c_int64)), ("index_base", c_int32), ("out_interface", POINTER(c_int64)))),
     "delam_mesh_destroy": (None, (("mesh", POINTER(POINTER(delam_mesh))),)),
     "delam_mesh_size": (c_int32, (
         ("mesh", POINTER(delam_mesh)), ("dimension", POINTER(c_int32)), ("node_count", POINTER(c_int64)),
@@ -161,6 +171,11 @@ FUNCTIONS = {
         ("axes", POINTER(c_double)), ("index_base", c_int32))),
     "delam_problem_set_formulation": (c_int32, (
         ("problem", POINTER(delam_problem)), ("body", c_int32), ("formulation", c_char_p))),
+    "delam_problem_set_stiffness": (c_int32, (
+        ("problem", POINTER(delam_problem)), ("count", c_int64), ("nodes", POINTER(c_int64)),
+        ("dofs", POINTER(c_int64)), ("row_starts", POINTER(c_int64)), ("columns", POINTER(c_int64)),
+        ("values", POINTER(c_double)), ("kernel_count", c_int64), ("kernel", POINTER(c_double)), ("index_base", c_int32)
+    )),
     "delam_problem_set_law": (c_int32, (
         ("problem", POINTER(delam_problem)), ("interface_index", c_int64), ("law", POINTER(delam_law)))),
     "delam_problem_set_bonded": (c_int32, (("problem", POINTER(delam_problem)), ("interface_index", c_int64))),
@@ -229,6 +244,10 @@ FUNCTIONS = {
     "delam_solver_advance": (c_int32, (("solver", POINTER(delam_solver)), ("time", c_double))),
     "delam_solver_commit": (c_int32, (("solver", POINTER(delam_solver)),)),
     "delam_solver_rollback": (c_int32, (("solver", POINTER(delam_solver)),)),
+    "delam_solver_pending": (c_int32, (("solver", POINTER(delam_solver)), ("pending", POINTER(c_int32)))),
+    "delam_solver_set_history": (c_int32, (
+        ("solver", POINTER(delam_solver)), ("pattern", c_int64), ("count", c_int64), ("times", POINTER(c_double)),
+        ("values", POINTER(c_double)))),
     "delam_solver_equilibrate": (c_int32, (
         ("solver", POINTER(delam_solver)), ("time", c_double), ("adhesion", POINTER(c_double)))),
     "delam_solver_value": (c_int32, (
@@ -254,6 +273,14 @@ FUNCTIONS = {
         ("rates", POINTER(c_double)), ("zone_lengths", POINTER(c_double)), ("zone_pairs", POINTER(c_double)))),
     "delam_solver_tangent": (c_int32, (
         ("solver", POINTER(delam_solver)), ("capacity", c_int64), ("matrix", POINTER(c_double)))),
+    "delam_solver_step_tangent": (c_int32, (
+        ("solver", POINTER(delam_solver)), ("capacity", c_int64), ("matrix", POINTER(c_double)))),
+    "delam_solver_condensed_size": (c_int32, (
+        ("solver", POINTER(delam_solver)), ("unknowns", POINTER(c_int64)), ("entries", POINTER(c_int64)))),
+    "delam_solver_condensed": (c_int32, (
+        ("solver", POINTER(delam_solver)), ("capacity", c_int64), ("stiffness", POINTER(c_double)),
+        ("load", POINTER(c_double)), ("constant", POINTER(c_double)), ("row_starts", POINTER(c_int64)),
+        ("columns", POINTER(c_int64)), ("values", POINTER(c_double)), ("offset", POINTER(c_double)))),
     "delam_solver_plan": (c_char_p, (("solver", POINTER(delam_solver)),)),
     "delam_solver_plan_count": (c_int32, (("solver", POINTER(delam_solver)), ("count", POINTER(c_int64)))),
     "delam_solver_plan_item": (c_int32, (
@@ -273,6 +300,8 @@ FUNCTIONS = {
         ("solver", POINTER(delam_solver)), ("capacity", c_int64), ("bytes", POINTER(c_uint8)),
         ("needed", POINTER(c_int64)))),
     "delam_solver_load": (c_int32, (("solver", POINTER(delam_solver)), ("size", c_int64), ("bytes", POINTER(c_uint8)))),
+    "delam_solver_save_file": (c_int32, (("solver", POINTER(delam_solver)), ("path", c_char_p))),
+    "delam_solver_load_file": (c_int32, (("solver", POINTER(delam_solver)), ("path", c_char_p))),
 }
 
 

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+
+namespace delam {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& path, const char* what, int number) {
+    fail(DELAM_ERROR_FILE, "'", path, "': ", what, ": ", std::generic_category().message(number));
+}
+
+// Closes what it holds.
+class Descriptor {
+public:
+    explicit Descriptor(int number) : number_(number) {}
+    ~Descriptor() { close(); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    int number() const { return number_; }
+    int close() {
+        const int result = number_ >= 0 ? ::close(number_) : 0;
+        number_ = -1;
+        return result;
+    }
+
+private:
+    int number_;
+};
+
+std::string folder_of(const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
+}
+
+}  // namespace
+
+void write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
+    // Another process may save to the same path at the same time: the name is this process's own.
+    const std::string part = text(path, ".", static_cast<long>(getpid()), ".part");
+    Descriptor file(::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (file.number() < 0) refuse(part, "cannot be made", errno);
+    const auto give_up = [&](const char* what) {
+        const int number = errno;
+        file.close();
+        ::unlink(part.c_str());
+        refuse(path, what, number);
+    };
+    for (std::size_t at = 0; at < bytes.size();) {
+        const ssize_t written = ::write(file.number(), bytes.data() + at, std::min<std::size_t>(bytes.size() - at, std::size_t{1} << 30));
+        if (written < 0 && errno != EINTR) give_up("cannot be written");
+        if (written > 0) at += static_cast<std::size_t>(written);
+    }
+    if (::fsync(file.number()) != 0 && errno != EINVAL) give_up("cannot be put on disk");
+    if (file.close() != 0) give_up("cannot be closed");
+    if (std::rename(part.c_str(), path.c_str()) != 0) give_up("cannot be put in its place");
+    // The name is on disk once its folder is; a file system that cannot say so is not an error.
+    const Descriptor folder(::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (folder.number() >= 0) (void)::fsync(folder.number());
+}
+
+std::vector<std::uint8_t> read_file(const std::string& path) {
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (file.number() < 0) refuse(path, "cannot be opened", errno);
+    struct stat about {};
+    if (::fstat(file.number(), &about) != 0) refuse(path, "cannot be read", errno);
+    if (S_ISDIR(about.st_mode)) refuse(path, "cannot be read", EISDIR);
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(std::max<off_t>(about.st_size, 0)) + 1);
+    std::size_t at = 0;
+    for (;;) {
+        if (at == bytes.size()) bytes.resize(2 * bytes.size());
+        const ssize_t got = ::read(file.number(), bytes.data() + at, bytes.size() - at);
+        if (got < 0 && errno != EINTR) refuse(path, "cannot be read", errno);
+        if (got == 0) break;
+        if (got > 0) at += static_cast<std::size_t>(got);
+    }
+    bytes.resize(at);
+    return bytes;
+}
+
+}  // namespace delam

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "base/team.hpp"
+
+#include <csignal>
+#include <system_error>
+
+namespace delam {
+
+Team::Team(std::int64_t threads) {
+    // Signals belong to the host's threads.
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    try {
+        for (std::int64_t i = 1; i < threads; ++i) members_.emplace_back([this] { serve(); });
+    } catch (const std::system_error&) {  // fewer do it as well
+    } catch (...) {
+        pthread_sigmask(SIG_SETMASK, &before, nullptr);
+        {
+            const std::lock_guard lock(mutex_);
+            leaving_ = true;
+        }
+        begun_.notify_all();
+        for (std::thread& member : members_) member.join();
+        throw;
+    }
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+Team::~Team() {
+    {
+        const std::lock_guard lock(mutex_);
+        leaving_ = true;
+    }
+    begun_.notify_all();
+    for (std::thread& member : members_) member.join();
+}
+
+// One piece of the work; false: none was left.
+bool Team::step(bool caller) {
+    std::int64_t mine = 0;
+    {
+        const std::lock_guard lock(mutex_);
+        if (work_ == nullptr || next_ >= count_) return false;
+        mine = next_++;
+        ++busy_;
+    }
+    std::exception_ptr thrown;
+    try {
+        (*work_)(mine);
+    } catch (...) {
+        thrown = std::current_exception();
+    }
+    const std::lock_guard lock(mutex_);
+    --busy_;
+    ++finished_;
+    if (thrown && (failed_ < 0 || mine < failed_)) {
+        failed_ = mine;
+        failure_ = thrown;
+        next_ = count_;
+    }
+    if (busy_ == 0 && next_ >= count_ && !caller) done_.notify_one();
+    return true;
+}
+
+void Team::serve() {
+    for (;;) {
+        {
+            std::unique_lock lock(mutex_);
+            begun_.wait(lock, [this] { return leaving_ || (work_ != nullptr && next_ < count_); });
+            if (leaving_) return;
+        }
+        while (step(false)) {}
+    }
+}
+
+void Team::run(std::int64_t count, const std::function<void(std::int64_t)>& work, const std::function<void(std::int64_t)>& before) {
+    if (members_.empty()) {
+        for (std::int64_t i = 0; i < count; ++i) {
+            if (before) before(i);
+            work(i);
+        }
+        return;
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        work_ = &work;
+        next_ = 0;
+        count_ = count;
+        finished_ = 0;
+        failed_ = -1;
+        failure_ = nullptr;
+    }
+    begun_.notify_all();
+    std::exception_ptr stopped;
+    try {
+        do {
+            std::int64_t finished = 0;
+            {
+                const std::lock_guard lock(mutex_);
+                finished = finished_;
+            }
+            if (before) before(finished);
+        } while (step(true));
+    } catch (...) {
+        stopped = std::current_exception();
+        const std::lock_guard lock(mutex_);
+        next_ = count_;
+    }
+    std::unique_lock lock(mutex_);
+    done_.wait(lock, [this] { return busy_ == 0; });
+    work_ = nullptr;
+    if (stopped) std::rethrow_exception(stopped);
+    if (failure_) {
+        const std::exception_ptr failure = failure_;
+        failure_ = nullptr;
+        std::rethrow_exception(failure);
+    }
+}
+
+}  // namespace delam

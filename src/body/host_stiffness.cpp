@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "body/host_stiffness.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "body/rigid_modes.hpp"
+#include "delam/delam.h"
+#include "linalg/cholesky.hpp"
+
+namespace delam {
+
+namespace {
+
+// Energy of a rigid motion of unit length over the largest diagonal entry: rounding below the one, a support above the other.
+constexpr double rounding = 1e-12, resisted = 1e-9;
+// What a told motion may miss of a rigid one, and the force it may need.
+constexpr double told_tolerance = 1e-6;
+// Ratio of pivots that is no more than rounding.
+constexpr double mechanism = 1e-14;
+
+std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+// Nodes that entries other than zero join, each set ascending.
+std::vector<std::vector<std::int64_t>> components(const SparseMatrix& k, std::int64_t dim) {
+    const std::int64_t nodes = k.rows / dim;
+    std::vector<std::int64_t> of(index(nodes), -1), open;
+    std::vector<std::vector<std::int64_t>> found;
+    for (std::int64_t first = 0; first < nodes; ++first) {
+        if (of[index(first)] >= 0) continue;
+        const auto name = static_cast<std::int64_t>(found.size());
+        found.emplace_back();
+        open.assign(1, first);
+        of[index(first)] = name;
+        while (!open.empty()) {
+            const std::int64_t node = open.back();
+            open.pop_back();
+            found.back().push_back(node);
+            for (std::int64_t e = k.start[index(node * dim)]; e < k.start[index((node + 1) * dim)]; ++e) {
+                const std::int64_t other = k.column[index(e)] / dim;
+                if (k.value[index(e)] == 0.0 || of[index(other)] >= 0) continue;
+                of[index(other)] = name;
+                open.push_back(other);
+            }
+        }
+        std::sort(found.back().begin(), found.back().end());
+    }
+    return found;
+}
+
+// K Q of some nodes' DOFs; entries to other nodes are zero.
+DenseMatrix forces(const SparseMatrix& k, std::span<const std::int64_t> nodes, std::int64_t dim, const DenseMatrix& motions) {
+    std::vector<double> u(index(k.rows), 0.0);
+    DenseMatrix f(motions.rows, motions.columns);
+    for (std::int64_t c = 0; c < motions.columns; ++c) {
+        for (std::int64_t i = 0; i < motions.rows; ++i) u[index(nodes[index(i / dim)] * dim + i % dim)] = motions(i, c);
+        for (std::int64_t i = 0; i < motions.rows; ++i) {
+            const std::int64_t row = nodes[index(i / dim)] * dim + i % dim;
+            double sum = 0.0;
+            for (std::int64_t e = k.start[index(row)]; e < k.start[index(row) + 1]; ++e) sum += k.value[index(e)] * u[index(k.column[index(e)])];
+            f(i, c) = sum;
+        }
+    }
+    return f;
+}
+
+DenseMatrix some_columns(const DenseMatrix& q, const DenseMatrix& combination, std::int64_t first, std::int64_t last) {
+    DenseMatrix part(combination.rows, last - first);
+    std::copy(combination.value.begin() + combination.rows * first, combination.value.begin() + combination.rows * last, part.value.begin());
+    return multiply(q, part);
+}
+
+// With as many DOFs held as there are free motions, a solid has no motion without energy left.
+void refuse_mechanisms(const Mesh& mesh, std::int32_t body, const HostStiffness& own, double largest) {
+    const std::int64_t dim = mesh.dimension();
+    const std::vector<std::int64_t> nodes = mesh.body_nodes(body);
+    std::vector<std::int64_t> place(index(own.matrix.rows), 0), kept;
+    for (const HostPiece& piece : own.pieces) {
+        if (piece.free.columns == 0) continue;
+        DenseMatrix rows(piece.free.columns, piece.free.rows);
+        for (std::int64_t i = 0; i < piece.free.rows; ++i)
+            for (std::int64_t c = 0; c < piece.free.columns; ++c) rows(c, i) = piece.free(i, c);
+        const PivotedColumns pivots = pivoted_columns(std::move(rows), 1e-12);
+        for (std::int64_t c = 0; c < piece.free.columns; ++c) {
+            const std::int64_t dof = pivots.order[index(c)];
+            const auto local = std::lower_bound(nodes.begin(), nodes.end(), piece.nodes[index(dof / dim)]) - nodes.begin();
+            place[index(local * dim + dof % dim)] = -1;
+        }
+    }
+    for (std::int64_t r = 0; r < own.matrix.rows; ++r) {
+        if (place[index(r)] < 0) continue;
+        place[index(r)] = static_cast<std::int64_t>(kept.size());
+        kept.push_back(r);
+    }
+    SparseMatrix held;
+    held.rows = held.columns = static_cast<std::int64_t>(kept.size());
+    for (const std::int64_t r : kept) {
+        for (std::int64_t e = own.matrix.start[index(r)]; e < own.matrix.start[index(r) + 1]; ++e) {
+            if (place[index(own.matrix.column[index(e)])] < 0) continue;
+            held.column.push_back(place[index(own.matrix.column[index(e)])]);
+            held.value.push_back(own.matrix.value[index(e)] / largest);
+        }
+        held.start.push_back(held.entries());
+    }
+    SparseCholesky factor(held);
+    factor.factorise(held);
+    const SparseCholesky::Pivot pivot = factor.smallest_pivot();
+    if (pivot.variable < 0 || pivot.ratio > mechanism) return;
+    const std::int64_t dof = kept[index(pivot.variable)];
+    fail(DELAM_ERROR_ARGUMENT, "body ", mesh.body_label(body), ": with its rigid motions held its stiffness is not positive definite (pivot ratio ", pivot.ratio,
+         ", allowed > ", mechanism, ") at node ", nodes[index(dof / dim)], ", component ", dof % dim, ": a mechanism, or an indefinite matrix");
+}
+
+double largest_diagonal(const SparseMatrix& k) {
+    double largest = 0.0;
+    for (std::int64_t row = 0; row < k.rows; ++row)
+        for (std::int64_t e = k.start[index(row)]; e < k.start[index(row) + 1]; ++e)
+            if (k.column[index(e)] == row) largest = std::max(largest, k.value[index(e)]);
+    return largest;
+}
+
+// How many of the rigid motions, in ascending order of energy, are free.
+std::int64_t count_free(const std::vector<double>& energy, double largest, const std::string& where) {
+    std::int64_t count = 0;
+    for (const double e : energy) {
+        const double relative = std::abs(e) / largest;
+        if (relative <= rounding) {
+            ++count;
+            continue;
+        }
+        if (relative < resisted)
+            fail(DELAM_ERROR_ARGUMENT, where, ": a rigid motion costs ", relative, " of the largest diagonal entry, between ", rounding,
+                 " (free) and ", resisted, " (held): tell the kernel");
+    }
+    return count;
+}
+
+}  // namespace
+
+HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix matrix, const ToldKernel& kernel) {
+    const std::int64_t dim = mesh.dimension(), rigid = dim == 2 ? 3 : 6;
+    const std::vector<std::int64_t> nodes = mesh.body_nodes(body);
+    HostStiffness made;
+    made.matrix = std::move(matrix);
+    const double largest = largest_diagonal(made.matrix);
+    std::int64_t told_of = 0;
+    for (const std::vector<std::int64_t>& local : components(made.matrix, dim)) {
+        HostPiece piece;
+        for (const std::int64_t i : local) piece.nodes.push_back(nodes[index(i)]);
+        const std::string where = text("body ", mesh.body_label(body), ", the ", local.size(), " nodes that hang together with node ", piece.nodes.front());
+        DenseMatrix q(dim * static_cast<std::int64_t>(local.size()), 0);
+        q.value = rigid_modes(mesh, piece.nodes);
+        q.columns = static_cast<std::int64_t>(q.value.size()) / q.rows;
+        if (q.columns < rigid)
+            fail(DELAM_ERROR_ARGUMENT, where, ", lie on one ", dim == 2 ? "point" : "line", ": they are no solid, whose rigid motions are ", rigid);
+        DenseMatrix gram;
+        std::int64_t free = 0;
+        if (kernel.told) {
+            // Motions told, in terms of rigid ones; what spans them is free.
+            DenseMatrix own(q.rows, kernel.motions.columns);
+            for (std::int64_t c = 0; c < own.columns; ++c)
+                for (std::int64_t i = 0; i < own.rows; ++i) own(i, c) = kernel.motions(local[index(i / dim)] * dim + i % dim, c);
+            const DenseMatrix share = multiply_transposed(q, own), back = multiply(q, share), f = forces(made.matrix, local, dim, own);
+            DenseMatrix span(rigid, rigid);
+            for (std::int64_t c = 0; c < own.columns; ++c) {
+                double length = 0.0, off = 0.0, pull = 0.0;
+                for (std::int64_t i = 0; i < own.rows; ++i) {
+                    length += own(i, c) * own(i, c);
+                    off += (own(i, c) - back(i, c)) * (own(i, c) - back(i, c));
+                    pull += f(i, c) * f(i, c);
+                }
+                if (length == 0.0) continue;
+                if (std::sqrt(off) > told_tolerance * std::sqrt(length))
+                    fail(DELAM_ERROR_ARGUMENT, "kernel[", c, "] is no rigid motion of ", where, " (", std::sqrt(off / length), " of it is not; allowed ", told_tolerance, ")");
+                if (std::sqrt(pull) > told_tolerance * largest * std::sqrt(length))
+                    fail(DELAM_ERROR_ARGUMENT, "kernel[", c, "] takes forces of ", std::sqrt(pull / length) / largest, " of the largest diagonal entry to move ", where,
+                         "; allowed ", told_tolerance);
+                for (std::int64_t i = 0; i < rigid; ++i)
+                    for (std::int64_t j = 0; j < rigid; ++j) span(i, j) -= share(i, c) * share(j, c) / length;  // free ones come first
+            }
+            gram = std::move(span);
+            const Eigen eigen = eigen_symmetric(gram);
+            while (free < rigid && eigen.value[index(free)] < -told_tolerance) ++free;
+            piece.free = some_columns(q, eigen.vector, 0, free);
+            piece.held = some_columns(q, eigen.vector, free, rigid);
+        } else {
+            gram = multiply_transposed(q, forces(made.matrix, local, dim, q));
+            for (std::int64_t i = 0; i < rigid; ++i)
+                for (std::int64_t j = 0; j < i; ++j) gram(i, j) = gram(j, i) = 0.5 * (gram(i, j) + gram(j, i));
+            const Eigen eigen = eigen_symmetric(gram);
+            if (eigen.value.front() < -resisted * largest)
+                fail(DELAM_ERROR_ARGUMENT, where, ": a rigid motion has the energy ", 0.5 * eigen.value.front(), " < 0: the matrix is indefinite");
+            free = count_free(eigen.value, largest, where);
+            piece.free = some_columns(q, eigen.vector, 0, free);
+            piece.held = some_columns(q, eigen.vector, free, rigid);
+        }
+        told_of += free;
+        made.pieces.push_back(std::move(piece));
+    }
+    if (kernel.told && told_of < kernel.motions.columns && made.pieces.size() == 1)
+        fail(DELAM_ERROR_ARGUMENT, "kernel: of ", kernel.motions.columns, " motions of body ", mesh.body_label(body), " only ", told_of, " are independent");
+    refuse_mechanisms(mesh, body, made, largest);
+    return made;
+}
+
+}  // namespace delam

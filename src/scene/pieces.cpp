@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/pieces.hpp"
+
+#include <algorithm>
+
+#include "mesh/partition.hpp"
+
+namespace delam {
+
+namespace {
+
+std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+std::vector<std::uint8_t> given_by_host(const Problem& problem) {
+    std::vector<std::uint8_t> given;
+    for (const auto& own : problem.stiffness) given.push_back(own != nullptr ? 1 : 0);
+    return given;
+}
+
+Pieces rigid_pieces(const Problem& problem) {
+    const Mesh& mesh = *problem.mesh;
+    const std::int64_t dim = mesh.dimension();
+    const Partition parts = partition(mesh, 1, given_by_host(problem));
+    Pieces pieces;
+    pieces.body = parts.subdomain_body;
+    pieces.nodes.resize(pieces.body.size());
+    pieces.of_node.assign(index(mesh.node_count()), -1);
+    for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
+        const std::int64_t piece = parts.cell_subdomain[index(c)];
+        if (piece < 0) continue;
+        for (const std::int64_t node : mesh.cell(c)) {
+            auto& owner = pieces.of_node[index(node)];
+            if (owner < 0) owner = piece;
+            if (owner != piece) pieces.hinges.push_back({node, owner, piece});
+            pieces.nodes[index(piece)].push_back(node);
+        }
+    }
+    for (auto& nodes : pieces.nodes) {
+        std::sort(nodes.begin(), nodes.end());
+        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    }
+    for (std::size_t b = 0; b < problem.stiffness.size(); ++b) {
+        if (problem.stiffness[b] == nullptr) continue;
+        for (const HostPiece& own : problem.stiffness[b]->pieces) {
+            for (const std::int64_t node : own.nodes) pieces.of_node[index(node)] = static_cast<std::int64_t>(pieces.count());
+            for (std::int64_t c = 0; c < own.held.columns; ++c) {
+                Pieces::Row row;
+                for (std::int64_t i = 0; i < own.held.rows; ++i) row.emplace_back(own.nodes[index(i / dim)] * dim + i % dim, own.held(i, c));
+                pieces.resisted.push_back(std::move(row));
+            }
+            pieces.nodes.push_back(own.nodes);
+            pieces.body.push_back(static_cast<std::int32_t>(b));
+        }
+    }
+    return pieces;
+}
+
+}  // namespace delam

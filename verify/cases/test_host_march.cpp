@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a host does between steps: other histories as it goes, states as files, more threads.
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
+#include "small_march.hpp"
+
+namespace {
+
+using reference::Scene;
+using reference::Solver;
+
+// The bar of two cells, pulled along a history.
+Scene bar(const std::vector<double>& times, const std::vector<double>& values, const char* solution = "local") {
+    Scene scene(2, {1.0}, {1}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
+    scene.interface(0, 1);
+    scene.begin();
+    scene.elastic(-1, 1e12, 0.0);
+    scene.law(0, {125e9, 125e9, 100.0, 100.0, 250.0, 250.0});
+    const auto bottom = scene.find(0, {0.0, 0.0}, {1.0, 0.0});
+    scene.hold(bottom, {1.0, 0.0});
+    scene.hold(bottom, {0.0, 1.0});
+    const auto top = scene.find(1, {0.0, 2.0}, {1.0, 2.0});
+    scene.hold(top, {1.0, 0.0});
+    scene.drive(top, {0.0, 1.0}, scene.pattern("pull", times, values), {1.0, 1.0});
+    scene.text("solution", solution);
+    return scene;
+}
+
+void set(const Solver& solver, const std::vector<double>& times, const std::vector<double>& values) {
+    solver.scene().require(delam_solver_set_history(solver.get(), 0, static_cast<std::int64_t>(times.size()), times.data(), values.data()), "delam_solver_set_history");
+}
+
+void to(Solver& solver, double time) {
+    solver.step(time);
+    solver.commit();
+}
+
+// A history that is told as the march goes is the march of the scene that had it from the start, to the last bit.
+void told_history(int loop) {
+    const char* solution = loop == 0 ? "local" : "energetic";
+    const std::vector<double> times{0.0, 0.25, 0.5, 0.75, 1.0}, values{0.0, 6e-5, 2e-5, 9e-5, 7e-5};
+    const Scene known = bar(times, values, solution), unknown = bar({0.0}, {0.0}, solution);
+    Solver planned(known, 0.0), told(unknown, 0.0);
+    for (std::size_t k = 1; k < times.size(); ++k) {
+        to(planned, times[k]);
+        // A wrong guess that is taken back leaves nothing.
+        set(told, {times[k]}, {1e-4});
+        told.step(times[k]);
+        told.rollback();
+        set(told, {times[k]}, {values[k]});
+        to(told, times[k]);
+        cases::expect_same(told, cases::read_bits(told), cases::read_bits(planned), "step " + std::to_string(k));
+    }
+    cases::expect(planned.value("dissipated") > 0.0, "nothing was damaged");
+    // It is saved with the state; the scene's own history is not what goes on.
+    const auto bytes = told.save();
+    set(told, {1.5, 2.0}, {1.2e-4, 0.0});
+    const auto longer = told.save();
+    Solver again(unknown, 0.0);
+    unknown.require(again.load(longer), "delam_solver_load");
+    cases::expect(again.save() == longer, "saved again");
+    to(told, 1.75);
+    to(again, 1.75);
+    cases::expect_same(again, cases::read_bits(again), cases::read_bits(told), "after loading");
+    cases::expect(std::abs(again.value("load:pull") - 6e-5) < 1e-19, "halfway down");
+    // Loading the earlier one takes the later history back.
+    unknown.require(again.load(bytes), "delam_solver_load");
+    to(again, 1.75);
+    cases::expect(again.value("load:pull") == 7e-5, "constant beyond the last point");
+    // The scene is the same one for both: a state of the planned march is refused, its histories differ.
+    cases::expect(again.load(planned.save()) == DELAM_ERROR_SNAPSHOT, "another scene");
+}
+
+START_TEST(history) { cases::run_body(told_history, _i); }
+END_TEST
+
+CASE_TEST(history_refused) {
+    const Scene scene = bar({0.0, 1.0}, {0.0, 5e-5});
+    Solver solver(scene, 0.0);
+    to(solver, 0.5);
+    const double ok = 0.75, early = 0.5, value = 1e-5, nan = NAN;
+    const double twice[2] = {0.75, 0.75}, values[2] = {0.0, 0.0};
+    delam_solver* s = solver.get();
+    cases::expect(delam_solver_set_history(s, 0, 1, &early, &value) == DELAM_ERROR_ARGUMENT, "not after the committed time");
+    cases::expect(delam_solver_set_history(s, 1, 1, &ok, &value) == DELAM_ERROR_ARGUMENT, "no such pattern");
+    cases::expect(delam_solver_set_history(s, 0, 0, &ok, &value) == DELAM_ERROR_ARGUMENT, "no points");
+    cases::expect(delam_solver_set_history(s, 0, 1, &ok, &nan) == DELAM_ERROR_ARGUMENT, "not finite");
+    cases::expect(delam_solver_set_history(s, 0, 2, twice, values) == DELAM_ERROR_ARGUMENT, "times that do not increase");
+    std::int32_t pending = -1;
+    scene.require(delam_solver_pending(s, &pending), "delam_solver_pending");
+    cases::expect(pending == 0, "nothing is pending");
+    solver.step(0.75);
+    scene.require(delam_solver_pending(s, &pending), "delam_solver_pending");
+    cases::expect(pending == 1, "a step is pending");
+    cases::expect(delam_solver_set_history(s, 0, 1, &ok, &value) == DELAM_ERROR_STATE, "a step is pending");
+    cases::expect(solver.value("load:pull") == 0.75 * 5e-5, "refusals change nothing");
+}
+
+struct Folder {
+    std::filesystem::path path;
+    Folder() {
+        std::string name = (std::filesystem::temp_directory_path() / "delam-XXXXXX").string();
+        cases::expect(mkdtemp(name.data()) != nullptr, "no temporary folder");
+        path = name;
+    }
+    ~Folder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path, ignored);
+    }
+    std::size_t files() const {
+        return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path), std::filesystem::directory_iterator()));
+    }
+};
+
+CASE_TEST(states_as_files) {
+    const Folder folder;
+    const std::string path = (folder.path / "état 1.state").string();
+    const Scene scene = bar({0.0, 1.0}, {0.0, 9e-5});
+    Solver solver(scene, 0.0);
+    to(solver, 0.5);
+    scene.require(delam_solver_save_file(solver.get(), path.c_str()), "delam_solver_save_file");
+    const auto bits = cases::read_bits(solver);
+    to(solver, 1.0);
+    const auto end = cases::read_bits(solver);
+    Solver again(scene, 0.0);
+    scene.require(delam_solver_load_file(again.get(), path.c_str()), "delam_solver_load_file");
+    cases::expect_same(again, cases::read_bits(again), bits, "loaded");
+    to(again, 1.0);
+    cases::expect_same(again, cases::read_bits(again), end, "gone on");
+    // Over an older one.
+    scene.require(delam_solver_save_file(again.get(), path.c_str()), "delam_solver_save_file");
+    cases::expect(folder.files() == 1, "something was left beside it");
+    std::ifstream file(path, std::ios::binary);
+    const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    cases::expect(bytes == again.save(), "a file holds other bytes");
+
+    const auto refused = [&](std::int32_t status, std::int32_t expected, const char* words) {
+        const std::string message = delam_context_message(scene.context());
+        cases::expect(status == expected && message.find(words) != std::string::npos, std::string(words) + ": " + message);
+    };
+    refused(delam_solver_save_file(again.get(), (folder.path / "none" / "a").c_str()), DELAM_ERROR_FILE, "No such file");
+    refused(delam_solver_save_file(again.get(), folder.path.c_str()), DELAM_ERROR_FILE, "directory");
+    refused(delam_solver_save_file(again.get(), nullptr), DELAM_ERROR_ARGUMENT, "path");
+    refused(delam_solver_load_file(again.get(), (folder.path / "none").c_str()), DELAM_ERROR_FILE, "No such file");
+    refused(delam_solver_load_file(again.get(), folder.path.c_str()), DELAM_ERROR_FILE, "directory");
+    const std::string empty = (folder.path / "empty").string();
+    std::ofstream(empty).flush();
+    refused(delam_solver_load_file(again.get(), empty.c_str()), DELAM_ERROR_SNAPSHOT, "ends early");
+    std::ofstream(empty) << "<?xml version=\"1.0\"?><VTKFile/>";
+    refused(delam_solver_load_file(again.get(), empty.c_str()), DELAM_ERROR_SNAPSHOT, "not a snapshot");
+    cases::expect_same(again, cases::read_bits(again), end, "after refusals");
+}
+
+// A disk that fills up: the file that was there stays, nothing else is left.
+CASE_TEST(full_disk) {
+    const Folder folder;
+    const std::string path = (folder.path / "state").string();
+    const Scene scene = bar({0.0, 1.0}, {0.0, 9e-5});
+    Solver solver(scene, 0.0);
+    to(solver, 0.5);
+    scene.require(delam_solver_save_file(solver.get(), path.c_str()), "delam_solver_save_file");
+    to(solver, 1.0);
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit little{100, before.rlim_max};
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &little);
+    const std::int32_t status = delam_solver_save_file(solver.get(), path.c_str());
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    cases::expect(status == DELAM_ERROR_FILE && std::string(delam_context_message(scene.context())).find("too large") != std::string::npos, delam_context_message(scene.context()));
+    cases::expect(folder.files() == 1, "a part of the file was left");
+    Solver again(scene, 0.0);
+    scene.require(delam_solver_load_file(again.get(), path.c_str()), "the older state");
+    cases::expect(again.value("time") == 0.5, "the older state is there");
+}
+
+// No digit depends on the library's own threads.
+CASE_TEST(threads_change_no_digit) {
+    cases::expect(delam_blas_threads() >= 0, "BLAS threads");
+    std::vector<cases::Bits> ends;
+    for (const double threads : {1.0, 2.0, 5.0}) {
+        Scene scene = cases::small_enf(6);
+        scene.number("threads", threads);
+        Solver solver(scene, 0.0);
+        cases::walk(solver, 1, cases::small_steps);
+        ends.push_back(cases::read_bits(solver));
+        cases::expect_same(solver, ends.back(), ends.front(), std::to_string(static_cast<int>(threads)) + " threads");
+        const std::string plan = delam_solver_plan(solver.get());
+        cases::expect(plan.find("threads: ") != std::string::npos, plan);
+    }
+    // They are none of the scene: what one number has saved, another goes on with.
+    char one[17], two[17];
+    Scene scene = cases::small_enf(6);
+    scene.require(delam_problem_hash(scene.problem(), one), "hash");
+    scene.number("threads", 2.0);
+    scene.require(delam_problem_hash(scene.problem(), two), "hash");
+    cases::expect(std::string(one) == two, "the hash knows the threads");
+}
+
+// Cancelled while members of the team work: the state before, and the same end.
+CASE_TEST(cancelled_with_threads) {
+    Scene scene = cases::small_enf(6);
+    scene.number("threads", 3.0);
+    Solver solver(scene, 0.0), straight(scene, 0.0);
+    static std::int64_t polls;
+    static std::int64_t last;
+    const auto count = [](const char*, std::int64_t, std::int64_t, void*) -> std::int32_t { return ++polls == last ? 1 : 0; };
+    straight.step(cases::small_time(1));
+    scene.require(delam_context_set_progress(scene.context(), count, nullptr), "progress");
+    for (last = 1; last < 400; last = last * 2 + 1) {
+        polls = 0;
+        cases::expect(solver.advance(cases::small_time(1)) == DELAM_CANCELLED, "cancelled at " + std::to_string(last));
+    }
+    delam_solver* made = nullptr;
+    for (last = 1; last <= 4; ++last) {
+        polls = 0;
+        cases::expect(delam_solver_create(scene.problem(), 0.0, &made) == DELAM_CANCELLED && made == nullptr, "cancelled while it is made");
+    }
+    scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "progress");
+    solver.step(cases::small_time(1));
+    cases::expect_same(solver, cases::read_bits(solver), cases::read_bits(straight), "after cancellations");
+}
+
+}  // namespace
+
+int main() {
+    Suite* suite = suite_create("host_march");
+    TCase* tests = tcase_create("host_march");
+    tcase_add_loop_test(tests, history, 0, 2);
+    tcase_add_test(tests, history_refused);
+    tcase_add_test(tests, states_as_files);
+    tcase_add_test(tests, full_disk);
+    tcase_add_test(tests, threads_change_no_digit);
+    tcase_add_test(tests, cancelled_with_threads);
+    suite_add_tcase(suite, tests);
+    return cases::run_suite(suite);
+}

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The consistent tangent of a step is the derivative of the reactions that the step itself gives, damage included: against central differences of whole
+// steps whose end factors are changed. And what the condensed operator says is the energy that the solver reports.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+
+#include "api.hpp"
+#include "support.hpp"
+
+namespace {
+
+using reference::Scene;
+using reference::Solver;
+
+struct Setting {
+    const char* name;
+    int dimension;
+    const char* reduction;
+    const char* rule;
+    double gradient;
+    double asymmetry;  // smallest relative asymmetry that must show; 0: symmetric
+};
+
+constexpr Setting settings[] = {
+    {"frozen", 2, "condensed", "frozen", 0.0, 0.0},         {"frozen, FETI", 2, "feti", "frozen", 0.0, 0.0},
+    {"converged", 2, "condensed", "converged", 0.0, 1e-6},  {"variational", 2, "condensed", "variational", 0.0, 0.0},
+    {"gradient", 2, "condensed", "frozen", 2e-3, 0.0},      {"frozen, space", 3, "condensed", "frozen", 0.0, 0.0},
+    {"converged, space", 3, "condensed", "converged", 0.0, 1e-6},
+};
+constexpr int setting_count = static_cast<int>(std::size(settings));
+
+constexpr int steps = 10;
+
+// A strip peeled and sheared at its left end by three devices: two displacements and a force.
+Scene strip(const Setting& s) {
+    const bool space = s.dimension == 3;
+    Scene scene = space ? Scene(3, {0.03, 0.004}, {15, 2}, {1e-3, 1e-3}, {1, 1}, DELAM_HEX8) : Scene(2, {0.03}, {30}, {1e-3, 1e-3}, {1, 1}, DELAM_QUAD4);
+    scene.interface(0, 1);
+    scene.begin();
+    scene.elastic(-1, 70e9, 0.3);
+    reference::LawData law{1e13, 1e13, 20.0, 40.0, 200.0, 500.0};
+    law.gradient = s.gradient;
+    scene.law(0, law);
+    const auto pairs = scene.pairs(0);
+    std::vector<std::int64_t> notch;
+    for (std::size_t p = 0; p < pairs.count(); ++p)
+        if (scene.coordinate(pairs.node_a[p], 0) < 0.0055) notch.push_back(static_cast<std::int64_t>(p));
+    scene.adhesion(0, notch, std::vector<double>(notch.size(), 0.0));
+    const auto box = [&](double x0, double x1, double z) {
+        return space ? std::pair{std::vector<double>{x0, 0.0, z}, std::vector<double>{x1, 0.004, z}} : std::pair{std::vector<double>{x0, z}, std::vector<double>{x1, z}};
+    };
+    const auto unit = [&](int axis) {
+        std::vector<double> e(static_cast<std::size_t>(s.dimension), 0.0);
+        e[static_cast<std::size_t>(axis < 0 ? s.dimension - 1 : axis)] = 1.0;
+        return e;
+    };
+    const auto base = box(0.0, 0.03, 0.0);
+    const auto foot = scene.find(0, base.first, base.second);
+    for (int axis = 0; axis < s.dimension; ++axis) scene.hold(foot, unit(axis));
+    const auto tip = box(0.0, 0.0, 2e-3);
+    const auto top = scene.find(1, tip.first, tip.second);
+    scene.drive(top, unit(-1), scene.pattern("lift", {0.0, 1.0}, {0.0, 2.5e-4}), std::vector<double>(top.size(), 1.0));
+    scene.drive(top, unit(0), scene.pattern("pull", {0.0, 1.0}, {0.0, -4e-5}), std::vector<double>(top.size(), 1.0));
+    const auto press = scene.pattern("press", {0.0, 1.0}, {0.0, 1.0});
+    const auto middle = box(0.012, 0.012, 2e-3);
+    const auto loaded = scene.find(1, middle.first, middle.second);
+    std::vector<double> forces;
+    for (std::size_t i = 0; i < loaded.size(); ++i)
+        for (const double f : unit(-1)) forces.push_back(f * (space ? 4.0 : 2000.0));
+    scene.require(delam_problem_add_forces(scene.problem(), press, static_cast<std::int64_t>(loaded.size()), loaded.data(), forces.data(), 0), "forces");
+    scene.text("reduction", s.reduction);
+    scene.text("mixity_rule", s.rule);
+    scene.number("damage_tolerance", 1e-11);
+    return scene;
+}
+
+constexpr const char* names[] = {"lift", "pull", "press"};
+constexpr double ends[] = {2.5e-4, -4e-5, 1.0};
+
+std::vector<double> step_tangent(const Solver& solver) {
+    std::vector<double> matrix(9);
+    solver.scene().require(delam_solver_step_tangent(solver.get(), 9, matrix.data()), "delam_solver_step_tangent");
+    return matrix;
+}
+
+void tangent_is_the_derivative(int loop) {
+    const Setting& s = settings[loop];
+    const Scene scene = strip(s);
+    Solver solver(scene, 0.0);
+    bool damaged = false, softened = false;
+    double asymmetry = 0.0;
+    std::vector<double> factors(3);
+    for (int k = 1; k <= steps; ++k) {
+        const double time = static_cast<double>(k) / steps;
+        for (std::size_t p = 0; p < 3; ++p) {
+            factors[p] = ends[p] * time;
+            scene.require(delam_solver_set_history(solver.get(), static_cast<std::int64_t>(p), 1, &time, &factors[p]), "delam_solver_set_history");
+        }
+        solver.step(time);
+        const std::vector<double> tangent = step_tangent(solver);
+        std::vector<double> secant(9);
+        scene.require(delam_solver_tangent(solver.get(), 9, secant.data()), "delam_solver_tangent");
+        damaged = damaged || (k > 2 && solver.value("dissipated") > 0.0);
+        const auto at = [&](int q, double change) {
+            for (int p = 0; p < 3; ++p) {
+                const double value = factors[static_cast<std::size_t>(p)] + (p == q ? change : 0.0);
+                scene.require(delam_solver_set_history(solver.get(), p, 1, &time, &value), "delam_solver_set_history");
+            }
+            solver.step(time);
+            std::vector<double> reactions;
+            for (const char* name : names) reactions.push_back(solver.value(std::string("reaction:") + name));
+            solver.rollback();
+            return reactions;
+        };
+        solver.rollback();
+        // Compared in energies: entries times the factors of their row and column at the end.
+        double size = 0.0;
+        for (int p = 0; p < 3; ++p) size = std::max(size, std::abs(tangent[static_cast<std::size_t>(4 * p)]) * ends[p] * ends[p]);
+        for (int q = 0; q < 3; ++q) {
+            const double e = 2e-6 * ends[q];
+            const auto above = at(q, e), below = at(q, -e);
+            for (int p = 0; p < 3; ++p) {
+                const auto i = static_cast<std::size_t>(3 * p + q);
+                const double difference = (above[static_cast<std::size_t>(p)] - below[static_cast<std::size_t>(p)]) / (2.0 * e);
+                // Before the first load the mixity is that of the elastic solution, which moves along: the first step of a mixed law is not compared.
+                if (k > 1)
+                    cases::expect_near(tangent[i] * ends[p] * ends[q], difference * ends[p] * ends[q], 2e-4, size,
+                                       std::string(s.name) + ", step " + std::to_string(k) + ", d " + names[p] + " / d " + names[q]);
+                softened = softened || std::abs(tangent[i] - secant[i]) * ends[p] * ends[q] > 0.02 * size;
+                asymmetry = std::max(asymmetry, std::abs(tangent[i] - tangent[static_cast<std::size_t>(3 * q + p)]) * ends[p] * ends[q] / size);
+            }
+        }
+        // Back on the way: what was changed and rolled back leaves the planned value.
+        for (int p = 0; p < 3; ++p)
+            scene.require(delam_solver_set_history(solver.get(), p, 1, &time, &factors[static_cast<std::size_t>(p)]), "delam_solver_set_history");
+        solver.step(time);
+        solver.commit();
+    }
+    cases::expect(damaged && softened, std::string(s.name) + ": the steps did not soften, nothing was tested");
+    if (s.asymmetry > 0.0)
+        cases::expect(asymmetry > s.asymmetry, std::string(s.name) + ": should not be symmetric");
+    else
+        cases::expect_below(asymmetry, 1e-6, std::string(s.name) + ": asymmetry");
+}
+
+START_TEST(derivative) { cases::run_body(tangent_is_the_derivative, _i); }
+END_TEST
+
+CASE_TEST(tangent_refused) {
+    const Scene scene = strip(settings[0]);
+    Solver solver(scene, 0.0);
+    std::vector<double> matrix(9);
+    cases::expect(delam_solver_step_tangent(solver.get(), 9, matrix.data()) == DELAM_ERROR_STATE, "no step is pending");
+    solver.step(0.1);
+    cases::expect(delam_solver_step_tangent(solver.get(), 8, matrix.data()) == DELAM_ERROR_ARGUMENT, "capacity");
+    const auto before = solver.save();
+    std::map<std::string, double> values;
+    for (const char* key : {"stored_bulk", "dissipated", "reaction:lift", "am_iterations", "contact_pairs"}) values[key] = solver.value(key);
+    step_tangent(solver);
+    cases::expect(solver.save() == before, "the state has changed");
+    for (const char* key : {"stored_bulk", "dissipated", "reaction:lift", "am_iterations", "contact_pairs"})
+        cases::expect(solver.value(key) == values.at(key), std::string("the pending step has changed: ") + key);
+    // The next step does not notice that it was asked.
+    solver.commit();
+    solver.step(0.2);
+    solver.commit();
+    const auto asked = solver.save();
+    Solver other(scene, 0.0);
+    other.step(0.1);
+    other.commit();
+    other.step(0.2);
+    other.commit();
+    cases::expect(asked == other.save(), "the step after it differs");
+}
+
+// E = 1/2 x.S x - theta.L x + 1/2 theta.A theta at the jumps of a march, and its jumps from x.
+void operator_is_the_energy(int loop) {
+    const Scene scene = strip(settings[loop == 0 ? 0 : 5]);
+    Solver solver(scene, 0.0);
+    std::int64_t n = 0, entries = 0, patterns = 0;
+    scene.require(delam_solver_condensed_size(solver.get(), &n, &entries), "delam_solver_condensed_size");
+    scene.require(delam_problem_pattern_count(scene.problem(), &patterns), "delam_problem_pattern_count");
+    const auto un = static_cast<std::size_t>(n), up = static_cast<std::size_t>(patterns);
+    const std::size_t rows = scene.pair_count() * static_cast<std::size_t>(scene.dimension());
+    std::vector<double> s(un * un), load(up * un), constant(up * up), value(static_cast<std::size_t>(entries)), offset(rows * up);
+    std::vector<std::int64_t> start(rows + 1), column(static_cast<std::size_t>(entries));
+    cases::expect(delam_solver_condensed(solver.get(), n * n - 1, s.data(), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr) == DELAM_ERROR_ARGUMENT, "capacity");
+    scene.require(delam_solver_condensed(solver.get(), n * n, s.data(), load.data(), constant.data(), start.data(), column.data(), value.data(), offset.data()),
+                  "delam_solver_condensed");
+    for (int k = 1; k <= 5; ++k) {
+        solver.step(0.2 * k);
+        const auto jump = solver.field("jump");
+        std::vector<double> theta;
+        for (const char* name : names) theta.push_back(solver.value(std::string("load:") + name));
+        std::vector<double> x(un, 0.0);
+        double largest = 0.0;
+        for (std::size_t r = 0; r < rows; ++r) {
+            largest = std::max(largest, std::abs(jump[r]));
+            if (start[r + 1] - start[r] != 1 || value[static_cast<std::size_t>(start[r])] != 1.0) continue;
+            double own = jump[r];
+            for (std::size_t p = 0; p < up; ++p) own -= offset[r * up + p] * theta[p];
+            x[static_cast<std::size_t>(column[static_cast<std::size_t>(start[r])])] = own;
+        }
+        for (std::size_t r = 0; r < rows; ++r) {
+            double j = 0.0;
+            for (auto e = static_cast<std::size_t>(start[r]); e < static_cast<std::size_t>(start[r + 1]); ++e) j += value[e] * x[static_cast<std::size_t>(column[e])];
+            for (std::size_t p = 0; p < up; ++p) j += offset[r * up + p] * theta[p];
+            cases::expect_near(j, jump[r], 1e-10, largest, "jump " + std::to_string(r));
+        }
+        double energy = 0.0;
+        for (std::size_t i = 0; i < un; ++i)
+            for (std::size_t j = 0; j < un; ++j) energy += 0.5 * x[i] * s[i * un + j] * x[j];
+        for (std::size_t p = 0; p < up; ++p) {
+            for (std::size_t i = 0; i < un; ++i) energy -= theta[p] * load[p * un + i] * x[i];
+            for (std::size_t q = 0; q < up; ++q) energy += 0.5 * theta[p] * constant[p * up + q] * theta[q];
+        }
+        const double stored = solver.value("stored_bulk") + solver.value("load_potential");
+        cases::expect_near(energy, stored, 1e-9, std::abs(solver.value("stored_bulk")) + std::abs(solver.value("load_potential")), "energy of bodies and loads");
+        solver.commit();
+    }
+    for (std::size_t i = 0; i < un; ++i)
+        for (std::size_t j = 0; j < i; ++j) cases::expect(s[i * un + j] == s[j * un + i], "symmetry");
+}
+
+START_TEST(condensed) { cases::run_body(operator_is_the_energy, _i); }
+END_TEST
+
+CASE_TEST(no_operator_by_feti) {
+    const Scene scene = strip(settings[1]);
+    Solver solver(scene, 0.0);
+    std::int64_t n = 0;
+    cases::expect(delam_solver_condensed_size(solver.get(), &n, nullptr) == DELAM_ERROR_STATE, "FETI has a condensed operator");
+    cases::expect(std::string(delam_context_message(scene.context())).find("reduction = condensed") != std::string::npos, delam_context_message(scene.context()));
+}
+
+}  // namespace
+
+int main() {
+    Suite* suite = suite_create("step_tangent");
+    TCase* tests = tcase_create("step_tangent");
+    tcase_add_loop_test(tests, derivative, 0, setting_count);
+    tcase_add_test(tests, tangent_refused);
+    tcase_add_loop_test(tests, condensed, 0, 2);
+    tcase_add_test(tests, no_operator_by_feti);
+    suite_add_tcase(suite, tests);
+    return cases::run_suite(suite);
+}
