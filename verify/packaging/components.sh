@@ -33,7 +33,8 @@ if has cli; then
     only cli 'bin/delam|share/delam/[a-z_]+\.py' bin/delam share/delam/plot.py
 fi
 if has cpp; then
-    only cpp 'include/delam/delam\.hpp|lib/cmake/delam/delam-cpp.*\.cmake' include/delam/delam.hpp
+    only cpp 'include/delam/(delam|cpp/[a-z]+)\.hpp|lib/cmake/delam/delam-cpp.*\.cmake' \
+        include/delam/delam.hpp include/delam/cpp/solver.hpp
 fi
 if has fortran; then
     built='include/delam/fortran/.*\.mod|lib/libdelam_fortran\.a|lib/cmake/delam/delam-fortran.*\.cmake'
