@@ -39,7 +39,8 @@ fi
 if has fortran; then
     built='include/delam/fortran/.*\.mod|lib/libdelam_fortran\.a|lib/cmake/delam/delam-fortran.*\.cmake'
     only fortran "share/delam/fortran/.*\.f90|$built" \
-        share/delam/fortran/delam.f90 share/delam/fortran/delam_raw.f90 lib/libdelam_fortran.a
+        share/delam/fortran/delam.f90 share/delam/fortran/delam_raw.f90 share/delam/fortran/delam_solvers.f90 \
+        lib/libdelam_fortran.a
 else
     # The sources serve compilers that were not there when the library was built.
     only fortran 'share/delam/fortran/.*\.f90' share/delam/fortran/delam.f90
