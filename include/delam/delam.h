@@ -293,12 +293,13 @@ DELAM_API int32_t delam_mesh_interface_faces(const delam_mesh *mesh, int64_t int
  * [unit lower L, upper L >= lower; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_find_nodes(const delam_mesh *mesh, int32_t body, const double *lower, const double *upper,
                                         int64_t capacity, int64_t *nodes, int64_t *count);
-/* Integrals of the nodal shape functions over the part of a body's boundary faces inside the box from lower [dimension]
- * to upper [dimension]: the weights of a uniform traction on a patch of fixed size, independent of the mesh. Faces are
- * cut exactly where the box ends within them (2D: exact; 3D: faces as triangles). Only faces whose outward normal is
- * within 45 degrees of direction [dimension] (any length > 0) count. nodes, weights: [capacity], of which the first
- * *count are written; *count receives how many there are. Weights in L (2D) or L2 (3D), with a sum > 0. Those of linear
- * cells are all > 0; quadratic cells also have negative ones (a corner of an 8-node face: -1/12 of its area).
+/* Integrals of the nodal shape functions over the part of a body's boundary faces (-1: of each body's, those at
+ * interfaces too) inside the box from lower [dimension] to upper [dimension]: the weights of a uniform traction on a
+ * patch of fixed size, independent of the mesh. Faces are cut exactly where the box ends within them (2D: exact; 3D:
+ * faces as triangles). Only faces whose outward normal is within 45 degrees of direction [dimension] (any length > 0)
+ * count. nodes, weights: [capacity], of which the first *count are written; *count receives how many there are. Weights
+ * in L (2D) or L2 (3D), with a sum > 0. Those of linear cells are all > 0; quadratic cells also have negative ones (a
+ * corner of an 8-node face: -1/12 of its area).
  * [unit lower L, upper L >= lower, direction 1, weights L or L2 sum > 0; null none; status argument; source none; since
  * 0.1] */
 DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, const double *lower, const double *upper,

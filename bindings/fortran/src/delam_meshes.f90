@@ -425,6 +425,7 @@ contains
     call settle(code, self, status, message)
   end function mesh_find_nodes
 
+  ! body -1: of all.
   subroutine mesh_find_patch(self, body, lower, upper, direction, nodes, weights, status, message)
     class(delam_mesh), intent(in) :: self
     integer, intent(in) :: body

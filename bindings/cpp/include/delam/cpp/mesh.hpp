@@ -194,7 +194,7 @@ public:
         shared_->check(delam_mesh_interface_faces(get(), interface_index, faces.data()));
         return faces;
     }
-    // body -1: of all.
+    // body -1: of all, here and below.
     std::vector<std::int64_t> find_nodes(std::int32_t body, View<double> lower, View<double> upper) const {
         const auto space = detail::length(dimension());
         detail::require(lower.size() == space && upper.size() == space,
