@@ -18,7 +18,8 @@ if has cpp; then
     same_history ./enf_cpp
 fi
 read -ra fortran <<<"$(pkg-config --variable=fortransources delam)"
-[[ ${fortran[-1]} == "$(pkg-config --variable=fortrandir delam)/delam.f90" ]] || fail "the last source is ${fortran[-1]}"
+last=$(pkg-config --variable=fortrandir delam)/delam.f90
+[[ ${fortran[-1]} == "$last" ]] || fail "the last source is ${fortran[-1]}, expected $last"
 for file in "${fortran[@]}"; do
     [[ -f $file ]] || fail "no $file"
 done

@@ -139,7 +139,8 @@ def draw_solid(ax, file, step, scale, hidden):
 
 
 def plot_solid(result, file, shots, scale):
-    """Bodies above, below the adhesion of the interfaces as maps seen from above. Hidden bodies have it on themselves."""
+    """Bodies above, below the adhesion of the interfaces as maps seen from above; hidden bodies have it on themselves.
+    """
     hidden = hidden_bodies(file, body_of_nodes(file))
     names = [] if len(hidden) else chosen_interfaces(file)
     columns = min(len(shots), 2 if len(hidden) else 5)

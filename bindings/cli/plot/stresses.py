@@ -18,7 +18,8 @@ def draw_stress(ax, moved, file, step, factor, largest):
     for n in np.unique(number):
         of = number == n
         corners = cells[of][:, :{3: 3, 4: 4, 6: 3, 8: 4, 9: 4}[n]]
-        drawn = PolyCollection(moved[corners], cmap="RdBu_r", edgecolors="face", linewidths=0.1, norm=plt.Normalize(-largest, largest))
+        drawn = PolyCollection(moved[corners], cmap="RdBu_r", edgecolors="face", linewidths=0.1,
+                               norm=plt.Normalize(-largest, largest))
         drawn.set_array(stress[of])
         ax.add_collection(drawn)
     return drawn

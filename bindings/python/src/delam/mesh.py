@@ -333,8 +333,8 @@ class Mesh(Object):
         return int(nodes[0])
 
     def find_patch(self, body, lower, upper, direction):
-        """Nodes and weights of a uniform traction on the part of a body's boundary (None: of each body's) inside the box
-        whose outward normal is within 45 degrees of the direction."""
+        """Nodes and weights of a uniform traction on the part of a body's boundary (None: of each body's) inside the
+        box whose outward normal is within 45 degrees of the direction."""
         dimension = self.dimension
         lower, upper = floats("lower", lower, (dimension,)), floats("upper", upper, (dimension,))
         along = axis("direction", direction, dimension)
