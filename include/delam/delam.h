@@ -28,8 +28,8 @@
  *              callback as it is.
  *
  * The line in brackets
- *   ends the comment of each function: the rest of its contract in fixed words, complete, so that what is missing there
- *   is as above. In the order
+ *   ends the comment of each function and callback: the rest of its contract in fixed words, complete, so that what is
+ *   missing there is as above. In the order
  *   unit       of each double: its name, unit, range if there is one. 1: none; t: time of the load histories; of key:
  *              as that key says
  *   null       pointers that may be NULL
@@ -40,6 +40,8 @@
  *   thread     any: from any thread at any time; not said: as above
  *   source     where the method is described; none: nothing but what was given, counted or solved for is handed out
  *   since      version of the library
+ *   For a callback, which the library calls: null, what it may be given as NULL; owns, how long what it is given lives;
+ *   status, what the running call ends with when the callback returns anything but 0; thread call's: that of this call.
  */
 #ifndef DELAM_DELAM_H
 #define DELAM_DELAM_H
@@ -101,10 +103,12 @@ DELAM_API int32_t delam_blas_threads(void);
 
 /* ---- context: messages, log, progress, cancel -------------------------------------------------------------------- */
 
-/* Called with lines for people. level: 0 error, 1 warning, 2 information. */
+/* Called with lines for people. level: 0 error, 1 warning, 2 information.
+ * [null user; owns text until the callback returns; status -; thread call's; since 0.1] */
 typedef void (*delam_log_callback)(int32_t level, const char *text, void *user);
 /* Called inside long work, on the calling thread. stage: static text ("factor", "minimise", ...); done of total
- * (total 0 = not known). Non-zero return cancels: the call ends with DELAM_CANCELLED. */
+ * (total 0 = not known). Non-zero return cancels: the call ends with DELAM_CANCELLED.
+ * [null user; owns stage static; status cancelled; thread call's; since 0.1] */
 typedef int32_t (*delam_progress_callback)(const char *stage, int64_t done, int64_t total, void *user);
 
 /* A context with no callbacks, for objects made with it; *out receives it.
@@ -315,12 +319,13 @@ DELAM_API int32_t delam_mesh_interface_faces(const delam_mesh *mesh, int64_t int
  * [unit lower L, upper L >= lower; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_find_nodes(const delam_mesh *mesh, int32_t body, const double *lower, const double *upper,
                                         int64_t capacity, int64_t *nodes, int64_t *count);
-/* Integrals of the nodal shape functions over the part of a body's boundary faces inside the box from lower [dimension]
- * to upper [dimension]: the weights of a uniform traction on a patch of fixed size, independent of the mesh. Faces are
- * cut exactly where the box ends within them (2D: exact; 3D: faces as triangles). Only faces whose outward normal is
- * within 45 degrees of direction [dimension] (any length > 0) count. nodes, weights: [capacity], of which the first
- * *count are written; *count receives how many there are. Weights in L (2D) or L2 (3D), with a sum > 0. Those of linear
- * cells are all > 0; quadratic cells also have negative ones (a corner of an 8-node face: -1/12 of its area).
+/* Integrals of the nodal shape functions over the part of a body's boundary faces (-1: of each body's, those at
+ * interfaces too) inside the box from lower [dimension] to upper [dimension]: the weights of a uniform traction on a
+ * patch of fixed size, independent of the mesh. Faces are cut exactly where the box ends within them (2D: exact; 3D:
+ * faces as triangles). Only faces whose outward normal is within 45 degrees of direction [dimension] (any length > 0)
+ * count. nodes, weights: [capacity], of which the first *count are written; *count receives how many there are. Weights
+ * in L (2D) or L2 (3D), with a sum > 0. Those of linear cells are all > 0; quadratic cells also have negative ones (a
+ * corner of an 8-node face: -1/12 of its area).
  * [unit lower L, upper L >= lower, direction 1, weights L or L2 sum > 0; null none; status argument; source none; since
  * 0.1] */
 DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, const double *lower, const double *upper,
@@ -386,11 +391,15 @@ DELAM_API int32_t delam_law_parameter_info(const char *kind, int64_t index, cons
 /* Callbacks of a law that the host computes; non-zero return: failed, the call of the library ends with
  * DELAM_ERROR_PROBLEM. They run inside calls that check or use the law, on the calling thread, must not call back into
  * the library, and must always give the same answers. */
-/* Adhesion on a first loading at fixed mixity: the minimiser zeta*(B, Y) of zeta Y + g(B, zeta) in [0,1], nonincreasing
- * in driving = Y (F/L); slope: d zeta* / dY, L/F, finite, <= 0 (0 where it is not inside). */
+/* Gives *adhesion on a first loading at fixed mixity: the minimiser zeta*(B, Y) of zeta Y + g(B, zeta) in [0,1],
+ * nonincreasing in driving = Y; *slope: d zeta* / dY, finite (0 where it is not inside).
+ * [unit mixity 1 in [0, 1], driving F/L, adhesion 1 in [0, 1], slope L/F <= 0; null user; status problem; thread
+ * call's; since 0.1] */
 typedef int32_t (*delam_adhesion_callback)(double mixity, double driving, double *adhesion, double *slope, void *user);
-/* g(B, zeta) at 0 <= adhesion <= 1, F/L; slope: dg/dzeta <= 0, may be -INFINITY at adhesion 0; mixity_slope: dg/dB,
- * finite. */
+/* Gives *dissipated = g(B, zeta) at an adhesion; *slope: dg/dzeta, may be -INFINITY at adhesion 0; *mixity_slope:
+ * dg/dB.
+ * [unit mixity 1 in [0, 1], adhesion 1 in [0, 1], dissipated F/L, slope F/L <= 0, mixity_slope F/L finite; null user;
+ * status problem; thread call's; since 0.1] */
 typedef int32_t (*delam_dissipation_callback)(double mixity, double adhesion, double *dissipated, double *slope,
                                               double *mixity_slope, void *user);
 /* A law of kind host. adhesion gives zeta*, dissipation g; Go = -dg/dzeta at adhesion 1, Gc = g at adhesion 0. name,

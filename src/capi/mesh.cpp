@@ -410,7 +410,7 @@ int32_t delam_mesh_find_patch(const delam_mesh* mesh, int32_t body, const double
         if (std::all_of(direction, direction + dimension, [](double d) { return d == 0.0; })) {
             fail(DELAM_ERROR_ARGUMENT, "direction has length 0");
         }
-        const Patch patch = find_patch(core, require_body(core, body, "body", false), view(lower, dimension),
+        const Patch patch = find_patch(core, require_body(core, body, "body", true), view(lower, dimension),
                                        view(upper, dimension), view(direction, dimension));
         give(patch.nodes, capacity, nodes);
         give(patch.weights, capacity, weights);

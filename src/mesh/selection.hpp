@@ -19,6 +19,7 @@ struct Patch {
     // Integral of the node's shape function over the part of the boundary in the box: on quadratic cells some are < 0.
     std::vector<double> weights;
 };
+// Body as above; of all bodies, faces at their interfaces count too.
 Patch find_patch(const Mesh& mesh, std::int32_t body, std::span<const double> lower, std::span<const double> upper,
                  std::span<const double> direction);
 

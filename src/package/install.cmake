@@ -11,6 +11,10 @@ install(EXPORT delam NAMESPACE delam:: FILE delam-targets.cmake DESTINATION ${DE
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/delam-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_LIST_DIR}/delam-config.cmake ${PROJECT_BINARY_DIR}/delam-config-version.cmake
         DESTINATION ${DELAM_CMAKE_DIR} COMPONENT development)
+# Whoever compiles the Fortran modules needs their order.
+include(${PROJECT_SOURCE_DIR}/bindings/fortran/sources.cmake)
+list(TRANSFORM DELAM_FORTRAN_MODULES REPLACE "(.+)" "\${fortrandir}/\\1.f90" OUTPUT_VARIABLE DELAM_PC_FORTRAN)
+list(JOIN DELAM_PC_FORTRAN " " DELAM_PC_FORTRAN)
 # Relative to the file itself, so that an installed tree may be moved.
 file(RELATIVE_PATH DELAM_PC_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 configure_file(${CMAKE_CURRENT_LIST_DIR}/delam.pc.in ${PROJECT_BINARY_DIR}/delam.pc @ONLY)

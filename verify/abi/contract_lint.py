@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""contract_lint.py HEADER [SYMBOLS]: is every public function documented in full? One line for each gap; exit code 1
-if there is any.
+"""contract_lint.py HEADER [SYMBOLS]: is every public function and callback documented in full? One line for each gap;
+exit code 1 if there is any.
 
-A comment stands directly above each function, says what it does, and ends with a line in brackets (the notation is
+A comment stands directly above each of them, says what it does, and ends with a line in brackets (the notation is
 explained at the head of the header):
 
     [unit jump L, traction F/L2; null traction; status argument, problem; source NAME YEAR; since 0.1]
@@ -20,6 +20,9 @@ Checked for each function, from its signature:
     thread  there when no object, and so no context, is taken
     source  there when numbers are computed for the caller or solved for
     since   a version, the one of symbols.txt
+
+Callbacks are the host's: their own statuses are not in src/capi, their numbers need no source, and each has a thread;
+owns is there when a text is given, status is '-' where nothing is returned.
 """
 import argparse
 import glob
@@ -101,13 +104,14 @@ def has_shape(name, prose):
 
 def check(function, header, listed, implemented):
     gaps = []
+    callback = function.callback
     fields, prose = fields_of(function.comment)
     if not function.comment:
         return ["no comment directly above"]
     if fields is None:
         return ["no line in brackets at the end of the comment"]
     if len(re.findall(r"[A-Za-z]{2,}", prose)) < 3:
-        gaps.append("what: the comment does not say what the function does")
+        gaps.append(f"what: the comment does not say what the {'callback' if callback else 'function'} does")
     for key in fields:
         if key not in FIELDS:
             gaps.append(f"'{key}' is not a field; known are {', '.join(FIELDS)}")
@@ -153,34 +157,37 @@ def check(function, header, listed, implemented):
         if name.split(" ")[0].lstrip("*") not in [p.name for p in pointers] + ["none", "result"]:
             gaps.append(f"null: {name} is not a pointer of this function")
 
-    lasting = [p for p in parameters if p.type.count("*") == 2 or p.type in header.callbacks]
+    lasting = [p for p in parameters if p.type.count("*") == 2 or p.type in header.callbacks or
+               (callback and pointee(p.type) == "char")]
     if (lasting or "*" in function.result) and "owns" not in fields:
-        gaps.append("owns: missing; how long do pointers live that this function keeps or gives?")
+        gaps.append("owns: missing; how long do pointers live that are kept or given here?")
 
     status = fields.get("status")
     if status is None:
         gaps.append("status: missing")
     elif status == "-":
-        if function.result == "int32_t" and handles:
-            gaps.append("status: '-', but the function returns one")
+        if function.result == "int32_t" and (handles or callback):
+            gaps.append(f"status: '-', but the {'callback' if callback else 'function'} returns one")
     else:
         only = status.startswith("only ")
         words = set(split(status[5:] if only else status)) - {"usual"}
         for word in sorted(words - STATUSES):
             gaps.append(f"status: '{word}' is not known; known are {', '.join(sorted(STATUSES))}")
-        if function.result != "int32_t" and "NULL" not in everything and "never NULL" not in everything:
+        if callback and function.result != "int32_t":
+            gaps.append(f"status: the callback returns {function.result}, not a status")
+        elif function.result != "int32_t" and "NULL" not in everything and "never NULL" not in everything:
             gaps.append(f"status: the function returns {function.result}, not a status")
         complete = words if only else words | USUAL
         if implemented is not None:
             for word in sorted(implemented.get(function.name, set()) - complete):
                 gaps.append(f"status: its lines in src/capi give {word}, which is not listed")
-    if implemented is not None and function.name not in implemented:
+    if implemented is not None and not callback and function.name not in implemented:
         gaps.append("no definition in src/capi")
 
     if not handles and "thread" not in fields:
-        gaps.append("thread: missing; the function takes no object")
+        gaps.append("thread: missing; " + ("on which one does it run?" if callback else "the function takes no object"))
     computed = [p.name for p in parameters if p.type == "double*"]
-    if (computed or "not_converged" in (status or "")) and "source" not in fields:
+    if not callback and (computed or "not_converged" in (status or "")) and "source" not in fields:
         gaps.append("source: missing; numbers are computed (none: stored or counted ones)")
     since = fields.get("since")
     if since is None:
@@ -212,13 +219,9 @@ def main():
     listed = gate.read_list(options.symbols) if options.symbols else None
     implemented = own_statuses(options.sources) if options.sources else None
     gaps = 0
-    for function in header.functions.values():
+    for function in [*header.functions.values(), *own_callbacks.values()]:
         for gap in check(function, header, listed, implemented):
             print(f"{options.header}:{function.line}: {function.name}: {gap}")
-            gaps += 1
-    for callback in own_callbacks.values():
-        if not callback.comment:
-            print(f"{options.header}:{callback.line}: {callback.name}: no comment directly above")
             gaps += 1
     print(f"{len(header.functions)} functions, {len(own_callbacks)} callbacks, {gaps} gaps")
     sys.exit(1 if gaps else 0)

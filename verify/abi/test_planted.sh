@@ -55,8 +55,9 @@ extern "C" {
 #define DELAM_ABI 1             /* of the interface */
 #define DELAM_ERROR_ARGUMENT -1 /* a NULL */
 typedef struct delam_law delam_law; /* how an interface holds together */
-/* Told of each value. */
-typedef int32_t (*delam_watch_callback)(double value, void *user);
+/* Told of each value, with its name.
+ * [unit value L; null user; owns name static; status cancelled; thread call's; since 0.2] */
+typedef int32_t (*delam_watch_callback)(double value, const char *name, void *user);
 /* Makes a law of a kind.
  * [null none; owns out caller; status only argument, memory; thread any; since 0.1] */
 DELAM_API int32_t delam_law_create(const char *kind, delam_law **out);
@@ -81,7 +82,7 @@ DELAM_API int32_t delam_law_respond(const delam_law *law, int64_t count, const d
     return law != 0 && count > 0 && jump != traction ? 0 : DELAM_ERROR_ARGUMENT;
 }
 DELAM_API int32_t delam_law_watch(delam_law *law, delam_watch_callback watch, void *user) {
-    return law != 0 && watch != 0 ? watch(1.0, user) : 0;
+    return law != 0 && watch != 0 ? watch(1.0, "value", user) : 0;
 }
 CODE
 printf 'delam_law_create 0.1\ndelam_law_respond 0.1\ndelam_law_watch 0.2\n' >"$work/sound/symbols.txt"
@@ -213,10 +214,10 @@ planted const
 edit const delam/delam.h 's/, const double \*jump/, double *jump/'
 refused "^delam_law_respond: .*in the baseline .*const double\*" gate const baseline
 planted callback
-edit callback delam/delam.h 's/\(double value, void \*user\)/(float64_t value, void *user)/'
+edit callback delam/delam.h 's/\(double value, /(float64_t value, /'
 refused "type 'float64_t' is none of the interface's types" gate callback baseline
 planted callback
-edit callback delam/delam.h 's/\(double value, void \*user\)/(void *user, double value)/'
+edit callback delam/delam.h 's/\(double value, const char \*name, void \*user\)/(void *user, double value)/'
 refused "^delam_watch_callback: 'int32_t delam_watch_callback\(void\*, double\)'" gate callback baseline
 planted constant
 edit constant delam/delam.h 's/ARGUMENT -1/ARGUMENT -2/'
@@ -322,7 +323,20 @@ gap 's/source NOBODY 1900; since 0.1/source NOBODY 1900/' 'delam_law_respond: si
 gap 's/since 0.2/since 0.1/' 'delam_law_watch: since: 0.1, but 0.2 in the list'
 gap 's/since 0.2/since then/' "delam_law_watch: since: 'then' is not a version"
 gap 's/status usual; since/sometimes maybe; since/' "delam_law_watch: 'sometimes' is not a field"
-gap 's/\/\* Told of each value. \*\///' 'delam_watch_callback: no comment directly above'
+gap '/Told of each value/{N;s/.*//}' 'delam_watch_callback: no comment directly above'
+gap 's/ \* \[unit value L; .*\] \*\//  *\//' 'delam_watch_callback: no line in brackets'
+gap 's/Told of each value, with its name/value, name/' 'delam_watch_callback: what: the comment does not say'
+gap 's/, with its name//; s/owns name static/owns it static/' 'delam_watch_callback: what: parameter name is not named'
+gap 's/unit value L; //' 'delam_watch_callback: unit: none for value'
+gap 's/null user; owns name/owns name/' 'delam_watch_callback: null: missing; which of name, user'
+gap 's/owns name static; //' 'delam_watch_callback: owns: missing'
+gap 's/status cancelled; //' 'delam_watch_callback: status: missing'
+gap 's/status cancelled; /status -; /' "delam_watch_callback: status: '-', but the callback returns one"
+gap 's/status cancelled; /status stopped; /' "delam_watch_callback: status: 'stopped' is not known"
+gap 's/^typedef int32_t \(\*delam_watch/typedef void (*delam_watch/' \
+    'delam_watch_callback: status: the callback returns void'
+gap "s/thread call's; //" 'delam_watch_callback: thread: missing'
+gap "s/thread call's; since 0.2/thread call's/" 'delam_watch_callback: since: missing'
 # A status that the façade gives and the header does not list.
 planted contract
 mkdir "$work/contract/capi"
@@ -369,7 +383,7 @@ if command -v doxygen >/dev/null; then
     cp -r "$here" "$work/doc/verify/abi"
     cp "$work/sound/delam/delam.h" "$work/doc/include/delam/delam.h"
     accepted bash "$work/doc/verify/abi/doxygen.sh" "$work/doc/out"
-    sed -i 's|^/\* Told of each value. \*/||' "$work/doc/include/delam/delam.h"
+    sed -i '/Told of each value/{N;s/.*//}' "$work/doc/include/delam/delam.h"
     refused 'delam_watch_callback.* is not documented' bash "$work/doc/verify/abi/doxygen.sh" "$work/doc/out"
 else
     printf 'skipped: the planted break of the reference (Debian: doxygen)\n'

@@ -33,12 +33,14 @@ if has cli; then
     only cli 'bin/delam|share/delam/[a-z_]+\.py' bin/delam share/delam/plot.py
 fi
 if has cpp; then
-    only cpp 'include/delam/delam\.hpp|lib/cmake/delam/delam-cpp.*\.cmake' include/delam/delam.hpp
+    only cpp 'include/delam/(delam|cpp/[a-z]+)\.hpp|lib/cmake/delam/delam-cpp.*\.cmake' \
+        include/delam/delam.hpp include/delam/cpp/solver.hpp
 fi
 if has fortran; then
     built='include/delam/fortran/.*\.mod|lib/libdelam_fortran\.a|lib/cmake/delam/delam-fortran.*\.cmake'
     only fortran "share/delam/fortran/.*\.f90|$built" \
-        share/delam/fortran/delam.f90 share/delam/fortran/delam_raw.f90 lib/libdelam_fortran.a
+        share/delam/fortran/delam.f90 share/delam/fortran/delam_raw.f90 share/delam/fortran/delam_solvers.f90 \
+        lib/libdelam_fortran.a
 else
     # The sources serve compilers that were not there when the library was built.
     only fortran 'share/delam/fortran/.*\.f90' share/delam/fortran/delam.f90

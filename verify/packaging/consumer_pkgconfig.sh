@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Hosts find the installation with pkg-config; the one in Fortran compiles the installed sources of the module.
+# Hosts find the installation with pkg-config; the one in Fortran compiles the installed sources of the modules.
 # shellcheck source=verify/packaging/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 PKG_CONFIG_PATH=$(dirname "$(find "$STAGE" -name delam.pc)")
@@ -17,11 +17,14 @@ if has cpp; then
     quietly "$CXX" -std=c++17 "${flags[@]}" "$SOURCE/examples/enf/enf.cpp" -o enf_cpp "${links[@]}"
     same_history ./enf_cpp
 fi
-fortran=$(pkg-config --variable=fortrandir delam)
-[[ -f $fortran/delam.f90 ]] || fail "no $fortran/delam.f90"
+read -ra fortran <<<"$(pkg-config --variable=fortransources delam)"
+last=$(pkg-config --variable=fortrandir delam)/delam.f90
+[[ ${fortran[-1]} == "$last" ]] || fail "the last source is ${fortran[-1]}, expected $last"
+for file in "${fortran[@]}"; do
+    [[ -f $file ]] || fail "no $file"
+done
 if [[ -n ${FC:-} ]]; then
-    quietly "$FC" "$fortran/delam_raw.f90" "$fortran/delam.f90" "$SOURCE/examples/enf/enf.f90" -o enf_fortran \
-        "${links[@]}"
+    quietly "$FC" "${fortran[@]}" "$SOURCE/examples/enf/enf.f90" -o enf_fortran "${links[@]}"
     same_history ./enf_fortran
 else
     printf 'the host in Fortran was left out: no Fortran compiler was found\n'

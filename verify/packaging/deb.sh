@@ -48,6 +48,7 @@ lacks libdelam-dev 'libdelam\.so\.|/bin/'
 depends libdelam-dev "libdelam$ABI (= $VERSION)"
 if has cpp; then
     holds libdelam-dev '^\./usr/include/delam/delam\.hpp$'
+    holds libdelam-dev '^\./usr/include/delam/cpp/solver\.hpp$'
 fi
 if has cli; then
     holds delam '^\./usr/bin/delam$'

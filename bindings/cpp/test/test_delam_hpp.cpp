@@ -172,6 +172,8 @@ void test_mesh() {
     expect(mesh.interface_faces(0).size() == 2 && std::abs(pairs.weights[0] - 0.5) < 1e-14, "faces and weights");
     const auto patch = mesh.find_patch(0, {0.0, 0.0}, {0.5, 0.0}, {0.0, -1.0});
     expect(patch.nodes == Indices{0, 1} && std::abs(patch.weights[0] + patch.weights[1] - 0.5) < 1e-14, "a patch");
+    const auto whole = mesh.find_patch(-1, {0.0, 0.0}, {2.0, 0.0}, {0.0, -1.0});
+    expect(whole.nodes == Indices{0, 1, 4, 5} && std::abs(whole.weights[1] - 0.5) < 1e-14, "a patch of all bodies");
     expect(mesh.add_obstacle({0, 1}, {0.0, 1.0, 0.0, 1.0}, 9) == 1, "an obstacle");
     expect(mesh.interface_size(1).body_a == -1 && mesh.interface_pairs(1).nodes_b == Indices{0, 1}, "its pairs");
 

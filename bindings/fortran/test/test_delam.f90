@@ -234,6 +234,8 @@ contains
     call expect(size(found) == 1 .and. found(1) == 2, 'nodes of one body')
     call mesh%find_patch(3, [0.0_dp, 0.0_dp], [0.5_dp, 0.0_dp], [0.0_dp, -1.0_dp], found, weights)
     call expect(abs(sum(weights) - 0.5_dp) < 1e-14_dp .and. all(found == [1, 2]), 'a patch')
+    call mesh%find_patch(-1, [0.0_dp, 0.0_dp], [2.0_dp, 0.0_dp], [0.0_dp, -1.0_dp], found, weights)
+    call expect(size(found) == 4 .and. all(abs(weights - 0.5_dp) < 1e-14_dp), 'a patch of all bodies')
 
     wide = reshape([real(dp) :: 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1], [3, 8])
     spread_out = 7

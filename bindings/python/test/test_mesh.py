@@ -107,6 +107,9 @@ class Made(unittest.TestCase):
         nodes, weights = mesh.find_patch(1, (0.0, 1.0), (1.25, 1.0), "y")
         self.assertAlmostEqual(weights.sum(), 1.25)
         self.assertEqual(len(nodes), len(weights))
+        end, height = mesh.find_patch(None, (2.0, 0.0), (2.0, 1.0), "x")
+        np.testing.assert_array_equal(end, mesh.find_nodes((2.0, 0.0), (2.0, 1.0)))
+        np.testing.assert_allclose(height, 0.25)
         with self.assertRaisesRegex(delam.ArgumentError, "'z' is no axis; in 2D these are x, y"):
             mesh.find_patch(1, (0.0, 1.0), (1.25, 1.0), "z")
 

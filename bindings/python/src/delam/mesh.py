@@ -333,13 +333,13 @@ class Mesh(Object):
         return int(nodes[0])
 
     def find_patch(self, body, lower, upper, direction):
-        """Nodes and weights of a uniform traction on the part of a body's boundary inside the box whose outward normal
-        is within 45 degrees of the direction."""
+        """Nodes and weights of a uniform traction on the part of a body's boundary (None: of each body's) inside the
+        box whose outward normal is within 45 degrees of the direction."""
         dimension = self.dimension
         lower, upper = floats("lower", lower, (dimension,)), floats("upper", upper, (dimension,))
         along = axis("direction", direction, dimension)
         count = ctypes.c_int64()
-        box = integer("body", body, 32), pointer(lower), pointer(upper), pointer(along)
+        box = body_label(body), pointer(lower), pointer(upper), pointer(along)
         self._call(library.delam_mesh_find_patch, *box, 0, None, None, count)
         nodes, weights = np.empty(count.value, np.int64), np.empty(count.value)
         self._call(library.delam_mesh_find_patch, *box, nodes.size, pointer(nodes), pointer(weights), count)

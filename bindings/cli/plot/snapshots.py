@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bodies at some instants: deformed, with the adhesion of their interfaces in colour."""
+import os
+import sys
+
+import h5py
+import matplotlib
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+from cells import (BODIES, ZETA, body_of_nodes, body_tones, boundary_edges, boundary_faces, cell_blocks, cell_outlines,
+                   hidden_bodies, text_of)
+from fronts import chosen_interfaces, plan_of, triangles_of
+from result import plt
+
+
+def snapshot_steps(file, instants):
+    """The stored step nearest to each instant, each once."""
+    names = sorted(file["steps"])
+    times = np.array([float(file["steps"][n].attrs["time"]) for n in names])
+    chosen = []
+    for instant in instants:
+        k = int(np.argmin(np.abs(times - instant)))
+        if times[0] <= instant <= times[-1] + 1e-9 * max(1.0, abs(times[-1])) and k not in chosen:
+            chosen.append(k)
+    return [(times[k], file["steps"][names[k]]) for k in (chosen or [len(names) - 1])]
+
+
+def four_digits(value):
+    """Four digits, without an exponent as long as that is short."""
+    return f"{value:.0f}" if 1e3 <= abs(value) < 1e7 else f"{value:.4g}"
+
+
+def load_text(result, time):
+    """Load and reaction at the row of this time; of a cell the average strain and stress that it prints."""
+    row = int(np.argmin(np.abs(result.history["time"] - time)))
+    averages = result.averages()
+    if result.cell and averages:
+        component, strain, stress = averages[0]
+        factor, unit = result.stress_unit()
+        return (f"strain {component} {100 * strain[row]:.3g} %, stress {four_digits(stress[row] / factor)} {unit}")
+    _, drives, load, reaction = result.patterns()[0]
+    return (f"load {four_digits(result.history[load][row])}" + (f" {result.length}" if drives != "force" else "") +
+            (f", reaction {four_digits(result.history[reaction][row])} {result.force}" if drives != "force" else ""))
+
+
+def draw_plane(ax, file, step, scale, light_mesh):
+    points = file["mesh/points"][:, :2]
+    moved = points + scale * step["displacement"][:, :2]
+    for outlines, colour in cell_outlines(file):
+        ax.add_collection(PolyCollection(moved[outlines], facecolors=colour, edgecolors="none", antialiased=False))
+    outline, edges = boundary_edges(cell_blocks(file))
+    if light_mesh:
+        ax.add_collection(LineCollection(moved[edges], colors="#d3d7dd", linewidths=0.25))
+    ax.add_collection(LineCollection(moved[outline], colors="#50555c", linewidths=0.7, snap=False))
+    drawn = None
+    for name in sorted(k for k in step if k.startswith("interface_")):
+        if "zeta" not in step[name]:
+            continue
+        zeta = step[name]["zeta"][()]
+        faces = file["interfaces"][name]["faces"][()]
+        for side in ("nodes_a", "nodes_b"):
+            at = moved[file["interfaces"][name][side][()]]
+            lines = faces if faces.shape[1] == 2 else np.concatenate([faces[:, [0, 2]], faces[:, [2, 1]]])
+            drawn = LineCollection(at[lines], cmap=ZETA, linewidths=2.0, norm=plt.Normalize(0, 1), snap=False)
+            drawn.set_array(zeta[lines].mean(axis=1))
+            ax.add_collection(drawn)
+    return drawn
+
+
+def plot_plane(result, file, shots, scale):
+    columns = 2 if len(shots) > 1 else 1
+    rows = -(-len(shots) // columns)
+    points = file["mesh/points"][:, :2]
+    light_mesh = len(file["mesh/cells"]) <= 20000
+    boxes = [(points + scale * s["displacement"][:, :2]) for _, s in shots]
+    left = min(b[:, 0].min() for b in boxes)
+    right = max(b[:, 0].max() for b in boxes)
+    pad = 0.02 * (right - left)
+    # One scale for all; every row only as high as what it shows.
+    spans = [(min(b[:, 1].min() for b in boxes[r:r + columns]), max(b[:, 1].max() for b in boxes[r:r + columns]))
+             for r in range(0, len(boxes), columns)]
+    width = 5.6
+    heights = [max(width * (high - low + 2 * pad) / (right - left + 2 * pad), 0.4) + 0.3 for low, high in spans]
+    figure, axes = plt.subplots(rows, columns, squeeze=False, layout="constrained", height_ratios=heights,
+                                figsize=(columns * width, sum(heights) + 1.3))
+    drawn = None
+    for i, (ax, (time, step)) in enumerate(zip(axes.flat, shots)):
+        drawn = draw_plane(ax, file, step, scale, light_mesh) or drawn
+        ax.set_xlim(left - pad, right + pad)
+        ax.set_ylim(spans[i // columns][0] - pad, spans[i // columns][1] + pad)
+        ax.set_aspect("equal")
+        ax.axis("off")
+        unit = f" {result.time}" if result.time else ""
+        ax.set_title(f"t = {time:.6g}{unit}   {load_text(result, time)}", fontsize=9, loc="left")
+    for ax in axes.flat[len(shots):]:
+        ax.axis("off")
+    return figure, axes, drawn
+
+
+def lit(faces, colours):
+    """Colours [n][4] of faces [n][4][3] in light from above, in front and the right, by their normals."""
+    normal = np.cross(faces[:, 2] - faces[:, 0], faces[:, 3] - faces[:, 1])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
+    light = np.array([0.35, -0.5, 0.8])
+    shade = 0.72 + 0.28 * np.clip(normal @ light / np.linalg.norm(light), -0.6, 1.0)
+    return np.column_stack([shade[:, None] * colours[:, :3], colours[:, 3]])
+
+
+def draw_solid(ax, file, step, scale, hidden):
+    """The skins of the bodies in their tones; with hidden bodies these alone, the adhesion in colour on them."""
+    moved = file["mesh/points"][()] + scale * step["displacement"][()]
+    of = body_of_nodes(file)
+    skin = boundary_faces(cell_blocks(file))
+    if len(hidden):
+        skin = skin[np.isin(of[skin[:, 0]], hidden)]
+    colours = matplotlib.colors.to_rgba_array(BODIES)[np.array(body_tones(file))[of[skin[:, 0]]]]
+    for name in file["interfaces"] if len(hidden) else ():
+        group = file["interfaces"][name]
+        on_b = group.attrs["body_b"] in hidden
+        side = group["nodes_b" if on_b else "nodes_a"][()]
+        others = ~np.isin(skin, side).all(1)
+        faces = triangles_of(group["faces"][()])
+        zeta = step[name]["zeta"][()] if "zeta" in step[name] else np.ones(len(side))
+        # The faces' normals point from a to b; here they are to point out of the body that is seen.
+        skin = np.concatenate([skin[others], side[faces[:, [0, 2, 1, 1] if on_b else [0, 1, 2, 2]]]])
+        colours = np.concatenate([colours[others], ZETA(zeta[faces].mean(1))])
+    colours = lit(moved[skin], colours)
+    edges = colours if len(hidden) else "#50555c"
+    ax.add_collection3d(Poly3DCollection(moved[skin], facecolors=colours, edgecolors=edges,
+                                            linewidths=min(0.3, 400 / len(skin)), clip_on=False))
+    low, high = moved[of >= 0].min(0), moved[of >= 0].max(0)
+    for setter, a in ((ax.set_xlim, 0), (ax.set_ylim, 1), (ax.set_zlim, 2)):
+        setter(low[a], high[a])
+    ax.set_box_aspect(np.maximum(high - low, 0.05 * (high - low).max()), zoom=1.15)
+    ax.view_init(elev=35 if len(hidden) else 18, azim=-62)
+    ax.set_axis_off()
+
+
+def plot_solid(result, file, shots, scale):
+    """Bodies above, below the adhesion of the interfaces as maps seen from above; hidden bodies have it on themselves.
+    """
+    hidden = hidden_bodies(file, body_of_nodes(file))
+    names = [] if len(hidden) else chosen_interfaces(file)
+    columns = min(len(shots), 2 if len(hidden) else 5)
+    rows = -(-len(shots) // columns)
+    width, height = (5.0, 3.6) if len(hidden) else (4.0, 2.9)
+    figure = plt.figure(figsize=(width * columns, rows * (height + 1.3 * len(names)) + 1.0), layout="constrained")
+    grid = figure.add_gridspec(rows * (1 + len(names)), columns, height_ratios=([2.4] + [1.0] * len(names)) * rows)
+    drawn = matplotlib.cm.ScalarMappable(plt.Normalize(0, 1), ZETA) if len(hidden) else None
+    axes = []
+    for i, (time, step) in enumerate(shots):
+        row, column = divmod(i, columns)
+        ax = figure.add_subplot(grid[row * (1 + len(names)), column], projection="3d")
+        draw_solid(ax, file, step, scale, hidden)
+        ax.set_title(f"t = {time:.6g}\n{load_text(result, time)}", fontsize=8)
+        if len(hidden):
+            axes.append(ax)
+        for n, name in enumerate(names):
+            flat = figure.add_subplot(grid[row * (1 + len(names)) + 1 + n, column])
+            axes.append(flat)
+            at = file["interfaces"][name]["points"][()]
+            at = plan_of(at)(at)
+            zeta = step[name]["zeta"][()]
+            triangles = triangles_of(file["interfaces"][name]["faces"][()])
+            drawn = flat.tripcolor(at[:, 0], at[:, 1], triangles, zeta, cmap=ZETA, vmin=0, vmax=1, shading="gouraud")
+            if zeta.min() < 0.5 < zeta.max():
+                flat.tricontour(at[:, 0], at[:, 1], triangles, zeta, levels=[0.5], colors="black", linewidths=0.9)
+            flat.set_aspect("equal")
+            flat.axis("off")
+            if len(names) > 1:
+                flat.set_title(text_of(file["interfaces"][name].attrs["name"]), fontsize=7)
+    return figure, axes, drawn
+
+
+def plot_snapshots(result):
+    output = result.about["output"]
+    scale = output["displacement_scale"]
+    with h5py.File(os.path.join(result.folder, "fields.h5"), "r") as file:
+        shots = snapshot_steps(file, output["snapshots"])
+        if "displacement" not in shots[0][1]:
+            print("plot.py: no displacement in fields.h5, so no snapshots.png", file=sys.stderr)
+            return
+        draw = plot_plane if result.about["scene"]["dimension"] == 2 else plot_solid
+        figure, axes, drawn = draw(result, file, shots, scale)
+        if drawn is not None:
+            bar = figure.colorbar(drawn, ax=axes, orientation="horizontal", shrink=0.4, aspect=45, pad=0.02)
+            bar.set_label("adhesion ζ (1 intact, 0 debonded)")
+            bar.outline.set_visible(False)
+        figure.suptitle(result.title(f"displacements × {scale:g}"), fontsize=11)
+        if scale > 1:
+            # Rotations are linear and magnified too.
+            result.stamp(figure, "magnified linear kinematics: free ends may seem to overlap although the gap is ≥ 0")
+        else:
+            result.stamp(figure)
+        result.save(figure, "snapshots.png")

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From the cards of an Abaqus input file to its model.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "abaqus_model.hpp"
+#include "inp_cards.hpp"
+
+namespace cli::abaqus {
+
+// model: empty; it must stay where it is, parts refer to it. Throws SceneFailure with file and line.
+void take_cards(const std::vector<InpCard>& cards, const std::string& path, Model& model);
+
+}  // namespace cli::abaqus

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "abaqus_model.hpp"
+
+#include <fmt/format.h>
+
+#include "inp_cards.hpp"
+
+namespace cli::abaqus {
+
+std::vector<const Part*> Model::scopes() const {
+    std::vector<const Part*> out{&root};
+    for (const auto& instance : instances) out.push_back(instance.get());
+    return out;
+}
+
+const Part* Model::instance_named(const std::string& name, const Place& place) const {
+    for (const auto& instance : instances)
+        if (upper(instance->name) == upper(name)) return instance.get();
+    throw SceneFailure(place, "instance \"" + name + "\" is not there");
+}
+
+Entry Model::resolved_scope(const Entry& entry) const {
+    const std::size_t dot = entry.text.find('.');
+    if (dot == std::string::npos || entry.scope != &root || instances.empty()) return entry;
+    return {instance_named(entry.text.substr(0, dot), entry.place), entry.text.substr(dot + 1), entry.place};
+}
+
+void Model::collect_elements(const Entry& raw, std::set<ElementAt>& out, int depth) const {
+    const Entry entry = resolved_scope(raw);
+    if (const auto id = inp_whole(entry.text)) {
+        const auto at = entry.scope->element_of.find(*id);
+        if (at == entry.scope->element_of.end())
+            throw SceneFailure(entry.place, fmt::format("element {} is not there", entry.text));
+        out.insert({entry.scope, at->second});
+        return;
+    }
+    const auto set = entry.scope->element_sets.find(upper(entry.text));
+    if (set == entry.scope->element_sets.end())
+        throw SceneFailure(entry.place, fmt::format("element set \"{}\" is not there", entry.text));
+    if (depth > 20) throw SceneFailure(entry.place, "element sets contain each other");
+    for (const Entry& part : set->second.entries) collect_elements(part, out, depth + 1);
+}
+
+void Model::collect_nodes(const Entry& raw, std::set<std::int64_t>& out, int depth) const {
+    const Entry entry = resolved_scope(raw);
+    if (const auto id = inp_whole(entry.text)) {
+        out.insert(node_number(*entry.scope, *id, entry.place));
+        return;
+    }
+    const auto set = entry.scope->node_sets.find(upper(entry.text));
+    if (set == entry.scope->node_sets.end())
+        throw SceneFailure(entry.place, fmt::format("node set \"{}\" is not there", entry.text));
+    if (depth > 20) throw SceneFailure(entry.place, "node sets contain each other");
+    collect_set(set->second, out, depth + 1);
+}
+
+void Model::collect_set(const Set& set, std::set<std::int64_t>& out, int depth) const {
+    for (const Entry& part : set.entries) collect_nodes(part, out, depth);
+    for (const Entry& from : set.element_sets) {
+        std::set<ElementAt> elements;
+        collect_elements(from, elements);
+        for (const ElementAt& at : elements) {
+            const Element& element = at.scope->elements[at.index];
+            for (const std::int64_t id : element.nodes) out.insert(node_number(*at.scope, id, element.place));
+        }
+    }
+}
+
+std::int64_t node_number(const Part& scope, std::int64_t id, const Place& place) {
+    const auto at = scope.node_of.find(id);
+    if (at == scope.node_of.end()) throw SceneFailure(place, fmt::format("node {} is not there", id));
+    return scope.first_node + static_cast<std::int64_t>(at->second);
+}
+
+std::string full_name(const Part& scope, const std::string& name) {
+    return scope.name.empty() ? name : scope.name + "." + name;
+}
+
+}  // namespace cli::abaqus

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What an Abaqus input file says about its mesh, as it is written: parts and instances with their nodes,
+// elements, sets and surfaces, and what the entries of sets and surfaces mean.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "abaqus_elements.hpp"
+#include "error.hpp"
+
+namespace cli::abaqus {
+
+struct Node {
+    std::int64_t id;
+    std::array<double, 3> at;
+};
+
+struct Element {
+    std::int64_t id;
+    const ElementType* type;
+    std::vector<std::int64_t> nodes;  // ids
+    std::string set;                  // of the *ELEMENT line
+    Place place;
+};
+
+struct Part;
+
+// An entry of a set as it is written: a number, the name of a set, or either with the instance before it.
+struct Entry {
+    const Part* scope;
+    std::string text;
+    Place place;
+};
+
+struct Set {
+    std::string name;  // as spelt first
+    std::vector<Entry> entries;
+    std::vector<Entry> element_sets;  // of node sets: all nodes of their elements
+    Place place;
+};
+
+struct Side {
+    Entry elements;
+    std::size_t side;
+};
+
+struct Surface {
+    std::string name;
+    std::vector<Side> sides;
+    std::vector<Entry> nodes;  // of TYPE=NODE
+    bool of_nodes = false;
+    Place place;
+};
+
+// A part, an instance of one, or what stands outside of both.
+struct Part {
+    std::string name;
+    std::vector<Node> nodes;
+    std::vector<Element> elements;
+    std::unordered_map<std::int64_t, std::size_t> node_of;     // by id
+    std::unordered_map<std::int64_t, std::size_t> element_of;  // by id
+    std::map<std::string, Set> node_sets;                      // by upper case
+    std::map<std::string, Set> element_sets;
+    std::map<std::string, Surface> surfaces;
+    std::vector<Entry> sections;  // their element sets
+    std::size_t order = 0;        // among what the mesh is made of
+    std::int64_t first_node = 0;  // of the mesh
+};
+
+struct ElementAt {
+    const Part* scope;
+    std::size_t index;
+    bool operator<(const ElementAt& other) const {
+        return std::pair(scope->order, index) < std::pair(other.scope->order, other.index);
+    }
+};
+
+// All that a file says about its mesh.
+struct Model {
+    Place file;
+    Part root;
+    std::map<std::string, std::unique_ptr<Part>> parts;  // by upper case
+    std::vector<std::unique_ptr<Part>> instances;
+    std::vector<std::string> notes;
+
+    // What the mesh is made of.
+    [[nodiscard]] std::vector<const Part*> scopes() const;
+    [[nodiscard]] const Part* instance_named(const std::string& name, const Place& place) const;
+    // Splits "instance.rest" off.
+    [[nodiscard]] Entry resolved_scope(const Entry& entry) const;
+    // The elements of an entry: a number or the name of a set.
+    void collect_elements(const Entry& raw, std::set<ElementAt>& out, int depth = 0) const;
+    // Nodes by their numbers in the mesh; Part::first_node must be there.
+    void collect_nodes(const Entry& raw, std::set<std::int64_t>& out, int depth = 0) const;
+    void collect_set(const Set& set, std::set<std::int64_t>& out, int depth = 0) const;
+};
+
+std::int64_t node_number(const Part& scope, std::int64_t id, const Place& place);
+// The name that something of a part or an instance has in the scene.
+std::string full_name(const Part& scope, const std::string& name);
+
+}  // namespace cli::abaqus

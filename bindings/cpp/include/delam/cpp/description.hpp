@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The library about itself: version, options, parameters of laws. Hosts include delam/delam.hpp.
+#ifndef DELAM_CPP_DESCRIPTION_HPP
+#define DELAM_CPP_DESCRIPTION_HPP
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "delam/cpp/argument.hpp"
+#include "delam/cpp/shared.hpp"
+#include "delam/cpp/status.hpp"
+#include "delam/delam.h"
+
+namespace delam {
+
+inline std::string version() { return delam_version(); }
+inline std::string commit() { return delam_commit(); }
+
+// An option of problems, or a parameter of a law.
+struct Description {
+    std::string key, type, unit, initial, range, meaning;
+};
+
+namespace detail {
+
+template <class Ask>
+std::vector<Description> describe(std::int64_t count, Ask&& ask) {
+    std::vector<Description> all;
+    for (std::int64_t i = 0; i < count; ++i) {
+        std::array<const char*, 6> texts{};
+        const auto status = ask(i, texts);
+        if (status != DELAM_OK) throw Error(status, "a description that was counted is not there");
+        all.push_back(
+            {copy(texts[0]), copy(texts[1]), copy(texts[2]), copy(texts[3]), copy(texts[4]), copy(texts[5])});
+    }
+    return all;
+}
+
+}  // namespace detail
+
+inline std::vector<Description> options() {
+    return detail::describe(delam_option_count(), [](std::int64_t i, std::array<const char*, 6>& t) {
+        return delam_option_info(i, &t[0], &t[1], &t[2], &t[3], &t[4], &t[5]);
+    });
+}
+// All criteria taken together; none for an unknown kind.
+inline std::vector<Description> law_parameters(Text kind) {
+    return detail::describe(
+        delam_law_parameter_count(kind.get()), [kind](std::int64_t i, std::array<const char*, 6>& t) {
+            return delam_law_parameter_info(kind.get(), i, &t[0], &t[1], &t[2], &t[3], &t[4], &t[5]);
+        });
+}
+
+}  // namespace delam
+
+#endif

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the objects stand on: handles, their context, what callbacks threw. Hosts include delam/delam.hpp.
+#ifndef DELAM_CPP_SHARED_HPP
+#define DELAM_CPP_SHARED_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "delam/cpp/status.hpp"
+#include "delam/delam.h"
+
+namespace delam {
+
+using LogCallback = std::function<void(std::int32_t level, std::string_view text)>;
+// false: stop, the call ends with DELAM_CANCELLED.
+using ProgressCallback = std::function<bool(std::string_view stage, std::int64_t done, std::int64_t total)>;
+
+namespace detail {
+
+template <class T, void (*destroy)(T**)>
+struct Destroy {
+    void operator()(T* handle) const noexcept { destroy(&handle); }
+};
+template <class T, void (*destroy)(T**)>
+using Handle = std::unique_ptr<T, Destroy<T, destroy>>;
+
+// What a callback threw, until the call that runs it is back: callbacks run on the calling thread.
+inline thread_local std::exception_ptr thrown;
+
+// What all objects of a context share.
+struct Shared {
+    Handle<delam_context, delam_context_destroy> handle;
+    LogCallback log;
+    ProgressCallback progress;
+
+    // What was thrown has precedence over the status that it led to.
+    std::int32_t settle(std::int32_t status) const {
+        if (thrown) std::rethrow_exception(std::exchange(thrown, nullptr));
+        if (status < 0) fail(status);
+        return status;
+    }
+    void check(std::int32_t status) const {
+        if (settle(status) != DELAM_OK) fail(status);
+    }
+    [[noreturn]] void fail(std::int32_t status) const { throw Error(status, delam_context_message(handle.get())); }
+};
+
+inline std::size_t length(std::int64_t count) { return static_cast<std::size_t>(count); }
+
+inline std::string copy(const char* text) { return text == nullptr ? std::string() : std::string(text); }
+
+}  // namespace detail
+
+}  // namespace delam
+
+#endif

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The solver: load steps, energies, fields, fronts. Hosts include delam/delam.hpp.
+#ifndef DELAM_CPP_SOLVER_HPP
+#define DELAM_CPP_SOLVER_HPP
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "delam/cpp/argument.hpp"
+#include "delam/cpp/law.hpp"
+#include "delam/cpp/problem.hpp"
+#include "delam/cpp/shared.hpp"
+#include "delam/cpp/status.hpp"
+#include "delam/delam.h"
+
+namespace delam {
+
+struct Field {
+    std::int64_t rows, columns;
+    std::vector<double> values;  // [rows][columns]
+};
+struct Average {
+    double volume;
+    std::array<double, 6> strain, stress;
+};
+struct Fronts {
+    std::vector<std::int64_t> starts;
+    std::vector<std::int32_t> closed;
+    std::vector<double> places, directions, lengths, rates, zone_lengths, zone_pairs;
+};
+struct PlanItem {
+    std::string subject, decision, reason;
+    double cost, saving;
+    std::string unit;
+};
+struct Jump {
+    std::int64_t step;
+    double before, time, stored, dissipated, released, debonded;
+    std::int64_t interface_index, first_pair, last_pair;
+};
+
+class Solver {
+public:
+    Solver(const Problem& problem, double time) : shared_(problem.shared()), laws_(problem.host_laws()) {
+        delam_solver* made = nullptr;
+        const auto status = delam_solver_create(problem.get(), time, &made);
+        handle_.reset(made);
+        initial_ = static_cast<Outcome>(shared_->settle(status));
+        if (!handle_) shared_->fail(status);
+    }
+
+    delam_solver* get() const noexcept { return handle_.get(); }
+    // Of the displacement at the initial time: done or not_converged.
+    Outcome initial() const noexcept { return initial_; }
+
+    [[nodiscard]] Outcome advance(double time) {
+        return static_cast<Outcome>(shared_->settle(delam_solver_advance(get(), time)));
+    }
+    // adhesion: of all pairs; none: the committed one.
+    [[nodiscard]] Outcome equilibrate(double time, View<double> adhesion = {}) {
+        detail::require(adhesion.size() == 0 || adhesion.count() == shape("adhesion", -1).rows,
+                        "adhesion: not one for each pair of all interfaces");
+        const double* values = adhesion.size() == 0 ? nullptr : adhesion.data();
+        return static_cast<Outcome>(shared_->settle(delam_solver_equilibrate(get(), time, values)));
+    }
+    void commit() { shared_->check(delam_solver_commit(get())); }
+    void rollback() { shared_->check(delam_solver_rollback(get())); }
+
+    double value(Text key) {
+        double value = 0.0;
+        shared_->check(delam_solver_value(get(), key.get(), &value));
+        return value;
+    }
+    std::vector<std::string> value_names() const {
+        std::int64_t count = 0;
+        shared_->check(delam_solver_value_count(get(), &count));
+        std::vector<std::string> names;
+        for (std::int64_t i = 0; i < count; ++i) names.push_back(detail::copy(delam_solver_value_name(get(), i)));
+        return names;
+    }
+    // part: an interface, for the fields of pairs; -1 otherwise, and for all interfaces.
+    Field field(Text key, std::int64_t part = -1) {
+        Field field = shape(key, part);
+        field.values.resize(detail::length(field.rows * field.columns));
+        shared_->check(delam_solver_field(get(), key.get(), part, field.rows * field.columns, field.values.data()));
+        return field;
+    }
+    // Into the caller's buffer.
+    void field(Text key, std::int64_t part, double* values, std::size_t size) {
+        shared_->check(delam_solver_field(get(), key.get(), part, static_cast<std::int64_t>(size), values));
+    }
+    // Rows and columns alone.
+    Field shape(Text key, std::int64_t part = -1) const {
+        Field field{};
+        shared_->check(delam_solver_field_shape(get(), key.get(), part, &field.rows, &field.columns));
+        return field;
+    }
+    Average average(std::int32_t body = -1) const {
+        Average average{};
+        shared_->check(
+            delam_solver_average(get(), body, &average.volume, average.strain.data(), average.stress.data()));
+        return average;
+    }
+    Fronts fronts(std::int64_t interface_index) const {
+        std::int64_t count = 0;
+        std::int64_t points = 0;
+        shared_->check(delam_solver_front_count(get(), interface_index, &count, &points));
+        const auto n = detail::length(points);
+        const auto space = detail::length(shape("jump", interface_index).columns);
+        Fronts fronts;
+        fronts.starts.resize(detail::length(count) + 1);
+        fronts.closed.resize(detail::length(count));
+        fronts.places.resize(n * space);
+        fronts.directions.resize(n * space);
+        fronts.lengths.resize(n);
+        fronts.rates.resize(3 * n);
+        fronts.zone_lengths.resize(n);
+        fronts.zone_pairs.resize(n);
+        shared_->check(delam_solver_front(get(), interface_index, count, points, fronts.starts.data(),
+                                          fronts.closed.data(), fronts.places.data(), fronts.directions.data(),
+                                          fronts.lengths.data(), fronts.rates.data(), fronts.zone_lengths.data(),
+                                          fronts.zone_pairs.data()));
+        return fronts;
+    }
+    // [patterns][patterns]; patterns: how many the problem has.
+    std::vector<double> tangent(std::int64_t patterns) {
+        std::vector<double> matrix(detail::length(patterns * patterns));
+        shared_->check(delam_solver_tangent(get(), patterns * patterns, matrix.data()));
+        return matrix;
+    }
+
+    std::string plan() { return delam_solver_plan(get()); }
+    std::vector<PlanItem> plan_items() const {
+        std::int64_t count = 0;
+        shared_->check(delam_solver_plan_count(get(), &count));
+        std::vector<PlanItem> items;
+        for (std::int64_t i = 0; i < count; ++i) {
+            const char *subject = nullptr, *decision = nullptr, *reason = nullptr, *unit = nullptr;
+            double cost = 0.0;
+            double saving = 0.0;
+            shared_->check(delam_solver_plan_item(get(), i, &subject, &decision, &reason, &cost, &saving, &unit));
+            items.push_back({detail::copy(subject), detail::copy(decision), detail::copy(reason), cost, saving,
+                             detail::copy(unit)});
+        }
+        return items;
+    }
+    // "" for an unknown key.
+    std::string option(Text key) const { return detail::copy(delam_solver_option(get(), key.get())); }
+    std::string searched() const { return delam_solver_searched(get()); }
+    // -1: back to the pending state, else the committed one.
+    void look(std::int64_t step) { shared_->check(delam_solver_look(get(), step)); }
+    std::vector<Jump> jumps() const {
+        std::int64_t count = 0;
+        shared_->check(delam_solver_jump_count(get(), &count));
+        std::vector<Jump> jumps;
+        for (std::int64_t i = 0; i < count; ++i) {
+            Jump jump{};
+            shared_->check(delam_solver_jump(get(), i, &jump.step, &jump.before, &jump.time, &jump.stored,
+                                             &jump.dissipated, &jump.released, &jump.debonded, &jump.interface_index,
+                                             &jump.first_pair, &jump.last_pair));
+            jumps.push_back(jump);
+        }
+        return jumps;
+    }
+    std::vector<std::uint8_t> save() const {
+        std::int64_t needed = 0;
+        shared_->check(delam_solver_save(get(), 0, nullptr, &needed));
+        std::vector<std::uint8_t> bytes(detail::length(needed));
+        shared_->check(delam_solver_save(get(), needed, bytes.data(), &needed));
+        return bytes;
+    }
+    void load(View<std::uint8_t> bytes) { shared_->check(delam_solver_load(get(), bytes.count(), bytes.data())); }
+
+private:
+    std::shared_ptr<detail::Shared> shared_;
+    std::vector<std::shared_ptr<detail::HostLaw>> laws_;
+    detail::Handle<delam_solver, delam_solver_destroy> handle_;
+    Outcome initial_ = Outcome::done;
+};
+
+}  // namespace delam
+
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a call ends with: errors are thrown, outcomes returned. Hosts include delam/delam.hpp.
+#ifndef DELAM_CPP_STATUS_HPP
+#define DELAM_CPP_STATUS_HPP
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "delam/delam.h"
+
+namespace delam {
+
+class Error : public std::runtime_error {
+public:
+    Error(std::int32_t status, const std::string& message) : std::runtime_error(message), status_(status) {}
+    std::int32_t status() const noexcept { return status_; }
+    const char* name() const noexcept { return delam_status_name(status_); }
+
+private:
+    std::int32_t status_;
+};
+
+enum class Outcome : std::int32_t {
+    done = DELAM_OK,
+    not_converged = DELAM_NOT_CONVERGED,
+    cancelled = DELAM_CANCELLED,
+    limit = DELAM_LIMIT
+};
+
+namespace detail {
+
+inline void require(bool holds, const char* message) {
+    if (!holds) throw Error(DELAM_ERROR_ARGUMENT, message);
+}
+
+}  // namespace detail
+
+}  // namespace delam
+
+#endif

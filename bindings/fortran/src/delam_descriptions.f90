@@ -1,0 +1,58 @@
+! SPDX-License-Identifier: BSD-3-Clause
+! The library about itself: version, options of problems, parameters of laws.
+module delam_descriptions
+  use, intrinsic :: iso_c_binding, only: c_ptr, c_int64_t, c_null_ptr
+  use delam_raw
+  use delam_texts, only: delam_text, zero_ended
+  implicit none
+  private
+  public :: delam_version_text, delam_describe_option, delam_parameter_count, delam_describe_parameter
+
+contains
+
+  function delam_version_text() result(text)
+    character(:), allocatable :: text
+    text = delam_text(delam_version())
+  end function delam_version_text
+
+  ! An option of problems, counted from 1 to delam_option_count(); '' where there is none of that number.
+  subroutine delam_describe_option(index, key, type, unit, initial, range, meaning)
+    integer, intent(in) :: index
+    character(:), allocatable, intent(out), optional :: key, type, unit, initial, range, meaning
+    type(c_ptr) :: texts(6)
+    texts = c_null_ptr
+    if (delam_option_info(index - 1_c_int64_t, texts(1), texts(2), texts(3), texts(4), texts(5), texts(6)) &
+        /= DELAM_OK) texts = c_null_ptr
+    if (present(key)) key = delam_text(texts(1))
+    if (present(type)) type = delam_text(texts(2))
+    if (present(unit)) unit = delam_text(texts(3))
+    if (present(initial)) initial = delam_text(texts(4))
+    if (present(range)) range = delam_text(texts(5))
+    if (present(meaning)) meaning = delam_text(texts(6))
+  end subroutine delam_describe_option
+
+  ! Number of the parameters of a kind of law, all its criteria taken together.
+  function delam_parameter_count(kind) result(count)
+    character(*), intent(in) :: kind
+    integer :: count
+    count = int(delam_law_parameter_count(zero_ended(kind)))
+  end function delam_parameter_count
+
+  ! One of them, likewise.
+  subroutine delam_describe_parameter(kind, index, key, type, unit, initial, range, meaning)
+    character(*), intent(in) :: kind
+    integer, intent(in) :: index
+    character(:), allocatable, intent(out), optional :: key, type, unit, initial, range, meaning
+    type(c_ptr) :: texts(6)
+    texts = c_null_ptr
+    if (delam_law_parameter_info(zero_ended(kind), index - 1_c_int64_t, texts(1), texts(2), texts(3), texts(4), &
+                                 texts(5), texts(6)) /= DELAM_OK) texts = c_null_ptr
+    if (present(key)) key = delam_text(texts(1))
+    if (present(type)) type = delam_text(texts(2))
+    if (present(unit)) unit = delam_text(texts(3))
+    if (present(initial)) initial = delam_text(texts(4))
+    if (present(range)) range = delam_text(texts(5))
+    if (present(meaning)) meaning = delam_text(texts(6))
+  end subroutine delam_describe_parameter
+
+end module delam_descriptions
