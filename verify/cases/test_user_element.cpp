@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A sub-laminate as one element of a host: the host knows the displacements of its boundary, asks for forces and the consistent tangent, and
+// iterates with Newton's method on its own unknowns. Checked: it converges quadratically, and to what the library finds when the rest of the
+// structure is part of its own scene.
+#include <array>
+#include <cmath>
+
+#include "api.hpp"
+#include "support.hpp"
+
+namespace {
+
+using reference::Scene;
+using reference::Solver;
+
+// Two arms, glued behind a notch; the boundary: up and sideways at the tip of the upper arm, up at that of the lower one.
+constexpr std::size_t unknowns = 3;
+constexpr const char* names[unknowns] = {"up", "side", "low"};
+
+struct Arms {
+    Scene scene;
+    std::vector<std::int64_t> upper, lower;  // nodes at the tips
+};
+
+// The machine that drives the element: a spring for each displacement, and how far it travels at time 1.
+constexpr double machine[unknowns] = {3e7, 5e8, 2e7};
+constexpr double travel[unknowns] = {1.5e-3, -4e-5, -1.2e-3};
+constexpr int steps = 40;
+
+// with_machine: its springs as pairs of the tips with two control nodes that travel; they only ever pull, as contact wants it.
+Arms arms(bool with_machine) {
+    const Scene layers(2, {0.04}, {40}, {1e-3, 1e-3}, {1, 1}, DELAM_QUAD4);
+    std::vector<double> nodes = layers.nodes();
+    std::vector<std::int32_t> types(80), bodies(80);
+    std::vector<std::int64_t> offsets(81), cells(320);
+    std::int64_t needed = 0;
+    layers.require(delam_mesh_cells(layers.mesh(), types.data(), bodies.data(), offsets.data(), 320, cells.data(), &needed), "delam_mesh_cells");
+    const auto control = static_cast<std::int64_t>(layers.node_count());
+    nodes.insert(nodes.end(), {0.0, 4e-3, 0.0, -2e-3});
+    Scene scene(2, nodes, DELAM_QUAD4, cells, bodies);
+    scene.interface(0, 1);
+    const auto upper = scene.find(1, {0.0, 2e-3}, {0.0, 2e-3}), lower = scene.find(0, {0.0, 0.0}, {0.0, 0.0});
+    if (with_machine) {
+        const double one = 1.0, down[2] = {0.0, -1.0}, up[2] = {0.0, 1.0};
+        std::int64_t index = -1;
+        scene.require(delam_mesh_add_obstacle(scene.mesh(), 1, upper.data(), down, &one, control, 0, &index), "machine above");
+        scene.require(delam_mesh_add_obstacle(scene.mesh(), 1, lower.data(), up, &one, control + 1, 0, &index), "machine below");
+    }
+    scene.begin();
+    scene.elastic(-1, 70e9, 0.3);
+    scene.law(0, {1e12, 1e12, 20.0, 40.0, 600.0, 1500.0});
+    const auto pairs = scene.pairs(0);
+    std::vector<std::int64_t> notch;
+    for (std::size_t p = 0; p < pairs.count(); ++p)
+        if (scene.coordinate(pairs.node_a[p], 0) < 0.0075) notch.push_back(static_cast<std::int64_t>(p));
+    scene.adhesion(0, notch, std::vector<double>(notch.size(), 0.0));
+    scene.number("damage_tolerance", 1e-12);
+    const auto root = scene.find(-1, {0.04, 0.0}, {0.04, 2e-3});
+    scene.hold(root, {1.0, 0.0});
+    scene.hold(root, {0.0, 1.0});
+    const std::vector<double> along_y{0.0, 1.0}, along_x{1.0, 0.0};
+    const auto history = [&](std::size_t p) { return scene.pattern(names[p], {0.0, 1.0}, {0.0, with_machine ? travel[p] : 0.0}); };
+    scene.drive(with_machine ? std::vector{control} : upper, along_y, history(0), {1.0});
+    scene.drive(with_machine ? std::vector{control} : upper, along_x, history(1), {1.0});
+    scene.drive(with_machine ? std::vector{control + 1} : lower, along_y, history(2), {1.0});
+    if (with_machine) {
+        scene.law(1, {machine[0], machine[1], 1e30, 1e30, 2e30, 2e30});
+        scene.law(2, {machine[2], 1e-4, 1e30, 1e30, 2e30, 2e30});  // sideways as good as free
+        scene.hold({control + 1}, along_x);
+    }
+    return {std::move(scene), upper, lower};
+}
+
+// Gauss, in place; small and plain, as a host has its own.
+std::array<double, unknowns> solved(std::array<std::array<double, unknowns>, unknowns> a, std::array<double, unknowns> b) {
+    for (std::size_t p = 0; p < unknowns; ++p) {
+        std::size_t best = p;
+        for (std::size_t r = p; r < unknowns; ++r)
+            if (std::abs(a[r][p]) > std::abs(a[best][p])) best = r;
+        std::swap(a[p], a[best]);
+        std::swap(b[p], b[best]);
+        for (std::size_t r = p + 1; r < unknowns; ++r) {
+            const double f = a[r][p] / a[p][p];
+            for (std::size_t c = p; c < unknowns; ++c) a[r][c] -= f * a[p][c];
+            b[r] -= f * b[p];
+        }
+    }
+    for (std::size_t p = unknowns; p-- > 0;) {
+        for (std::size_t c = p + 1; c < unknowns; ++c) b[p] -= a[p][c] * b[c];
+        b[p] /= a[p][p];
+    }
+    return b;
+}
+
+CASE_TEST(newton_of_a_host) {
+    const Arms element = arms(false), structure = arms(true);
+    Solver solver(element.scene, 0.0), whole(structure.scene, 0.0);
+    std::array<double, unknowns> u{};
+    int quadratic = 0;
+    for (int k = 1; k <= steps; ++k) {
+        const double time = static_cast<double>(k) / steps;
+        const std::string where = "step " + std::to_string(k);
+        std::vector<double> history;  // residuals, relative
+        for (;;) {
+            cases::expect(history.size() < 8, where + ": Newton's method of the host does not converge");
+            for (std::size_t p = 0; p < unknowns; ++p)
+                element.scene.require(delam_solver_set_history(solver.get(), static_cast<std::int64_t>(p), 1, &time, &u[p]), "delam_solver_set_history");
+            solver.step(time);
+            std::array<double, unknowns> residual{};
+            double norm = 0.0, scale = 0.0;
+            for (std::size_t p = 0; p < unknowns; ++p) {
+                residual[p] = solver.value(std::string("reaction:") + names[p]) + machine[p] * (u[p] - travel[p] * time);
+                scale = std::max(scale, std::abs(machine[p] * travel[p] * time));
+                norm = std::max(norm, std::abs(residual[p]));
+            }
+            history.push_back(norm / scale);
+            if (history.back() <= 1e-10) break;
+            std::vector<double> tangent(unknowns * unknowns);
+            element.scene.require(delam_solver_step_tangent(solver.get(), 9, tangent.data()), "delam_solver_step_tangent");
+            solver.rollback();
+            std::array<std::array<double, unknowns>, unknowns> matrix{};
+            for (std::size_t p = 0; p < unknowns; ++p)
+                for (std::size_t q = 0; q < unknowns; ++q) matrix[p][q] = tangent[p * unknowns + q] + (p == q ? machine[p] : 0.0);
+            const auto change = solved(matrix, residual);
+                for (std::size_t p = 0; p < unknowns; ++p) u[p] -= change[p];
+        }
+        solver.commit();
+        // The last error is the square of the one before, times a constant that has no reason to be large.
+        const std::size_t n = history.size();
+        if (n >= 3 && history[n - 2] < 1e-3 && history[n - 1] <= 100.0 * history[n - 2] * history[n - 2] + 1e-11) ++quadratic;
+
+        // The same structure in one scene of the library.
+        whole.step(time);
+        whole.commit();
+        for (std::size_t p = 0; p < unknowns; ++p) {
+            const double force = whole.value(std::string("reaction:") + names[p]);
+            cases::expect_near(-solver.value(std::string("reaction:") + names[p]), -force, 1e-6, std::abs(machine[p] * travel[p]) * 0.05 + std::abs(force),
+                               where + ": force " + names[p]);
+        }
+        cases::expect_near(solver.value("dissipated"), whole.value("dissipated"), 1e-6, 0.1 + whole.value("dissipated"), where + ": dissipated");
+        cases::expect_near(solver.value("debonded_length"), whole.value("debonded_length"), 1e-9, 1.0, where + ": debonded length");
+    }
+    cases::expect(solver.value("dissipated") > 0.1, "nothing was damaged");
+    cases::expect(quadratic >= 15, "quadratic in " + std::to_string(quadratic) + " steps only");
+}
+
+}  // namespace
+
+int main() {
+    Suite* suite = suite_create("user_element");
+    TCase* tests = tcase_create("user_element");
+    tcase_add_test(tests, newton_of_a_host);
+    suite_add_tcase(suite, tests);
+    return cases::run_suite(suite);
+}
