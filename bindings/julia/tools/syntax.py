@@ -21,8 +21,14 @@ class Unavailable(Exception):
     """What is missing for the files to be parsed."""
 
 
+def node():
+    return shutil.which("node") or shutil.which("nodejs")
+
+
 def fetch(folder):
     """The parser in `folder`, fetched unless it is there already in the versions of the lock file."""
+    if node() is None:
+        raise Unavailable("node is not installed (Debian: nodejs)")
     folder = pathlib.Path(folder)
     stamp = folder / LOCK.name
     if stamp.exists() and stamp.read_bytes() == LOCK.read_bytes():
@@ -44,7 +50,8 @@ def fetch(folder):
             # What comes but is not what was pinned is no absence.
             if "EINTEGRITY" in done.stderr:
                 raise RuntimeError(f"npm: the parser is not the one of {LOCK.name}:\n{done.stderr}")
-            raise Unavailable(f"npm could not fetch the parser:\n{done.stderr.strip()}")
+            first = next((line for line in done.stderr.splitlines() if "error" in line.lower()), "no reason given")
+            raise Unavailable(f"npm could not fetch the parser: {first}")
         for file in FILES:
             os.replace(pathlib.Path(work) / "node_modules" / file, folder / pathlib.Path(file).name)
     shutil.copy(LOCK, stamp)
@@ -105,11 +112,8 @@ class Node:
 
 def parse(texts, folder):
     """{name: Node} of {name: text}; `folder` as fetch has it."""
-    node = shutil.which("node") or shutil.which("nodejs")
-    if node is None:
-        raise Unavailable("node is not installed (Debian: nodejs)")
-    done = subprocess.run([node, str(PARSER / "parse.js"), str(folder)], input=json.dumps(texts), capture_output=True,
+    done = subprocess.run([node(), str(PARSER / "parse.js"), str(folder)], input=json.dumps(texts), capture_output=True,
                           text=True)
     if done.returncode != 0:
-        raise RuntimeError(f"{node} {PARSER / 'parse.js'}:\n{done.stderr}")
+        raise RuntimeError(f"node {PARSER / 'parse.js'}:\n{done.stderr}")
     return {name: Node(data) for name, data in json.loads(done.stdout).items()}
