@@ -10,6 +10,11 @@ DELAM_PACKAGES=(
     libgsl-dev check abigail-tools binutils
     python3 python3-numpy python3-matplotlib python3-h5py python3-venv python3-pip python3-meshio python3-tqdm
 )
+# The parser of the Julia files, for the quick tier. A node from elsewhere has its own npm, which Debian's conflicts with.
+DELAM_PARSER_PACKAGES=()
+if ! command -v npm >/dev/null; then
+    DELAM_PARSER_PACKAGES=(nodejs npm)
+fi
 # The long tier of the tests.
 DELAM_LONG_PACKAGES=(clang doxygen dpkg-dev valgrind paraview python3-paraview)
 

@@ -78,7 +78,7 @@ memory_checked() {
         --errors-for-leak-kinds=definite "$1"
 }
 
-delam_install "${DELAM_PACKAGES[@]}"
+delam_install "${DELAM_PACKAGES[@]}" "${DELAM_PARSER_PACKAGES[@]}"
 if [[ $all == yes ]]; then
     delam_install "${DELAM_LONG_PACKAGES[@]}"
 fi

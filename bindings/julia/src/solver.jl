@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: BSD-3-Clause
+
+"""
+    Solver(problem; time=0.0, not_converged=:warn)
+
+The state of a problem, which is taken as it is now, from `time` on.
+
+    advance!(solver, 0.05)      # pending: can be read, then
+    commit!(solver)             # kept, or rollback!(solver)
+    solver["reaction:load"]     # a value of the present state; keys(solver) lists them
+
+`not_converged`: what a step that met an iteration limit does: `:warn` (the step is pending), `:throw` (`NotConverged`,
+pending too) or `:ignore`. A call that Ctrl-C or an exception of a callback ends leaves the state that was there before.
+"""
+mutable struct Solver <: Object
+    handle::Ptr{Raw.delam_solver}
+    context::Context
+    problem::Problem
+    not_converged::Symbol
+    pending::Bool
+    kept::Vector{Any}
+
+    Solver(handle::Ptr{Raw.delam_solver}, problem::Problem, not_converged::Symbol) =
+        finalizer(release, new(handle, problem.context, problem, not_converged, false, copy(problem.kept)))
+end
+
+function Solver(problem::Problem; time=0.0, not_converged=:warn)
+    not_converged in (:warn, :throw, :ignore) ||
+        throw(InvalidArgument("not_converged = $not_converged, expected :warn, :throw or :ignore"))
+    handle, status = made(Raw.delam_solver, problem; accepted=Raw.DELAM_NOT_CONVERGED) do scene, out
+        Raw.delam_solver_create(scene, time, out)
+    end
+    solver = Solver(handle, problem, not_converged)
+    tell_outcome(solver, status)
+    return solver
+end
+
+function tell_outcome(solver, status)
+    status == Raw.DELAM_NOT_CONVERGED || return
+    message = lock(() -> last_message(solver.context), solver.context.lock)
+    solver.not_converged === :throw && throw(NotConverged(message))
+    solver.not_converged === :warn && @warn message
+    return
+end
+
+# ---- steps
+
+"Runs a call that makes a step pending, or none; `pending` is true to that whenever Ctrl-C comes."
+function leaves(body, solver, pending)
+    ask(solver; accepted=Raw.DELAM_NOT_CONVERGED) do handle
+        status = body(handle)
+        if status == Raw.DELAM_OK || status == Raw.DELAM_NOT_CONVERGED
+            solver.pending = pending
+        end
+        return status
+    end
+end
+
+function stepped!(body, solver)
+    already = solver.pending
+    status = try
+        leaves(body, solver, true)
+    catch
+        # The step was done when the interruption was seen.
+        solver.pending && !already && rollback!(solver)
+        rethrow()
+    end
+    tell_outcome(solver, status)
+    return solver
+end
+
+"One load step to `time`, pending."
+advance!(solver::Solver, time) = stepped!(handle -> Raw.delam_solver_advance(handle, time), solver)
+
+"Displacements of least energy at `time` with the given adhesion held, of all pairs, interface after interface; without
+it the committed one. Pending like a step."
+function equilibrate!(solver::Solver, time, adhesion=nothing)
+    held = adhesion === nothing ? C_NULL :
+           expect("adhesion", floats(adhesion), last(field_shape(solver, "adhesion", Int64(-1))))
+    return stepped!(handle -> Raw.delam_solver_equilibrate(handle, time, held), solver)
+end
+
+"Keeps the pending step."
+function commit!(solver::Solver)
+    leaves(handle -> Raw.delam_solver_commit(handle), solver, false)
+    return solver
+end
+
+"The state before the pending step, bit for bit."
+function rollback!(solver::Solver)
+    leaves(handle -> Raw.delam_solver_rollback(handle), solver, false)
+    return solver
+end
+
+"""
+    march!(solver, times)
+    march!(f, solver, times)
+
+Advances and commits, time after time; `f(solver)` after each step. A step that throws is rolled back.
+"""
+function march!(f, solver::Solver, times)
+    for time in times
+        try
+            advance!(solver, time)
+            commit!(solver)
+        catch
+            solver.pending && isopen(solver) && rollback!(solver)
+            rethrow()
+        end
+        f(solver)
+    end
+    return solver
+end
+march!(solver::Solver, times) = march!(identity, solver, times)
+
+# ---- values
+
+function Base.getindex(solver::Solver, key::AbstractString)
+    value = Ref(0.0)
+    ask(handle -> Raw.delam_solver_value(handle, key, value), solver)
+    return value[]
+end
+
+function Base.keys(solver::Solver)
+    count = Ref(Int64(0))
+    ask(handle -> Raw.delam_solver_value_count(handle, count), solver)
+    return [ask_text(handle -> Raw.delam_solver_value_name(handle, i), solver) for i in 0:count[]-1]
+end
+
+Base.haskey(solver::Solver, key) = key in keys(solver)
+
+Base.show(io::IO, solver::Solver) =
+    isopen(solver) ? print(io, "Solver at time $(solver["time"])", solver.pending ? ", a step is pending" : "") :
+    print(io, "Solver, closed")
+
+"""
+    look!(solver, step)
+    look!(f, solver, step)
+
+Values and fields then speak of an earlier step (option backtracking); -1: of the present one again. With a function
+they do so while that runs, and what it gives is given.
+"""
+function look!(solver::Solver, step)
+    ask(handle -> Raw.delam_solver_look(handle, step), solver)
+    return solver
+end
+function look!(f, solver::Solver, step)
+    look!(solver, step)
+    try
+        return f(solver)
+    finally
+        look!(solver, -1)
+    end
+end
+
+# ---- state as bytes
+
+"The committed state as bytes."
+function save(solver::Solver)
+    needed = Ref(Int64(0))
+    ask(handle -> Raw.delam_solver_save(handle, 0, C_NULL, needed), solver)
+    out = Vector{UInt8}(undef, needed[])
+    ask(handle -> Raw.delam_solver_save(handle, length(out), out, needed), solver)
+    return out
+end
+
+"Goes on from saved bytes of the same scene and options."
+function load!(solver::Solver, state::AbstractVector{UInt8})
+    bytes = convert(Vector{UInt8}, state)
+    leaves(handle -> Raw.delam_solver_load(handle, length(bytes), bytes), solver, false)
+    return solver
+end

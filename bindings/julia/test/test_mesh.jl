@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: BSD-3-Clause
+
+@testset "mesh" begin
+    mesh = Mesh(lengths=2.0, divisions=2, thickness=[1.0, 1.0], layer_divisions=[1, 1])
+    glue = add_interface!(mesh, 0, 1)
+    @test dimension(mesh) == 2
+    @test node_count(mesh) == 12 && cell_count(mesh) == 4 && body_count(mesh) == 2
+    @test size(nodes(mesh)) == (2, 12)
+    @test nodes(mesh)[:, find_node(mesh, (2, 2))] == [2.0, 2.0]
+    @test glue.number == 1 && length(interfaces(mesh)) == 1
+
+    # Indices count from 1, in and out.
+    @test pair_count(glue) == 3
+    @test places(glue) == nodes(mesh)[:, nodes_a(glue)] == [0.0 1.0 2.0; 1.0 1.0 1.0]
+    @test node_bodies(mesh)[nodes_b(glue)] == [1, 1, 1]
+    @test weights(glue) == [0.5, 1.0, 0.5]
+    @test frames(glue)[:, 1, 2] == [0.0, 1.0]
+    @test sort(vec(faces(glue))) == [1, 2, 2, 3]
+    table = cells(mesh)
+    @test table.offsets == [1, 5, 9, 13, 17]
+    @test extrema(table.connectivity) == (1, 12)
+    found, shares = find_patch(mesh, 1, (0.0, 2.0), (1.0, 2.0), "y")
+    @test sum(shares) == 1.0 && all(==(2.0), nodes(mesh)[2, found])
+
+    # Cells by hand, of bodies that share nodes.
+    square = Mesh([0.0 1.0 0.0 1.0 0.0 1.0; 0.0 0.0 1.0 1.0 2.0 2.0])
+    add_cells!(square, "quad4", [1 3; 2 4; 4 6; 3 5], [0, 1]; conforming=true)
+    @test node_count(square) == 8
+    @test node_origins(square) == [1, 2, 3, 4, 5, 6, 3, 4]
+    @test length(add_all_interfaces!(square)) == 1
+
+    # Errors have the library's words and leave the object as it was.
+    @test_throws InvalidArgument add_interface!(mesh, 0, 7)
+    @test_throws DimensionMismatch add_cells!(square, "tri3", [1 3; 2 4], 0)
+    @test_throws InvalidArgument find_node(mesh, (0.1, 0.1))
+    @test interface_count(mesh) == 1
+    close(mesh)
+    @test !isopen(mesh)
+    @test_throws InvalidHandle node_count(mesh)
+end

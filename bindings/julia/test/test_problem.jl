@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: BSD-3-Clause
+
+@testset "problem" begin
+    problem = double_cantilever()
+    check(problem)
+    @test patterns(problem) == ["opening"]
+    @test dofs(problem) == (408, 102)
+    @test factors(problem, 0.5) == [3e-3]
+    @test length(problem_hash(problem)) == 16
+    before = problem_hash(problem)
+    problem["damage_tolerance"] = 1e-7
+    problem["solution"] = "local"
+    @test problem_hash(problem) != before
+    @test options()["solution"].type == "text"
+    @test_throws InvalidArgument problem["no such option"] = 1.0
+
+    # What the library has assembled: symmetric, of a free body.
+    stiffness = Matrix(Delam.body_matrix(problem, 0))
+    @test stiffness ≈ stiffness'
+    @test maximum(abs, stiffness * repeat([1.0, 0.0], size(stiffness, 1) ÷ 2)) < 1e-9 * maximum(abs, stiffness)
+    rows, coefficients = Delam.constraints(problem)
+    @test size(coefficients) == (1, rows.rows)
+    @test coefficients[1, 1:2] == [0.5, 0.5]
+
+    incomplete = Problem(problem.mesh)
+    @test_throws ProblemError check(incomplete)
+    set_orthotropic!(incomplete, [140e9, 10e9, 10e9, 0.3, 0.3, 0.4, 5e9, 5e9, 3.5e9])
+    set_orientation!(incomplete, [1.0 0.0; 0.0 1.0; 0.0 0.0])
+    @test_throws DimensionMismatch set_orthotropic!(incomplete, [1.0, 2.0])
+    @test_throws InvalidArgument prescribe!(incomplete, 1, "z")
+end

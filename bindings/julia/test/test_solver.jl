@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: BSD-3-Clause
+
+@testset "solver" begin
+    solver = Solver(double_cantilever())
+    times = range(0.05, 1.0; length=20)
+    rows = history(solver, times)
+    @test length(rows) == 21
+    @test rows["time"] ≈ [0.0; times]
+    @test rows["dissipated"][end] > 0.0
+    @test issorted(rows["dissipated"])
+
+    # Fields have a column for each node or pair.
+    @test size(field(solver, "displacement")) == (2, 204)
+    @test size(field(solver, "traction", 1)) == (2, 51)
+    adhesion = field(solver, "adhesion", 1)
+    @test adhesion isa Vector && extrema(adhesion) == (0.0, 1.0)
+    at = fronts(solver, 1)
+    @test at.starts == [1, 2] && size(at.rates) == (3, 1)
+    @test solver["crack_length"] > 0.03
+    @test tangent(solver)[1, 1] > 0.0
+    @test average(solver; body=0).volume ≈ 0.1 * 1.5e-3
+    @test !isempty(plan(solver)) && !isempty(plan_items(solver))
+    @test option(solver, "solution") == "local"
+    line = profile(solver, "adhesion")
+    @test line.lines == [collect(1:51)] && line.values == adhesion
+
+    # Rolled back, saved and loaded: bit for bit.
+    state = save(solver)
+    before = field(solver, "jump", 1)
+    advance!(solver, 1.1)
+    @test solver.pending
+    @test_throws StateError advance!(solver, 1.2)
+    rollback!(solver)
+    @test field(solver, "jump", 1) == before
+    other = Solver(double_cantilever())
+    load!(other, state)
+    @test field(other, "jump", 1) == before
+    @test_throws SnapshotError load!(other, state[1:end-1])
+    @test_throws InvalidArgument solver["no such value"]
+
+    text = sprint(io -> write_csv(io, rows))
+    @test length(split(text, "\n"; keepempty=false)) == 22
+    close(solver)
+    @test_throws InvalidHandle solver["time"]
+end

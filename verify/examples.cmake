@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The examples in every language: one history each, that of the host in C, and the values of examples/reference.csv.
+
+# delam_example_test(SCENE LANGUAGE COMMAND...): what cannot run here is a test that says so and is skipped.
+function(delam_example_test scene language)
+  set(options --scene ${scene})
+  string(REPLACE - _ name ${scene})
+  if(language STREQUAL c AND TARGET delam_cli AND EXISTS ${PROJECT_SOURCE_DIR}/examples/${scene}/${scene}.toml)
+    list(APPEND options --delam $<TARGET_FILE:delam_cli> ${PROJECT_SOURCE_DIR}/examples/${scene}/${scene}.toml)
+  endif()
+  set(command ${ARGN})
+  if(NOT TARGET example_${name} OR (NOT command AND NOT language STREQUAL c))
+    add_test(NAME example/${scene}_${language} COMMAND sh -c "echo 'skipped: the host of ${scene} in ${language} is not built'; exit 77")
+  else()
+    add_test(NAME example/${scene}_${language}
+             COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/verify/cases/same_history.py ${options}
+                     $<TARGET_FILE:example_${name}> ${command})
+  endif()
+  set_tests_properties(example/${scene}_${language} PROPERTIES LABELS "quick;example" TIMEOUT 300 SKIP_RETURN_CODE 77
+    ENVIRONMENT "DELAM_LIBRARY=$<TARGET_FILE:delam>;PYTHONPATH=${PROJECT_SOURCE_DIR}/bindings/python/src;PYTHONDONTWRITEBYTECODE=1;JULIA_DEPOT_PATH=${PROJECT_BINARY_DIR}/bindings/julia/depot:")
+endfunction()
+
+if(NOT DELAM_SANITIZE)
+  foreach(scene enf dcb-host-law)
+    string(REPLACE - _ name ${scene})
+    delam_example_test(${scene} c)
+    foreach(language cpp fortran)
+      set(program)
+      if(TARGET example_${name}_${language})
+        set(program $<TARGET_FILE:example_${name}_${language}>)
+      endif()
+      delam_example_test(${scene} ${language} ${program})
+    endforeach()
+    delam_example_test(${scene} python /usr/bin/python3 ${PROJECT_SOURCE_DIR}/examples/${scene}/${name}.py)
+    delam_example_test(${scene} julia sh ${PROJECT_SOURCE_DIR}/bindings/julia/test/julia.sh
+                       ${PROJECT_SOURCE_DIR}/bindings/julia ${PROJECT_SOURCE_DIR}/examples/${scene}/${name}.jl)
+  endforeach()
+endif()
