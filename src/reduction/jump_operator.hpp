@@ -12,6 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
+#include "delam/delam.h"
+
 namespace delam {
 
 // What an interface row is at the moment.
@@ -51,6 +54,10 @@ public:
     // What of the past the last digits of the next solve depend on (empty: nothing); a recalled memory gives them again.
     virtual std::vector<double> memory() const { return {}; }
     virtual void recall(std::span<const double> /*memory*/) {}
+    // Throws Error(DELAM_ERROR_SNAPSHOT) for what memory() cannot have given.
+    virtual void require_memory(std::span<const double> memory) const {
+        if (!memory.empty()) fail(DELAM_ERROR_SNAPSHOT, "a memory of ", memory.size(), " numbers, this operator has none");
+    }
     // Another operator over the same condensed bodies, with a memory of its own; null: there is none that is cheap.
     virtual std::unique_ptr<JumpOperator> twin() const { return nullptr; }
     // Sparse factorisations of the bodies since the operator was made, and how often displacements were recovered.

@@ -74,7 +74,11 @@ private:
     using Key = std::array<std::int64_t, 3>;
     Key cell(const Point& x) const {
         Key key{};
-        for (std::size_t d = 0; d < at(dimension_); ++d) key[d] = static_cast<std::int64_t>(std::floor(x[d] / width_));
+        constexpr std::int64_t most = std::int64_t{1} << 62;  // far nodes of a tiny grid share its last cells
+        for (std::size_t d = 0; d < at(dimension_); ++d) {
+            const double cells = std::floor(x[d] / width_);
+            key[d] = cells >= 0x1p62 ? most : cells > -0x1p62 ? static_cast<std::int64_t>(cells) : -most;
+        }
         return key;
     }
     double width_;

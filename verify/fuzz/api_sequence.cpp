@@ -190,7 +190,7 @@ std::int32_t add_cells(Input& in, delam_mesh* mesh, bool conforming) {
     std::vector<std::int32_t> bodies(count);
     for (std::int32_t& label : bodies) label = in.small_label(4);
     const auto call = conforming ? delam_mesh_add_conforming_cells : delam_mesh_add_cells;
-    return call(mesh, type, static_cast<std::int64_t>(count), maybe(in, connectivity), maybe(in, bodies), base);
+    return in_order{call, mesh, type, static_cast<std::int64_t>(count), maybe(in, connectivity), maybe(in, bodies), base}.status;
 }
 
 std::int32_t add_obstacle(Input& in, delam_mesh* mesh) {
@@ -201,9 +201,9 @@ std::int32_t add_obstacle(Input& in, delam_mesh* mesh) {
     std::vector<double> normals = in.reals(count * static_cast<std::size_t>(s.dimension));
     std::vector<double> weights = in.reals(count);
     std::int64_t index = -1;
-    return delam_mesh_add_obstacle(mesh, static_cast<std::int64_t>(count), maybe(in, nodes), maybe(in, normals),
+    return in_order{delam_mesh_add_obstacle, mesh, static_cast<std::int64_t>(count), maybe(in, nodes), maybe(in, normals),
                                    in.flag() ? nullptr : weights.data(), in.index(s.nodes), base,
-                                   in.seldom() ? nullptr : &index);
+                                   in.seldom() ? nullptr : &index}.status;
 }
 
 std::int32_t create_layers(Input& in, Host& host, delam_mesh** out) {
@@ -221,8 +221,8 @@ std::int32_t create_layers(Input& in, Host& host, delam_mesh** out) {
     }
     const std::int32_t type = in.seldom() ? static_cast<std::int32_t>(in.hostile_whole())
                                           : 1 + static_cast<std::int32_t>(in.below(9));
-    return delam_mesh_create_layers(host.context, dimension, maybe(in, lengths), maybe(in, divisions), layers,
-                                    maybe(in, thickness), maybe(in, across), type, out);
+    return in_order{delam_mesh_create_layers, host.context, dimension, maybe(in, lengths), maybe(in, divisions), layers,
+                                    maybe(in, thickness), maybe(in, across), type, out}.status;
 }
 
 std::int32_t create_mesh(Input& in, Host& host, delam_mesh** out) {
@@ -245,10 +245,10 @@ std::int32_t find_in(Input& in, const delam_mesh* mesh, bool patch) {
     std::int64_t count = -1;
     const std::int32_t body = in.seldom() ? in.small_label(3) : static_cast<std::int32_t>(in.below(4)) - 1;
     if (patch)
-        return delam_mesh_find_patch(mesh, body, lower.data(), upper.data(), maybe(in, direction), nodes.capacity,
-                                     nodes.data(), weights.data(), in.seldom() ? nullptr : &count);
-    return delam_mesh_find_nodes(mesh, body, maybe(in, lower), maybe(in, upper), nodes.capacity, nodes.data(),
-                                 in.seldom() ? nullptr : &count);
+        return in_order{delam_mesh_find_patch, mesh, body, lower.data(), upper.data(), maybe(in, direction), nodes.capacity,
+                                     nodes.data(), weights.data(), in.seldom() ? nullptr : &count}.status;
+    return in_order{delam_mesh_find_nodes, mesh, body, maybe(in, lower), maybe(in, upper), nodes.capacity, nodes.data(),
+                                 in.seldom() ? nullptr : &count}.status;
 }
 
 std::int32_t add_pattern(Input& in, delam_problem* problem) {
@@ -258,8 +258,8 @@ std::int32_t add_pattern(Input& in, delam_problem* problem) {
     double last = in.flag() ? 0.0 : in.signed_real();
     for (double& t : times) t = last, last += in.real();
     std::int64_t index = -1;
-    return delam_problem_add_pattern(problem, in.word(names), static_cast<std::int64_t>(count), maybe(in, times),
-                                     maybe(in, values), in.seldom() ? nullptr : &index);
+    return in_order{delam_problem_add_pattern, problem, in.word(names), static_cast<std::int64_t>(count), maybe(in, times),
+                                     maybe(in, values), in.seldom() ? nullptr : &index}.status;
 }
 
 // Prescribed nodes, means, equations and forces take much the same.
@@ -275,18 +275,18 @@ std::int32_t add_load(Input& in, delam_problem* problem, Load load) {
     std::vector<double> coefficients = in.reals(std::max<std::size_t>(1, count) * std::max<std::size_t>(1, patterns));
     switch (load) {
         case Load::nodes:
-            return delam_problem_prescribe_nodes(problem, entries, maybe(in, nodes), maybe(in, direction), driven,
-                                                 maybe(in, by), maybe(in, coefficients), base);
+            return in_order{delam_problem_prescribe_nodes, problem, entries, maybe(in, nodes), maybe(in, direction), driven,
+                                                 maybe(in, by), maybe(in, coefficients), base}.status;
         case Load::mean:
-            return delam_problem_prescribe_mean(problem, entries, maybe(in, nodes), maybe(in, weights),
+            return in_order{delam_problem_prescribe_mean, problem, entries, maybe(in, nodes), maybe(in, weights),
                                                 maybe(in, direction), driven, maybe(in, by), maybe(in, coefficients),
-                                                base);
+                                                base}.status;
         case Load::equation:
-            return delam_problem_add_equation(problem, entries, maybe(in, nodes), maybe(in, vectors), driven,
-                                              maybe(in, by), maybe(in, coefficients), base);
+            return in_order{delam_problem_add_equation, problem, entries, maybe(in, nodes), maybe(in, vectors), driven,
+                                              maybe(in, by), maybe(in, coefficients), base}.status;
         case Load::forces:
-            return delam_problem_add_forces(problem, in.index(s.patterns), entries, maybe(in, nodes), maybe(in, vectors),
-                                            base);
+            return in_order{delam_problem_add_forces, problem, in.index(s.patterns), entries, maybe(in, nodes), maybe(in, vectors),
+                                            base}.status;
     }
     return DELAM_OK;
 }
@@ -296,8 +296,8 @@ std::int32_t add_periodic(Input& in, delam_problem* problem) {
     if (in.flag()) periods = {1.0, 0.0, 0.0, 0.0, 0.0, 0.25, 0.0, 0.0, 1.0};
     const std::int32_t base = in.base();
     std::vector<std::int64_t> controls = in.indices(3, sizes_of(problem).dofs / 3, base);
-    return delam_problem_add_periodic(problem, in.seldom() ? in.hostile_whole() % 4 : in.below(4), maybe(in, periods),
-                                      maybe(in, controls), in.flag() ? 0.0 : in.fraction(), base);
+    return in_order{delam_problem_add_periodic, problem, in.seldom() ? in.hostile_whole() % 4 : in.below(4), maybe(in, periods),
+                                      maybe(in, controls), in.flag() ? 0.0 : in.fraction(), base}.status;
 }
 
 std::int32_t set_orientation(Input& in, delam_problem* problem) {
@@ -306,15 +306,15 @@ std::int32_t set_orientation(Input& in, delam_problem* problem) {
     std::vector<std::int64_t> cells = in.indices(count, 6, base);
     std::vector<double> axes = in.reals(6 * std::max<std::size_t>(1, count));
     const bool whole = in.flag();
-    return delam_problem_set_orientation(problem, in.small_label(3) - in.flag(), whole ? 1 : static_cast<std::int64_t>(count),
-                                         whole ? nullptr : cells.data(), maybe(in, axes), base);
+    return in_order{delam_problem_set_orientation, problem, in.body(), whole ? 1 : static_cast<std::int64_t>(count),
+                                         whole ? nullptr : cells.data(), maybe(in, axes), base}.status;
 }
 
 std::int32_t set_orthotropic(Input& in, delam_problem* problem) {
     std::vector<double> constants = {1000.0, 100.0, 100.0, 0.25, 0.25, 0.4, 50.0, 50.0, 40.0};
     for (std::int64_t left = in.below(3); left > 0; --left)
         constants[static_cast<std::size_t>(in.below(9))] = in.signed_real();
-    return delam_problem_set_orthotropic(problem, in.small_label(3) - in.flag(), maybe(in, constants));
+    return in_order{delam_problem_set_orthotropic, problem, in.body(), maybe(in, constants)}.status;
 }
 
 std::int32_t body_matrix(Input& in, const delam_problem* problem) {
@@ -324,8 +324,8 @@ std::int32_t body_matrix(Input& in, const delam_problem* problem) {
     if (status != DELAM_OK) return status;
     std::vector<std::int64_t> starts(static_cast<std::size_t>(rows + 1)), columns(static_cast<std::size_t>(entries));
     std::vector<double> values(static_cast<std::size_t>(entries));
-    return delam_problem_body_matrix(problem, body, nullptr, nullptr, maybe(in, starts), maybe(in, columns),
-                                     maybe(in, values));
+    return in_order{delam_problem_body_matrix, problem, body, nullptr, nullptr, maybe(in, starts), maybe(in, columns),
+                                     maybe(in, values)}.status;
 }
 
 std::int32_t constraints(Input& in, const delam_problem* problem) {
@@ -333,8 +333,8 @@ std::int32_t constraints(Input& in, const delam_problem* problem) {
     delam_problem_constraints(problem, &rows, &entries, &patterns, nullptr, nullptr, nullptr, nullptr);
     std::vector<std::int64_t> starts(static_cast<std::size_t>(rows + 1)), columns(static_cast<std::size_t>(entries));
     std::vector<double> values(columns.size()), coefficients(static_cast<std::size_t>(rows * patterns));
-    const std::int32_t status = delam_problem_constraints(problem, nullptr, nullptr, nullptr, maybe(in, starts),
-                                                          columns.data(), values.data(), maybe(in, coefficients));
+    const std::int32_t status = in_order{delam_problem_constraints, problem, nullptr, nullptr, nullptr, maybe(in, starts),
+                                                          columns.data(), values.data(), maybe(in, coefficients)}.status;
     for (const double v : values) expect(std::isfinite(v), "constraints are finite", "delam_problem_constraints");
     for (const double v : coefficients) expect(std::isfinite(v), "constraints are finite", "delam_problem_constraints");
     return status;
@@ -365,7 +365,7 @@ std::int32_t equilibrate(Input& in, delam_solver* solver) {
     delam_solver_field_shape(solver, "adhesion", -1, &pairs, &one);
     std::vector<double> adhesion(static_cast<std::size_t>(pairs));
     for (double& zeta : adhesion) zeta = in.fraction();
-    return delam_solver_equilibrate(solver, next_time(in, solver), in.flag() ? nullptr : adhesion.data());
+    return in_order{delam_solver_equilibrate, solver, next_time(in, solver), in.flag() ? nullptr : adhesion.data()}.status;
 }
 
 std::int32_t read_field(Input& in, delam_solver* solver) {
@@ -388,9 +388,9 @@ std::int32_t read_front(Input& in, delam_solver* solver) {
     std::vector<std::int64_t> starts(closed.entries.size() + 1);
     const std::size_t room = lengths.entries.size();
     std::vector<double> places(3 * room), directions(3 * room), rates(3 * room), zones(room), pairs(room);
-    return delam_solver_front(solver, index, closed.capacity, lengths.capacity, maybe(in, starts), closed.data(),
+    return in_order{delam_solver_front, solver, index, closed.capacity, lengths.capacity, maybe(in, starts), closed.data(),
                               maybe(in, places), maybe(in, directions), lengths.data(), maybe(in, rates),
-                              maybe(in, zones), maybe(in, pairs));
+                              maybe(in, zones), maybe(in, pairs)}.status;
 }
 
 std::int32_t read_all_values(delam_solver* solver) {
@@ -437,24 +437,24 @@ std::int32_t save_and_load(World& world, Input& in, delam_solver* solver) {
     std::vector<std::uint8_t> bytes = saved(from);
     if (in.seldom()) bytes.resize(bytes.size() - static_cast<std::size_t>(in.below(9)));
     if (in.seldom() && !bytes.empty()) bytes[in.raw<std::uint16_t>() % bytes.size()] ^= in.byte();
-    return delam_solver_load(solver, in.seldom() ? in.hostile_whole() % 2 : static_cast<std::int64_t>(bytes.size()),
-                             maybe(in, bytes));
+    return in_order{delam_solver_load, solver, in.seldom() ? in.hostile_whole() % 2 : static_cast<std::int64_t>(bytes.size()),
+                             maybe(in, bytes)}.status;
 }
 
 std::int32_t law_respond(Input& in, const delam_law* law) {
     const std::size_t count = few(in);
     std::vector<double> jump = in.reals(3 * count), mixity(count), old(count), adhesion(count), traction(3 * count);
     for (std::size_t i = 0; i < count; ++i) mixity[i] = in.fraction(), old[i] = in.fraction();
-    return delam_law_respond(law, in.seldom() ? 4 : 2 + in.flag(), static_cast<std::int64_t>(count), maybe(in, jump),
-                             maybe(in, mixity), maybe(in, old), adhesion.data(), maybe(in, traction));
+    return in_order{delam_law_respond, law, in.seldom() ? 4 : 2 + in.flag(), static_cast<std::int64_t>(count), maybe(in, jump),
+                             maybe(in, mixity), maybe(in, old), adhesion.data(), maybe(in, traction)}.status;
 }
 
 std::int32_t law_toughness(Input& in, const delam_law* law) {
     const std::size_t count = few(in);
     std::vector<double> mixity(count), onset(count), toughness(count);
     for (double& b : mixity) b = in.fraction();
-    return delam_law_toughness(law, static_cast<std::int64_t>(count), maybe(in, mixity), maybe(in, onset),
-                               maybe(in, toughness));
+    return in_order{delam_law_toughness, law, static_cast<std::int64_t>(count), maybe(in, mixity), maybe(in, onset),
+                               maybe(in, toughness)}.status;
 }
 
 std::int32_t law_table(Input& in, delam_law* law) {
@@ -462,7 +462,7 @@ std::int32_t law_table(Input& in, delam_law* law) {
     std::vector<double> xi(count), s(count);
     for (std::size_t i = 0; i < count; ++i) xi[i] = in.fraction(), s[i] = in.fraction();
     if (count >= 2 && in.flag()) xi.front() = 0.0, xi.back() = 1.0, s.front() = 1.0, s.back() = 0.0;
-    return delam_law_set_table(law, static_cast<std::int64_t>(count), maybe(in, xi), maybe(in, s));
+    return in_order{delam_law_set_table, law, static_cast<std::int64_t>(count), maybe(in, xi), maybe(in, s)}.status;
 }
 
 // ---- the table ------------------------------------------------------------------------------------------------------
@@ -504,8 +504,8 @@ const Call calls[] = {
      [](const Asked& a) {
          return a.world.make(a.world.law, a.in, a.host, [&](delam_law** o) {
              const std::int32_t status =
-                 delam_law_create_host(a.host.context, a.in.seldom() ? "" : "bilinear", host_adhesion,
-                                       a.in.seldom() ? nullptr : host_dissipation, &a.world.host_law, o);
+                 in_order{delam_law_create_host, a.host.context, a.in.seldom() ? "" : "bilinear", host_adhesion,
+                                       a.in.seldom() ? nullptr : host_dissipation, &a.world.host_law, o}.status;
              if (status == DELAM_OK)
                  for (const char* key : {"normal_stiffness", "tangential_stiffness"}) delam_law_set(*o, key, 1e4);
              return status;
@@ -546,20 +546,20 @@ const Call calls[] = {
     {"delam_mesh_add_interface", Subject::mesh, may::argument | may::mesh,
      [](const Asked& a) {
          std::int64_t index = -1;
-         return delam_mesh_add_interface(a.mesh, a.in.small_label(3), a.in.small_label(3),
-                                         a.in.flag() ? 0.0 : a.in.fraction(), a.in.seldom() ? nullptr : &index);
+         return in_order{delam_mesh_add_interface, a.mesh, a.in.small_label(3), a.in.small_label(3),
+                                         a.in.flag() ? 0.0 : a.in.fraction(), a.in.seldom() ? nullptr : &index}.status;
      }},
     {"delam_mesh_add_all_interfaces", Subject::mesh, may::argument | may::mesh,
      [](const Asked& a) {
          std::int64_t count = -1;
-         return delam_mesh_add_all_interfaces(a.mesh, a.in.flag() ? 0.0 : a.in.fraction(),
-                                              a.in.seldom() ? nullptr : &count);
+         return in_order{delam_mesh_add_all_interfaces, a.mesh, a.in.flag() ? 0.0 : a.in.fraction(),
+                                              a.in.seldom() ? nullptr : &count}.status;
      }},
     {"delam_mesh_add_projected_interface", Subject::mesh, may::argument | may::mesh,
      [](const Asked& a) {
          std::int64_t index = -1;
-         return delam_mesh_add_projected_interface(a.mesh, a.in.small_label(3), a.in.small_label(3),
-                                                   a.in.flag() ? 0.0 : a.in.real(), a.in.seldom() ? nullptr : &index);
+         return in_order{delam_mesh_add_projected_interface, a.mesh, a.in.small_label(3), a.in.small_label(3),
+                                                   a.in.flag() ? 0.0 : a.in.real(), a.in.seldom() ? nullptr : &index}.status;
      }},
     {"delam_mesh_add_obstacle", Subject::mesh, may::argument | may::mesh,
      [](const Asked& a) { return add_obstacle(a.in, a.mesh); }},
@@ -577,9 +577,9 @@ const Call calls[] = {
      }},
 
     {"delam_law_set", Subject::law, may::argument,
-     [](const Asked& a) { return delam_law_set(a.law, a.in.word(law_keys), a.in.signed_real()); }},
+     [](const Asked& a) { return in_order{delam_law_set, a.law, a.in.word(law_keys), a.in.signed_real()}.status; }},
     {"delam_law_set_text", Subject::law, may::argument,
-     [](const Asked& a) { return delam_law_set_text(a.law, a.in.seldom() ? a.in.word(law_keys) : "criterion", a.in.word(criteria)); }},
+     [](const Asked& a) { return in_order{delam_law_set_text, a.law, a.in.seldom() ? a.in.word(law_keys) : "criterion", a.in.word(criteria)}.status; }},
     {"delam_law_set_table", Subject::law, may::argument, [](const Asked& a) { return law_table(a.in, a.law); }},
     {"delam_law_check", Subject::law, may::problem,
      [](const Asked& a) { return watched(a.world, a.in, [&] { return delam_law_check(a.law); }); }},
@@ -599,8 +599,8 @@ const Call calls[] = {
      }},
     {"delam_problem_set_elastic", Subject::problem, may::argument,
      [](const Asked& a) {
-         return delam_problem_set_elastic(a.problem, a.in.small_label(3) - a.in.flag(), 1000.0 * a.in.real(),
-                                          0.25 * a.in.signed_real());
+         return in_order{delam_problem_set_elastic, a.problem, a.in.body(), 1000.0 * a.in.real(),
+                                          0.25 * a.in.signed_real()}.status;
      }},
     {"delam_problem_set_orthotropic", Subject::problem, may::argument,
      [](const Asked& a) { return set_orthotropic(a.in, a.problem); }},
@@ -609,12 +609,12 @@ const Call calls[] = {
     {"delam_problem_set_formulation", Subject::problem, may::argument,
      [](const Asked& a) {
          static const char* const words[] = {"standard", "incompatible", "mean-dilatation"};
-         return delam_problem_set_formulation(a.problem, a.in.small_label(3) - a.in.flag(), a.in.word(words));
+         return in_order{delam_problem_set_formulation, a.problem, a.in.body(), a.in.word(words)}.status;
      }},
     {"delam_problem_set_law", Subject::problem, may::argument | may::problem,
      [](const Asked& a) {
          return watched(a.world, a.in,
-                        [&] { return delam_problem_set_law(a.problem, a.in.index(2), a.world.law.pick(a.in)); });
+                        [&] { return in_order{delam_problem_set_law, a.problem, a.in.index(2), a.world.law.pick(a.in)}.status; });
      }},
     {"delam_problem_set_bonded", Subject::problem, may::argument,
      [](const Asked& a) { return delam_problem_set_bonded(a.problem, a.in.index(2)); }},
@@ -627,8 +627,8 @@ const Call calls[] = {
          std::vector<std::int64_t> pairs = a.in.indices(count, 4, base);
          std::vector<double> adhesion(count);
          for (double& zeta : adhesion) zeta = a.in.fraction();
-         return delam_problem_set_adhesion(a.problem, a.in.index(2), static_cast<std::int64_t>(count),
-                                           maybe(a.in, pairs), maybe(a.in, adhesion), base);
+         return in_order{delam_problem_set_adhesion, a.problem, a.in.index(2), static_cast<std::int64_t>(count),
+                                           maybe(a.in, pairs), maybe(a.in, adhesion), base}.status;
      }},
     {"delam_problem_add_pattern", Subject::problem, may::argument,
      [](const Asked& a) { return add_pattern(a.in, a.problem); }},
@@ -646,13 +646,13 @@ const Call calls[] = {
      [](const Asked& a) {
          std::vector<double> strain = a.in.reals(6);
          for (double& e : strain) e *= 1e-3;
-         return delam_problem_add_eigenstrain(a.problem, a.in.index(sizes_of(a.problem).patterns),
-                                              a.in.small_label(3) - a.in.flag(), maybe(a.in, strain));
+         return in_order{delam_problem_add_eigenstrain, a.problem, a.in.index(sizes_of(a.problem).patterns),
+                                              a.in.body(), maybe(a.in, strain)}.status;
      }},
     {"delam_problem_set_number", Subject::problem, may::argument,
      [](const Asked& a) {
          const char* key = option_key(a.in);
-         return delam_problem_set_number(a.problem, key, a.in.seldom() ? a.in.hostile_real() : a.in.real());
+         return in_order{delam_problem_set_number, a.problem, key, a.in.seldom() ? a.in.hostile_real() : a.in.real()}.status;
      }},
     {"delam_problem_set_text", Subject::problem, may::argument,
      [](const Asked& a) {
@@ -698,7 +698,7 @@ const Call calls[] = {
      [](const Asked& a) {
          return watched(a.world, a.in, [&] {
              return a.world.make(a.world.solver, a.in, a.host, [&](delam_solver** o) {
-                 return delam_solver_create(a.problem, a.in.seldom() ? a.in.hostile_real() : 0.0, o);
+                 return in_order{delam_solver_create, a.problem, a.in.seldom() ? a.in.hostile_real() : 0.0, o}.status;
              });
          });
      }},
@@ -713,11 +713,11 @@ const Call calls[] = {
      may::not_converged | may::cancelled | may::limit | may::argument | may::problem | may::state | may::numerical,
      [](const Asked& a) { return watched(a.world, a.in, [&] { return equilibrate(a.in, a.solver); }); }},
     {"delam_solver_look", Subject::solver, may::argument,
-     [](const Asked& a) { return delam_solver_look(a.solver, a.in.index(6) - a.in.flag()); }},
+     [](const Asked& a) { return in_order{delam_solver_look, a.solver, a.in.index(7) - 1}.status; }},
     {"delam_solver_value", Subject::solver, may::argument | may::problem,
      [](const Asked& a) {
          double value = 0.0;
-         return delam_solver_value(a.solver, a.in.word(value_keys), a.in.seldom() ? nullptr : &value);
+         return in_order{delam_solver_value, a.solver, a.in.word(value_keys), a.in.seldom() ? nullptr : &value}.status;
      }},
     {"all values", Subject::solver, may::argument | may::problem, [](const Asked& a) { return read_all_values(a.solver); }},
     {"delam_solver_field", Subject::solver, may::argument, [](const Asked& a) { return read_field(a.in, a.solver); }},
@@ -725,8 +725,8 @@ const Call calls[] = {
      [](const Asked& a) {
          std::vector<double> strain(6), stress(6);
          double volume = 0.0;
-         return delam_solver_average(a.solver, a.in.small_label(3) - a.in.flag(), &volume, maybe(a.in, strain),
-                                     maybe(a.in, stress));
+         return in_order{delam_solver_average, a.solver, a.in.body(), &volume, maybe(a.in, strain),
+                                     maybe(a.in, stress)}.status;
      }},
     {"delam_solver_front", Subject::solver, may::argument | may::problem, [](const Asked& a) { return read_front(a.in, a.solver); }},
     {"delam_solver_tangent", Subject::solver, may::cancelled | may::argument | may::state | may::numerical,
@@ -824,7 +824,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         world.heard = world.host[0].get();
         world.heard->begin();
         const std::int32_t status = delam_solver_create(scene.problem, 0.0, &solver);
-        world.heard->settle("delam_solver_create", status, may::not_converged | may::limit | may::problem | may::numerical);
+        world.heard->settle("delam_solver_create", status, may::not_converged | may::limit | may::argument | may::problem | may::numerical);
         if (solver != nullptr) world.solver.put(0, solver, world.host[0].get());
     }
     const bool trace = std::getenv("FUZZ_TRACE") != nullptr;

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace fuzz {
@@ -72,6 +73,8 @@ public:
     // An index below `count`, or a hostile one.
     std::int64_t index(std::int64_t count) { return seldom() ? hostile_whole() : below(count); }
     std::int32_t small_label(std::int64_t count) { return static_cast<std::int32_t>(index(count)); }
+    // A body's label or -1, or a hostile one.
+    std::int32_t body() { return seldom() ? static_cast<std::int32_t>(hostile_whole()) : static_cast<std::int32_t>(below(4)) - 1; }
     // 0 or 1, seldom neither.
     std::int32_t base() { return seldom() ? static_cast<std::int32_t>(hostile_whole()) : flag() ? 1 : 0; }
 
@@ -101,6 +104,14 @@ public:
 private:
     const std::uint8_t* at_;
     const std::uint8_t* end_;
+};
+
+// Calls a function: arguments in braces are read from left to right by every compiler, those in parentheses are not.
+struct in_order {
+    template <class Function, class... Arguments>
+    explicit in_order(Function function, Arguments&&... arguments)
+        : status(function(std::forward<Arguments>(arguments)...)) {}
+    std::int32_t status;
 };
 
 // NULL in place of an array, seldom.
