@@ -52,6 +52,12 @@ std::int64_t require_node(const Mesh& mesh, std::int64_t value, std::int32_t ind
     return require_index(value, mesh.node_count(), index_base, what);
 }
 
+// Finite arguments may still have a sum or a quotient that is not.
+template <class... What>
+void require_no_overflow(double value, const What&... what) {
+    if (!std::isfinite(value)) fail(DELAM_ERROR_ARGUMENT, what..., " comes to ", value, ", must be finite");
+}
+
 // Displacements with coefficients, each DOF once; tied nodes are what they are tied to.
 class Terms {
 public:
@@ -71,9 +77,11 @@ public:
         Constraint c;
         for (const auto& [dof, coefficient] : sum_) {
             if (coefficient == 0.0) continue;
+            require_no_overflow(coefficient, "a coefficient of node ", dof / mesh_.dimension());
             c.dof.push_back(dof);
             c.coefficient.push_back(coefficient);
         }
+        if (c.dof.empty()) fail(DELAM_ERROR_ARGUMENT, "all coefficients are 0 or too small: nothing is prescribed");
         c.prescribed = std::move(prescribed);
         return c;
     }
@@ -114,7 +122,11 @@ std::vector<std::int64_t> require_patterns(const Problem& problem, std::int64_t 
 std::vector<double> prescribed(const Problem& problem, const std::vector<std::int64_t>& patterns,
                                const double* coefficients) {
     std::vector<double> list(problem.patterns.size(), 0.0);
-    for (std::size_t p = 0; p < patterns.size(); ++p) list[size(patterns[p])] += coefficients[p];
+    for (std::size_t p = 0; p < patterns.size(); ++p) {
+        double& sum = list[size(patterns[p])];
+        sum += coefficients[p];
+        require_no_overflow(sum, "the coefficient of pattern ", patterns[p]);
+    }
     return list;
 }
 
@@ -238,7 +250,8 @@ int32_t delam_problem_prescribe_mean(delam_problem* problem, int64_t count, cons
             sum += weights[i];
         }
         // Weights of quadratic faces may be negative at their corners; their sum is the extent of the patch.
-        if (!(sum > 0.0)) fail(DELAM_ERROR_ARGUMENT, "weights: their sum is ", sum, ", must be > 0");
+        if (!(sum > 0.0 && std::isfinite(sum)))
+            fail(DELAM_ERROR_ARGUMENT, "weights: their sum is ", sum, ", must be > 0 and finite");
         std::sort(members.begin(), members.end());
         Terms terms(*core.mesh);
         for (std::size_t i = 0; i < members.size(); ++i) {
@@ -339,7 +352,10 @@ int32_t delam_problem_add_forces(delam_problem* problem, int64_t pattern, int64_
             const std::int64_t node = require_node(*core.mesh, nodes[i], index_base, text("nodes[", i, "]"));
             Terms terms(*core.mesh);
             for (std::int64_t d = 0; d < dimension; ++d) terms.add(node, d, forces[i * dimension + d]);
-            for (const auto& [dof, force] : terms.list()) added.push_back({pattern, dof, force});
+            for (const auto& [dof, force] : terms.list()) {
+                require_no_overflow(force, "forces of nodes[", i, "]");
+                added.push_back({pattern, dof, force});
+            }
         }
         core.forces.insert(core.forces.end(), added.begin(), added.end());
         if (count > 0) mark(core, list, Pattern::Drives::force);

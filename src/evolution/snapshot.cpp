@@ -15,6 +15,7 @@ namespace {
 constexpr std::uint64_t magic = 0x31305453'4d4c4544;  // "DELMST01" in memory on a little-endian machine
 // 5: the first that was ever published. 6: histories of patterns that the host has changed.
 constexpr std::uint32_t version = 6, oldest = 5;
+constexpr std::int64_t most_steps = std::int64_t{1} << 53;
 
 std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
     std::uint64_t h = 14695981039346656037ULL;
@@ -97,7 +98,8 @@ void walk(Walker& w, S& state) {
 }
 
 // Every array as long as this solver's own, every number one that a march can produce.
-void check(const State& state, const State& mine) {
+void check(const State& state, const Solver& solver) {
+    const State& mine = solver.committed();
     const Response &a = state.response, &b = mine.response;
     const bool sizes = state.theta.size() == mine.theta.size() && state.adhesion.size() == mine.adhesion.size() &&
                        state.mixity.size() == mine.mixity.size() && state.mixity_before.size() == mine.mixity_before.size() &&
@@ -112,6 +114,10 @@ void check(const State& state, const State& mine) {
     for (const auto* values : {&state.theta, &a.jump, &a.force, &a.conjugate, &a.multipliers, &a.rigid, &state.memory, &state.search_memory})
         for (const double v : *values)
             if (!std::isfinite(v)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a number that is not finite");
+    if (!std::isfinite(state.time)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a time of ", state.time);
+    if (state.step < 0 || state.step > most_steps) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", state.step, ", allowed: 0 to 2^53");
+    solver.jump_operator().require_memory(state.memory);
+    solver.jump_operator().require_memory(state.search_memory);  // of its twin
 }
 
 // Histories that the host has changed since the solver was made: pattern, times, values.
@@ -191,10 +197,10 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
     std::vector<Jump> jumps;
     r.item(jumps);
     if (r.left() != sizeof(found_sum)) fail(DELAM_ERROR_SNAPSHOT, "snapshot has ", r.left(), " bytes too many");
-    check(state, solver.committed());
+    check(state, solver);
     std::int64_t step = state.step - static_cast<std::int64_t>(kept);
     for (const State& earlier : past) {
-        check(earlier, solver.committed());
+        check(earlier, solver);
         if (earlier.step != step++) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", earlier.step, " instead of ", step - 1);
     }
     solver.restore(std::move(state), std::move(past), std::move(jumps), std::move(patterns));

@@ -12,6 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
+#include "delam/delam.h"
+
 namespace delam {
 
 class Bulk;
@@ -53,6 +56,10 @@ public:
     // What of the past the last digits of the next solve depend on (empty: nothing); a recalled memory gives them again.
     virtual std::vector<double> memory() const { return {}; }
     virtual void recall(std::span<const double> /*memory*/) {}
+    // Throws Error(DELAM_ERROR_SNAPSHOT) for what memory() cannot have given.
+    virtual void require_memory(std::span<const double> memory) const {
+        if (!memory.empty()) fail(DELAM_ERROR_SNAPSHOT, "a memory of ", memory.size(), " numbers, this operator has none");
+    }
     // Another operator over the same condensed bodies, with a memory of its own; null: there is none that is cheap.
     virtual std::unique_ptr<JumpOperator> twin() const { return nullptr; }
     // The bodies condensed onto the jumps; null: they are not.

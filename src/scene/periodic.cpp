@@ -74,7 +74,11 @@ private:
     using Key = std::array<std::int64_t, 3>;
     Key cell(const Point& x) const {
         Key key{};
-        for (std::size_t d = 0; d < at(dimension_); ++d) key[d] = static_cast<std::int64_t>(std::floor(x[d] / width_));
+        constexpr std::int64_t most = std::int64_t{1} << 62;  // far nodes of a tiny grid share its last cells
+        for (std::size_t d = 0; d < at(dimension_); ++d) {
+            const double cells = std::floor(x[d] / width_);
+            key[d] = cells >= 0x1p62 ? most : cells > -0x1p62 ? static_cast<std::int64_t>(cells) : -most;
+        }
         return key;
     }
     double width_;
@@ -151,13 +155,14 @@ std::vector<PeriodicPair> periodic_pairs(const Mesh& mesh, std::span<const doubl
     }
     std::vector<PeriodicPair> pairs;
     for (const auto& [key, group] : gathered) {
+        const auto directions = key.first;  // clang's lambdas do not see parts of a pair
         std::vector<std::int64_t> left = key.second, rest;
         const auto join = [&](std::int64_t node, std::int64_t base) {
             PeriodicPair pair{node, base, {}};
             for (std::size_t k = 0; k < periods.size(); ++k)
-                if ((key.first >> k & 1u) != 0) pair.directions.push_back(k);
+                if ((directions >> k & 1u) != 0) pair.directions.push_back(k);
             pairs.push_back(std::move(pair));
-            met[at(base)] |= static_cast<std::uint8_t>(1u << key.first);
+            met[at(base)] |= static_cast<std::uint8_t>(1u << directions);
             std::erase(left, base);
         };
         for (const std::int64_t node : group) {

@@ -36,7 +36,7 @@ std::string suggested_size(const std::vector<double>& lengths, double h) {
     for (const double length : lengths) common = common_size(common, length, 1e-6 * *least);
     // Every size that divides all is `common` over a whole number: look at those from half of h to twice h.
     const double middle = std::max(1.0, std::round(common / h));
-    if (!(middle < 1e6)) return "";
+    if (!(middle < 1e4)) return "";
     std::string best;
     double best_cost = std::numeric_limits<double>::infinity();
     for (double k = std::max(1.0, std::floor(middle / 2)); k <= 2 * middle; k += 1) {

@@ -31,7 +31,10 @@ std::vector<double> divided_lengths(const Table& root) {
 
 // Number of cells of size h in a length, which must be a whole number of them.
 std::int64_t cells_of_size(const Table& root, const Table& table, std::string_view key, double length, double h) {
-    if (divides(h, length)) return static_cast<std::int64_t>(std::round(length / h));
+    constexpr double most = 2147483648.0;  // what the library takes
+    const double cells = std::round(length / h);
+    if (!(cells <= most)) table.fail(key, fmt::format("h = {} makes {:.6g} cells of {}: at most {:.0f}", h, cells, length, most));
+    if (divides(h, length)) return static_cast<std::int64_t>(cells);
     const std::string better = suggested_size(divided_lengths(root), h);
     table.fail(key, fmt::format("h = {} does not divide {} evenly ({:.6g} cells); {}", h, length, length / h,
                                 better.empty() ? "give divisions instead"

@@ -452,6 +452,44 @@ std::vector<double> Condensed::memory() const {
     return m;
 }
 
+Condensed::Choice Condensed::parse(std::span<const double> memory) const {
+    const std::size_t unknowns = always_.size();
+    const auto damaged = [](bool yes) {
+        if (yes) fail(DELAM_ERROR_SNAPSHOT, "the memory of the condensed operator is damaged");
+    };
+    damaged(memory.size() < 4 * unknowns + 1);
+    Choice choice{std::vector<std::uint8_t>(unknowns), std::vector<std::uint8_t>(unknowns), std::vector<std::uint8_t>(unknowns), {}};
+    auto& [age, inside, near, groups] = choice;
+    for (std::size_t i = 0; i < unknowns; ++i) {
+        damaged(!(memory[i] >= 0.0 && memory[i] < 16.0) || memory[i] != std::floor(memory[i]));
+        const auto code = static_cast<unsigned>(memory[i]);
+        age[i] = code & 3U;
+        inside[i] = (code >> 2U) & 1U;
+        near[i] = (code >> 3U) & 1U;
+    }
+    std::vector<std::uint8_t> reached = near;
+    for (std::size_t at = 4 * unknowns + 1; at < memory.size();) {
+        const double size = memory[at++];
+        damaged(!(size >= 1.0 && size <= static_cast<double>(memory.size() - at)));
+        std::vector<std::int64_t> group;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(size); ++k, ++at) {
+            damaged(!(memory[at] >= 0.0 && memory[at] < static_cast<double>(unknowns)));
+            const auto i = static_cast<std::int64_t>(memory[at]);
+            damaged(reached[index(i)] != 0);
+            reached[index(i)] = 1;
+            group.push_back(i);
+        }
+        groups.push_back(std::move(group));
+    }
+    for (std::size_t i = 0; i < unknowns; ++i) {
+        damaged(inside[i] != 0 && reached[i] == 0);
+        damaged(inside[i] == 0 && always_[i] != 0);
+    }
+    for (const double spring : memory.subspan(unknowns, 3 * unknowns)) damaged(!(spring >= 0.0 || spring == -1.0));
+    damaged(!(memory[4 * unknowns] >= 0.0));
+    return choice;
+}
+
 void Condensed::recall(std::span<const double> memory) {
     const std::size_t unknowns = always_.size();
     if (memory.empty()) {  // before the first zone was chosen
@@ -469,34 +507,7 @@ void Condensed::recall(std::span<const double> memory) {
         return;
     }
     if (std::ranges::equal(memory, this->memory())) return;
-    const auto damaged = [](bool yes) {
-        if (yes) fail(DELAM_ERROR_SNAPSHOT, "the memory of the condensed operator is damaged");
-    };
-    damaged(memory.size() < 4 * unknowns + 1);
-    std::vector<std::uint8_t> age(unknowns), inside(unknowns), near(unknowns);
-    for (std::size_t i = 0; i < unknowns; ++i) {
-        damaged(!(memory[i] >= 0.0 && memory[i] < 16.0) || memory[i] != std::floor(memory[i]));
-        const auto code = static_cast<unsigned>(memory[i]);
-        age[i] = code & 3U;
-        inside[i] = (code >> 2U) & 1U;
-        near[i] = (code >> 3U) & 1U;
-    }
-    std::vector<std::vector<std::int64_t>> groups;
-    std::vector<std::uint8_t> reached = near;
-    for (std::size_t at = 4 * unknowns + 1; at < memory.size();) {
-        const double size = memory[at++];
-        damaged(!(size >= 1.0 && size <= static_cast<double>(memory.size() - at)));
-        std::vector<std::int64_t> group;
-        for (std::size_t k = 0; k < static_cast<std::size_t>(size); ++k, ++at) {
-            damaged(!(memory[at] >= 0.0 && memory[at] < static_cast<double>(unknowns)));
-            const auto i = static_cast<std::int64_t>(memory[at]);
-            damaged(reached[index(i)] != 0);
-            reached[index(i)] = 1;
-            group.push_back(i);
-        }
-        groups.push_back(std::move(group));
-    }
-    for (std::size_t i = 0; i < unknowns; ++i) damaged(inside[i] != 0 && reached[i] == 0);
+    auto [age, inside, near, groups] = parse(memory);
     const auto part = [&](std::size_t k) { return memory.subspan(k * unknowns, unknowns); };
     age_ = std::move(age);
     inside_ = std::move(inside);

@@ -30,6 +30,7 @@ public:
     std::string description() const override;
     std::vector<double> memory() const override;
     void recall(std::span<const double> memory) override;
+    void require_memory(std::span<const double> memory) const override { if (!memory.empty()) parse(memory); }
 
     // For minimisers that work within the zone: makes all rows in `rows` part of it, with the other unknowns at these springs.
     // tight: a zone that is much larger than what is wanted is chosen anew.
@@ -40,6 +41,13 @@ public:
     void respond(const Springs& springs, std::span<const double> theta, const Zone::Solution* solution, Response& response) const;
 
 private:
+    // What memory() says, apart from the springs.
+    struct Choice {
+        std::vector<std::uint8_t> age, inside, near;
+        std::vector<std::vector<std::int64_t>> released;
+    };
+    // Throws Error(DELAM_ERROR_SNAPSHOT) where it contradicts itself or this operator.
+    Choice parse(std::span<const double> memory) const;
     bool covers(const Springs& springs) const;
     void choose(const Springs& springs, std::span<const std::uint8_t> wanted);
     void condense_outer(std::span<const std::uint8_t> near);

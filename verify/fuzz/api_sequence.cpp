@@ -1,0 +1,839 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A sequence of calls of the public API over a few handles, some of them NULL or of another kind, with arguments that
+// are plausible or hostile and callbacks that cancel and fail. A new function of the header is one more row of `calls`.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "contract.hpp"
+#include "input.hpp"
+#include "small_scene.hpp"
+
+namespace {
+
+using namespace fuzz;
+
+constexpr std::size_t slots = 3;  // of each kind
+constexpr int calls_at_most = 40;
+constexpr std::int64_t nodes_at_most = 400;
+
+// Callbacks of a law that the host computes: the bilinear law, until it is told to fail.
+struct HostLaw {
+    int fail_in = -1;  // calls until one fails
+    bool nonsense = false;
+    bool fails() { return fail_in >= 0 && fail_in-- == 0; }
+};
+constexpr double host_onset = 0.01, host_toughness = 0.05;
+std::int32_t host_adhesion(double, double driving, double* adhesion, double* slope, void* user) {
+    HostLaw& law = *static_cast<HostLaw*>(user);
+    if (law.fails()) return 1;
+    // zeta* of zeta Y + g with -g'(zeta) = 1/(zeta/sqrt(Go) + (1 - zeta)/sqrt(Ge))^2, sqrt(Go Ge) = Gc
+    const double first = std::sqrt(host_onset), last = host_toughness / first, root = std::sqrt(driving);
+    *adhesion = driving <= host_onset ? 1.0 : root >= last ? 0.0 : (1.0 / root - 1.0 / last) / (1.0 / first - 1.0 / last);
+    *slope = *adhesion <= 0.0 || *adhesion >= 1.0 ? 0.0 : -0.5 / (root * driving) / (1.0 / first - 1.0 / last);
+    if (law.nonsense) *adhesion = std::nan(""), *slope = 1.0;
+    return 0;
+}
+std::int32_t host_dissipation(double, double adhesion, double* dissipated, double* slope, double* mixity_slope,
+                              void* user) {
+    HostLaw& law = *static_cast<HostLaw*>(user);
+    if (law.fails()) return 1;
+    const double a = 1.0 / std::sqrt(host_onset), b = std::sqrt(host_onset) / host_toughness;
+    const double root = adhesion * a + (1.0 - adhesion) * b;
+    *dissipated = (1.0 / root - 1.0 / a) / (a - b);
+    *slope = -1.0 / (root * root);
+    *mixity_slope = 0.0;
+    if (law.nonsense) *dissipated = -*dissipated;
+    return 0;
+}
+
+template <class T>
+void destroy_handle(T** handle);
+template <>
+void destroy_handle(delam_mesh** handle) { delam_mesh_destroy(handle); }
+template <>
+void destroy_handle(delam_law** handle) { delam_law_destroy(handle); }
+template <>
+void destroy_handle(delam_problem** handle) { delam_problem_destroy(handle); }
+template <>
+void destroy_handle(delam_solver** handle) { delam_solver_destroy(handle); }
+
+// Handles of one kind, each with the host whose context it was made with.
+template <class T>
+struct Shelf {
+    T* handle[slots] = {};
+    Host* host[slots] = {};
+
+    void put(std::size_t slot, T* made, Host* with) {
+        destroy_handle(&handle[slot]);
+        handle[slot] = made;
+        host[slot] = with;
+    }
+    // Slots that are empty give NULL.
+    T* pick(Input& in) const { return handle[static_cast<std::size_t>(in.below(slots))]; }
+};
+
+// Two contexts, what was made with them, and the callbacks' own.
+struct World {
+    std::unique_ptr<Host> host[2] = {std::make_unique<Host>(), std::make_unique<Host>()};
+    HostLaw host_law;
+    Shelf<delam_mesh> mesh;
+    Shelf<delam_law> law;
+    Shelf<delam_problem> problem;
+    Shelf<delam_solver> solver;
+    // Of the call that runs: what it was asked of, and the callbacks that hear of it.
+    Host* heard = nullptr;
+
+    ~World() {
+        for (std::size_t i = 0; i < slots; ++i) {
+            delam_solver_destroy(&solver.handle[i]);
+            delam_problem_destroy(&problem.handle[i]);
+            delam_law_destroy(&law.handle[i]);
+            delam_mesh_destroy(&mesh.handle[i]);
+            expect(solver.handle[i] == nullptr && mesh.handle[i] == nullptr, "destroyed handles are NULL", "destroy");
+        }
+    }
+    Host& any_host(Input& in) { return *host[in.below(2)]; }
+
+    // Status of a call that makes an object, which goes to a slot where it succeeds.
+    template <class T, class Make>
+    std::int32_t make(Shelf<T>& shelf, Input& in, Host& with, Make&& call) {
+        T* made = reinterpret_cast<T*>(this);  // has to be overwritten
+        T** out = in.seldom() ? nullptr : &made;
+        const std::int32_t status = call(out);
+        if (out == nullptr) {
+            expect(status < 0, "no place for the object is an error", "create");
+            return status;
+        }
+        const bool is_there = status == DELAM_OK || status == DELAM_NOT_CONVERGED;
+        expect((made != nullptr) == is_there, "*out is NULL on error, and the object otherwise", "create");
+        if (made != nullptr) shelf.put(static_cast<std::size_t>(in.below(slots)), made, &with);
+        return status;
+    }
+};
+
+// ---- arguments ------------------------------------------------------------------------------------------------------
+
+const char* const value_keys[] = {
+    "stored_bulk", "stored_interface", "dissipated", "work", "lower", "upper", "defect", "defect_slides", "front",
+    "kkt_gap", "kkt_pressure", "kkt_complementarity", "kkt_equilibrium", "rotation_max", "damage_change",
+    "linear_residual", "crack_length", "crack_length:0", "crack_length:7", "energy_release_rate", "front_mixity:1",
+    "process_zone_length", "process_zone_pairs:0", "load:load", "reaction:load", "reaction:none", "search_gap",
+    "debonded_length", "contact_pairs", "mixity_error", "increment_lower", "bulk_factorisations", "field_recoveries",
+    "crack_length:", "crack_length:99999999999999999999", "crack_length:-1", "load:"};
+const char* const field_keys[] = {"displacement", "stress", "rotation", "jump", "traction",
+                                  "adhesion",     "mixity", "contact",  "reaction"};
+const char* const law_keys[] = {"normal_stiffness", "tangential_stiffness", "normal_onset", "tangential_onset",
+                                "normal_toughness", "tangential_toughness", "plateau", "gradient", "onset_exponent_1",
+                                "toughness_exponent_2", "onset_exponent", "toughness_exponent", "criterion"};
+const char* const law_kinds[] = {"piecewise-linear", "exponential", "trapezoidal", "tabulated", "griffith", "host"};
+const char* const criteria[] = {"valoroso-champaney", "power", "benzeggagh-kenane"};
+const char* const option_texts[] = {"auto", "off", "on", "local", "energetic", "fixed", "adaptive", "alternate",
+                                    "accelerated", "condensed", "feti", "always", "frozen", "converged", "variational",
+                                    "orthonormal", "redundant", "none", "lumped", "dirichlet", "series", "stiffness",
+                                    "multiplicity"};
+
+const char* option_key(Input& in) {
+    const char* key = nullptr;
+    const std::int64_t index = in.below(delam_option_count() + 1);
+    return delam_option_info(index, &key, nullptr, nullptr, nullptr, nullptr, nullptr) == DELAM_OK ? key : "no option";
+}
+
+struct MeshSizes {
+    std::int32_t dimension = 2;
+    std::int64_t nodes = 0, cells = 0, bodies = 0, interfaces = 0;
+};
+MeshSizes sizes_of(const delam_mesh* mesh) {
+    MeshSizes s;
+    delam_mesh_size(mesh, &s.dimension, &s.nodes, &s.cells, &s.bodies, &s.interfaces);
+    return s;
+}
+// A problem does not hand its mesh out: the dimension is told by the fields that only one has.
+struct ProblemSizes {
+    std::int64_t dofs = 0, dual = 0, patterns = 0;
+};
+ProblemSizes sizes_of(const delam_problem* problem) {
+    ProblemSizes s;
+    delam_problem_dofs(problem, &s.dofs, &s.dual);
+    delam_problem_pattern_count(problem, &s.patterns);
+    return s;
+}
+
+// A capacity near what is needed and a buffer of as many entries, so that one entry more is noticed.
+template <class T>
+struct Room {
+    Room(Input& in, std::int64_t needed) {
+        const std::uint8_t how = in.byte();
+        capacity = how == 255 ? -1 : how == 254 ? std::numeric_limits<std::int64_t>::min() : needed + how % 8 - 2;
+        if (how < 200) capacity = needed;
+        entries.resize(static_cast<std::size_t>(std::max<std::int64_t>(capacity, 0)));
+    }
+    std::int64_t capacity = 0;
+    std::vector<T> entries;
+    T* data() { return entries.data(); }
+};
+
+std::size_t few(Input& in) { return static_cast<std::size_t>(in.below(6)); }
+
+std::int32_t add_cells(Input& in, delam_mesh* mesh, bool conforming) {
+    static constexpr std::int32_t per_cell[] = {0, 3, 4, 4, 8, 6, 8, 9, 10, 20};
+    const std::int32_t type = in.seldom() ? static_cast<std::int32_t>(in.hostile_whole())
+                                          : 1 + static_cast<std::int32_t>(in.below(9));
+    const std::size_t count = few(in);
+    const std::size_t nodes = count * static_cast<std::size_t>(type >= 1 && type <= 9 ? per_cell[type] : 20);
+    const std::int32_t base = in.base();
+    std::vector<std::int64_t> connectivity = in.indices(nodes, sizes_of(mesh).nodes, base);
+    std::vector<std::int32_t> bodies(count);
+    for (std::int32_t& label : bodies) label = in.small_label(4);
+    const auto call = conforming ? delam_mesh_add_conforming_cells : delam_mesh_add_cells;
+    return in_order{call, mesh, type, static_cast<std::int64_t>(count), maybe(in, connectivity), maybe(in, bodies), base}.status;
+}
+
+std::int32_t add_obstacle(Input& in, delam_mesh* mesh) {
+    const MeshSizes s = sizes_of(mesh);
+    const std::size_t count = few(in);
+    const std::int32_t base = in.base();
+    std::vector<std::int64_t> nodes = in.indices(count, s.nodes, base);
+    std::vector<double> normals = in.reals(count * static_cast<std::size_t>(s.dimension));
+    std::vector<double> weights = in.reals(count);
+    std::int64_t index = -1;
+    return in_order{delam_mesh_add_obstacle, mesh, static_cast<std::int64_t>(count), maybe(in, nodes), maybe(in, normals),
+                                   in.flag() ? nullptr : weights.data(), in.index(s.nodes), base,
+                                   in.seldom() ? nullptr : &index}.status;
+}
+
+std::int32_t create_layers(Input& in, Host& host, delam_mesh** out) {
+    const std::int32_t dimension = in.seldom() ? static_cast<std::int32_t>(in.hostile_whole()) : 2 + in.flag();
+    std::vector<double> lengths = {in.real(), in.real()};
+    // Large products would be honest work: only single numbers are hostile.
+    std::vector<std::int64_t> divisions = {1 + in.below(4), 1 + in.below(2)};
+    const std::int64_t layers = in.below(4);
+    std::vector<double> thickness(static_cast<std::size_t>(layers));
+    std::vector<std::int64_t> across(static_cast<std::size_t>(layers), 1);
+    for (double& t : thickness) t = in.real();
+    if (in.seldom()) {
+        const std::int64_t many = in.hostile_whole();
+        if (many < 1 || many > 1000000000000) divisions[0] = many;
+    }
+    const std::int32_t type = in.seldom() ? static_cast<std::int32_t>(in.hostile_whole())
+                                          : 1 + static_cast<std::int32_t>(in.below(9));
+    return in_order{delam_mesh_create_layers, host.context, dimension, maybe(in, lengths), maybe(in, divisions), layers,
+                                    maybe(in, thickness), maybe(in, across), type, out}.status;
+}
+
+std::int32_t create_mesh(Input& in, Host& host, delam_mesh** out) {
+    const std::int32_t dimension = in.seldom() ? static_cast<std::int32_t>(in.hostile_whole()) : 2 + in.flag();
+    const std::size_t count = static_cast<std::size_t>(in.below(32));
+    std::vector<double> nodes(3 * count);
+    // On a grid, so that cells of them have a chance.
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        nodes[i] = in.seldom() ? in.signed_real() : static_cast<double>(in.below(4));
+    return delam_mesh_create(host.context, dimension, static_cast<std::int64_t>(count), maybe(in, nodes), out);
+}
+
+std::int32_t find_in(Input& in, const delam_mesh* mesh, bool patch) {
+    const MeshSizes s = sizes_of(mesh);
+    std::vector<double> lower = in.reals(3), upper = in.reals(3), direction = in.reals(3), weights;
+    if (in.flag())
+        for (std::size_t d = 0; d < 3; ++d) lower[d] = -1.0, upper[d] = 2.0;
+    Room<std::int64_t> nodes(in, s.nodes);
+    weights.resize(nodes.entries.size());
+    std::int64_t count = -1;
+    const std::int32_t body = in.seldom() ? in.small_label(3) : static_cast<std::int32_t>(in.below(4)) - 1;
+    if (patch)
+        return in_order{delam_mesh_find_patch, mesh, body, lower.data(), upper.data(), maybe(in, direction), nodes.capacity,
+                                     nodes.data(), weights.data(), in.seldom() ? nullptr : &count}.status;
+    return in_order{delam_mesh_find_nodes, mesh, body, maybe(in, lower), maybe(in, upper), nodes.capacity, nodes.data(),
+                                 in.seldom() ? nullptr : &count}.status;
+}
+
+std::int32_t add_pattern(Input& in, delam_problem* problem) {
+    static const char* const names[] = {"load", "a", "heat", "b-2"};
+    const std::size_t count = few(in);
+    std::vector<double> times(count), values = in.reals(count);
+    double last = in.flag() ? 0.0 : in.signed_real();
+    for (double& t : times) t = last, last += in.real();
+    std::int64_t index = -1;
+    return in_order{delam_problem_add_pattern, problem, in.word(names), static_cast<std::int64_t>(count), maybe(in, times),
+                                     maybe(in, values), in.seldom() ? nullptr : &index}.status;
+}
+
+// Prescribed nodes, means, equations and forces take much the same.
+enum class Load { nodes, mean, equation, forces };
+std::int32_t add_load(Input& in, delam_problem* problem, Load load) {
+    const ProblemSizes s = sizes_of(problem);
+    const std::size_t count = few(in), patterns = static_cast<std::size_t>(in.below(3));
+    const std::int32_t base = in.base();
+    const auto entries = static_cast<std::int64_t>(count), driven = static_cast<std::int64_t>(patterns);
+    std::vector<std::int64_t> nodes = in.indices(count, s.dofs / 3, base);
+    std::vector<std::int64_t> by = in.indices(patterns, s.patterns, base);
+    std::vector<double> direction = in.reals(3), weights = in.reals(count), vectors = in.reals(3 * count);
+    std::vector<double> coefficients = in.reals(std::max<std::size_t>(1, count) * std::max<std::size_t>(1, patterns));
+    switch (load) {
+        case Load::nodes:
+            return in_order{delam_problem_prescribe_nodes, problem, entries, maybe(in, nodes), maybe(in, direction), driven,
+                                                 maybe(in, by), maybe(in, coefficients), base}.status;
+        case Load::mean:
+            return in_order{delam_problem_prescribe_mean, problem, entries, maybe(in, nodes), maybe(in, weights),
+                                                maybe(in, direction), driven, maybe(in, by), maybe(in, coefficients),
+                                                base}.status;
+        case Load::equation:
+            return in_order{delam_problem_add_equation, problem, entries, maybe(in, nodes), maybe(in, vectors), driven,
+                                              maybe(in, by), maybe(in, coefficients), base}.status;
+        case Load::forces:
+            return in_order{delam_problem_add_forces, problem, in.index(s.patterns), entries, maybe(in, nodes), maybe(in, vectors),
+                                            base}.status;
+    }
+    return DELAM_OK;
+}
+
+std::int32_t add_periodic(Input& in, delam_problem* problem) {
+    std::vector<double> periods = in.reals(9);
+    if (in.flag()) periods = {1.0, 0.0, 0.0, 0.0, 0.0, 0.25, 0.0, 0.0, 1.0};
+    const std::int32_t base = in.base();
+    std::vector<std::int64_t> controls = in.indices(3, sizes_of(problem).dofs / 3, base);
+    return in_order{delam_problem_add_periodic, problem, in.seldom() ? in.hostile_whole() % 4 : in.below(4), maybe(in, periods),
+                                      maybe(in, controls), in.flag() ? 0.0 : in.fraction(), base}.status;
+}
+
+std::int32_t set_orientation(Input& in, delam_problem* problem) {
+    const std::size_t count = few(in);
+    const std::int32_t base = in.base();
+    std::vector<std::int64_t> cells = in.indices(count, 6, base);
+    std::vector<double> axes = in.reals(6 * std::max<std::size_t>(1, count));
+    const bool whole = in.flag();
+    return in_order{delam_problem_set_orientation, problem, in.body(), whole ? 1 : static_cast<std::int64_t>(count),
+                                         whole ? nullptr : cells.data(), maybe(in, axes), base}.status;
+}
+
+std::int32_t set_orthotropic(Input& in, delam_problem* problem) {
+    std::vector<double> constants = {1000.0, 100.0, 100.0, 0.25, 0.25, 0.4, 50.0, 50.0, 40.0};
+    for (std::int64_t left = in.below(3); left > 0; --left)
+        constants[static_cast<std::size_t>(in.below(9))] = in.signed_real();
+    return in_order{delam_problem_set_orthotropic, problem, in.body(), maybe(in, constants)}.status;
+}
+
+std::int32_t body_matrix(Input& in, const delam_problem* problem) {
+    std::int64_t rows = 0, entries = 0;
+    const std::int32_t body = in.small_label(3);
+    const std::int32_t status = delam_problem_body_matrix(problem, body, &rows, &entries, nullptr, nullptr, nullptr);
+    if (status != DELAM_OK) return status;
+    std::vector<std::int64_t> starts(static_cast<std::size_t>(rows + 1)), columns(static_cast<std::size_t>(entries));
+    std::vector<double> values(static_cast<std::size_t>(entries));
+    return in_order{delam_problem_body_matrix, problem, body, nullptr, nullptr, maybe(in, starts), maybe(in, columns),
+                                     maybe(in, values)}.status;
+}
+
+std::int32_t constraints(Input& in, const delam_problem* problem) {
+    std::int64_t rows = 0, entries = 0, patterns = 0;
+    delam_problem_constraints(problem, &rows, &entries, &patterns, nullptr, nullptr, nullptr, nullptr);
+    std::vector<std::int64_t> starts(static_cast<std::size_t>(rows + 1)), columns(static_cast<std::size_t>(entries));
+    std::vector<double> values(columns.size()), coefficients(static_cast<std::size_t>(rows * patterns));
+    const std::int32_t status = in_order{delam_problem_constraints, problem, nullptr, nullptr, nullptr, maybe(in, starts),
+                                                          columns.data(), values.data(), maybe(in, coefficients)}.status;
+    for (const double v : values) expect(std::isfinite(v), "constraints are finite", "delam_problem_constraints");
+    for (const double v : coefficients) expect(std::isfinite(v), "constraints are finite", "delam_problem_constraints");
+    return status;
+}
+
+double next_time(Input& in, delam_solver* solver) {
+    double time = 0.0;
+    delam_solver_value(solver, "time", &time);
+    return in.seldom() ? in.hostile_real() : time + 0.125 * static_cast<double>(1 + in.below(8));
+}
+
+// A call of the march: the progress callback may cancel, the law's may fail.
+template <class Call>
+std::int32_t watched(World& world, Input& in, Call&& call) {
+    if (in.seldom() || in.seldom()) {
+        world.heard->cancel_in = in.below(64);
+        world.heard->cancel_by_call = in.flag();
+    }
+    if (in.seldom()) world.host_law.fail_in = in.byte();
+    const std::int32_t status = call();
+    world.heard->cancel_in = -1;
+    world.host_law.fail_in = -1;
+    return status;
+}
+
+std::int32_t equilibrate(Input& in, delam_solver* solver) {
+    std::int64_t pairs = 0, one = 0;
+    delam_solver_field_shape(solver, "adhesion", -1, &pairs, &one);
+    std::vector<double> adhesion(static_cast<std::size_t>(pairs));
+    for (double& zeta : adhesion) zeta = in.fraction();
+    return in_order{delam_solver_equilibrate, solver, next_time(in, solver), in.flag() ? nullptr : adhesion.data()}.status;
+}
+
+std::int32_t read_field(Input& in, delam_solver* solver) {
+    const char* key = in.word(field_keys);
+    const std::int64_t part = in.flag() ? -1 : in.index(3);
+    std::int64_t rows = -1, columns = -1;
+    const std::int32_t status = delam_solver_field_shape(solver, key, part, in.seldom() ? nullptr : &rows, &columns);
+    if (status != DELAM_OK || rows < 0) return status;
+    Room<double> room(in, rows * columns);
+    return delam_solver_field(solver, key, part, room.capacity, room.data());
+}
+
+std::int32_t read_front(Input& in, delam_solver* solver) {
+    const std::int64_t index = in.index(3);
+    std::int64_t fronts = 0, points = 0;
+    const std::int32_t status = delam_solver_front_count(solver, index, &fronts, &points);
+    if (status != DELAM_OK) return status;
+    Room<std::int32_t> closed(in, fronts);
+    Room<double> lengths(in, points);
+    std::vector<std::int64_t> starts(closed.entries.size() + 1);
+    const std::size_t room = lengths.entries.size();
+    std::vector<double> places(3 * room), directions(3 * room), rates(3 * room), zones(room), pairs(room);
+    return in_order{delam_solver_front, solver, index, closed.capacity, lengths.capacity, maybe(in, starts), closed.data(),
+                              maybe(in, places), maybe(in, directions), lengths.data(), maybe(in, rates),
+                              maybe(in, zones), maybe(in, pairs)}.status;
+}
+
+std::int32_t read_all_values(delam_solver* solver) {
+    std::int64_t count = 0;
+    delam_solver_value_count(solver, &count);
+    for (std::int64_t i = 0; i < count; ++i) {
+        const char* name = delam_solver_value_name(solver, i);
+        expect(name != nullptr, "a value has a name", "delam_solver_value_name");
+        const std::string key = name;
+        double value = 0.0;
+        const std::int32_t status = delam_solver_value(solver, key.c_str(), &value);
+        if (status != DELAM_OK) return status;
+    }
+    return DELAM_OK;
+}
+
+std::int32_t read_jumps(Input& in, delam_solver* solver) {
+    std::int64_t count = 0;
+    delam_solver_jump_count(solver, &count);
+    double released = 0.0;
+    std::int64_t step = 0, first = 0;
+    return delam_solver_jump(solver, in.index(count), &step, nullptr, nullptr, nullptr, nullptr, &released, nullptr,
+                             nullptr, &first, nullptr);
+}
+
+std::int32_t read_plan(Input& in, delam_solver* solver) {
+    expect(delam_solver_plan(solver) != nullptr, "never NULL", "delam_solver_plan");
+    std::int64_t count = 0;
+    delam_solver_plan_count(solver, &count);
+    const char *subject = nullptr, *reason = nullptr;
+    double cost = 0.0;
+    return delam_solver_plan_item(solver, in.index(count), &subject, nullptr, &reason, &cost, nullptr, nullptr);
+}
+
+std::int32_t tangent(Input& in, delam_solver* solver, std::int64_t patterns) {
+    Room<double> room(in, patterns * patterns);
+    return delam_solver_tangent(solver, room.capacity, room.data());
+}
+
+// Bytes of one solver into another, of the same scene or not, whole or cut.
+std::int32_t save_and_load(World& world, Input& in, delam_solver* solver) {
+    const delam_solver* from = world.solver.pick(in);
+    if (from == nullptr) from = solver;
+    std::vector<std::uint8_t> bytes = saved(from);
+    if (in.seldom()) bytes.resize(bytes.size() - static_cast<std::size_t>(in.below(9)));
+    if (in.seldom() && !bytes.empty()) bytes[in.raw<std::uint16_t>() % bytes.size()] ^= in.byte();
+    return in_order{delam_solver_load, solver, in.seldom() ? in.hostile_whole() % 2 : static_cast<std::int64_t>(bytes.size()),
+                             maybe(in, bytes)}.status;
+}
+
+std::int32_t law_respond(Input& in, const delam_law* law) {
+    const std::size_t count = few(in);
+    std::vector<double> jump = in.reals(3 * count), mixity(count), old(count), adhesion(count), traction(3 * count);
+    for (std::size_t i = 0; i < count; ++i) mixity[i] = in.fraction(), old[i] = in.fraction();
+    return in_order{delam_law_respond, law, in.seldom() ? 4 : 2 + in.flag(), static_cast<std::int64_t>(count), maybe(in, jump),
+                             maybe(in, mixity), maybe(in, old), adhesion.data(), maybe(in, traction)}.status;
+}
+
+std::int32_t law_toughness(Input& in, const delam_law* law) {
+    const std::size_t count = few(in);
+    std::vector<double> mixity(count), onset(count), toughness(count);
+    for (double& b : mixity) b = in.fraction();
+    return in_order{delam_law_toughness, law, static_cast<std::int64_t>(count), maybe(in, mixity), maybe(in, onset),
+                               maybe(in, toughness)}.status;
+}
+
+std::int32_t law_table(Input& in, delam_law* law) {
+    const std::size_t count = few(in);
+    std::vector<double> xi(count), s(count);
+    for (std::size_t i = 0; i < count; ++i) xi[i] = in.fraction(), s[i] = in.fraction();
+    if (count >= 2 && in.flag()) xi.front() = 0.0, xi.back() = 1.0, s.front() = 1.0, s.back() = 0.0;
+    return in_order{delam_law_set_table, law, static_cast<std::int64_t>(count), maybe(in, xi), maybe(in, s)}.status;
+}
+
+// ---- the table ------------------------------------------------------------------------------------------------------
+
+struct Asked {
+    World& world;
+    Input& in;
+    Host& host;  // of the subject
+    delam_mesh* mesh;
+    delam_law* law;
+    delam_problem* problem;
+    delam_solver* solver;
+};
+
+enum class Subject { host, mesh, law, problem, solver };
+
+struct Call {
+    const char* name;
+    Subject subject;
+    Statuses documented;
+    std::int32_t (*make)(const Asked&);
+};
+
+const Call calls[] = {
+    {"delam_mesh_create", Subject::host, may::argument,
+     [](const Asked& a) {
+         return a.world.make(a.world.mesh, a.in, a.host, [&](delam_mesh** o) { return create_mesh(a.in, a.host, o); });
+     }},
+    {"delam_mesh_create_layers", Subject::host, may::argument | may::mesh,
+     [](const Asked& a) {
+         return a.world.make(a.world.mesh, a.in, a.host, [&](delam_mesh** o) { return create_layers(a.in, a.host, o); });
+     }},
+    {"delam_law_create", Subject::host, may::argument,
+     [](const Asked& a) {
+         return a.world.make(a.world.law, a.in, a.host,
+                             [&](delam_law** o) { return delam_law_create(a.host.context, a.in.word(law_kinds), o); });
+     }},
+    {"delam_law_create_host", Subject::host, may::argument,
+     [](const Asked& a) {
+         return a.world.make(a.world.law, a.in, a.host, [&](delam_law** o) {
+             const std::int32_t status =
+                 in_order{delam_law_create_host, a.host.context, a.in.seldom() ? "" : "bilinear", host_adhesion,
+                                       a.in.seldom() ? nullptr : host_dissipation, &a.world.host_law, o}.status;
+             if (status == DELAM_OK)
+                 for (const char* key : {"normal_stiffness", "tangential_stiffness"}) delam_law_set(*o, key, 1e4);
+             return status;
+         });
+     }},
+    {"delam_problem_create", Subject::host, may::argument,
+     [](const Asked& a) {
+         return a.world.make(a.world.problem, a.in, a.host, [&](delam_problem** o) {
+             return delam_problem_create(a.host.context, a.world.mesh.pick(a.in), o);
+         });
+     }},
+    {"delam_context_cancel", Subject::host, may::usual,
+     [](const Asked& a) { return a.in.seldom() ? delam_context_cancel(a.host.context) : DELAM_OK; }},
+    {"delam_context_set_log", Subject::host, may::usual,
+     [](const Asked& a) {
+         a.host.listens = false;
+         return delam_context_set_log(a.host.context, nullptr, nullptr);
+     }},
+    {"a whole scene", Subject::host, may::usual,
+     [](const Asked& a) {
+         SmallScene scene = small_scene(a.host, a.in);
+         const auto slot = static_cast<std::size_t>(a.in.below(slots));
+         a.world.mesh.put(slot, scene.mesh, &a.host);
+         a.world.law.put(slot, scene.law, &a.host);
+         a.world.problem.put(slot, scene.problem, &a.host);
+         return DELAM_OK;
+     }},
+    {"the host's law turns", Subject::host, may::usual,
+     [](const Asked& a) {
+         a.world.host_law.nonsense = a.in.flag();
+         return DELAM_OK;
+     }},
+
+    {"delam_mesh_add_cells", Subject::mesh, may::argument | may::mesh | may::state,
+     [](const Asked& a) { return add_cells(a.in, a.mesh, false); }},
+    {"delam_mesh_add_conforming_cells", Subject::mesh, may::argument | may::mesh | may::state,
+     [](const Asked& a) { return add_cells(a.in, a.mesh, true); }},
+    {"delam_mesh_add_interface", Subject::mesh, may::argument | may::mesh,
+     [](const Asked& a) {
+         std::int64_t index = -1;
+         return in_order{delam_mesh_add_interface, a.mesh, a.in.small_label(3), a.in.small_label(3),
+                                         a.in.flag() ? 0.0 : a.in.fraction(), a.in.seldom() ? nullptr : &index}.status;
+     }},
+    {"delam_mesh_add_all_interfaces", Subject::mesh, may::argument | may::mesh,
+     [](const Asked& a) {
+         std::int64_t count = -1;
+         return in_order{delam_mesh_add_all_interfaces, a.mesh, a.in.flag() ? 0.0 : a.in.fraction(),
+                                              a.in.seldom() ? nullptr : &count}.status;
+     }},
+    {"delam_mesh_add_projected_interface", Subject::mesh, may::argument | may::mesh,
+     [](const Asked& a) {
+         std::int64_t index = -1;
+         return in_order{delam_mesh_add_projected_interface, a.mesh, a.in.small_label(3), a.in.small_label(3),
+                                                   a.in.flag() ? 0.0 : a.in.real(), a.in.seldom() ? nullptr : &index}.status;
+     }},
+    {"delam_mesh_add_obstacle", Subject::mesh, may::argument | may::mesh,
+     [](const Asked& a) { return add_obstacle(a.in, a.mesh); }},
+    {"delam_mesh_find_nodes", Subject::mesh, may::argument, [](const Asked& a) { return find_in(a.in, a.mesh, false); }},
+    {"delam_mesh_find_patch", Subject::mesh, may::argument, [](const Asked& a) { return find_in(a.in, a.mesh, true); }},
+    {"delam_mesh_nodes", Subject::mesh, may::argument,
+     [](const Asked& a) {
+         Room<double> room(a.in, sizes_of(a.mesh).nodes * sizes_of(a.mesh).dimension);
+         return delam_mesh_nodes(a.mesh, room.capacity, room.data());
+     }},
+    {"delam_mesh_destroy", Subject::mesh, may::usual,
+     [](const Asked& a) {
+         a.world.mesh.put(static_cast<std::size_t>(a.in.below(slots)), nullptr, nullptr);
+         return DELAM_OK;
+     }},
+
+    {"delam_law_set", Subject::law, may::argument,
+     [](const Asked& a) { return in_order{delam_law_set, a.law, a.in.word(law_keys), a.in.signed_real()}.status; }},
+    {"delam_law_set_text", Subject::law, may::argument,
+     [](const Asked& a) { return in_order{delam_law_set_text, a.law, a.in.seldom() ? a.in.word(law_keys) : "criterion", a.in.word(criteria)}.status; }},
+    {"delam_law_set_table", Subject::law, may::argument, [](const Asked& a) { return law_table(a.in, a.law); }},
+    {"delam_law_check", Subject::law, may::problem,
+     [](const Asked& a) { return watched(a.world, a.in, [&] { return delam_law_check(a.law); }); }},
+    {"delam_law_toughness", Subject::law, may::argument | may::problem,
+     [](const Asked& a) { return law_toughness(a.in, a.law); }},
+    {"delam_law_respond", Subject::law, may::argument | may::problem, [](const Asked& a) { return law_respond(a.in, a.law); }},
+    {"delam_law_destroy", Subject::law, may::usual,
+     [](const Asked& a) {
+         a.world.law.put(static_cast<std::size_t>(a.in.below(slots)), nullptr, nullptr);
+         return DELAM_OK;
+     }},
+
+    {"delam_problem_set_plane", Subject::problem, may::argument,
+     [](const Asked& a) {
+         static const char* const planes[] = {"plane-strain", "plane-stress"};
+         return delam_problem_set_plane(a.problem, a.in.word(planes));
+     }},
+    {"delam_problem_set_elastic", Subject::problem, may::argument,
+     [](const Asked& a) {
+         return in_order{delam_problem_set_elastic, a.problem, a.in.body(), 1000.0 * a.in.real(),
+                                          0.25 * a.in.signed_real()}.status;
+     }},
+    {"delam_problem_set_orthotropic", Subject::problem, may::argument,
+     [](const Asked& a) { return set_orthotropic(a.in, a.problem); }},
+    {"delam_problem_set_orientation", Subject::problem, may::argument,
+     [](const Asked& a) { return set_orientation(a.in, a.problem); }},
+    {"delam_problem_set_formulation", Subject::problem, may::argument,
+     [](const Asked& a) {
+         static const char* const words[] = {"standard", "incompatible", "mean-dilatation"};
+         return in_order{delam_problem_set_formulation, a.problem, a.in.body(), a.in.word(words)}.status;
+     }},
+    {"delam_problem_set_law", Subject::problem, may::argument | may::problem,
+     [](const Asked& a) {
+         return watched(a.world, a.in,
+                        [&] { return in_order{delam_problem_set_law, a.problem, a.in.index(2), a.world.law.pick(a.in)}.status; });
+     }},
+    {"delam_problem_set_bonded", Subject::problem, may::argument,
+     [](const Asked& a) { return delam_problem_set_bonded(a.problem, a.in.index(2)); }},
+    {"delam_problem_set_contact", Subject::problem, may::argument,
+     [](const Asked& a) { return delam_problem_set_contact(a.problem, a.in.index(2)); }},
+    {"delam_problem_set_adhesion", Subject::problem, may::argument,
+     [](const Asked& a) {
+         const std::size_t count = few(a.in);
+         const std::int32_t base = a.in.base();
+         std::vector<std::int64_t> pairs = a.in.indices(count, 4, base);
+         std::vector<double> adhesion(count);
+         for (double& zeta : adhesion) zeta = a.in.fraction();
+         return in_order{delam_problem_set_adhesion, a.problem, a.in.index(2), static_cast<std::int64_t>(count),
+                                           maybe(a.in, pairs), maybe(a.in, adhesion), base}.status;
+     }},
+    {"delam_problem_add_pattern", Subject::problem, may::argument,
+     [](const Asked& a) { return add_pattern(a.in, a.problem); }},
+    {"delam_problem_prescribe_nodes", Subject::problem, may::argument | may::problem,
+     [](const Asked& a) { return add_load(a.in, a.problem, Load::nodes); }},
+    {"delam_problem_prescribe_mean", Subject::problem, may::argument | may::problem,
+     [](const Asked& a) { return add_load(a.in, a.problem, Load::mean); }},
+    {"delam_problem_add_equation", Subject::problem, may::argument | may::problem,
+     [](const Asked& a) { return add_load(a.in, a.problem, Load::equation); }},
+    {"delam_problem_add_forces", Subject::problem, may::argument | may::problem,
+     [](const Asked& a) { return add_load(a.in, a.problem, Load::forces); }},
+    {"delam_problem_add_periodic", Subject::problem, may::argument | may::mesh,
+     [](const Asked& a) { return add_periodic(a.in, a.problem); }},
+    {"delam_problem_add_eigenstrain", Subject::problem, may::argument | may::problem,
+     [](const Asked& a) {
+         std::vector<double> strain = a.in.reals(6);
+         for (double& e : strain) e *= 1e-3;
+         return in_order{delam_problem_add_eigenstrain, a.problem, a.in.index(sizes_of(a.problem).patterns),
+                                              a.in.body(), maybe(a.in, strain)}.status;
+     }},
+    {"delam_problem_set_number", Subject::problem, may::argument,
+     [](const Asked& a) {
+         const char* key = option_key(a.in);
+         return in_order{delam_problem_set_number, a.problem, key, a.in.seldom() ? a.in.hostile_real() : a.in.real()}.status;
+     }},
+    {"delam_problem_set_text", Subject::problem, may::argument,
+     [](const Asked& a) {
+         const char* key = option_key(a.in);
+         return delam_problem_set_text(a.problem, key, a.in.word(option_texts));
+     }},
+    {"delam_problem_check", Subject::problem, may::problem,
+     [](const Asked& a) { return watched(a.world, a.in, [&] { return delam_problem_check(a.problem); }); }},
+    {"delam_problem_process_zone", Subject::problem, may::argument | may::problem,
+     [](const Asked& a) {
+         double length = 0.0;
+         return delam_problem_process_zone(a.problem, a.in.index(2), &length, nullptr);
+     }},
+    {"delam_problem_body_matrix", Subject::problem, may::argument | may::problem,
+     [](const Asked& a) { return body_matrix(a.in, a.problem); }},
+    {"delam_problem_constraints", Subject::problem, may::usual,
+     [](const Asked& a) { return constraints(a.in, a.problem); }},
+    {"delam_problem_forces", Subject::problem, may::argument | may::problem,
+     [](const Asked& a) {
+         Room<double> room(a.in, sizes_of(a.problem).dofs);
+         return delam_problem_forces(a.problem, a.in.index(sizes_of(a.problem).patterns), room.capacity, room.data());
+     }},
+    {"delam_problem_eigenstrain_energy", Subject::problem, may::argument | may::problem,
+     [](const Asked& a) {
+         const std::int64_t patterns = sizes_of(a.problem).patterns;
+         Room<double> room(a.in, patterns * patterns);
+         return delam_problem_eigenstrain_energy(a.problem, room.capacity, room.data());
+     }},
+    {"delam_problem_factors", Subject::problem, may::argument,
+     [](const Asked& a) {
+         Room<double> room(a.in, sizes_of(a.problem).patterns);
+         const std::int32_t status = delam_problem_factors(a.problem, a.in.signed_real(), room.capacity, room.data());
+         for (std::int64_t p = 0; status == DELAM_OK && p < sizes_of(a.problem).patterns; ++p)
+             expect(std::isfinite(room.entries[static_cast<std::size_t>(p)]), "factors are finite", "delam_problem_factors");
+         return status;
+     }},
+    {"delam_problem_destroy", Subject::problem, may::usual,
+     [](const Asked& a) {
+         a.world.problem.put(static_cast<std::size_t>(a.in.below(slots)), nullptr, nullptr);
+         return DELAM_OK;
+     }},
+    {"delam_solver_create", Subject::problem, may::not_converged | may::cancelled | may::limit | may::argument | may::problem | may::numerical,
+     [](const Asked& a) {
+         return watched(a.world, a.in, [&] {
+             return a.world.make(a.world.solver, a.in, a.host, [&](delam_solver** o) {
+                 return in_order{delam_solver_create, a.problem, a.in.seldom() ? a.in.hostile_real() : 0.0, o}.status;
+             });
+         });
+     }},
+
+    {"delam_solver_advance", Subject::solver, may::not_converged | may::cancelled | may::limit | may::argument | may::problem | may::state | may::numerical,
+     [](const Asked& a) {
+         return watched(a.world, a.in, [&] { return delam_solver_advance(a.solver, next_time(a.in, a.solver)); });
+     }},
+    {"delam_solver_commit", Subject::solver, may::state, [](const Asked& a) { return delam_solver_commit(a.solver); }},
+    {"delam_solver_rollback", Subject::solver, may::state, [](const Asked& a) { return delam_solver_rollback(a.solver); }},
+    {"delam_solver_equilibrate", Subject::solver,
+     may::not_converged | may::cancelled | may::limit | may::argument | may::problem | may::state | may::numerical,
+     [](const Asked& a) { return watched(a.world, a.in, [&] { return equilibrate(a.in, a.solver); }); }},
+    {"delam_solver_look", Subject::solver, may::argument,
+     [](const Asked& a) { return in_order{delam_solver_look, a.solver, a.in.index(7) - 1}.status; }},
+    {"delam_solver_value", Subject::solver, may::argument | may::problem,
+     [](const Asked& a) {
+         double value = 0.0;
+         return in_order{delam_solver_value, a.solver, a.in.word(value_keys), a.in.seldom() ? nullptr : &value}.status;
+     }},
+    {"all values", Subject::solver, may::argument | may::problem, [](const Asked& a) { return read_all_values(a.solver); }},
+    {"delam_solver_field", Subject::solver, may::argument, [](const Asked& a) { return read_field(a.in, a.solver); }},
+    {"delam_solver_average", Subject::solver, may::argument,
+     [](const Asked& a) {
+         std::vector<double> strain(6), stress(6);
+         double volume = 0.0;
+         return in_order{delam_solver_average, a.solver, a.in.body(), &volume, maybe(a.in, strain),
+                                     maybe(a.in, stress)}.status;
+     }},
+    {"delam_solver_front", Subject::solver, may::argument | may::problem, [](const Asked& a) { return read_front(a.in, a.solver); }},
+    {"delam_solver_tangent", Subject::solver, may::cancelled | may::argument | may::state | may::numerical,
+     [](const Asked& a) {
+         return watched(a.world, a.in, [&] { return tangent(a.in, a.solver, 1 + a.in.below(3)); });
+     }},
+    {"delam_solver_jump", Subject::solver, may::argument, [](const Asked& a) { return read_jumps(a.in, a.solver); }},
+    {"delam_solver_plan_item", Subject::solver, may::argument, [](const Asked& a) { return read_plan(a.in, a.solver); }},
+    {"delam_solver_option", Subject::solver, may::argument,
+     [](const Asked& a) {
+         expect(delam_solver_option(a.solver, "solution") != nullptr, "a known option has a value", "delam_solver_option");
+         expect(delam_solver_searched(a.solver) != nullptr, "never NULL", "delam_solver_searched");
+         return DELAM_OK;
+     }},
+    {"delam_solver_load", Subject::solver, may::cancelled | may::argument | may::numerical | may::snapshot,
+     [](const Asked& a) { return watched(a.world, a.in, [&] { return save_and_load(a.world, a.in, a.solver); }); }},
+    {"delam_solver_destroy", Subject::solver, may::usual,
+     [](const Asked& a) {
+         a.world.solver.put(static_cast<std::size_t>(a.in.below(slots)), nullptr, nullptr);
+         return DELAM_OK;
+     }},
+};
+
+// NULL and handles of another kind are refused by all; that they are destroyed cannot always be seen.
+template <class T>
+void refuse_others(const Call& call, World& world, Input& in) {
+    void* other = in.flag() ? nullptr : static_cast<void*>(world.host[0]->context);
+    Asked asked{world, in, *world.host[0], static_cast<delam_mesh*>(other), static_cast<delam_law*>(other),
+                static_cast<delam_problem*>(other), static_cast<delam_solver*>(other)};
+    world.heard = world.host[0].get();
+    (void)call;
+    double value = 0.0;
+    std::int64_t count = 0;
+    expect(delam_mesh_nodes(asked.mesh, 0, &value) == DELAM_ERROR_HANDLE, "foreign handles are refused", "mesh");
+    expect(delam_law_check(asked.law) == DELAM_ERROR_HANDLE, "foreign handles are refused", "law");
+    expect(delam_problem_check(asked.problem) == DELAM_ERROR_HANDLE, "foreign handles are refused", "problem");
+    expect(delam_solver_advance(asked.solver, 1.0) == DELAM_ERROR_HANDLE, "foreign handles are refused", "solver");
+    expect(delam_solver_jump_count(asked.solver, &count) == DELAM_ERROR_HANDLE, "foreign handles are refused", "solver");
+}
+
+// One call on one object: what it may return, and that errors, cancellations and limits leave the object as it was.
+template <class T>
+void ask(World& world, Input& in, const Call& call, Shelf<T>& shelf, T* Asked::*member) {
+    const auto slot = static_cast<std::size_t>(in.below(slots));
+    T* subject = shelf.handle[slot];
+    if (subject == nullptr) {
+        refuse_others<T>(call, world, in);
+        return;
+    }
+    Host& host = *shelf.host[slot];
+    world.heard = &host;
+    const std::string before = print_of(subject);
+    Asked asked{world, in, host, nullptr, nullptr, nullptr, nullptr};
+    asked.*member = subject;
+    host.begin();
+    const std::int32_t status = call.make(asked);
+    host.settle(call.name, status, call.documented);
+    const bool untouched = status < 0 || status == DELAM_CANCELLED || status == DELAM_LIMIT;
+    if (untouched && shelf.handle[slot] == subject)
+        expect(print_of(subject) == before, "an error leaves the object as it was", call.name);
+}
+
+bool too_large(const delam_mesh* mesh) { return sizes_of(mesh).nodes > nodes_at_most; }
+
+void one(World& world, Input& in, const Call& call) {
+    switch (call.subject) {
+        case Subject::host: {
+            Host& host = world.any_host(in);
+            world.heard = &host;
+            host.begin();
+            host.settle(call.name, call.make({world, in, host, nullptr, nullptr, nullptr, nullptr}), call.documented);
+            break;
+        }
+        case Subject::mesh: ask(world, in, call, world.mesh, &Asked::mesh); break;
+        case Subject::law: ask(world, in, call, world.law, &Asked::law); break;
+        case Subject::problem: ask(world, in, call, world.problem, &Asked::problem); break;
+        case Subject::solver: ask(world, in, call, world.solver, &Asked::solver); break;
+    }
+    for (std::size_t i = 0; i < slots; ++i)
+        if (world.mesh.handle[i] != nullptr && too_large(world.mesh.handle[i])) world.mesh.put(i, nullptr, nullptr);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    Input in(data, size);
+    World world;
+    // Most calls of a march need one: a scene and its solver come first, more often than not.
+    if (in.byte() % 4 != 0) {
+        SmallScene scene = small_scene(*world.host[0], in);
+        world.mesh.put(0, scene.mesh, world.host[0].get());
+        world.law.put(0, scene.law, world.host[0].get());
+        world.problem.put(0, scene.problem, world.host[0].get());
+        delam_solver* solver = nullptr;
+        world.heard = world.host[0].get();
+        world.heard->begin();
+        const std::int32_t status = delam_solver_create(scene.problem, 0.0, &solver);
+        world.heard->settle("delam_solver_create", status, may::not_converged | may::limit | may::argument | may::problem | may::numerical);
+        if (solver != nullptr) world.solver.put(0, solver, world.host[0].get());
+    }
+    const bool trace = std::getenv("FUZZ_TRACE") != nullptr;
+    for (int i = 0; i < calls_at_most && !in.empty(); ++i) {
+        const Call& call = calls[in.byte() % std::size(calls)];
+        if (trace) std::fprintf(stderr, "%s\n", call.name);
+        one(world, in, call);
+    }
+    // Contexts may go before what was made with them.
+    if (in.flag()) world.host[0].reset(), world.host[1].reset();
+    return 0;
+}

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Saved states that were tampered with. An input names a scene, a number of steps, and what is done to the bytes that
+// the solver saves then: so it means the same in every version of the format. Afterwards the checksum may be put right,
+// so that what lies behind it is read. Refused by name, with nothing changed; or accepted, and then a state like others.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <string>
+
+#include "contract.hpp"
+#include "input.hpp"
+#include "small_scene.hpp"
+
+namespace {
+
+using namespace fuzz;
+using Bytes = std::vector<std::uint8_t>;
+
+// The last 8 bytes: FNV-1a of all before them.
+Bytes with_checksum(Bytes bytes) {
+    if (bytes.size() < 8) return bytes;
+    std::uint64_t sum = 14695981039346656037ULL;
+    for (std::size_t i = 0; i + 8 < bytes.size(); ++i) sum = (sum ^ bytes[i]) * 1099511628211ULL;
+    std::memcpy(bytes.data() + bytes.size() - 8, &sum, 8);
+    return bytes;
+}
+
+// A scene with the states that its march has saved, and what the march does behind each.
+class March {
+public:
+    explicit March(const Bytes& recipe) {
+        Input in(recipe.data(), recipe.size());
+        SmallScene scene = small_scene(host_, in);
+        expect(delam_solver_create(scene.problem, 0.0, &solver_) >= 0, "a march begins", "delam_solver_create");
+        destroy(scene);
+        expect(solver_ != nullptr, "a march begins", "delam_solver_create");
+        states_.push_back(saved(solver_));
+        for (int step = 1; step <= steps; ++step) {
+            expect(advance(step) >= 0, "a march goes on", "delam_solver_advance");
+            delam_solver_commit(solver_);
+            states_.push_back(saved(solver_));
+        }
+        for (const Bytes& bytes : states_)
+            expect(with_checksum(bytes) == bytes, "the checksum is the library's", "with_checksum");
+    }
+    ~March() { delam_solver_destroy(&solver_); }
+    March(const March&) = delete;
+    March& operator=(const March&) = delete;
+
+    static constexpr int steps = 4;
+    const Bytes& state(std::size_t step) const { return states_[step]; }
+
+    void try_load(const Bytes& bytes, bool put_right) {
+        host_.polls_left = 4000;
+        const std::string before = print_of(solver_);
+        host_.begin();
+        const std::int32_t status =
+            delam_solver_load(solver_, static_cast<std::int64_t>(bytes.size()), bytes.data());
+        host_.settle("delam_solver_load", status,
+                     may::cancelled | may::argument | may::numerical | may::snapshot);
+        if (status != DELAM_OK) {
+            expect(print_of(solver_) == before, "what is refused changes nothing", "delam_solver_load");
+            return;
+        }
+        const auto own = std::find(states_.begin(), states_.end(), bytes);
+        expect(own != states_.end() || put_right, "bytes that were changed are refused", "delam_solver_load");
+        expect(saved(solver_) == bytes, "a state is saved as it was loaded", "delam_solver_save");
+        read_everything();
+        const auto step = own - states_.begin();
+        if (own != states_.end() && step < steps) {
+            expect(advance(static_cast<int>(step) + 1) >= 0, "a march goes on", "delam_solver_advance");
+            delam_solver_commit(solver_);
+            expect(saved(solver_) == states_[static_cast<std::size_t>(step) + 1], "the rest is bitwise the same",
+                   "delam_solver_load");
+        } else if (own == states_.end()) {
+            go_on_from_anywhere();
+        }
+        expect(delam_solver_load(solver_, static_cast<std::int64_t>(states_[0].size()), states_[0].data()) == DELAM_OK,
+               "another state can be loaded afterwards", "delam_solver_load");
+    }
+
+private:
+    std::int32_t advance(int step) { return delam_solver_advance(solver_, 0.25 * step); }
+
+    // Values and fields may be of a state that no march has come through; reading them must do no harm.
+    void read_everything() {
+        std::int64_t values = 0, jumps = 0, fronts = 0, points = 0;
+        double value = 0.0;
+        delam_solver_value_count(solver_, &values);
+        for (std::int64_t i = 0; i < values; ++i) {
+            host_.begin();
+            const std::string key = delam_solver_value_name(solver_, i);
+            host_.settle(key.c_str(), delam_solver_value(solver_, key.c_str(), &value), may::problem);
+        }
+        for (const char* key : {"displacement", "stress", "rotation", "jump", "traction", "adhesion", "mixity", "contact",
+                                "reaction"}) {
+            std::int64_t rows = 0, columns = 0;
+            delam_solver_field_shape(solver_, key, -1, &rows, &columns);
+            std::vector<double> field(static_cast<std::size_t>(rows * columns));
+            host_.begin();
+            host_.settle(key, delam_solver_field(solver_, key, -1, rows * columns, field.data()), may::argument);
+        }
+        delam_solver_jump_count(solver_, &jumps);
+        for (std::int64_t i = 0; i < jumps; ++i)
+            expect(delam_solver_jump(solver_, i, nullptr, nullptr, &value, nullptr, nullptr, nullptr, nullptr, nullptr,
+                                     nullptr, nullptr) == DELAM_OK,
+                   "jumps can be read", "delam_solver_jump");
+        host_.begin();
+        host_.settle("delam_solver_front_count", delam_solver_front_count(solver_, 0, &fronts, &points),
+                     may::argument | may::problem);
+        for (std::int64_t step = -1; step < March::steps; ++step) {
+            host_.begin();
+            host_.settle("delam_solver_look", delam_solver_look(solver_, step), may::argument);
+        }
+        expect(delam_solver_look(solver_, -1) == DELAM_OK, "back to the present", "delam_solver_look");
+    }
+
+    void go_on_from_anywhere() {
+        double time = 0.0;
+        delam_solver_value(solver_, "time", &time);
+        for (const double next : {time + 0.25, 1.0}) {
+            host_.begin();
+            const std::int32_t status = delam_solver_advance(solver_, next);
+            host_.settle("delam_solver_advance", status,
+                         may::not_converged | may::cancelled | may::limit | may::argument | may::problem | may::state |
+                             may::numerical);
+            if (status == DELAM_OK || status == DELAM_NOT_CONVERGED) {
+                expect(delam_solver_rollback(solver_) == DELAM_OK, "what is pending can be thrown away",
+                       "delam_solver_rollback");
+            }
+        }
+    }
+
+    Host host_;
+    delam_solver* solver_ = nullptr;
+    std::vector<Bytes> states_;
+};
+
+// Bytes of small_scene: a bilinear peel; brittle, with jumps and kept steps; FETI; a gradient; a search in space.
+March& march(std::size_t which) {
+    static const Bytes recipes[] = {
+        {0, 0, 0, 4, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0},
+        {0, 0, 0, 4, 4, 0, 0, 0, 0, 1, 1, 0, 0, 3, 1, 14, 16},
+        {0, 0, 1, 3, 1, 1, 1, 0, 0, 1, 0, 1, 0, 0, 2, 3, 18},
+        {0, 2, 0, 4, 0, 0, 0, 15, 0, 0, 1, 0, 0, 1, 14},
+        {7, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 0},
+    };
+    static std::unique_ptr<March> marches[std::size(recipes)];
+    std::unique_ptr<March>& found = marches[which % std::size(recipes)];
+    if (found == nullptr) found = std::make_unique<March>(recipes[which % std::size(recipes)]);
+    return *found;
+}
+
+void put(Bytes& bytes, std::size_t at, const void* value, std::size_t size) {
+    if (at + size <= bytes.size()) std::memcpy(bytes.data() + at, value, size);
+}
+
+void tamper(Bytes& bytes, Input& in) {
+    while (!in.empty()) {
+        const std::uint8_t how = in.byte();
+        const std::size_t at = bytes.empty() ? 0 : in.raw<std::uint16_t>() % bytes.size();
+        switch (how % 8) {
+            case 0: put(bytes, at, &how, 1); break;
+            case 1:
+                if (!bytes.empty()) bytes[at] = static_cast<std::uint8_t>(bytes[at] ^ (1u << in.below(8)));
+                break;
+            case 2: {
+                const double value = in.hostile_real();
+                put(bytes, at & ~std::size_t{3}, &value, sizeof value);
+                break;
+            }
+            case 3: {
+                const std::int64_t value = in.hostile_whole();
+                put(bytes, at & ~std::size_t{3}, &value, sizeof value);
+                break;
+            }
+            case 4: bytes.resize(at); break;
+            case 5: {
+                const std::size_t count = in.byte() % 33u;
+                bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(at), count, in.byte());
+                break;
+            }
+            case 6: {
+                const std::size_t count = std::min<std::size_t>(in.byte(), bytes.size() - at);
+                bytes.erase(bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                            bytes.begin() + static_cast<std::ptrdiff_t>(at + count));
+                break;
+            }
+            case 7: {
+                const double value = in.signed_real();
+                put(bytes, at & ~std::size_t{3}, &value, sizeof value);
+                break;
+            }
+        }
+    }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    Input in(data, size);
+    March& mine = march(in.byte());
+    const std::uint8_t how = in.byte();
+    Bytes bytes = mine.state(how % (March::steps + 1));
+    bool put_right = false;
+    switch (in.byte() % 8) {
+        case 0: bytes = in.rest(); break;                                    // as they are
+        case 1: bytes = march(in.byte()).state(how % (March::steps + 1)); break;  // of another scene
+        case 2:
+        case 3: tamper(bytes, in); break;
+        default:
+            tamper(bytes, in);
+            bytes = with_checksum(std::move(bytes));
+            put_right = true;
+    }
+    mine.try_load(bytes, put_right);
+    return 0;
+}

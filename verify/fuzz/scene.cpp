@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The text of a scene file, and behind a line "== mesh.inp" that of a mesh: read, built, checked and factored as by
+// `delam check`. What is wrong with it ends in the program's own failure with a text, and in nothing else. Gmsh is not
+// ours to test: scenes that ask for its files or generators are left out, and so is what would be honest work.
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include <unistd.h>
+
+#include "build.hpp"
+#include "contract.hpp"
+#include "error.hpp"
+#include "history.hpp"
+#include "notes.hpp"
+#include "resolution.hpp"
+#include "scene.hpp"
+#include "toml.hpp"
+
+namespace {
+
+using fuzz::expect;
+
+// A folder for the files, gone at the end.
+class Folder {
+public:
+    Folder() {
+        const std::filesystem::path memory = "/dev/shm";
+        path_ = (std::filesystem::is_directory(memory) ? memory : std::filesystem::temp_directory_path()) /
+                ("delam-fuzz-" + std::to_string(::getpid()));
+        std::filesystem::create_directories(path_);
+    }
+    ~Folder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    std::string write(const char* name, std::string_view text) const {
+        const std::filesystem::path file = path_ / name;
+        std::ofstream(file, std::ios::binary) << text;
+        return file.string();
+    }
+
+private:
+    std::filesystem::path path_;
+};
+
+// More instants or cells than this are work that was asked for.
+constexpr std::int64_t most_steps = 1000;
+constexpr double most_cells = 100;
+
+bool is_work(std::string_view text) {
+    const auto parsed = [&]() -> toml::table {
+        try {
+            return toml::parse(text);
+        } catch (const toml::parse_error&) {
+            return {};
+        }
+    }();
+    if (parsed["mesh"]["generator"] || parsed["time"]["steps"].value_or(std::int64_t{0}) > most_steps) return true;
+    const std::string file = parsed["mesh"]["file"].value_or(std::string());
+    return !file.empty() && file != "mesh.inp";
+}
+
+bool is_work(const cli::Scene& scene) {
+    double cells = 0.0;
+    if (scene.mesh)
+        for (const cli::CellBlock& block : scene.mesh->blocks) cells += static_cast<double>(block.bodies.size());
+    for (const cli::Layer& layer : scene.layers) cells += scene.mesh ? 0.0 : static_cast<double>(layer.divisions);
+    for (const std::int64_t divisions : scene.geometry.divisions) cells *= static_cast<double>(divisions);
+    return cells > most_cells;
+}
+
+void check(const std::string& file) {
+    const cli::Scene scene = cli::read_scene(file, {});
+    if (is_work(scene)) return;
+    const cli::Model model = cli::build(cli::new_context(), scene);
+    bool converged = true;
+    const cli::Solver solver = cli::new_solver(model, scene, converged);
+    const cli::History history(model, solver.get(), scene);
+    expect(!history.header().empty(), "a history has a header", "history");
+    (void)history.row(solver.get());
+    (void)cli::process_zones(model);
+    (void)cli::notes_of(scene);
+    (void)cli::resolution_warnings(model, solver.get());
+    (void)cli::warnings_of(model, scene);
+    expect(*delam_solver_plan(solver.get()) != '\0', "a plan", "delam_solver_plan");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const Folder folder;
+    const std::string_view all(reinterpret_cast<const char*>(data), size);
+    constexpr std::string_view mark = "\n== mesh.inp\n";
+    const std::size_t at = all.find(mark);
+    const std::string_view text = all.substr(0, at);
+    if (is_work(text)) return 0;
+    folder.write("mesh.inp", at == std::string_view::npos ? std::string_view() : all.substr(at + mark.size()));
+    try {
+        check(folder.write("scene.toml", text));
+    } catch (const cli::Failure& failure) {
+        const std::string_view said = failure.what();
+        expect(!said.empty(), "a failure has a text", "scene");
+        expect(said.find("DELAM_ERROR_INTERNAL") == std::string_view::npos, "no internal error", failure.what());
+        expect(said.find("DELAM_ERROR_HANDLE") == std::string_view::npos, "no bad handle", failure.what());
+    } catch (const std::bad_alloc&) {
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "%s\n", e.what());
+        expect(false, "a scene fails by the program's own failure", e.what());
+    }
+    return 0;
+}
