@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <exception>
+#include <locale>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -22,10 +23,13 @@ private:
     std::string text_;
 };
 
-// Joins its arguments into one message: text("node ", 17, " >= ", 12). Numbers keep all significant digits a person needs (6).
+// Joins its arguments into one message: text("node ", 17, " >= ", 12). Numbers keep all significant digits a person needs (6), in the
+// form of C, whatever the host's global locale is. Without memory it throws: a stream left to itself would cut the text short.
 template <class... Parts>
 std::string text(const Parts&... parts) {
     std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out.exceptions(std::ios::badbit);
     (out << ... << parts);
     return out.str();
 }

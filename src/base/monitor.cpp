@@ -6,8 +6,9 @@
 namespace delam {
 
 void Monitor::progress(const char* stage, std::int64_t done, std::int64_t total) {
-    bool stop = cancelled_.exchange(false, std::memory_order_relaxed);
-    if (progress_callback != nullptr && progress_callback(stage, done, total, progress_user) != 0) stop = true;
+    bool stop = progress_callback != nullptr && progress_callback(stage, done, total, progress_user) != 0;
+    // After the callback, which may ask for it too.
+    if (cancelled_.exchange(false, std::memory_order_relaxed)) stop = true;
     if (stop) fail(DELAM_CANCELLED, "cancelled by the host during stage '", stage, "'");
 }
 

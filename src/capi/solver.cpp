@@ -20,11 +20,7 @@ namespace {
 
 // A positive outcome keeps the object valid and leaves its text in the context.
 std::int32_t report(Context& context, const Outcome& outcome) {
-    if (outcome.status != DELAM_OK) {
-        context.message = outcome.text;
-        context.monitor.log(1, outcome.text);
-    }
-    return outcome.status;
+    return outcome.status == DELAM_OK ? DELAM_OK : delam::report(context, outcome.status, outcome.text.c_str());
 }
 
 template <class T>

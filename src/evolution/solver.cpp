@@ -75,9 +75,11 @@ Outcome Solver::advance(double time) {
         if (next.counts.mixity_held > 0)
             outcome.text += text("; the mixity of ", next.counts.mixity_held, " pairs would not settle and was held");
     }
+    std::string searched = stepper_.searched();
     forget();
     looked_ = nullptr;
     pending_ = std::move(pending);
+    searched_ = std::move(searched);
     return outcome;
 }
 
@@ -94,9 +96,13 @@ Outcome Solver::equilibrate(double time, std::span<const double> adhesion) {
 
 void Solver::commit() {
     if (!pending_) fail(DELAM_ERROR_STATE, "nothing to commit: no step is pending");
+    const bool keeps = keeps_past() && pending_->state.step > committed_.step;
+    std::vector<Jump> all = jumps(true);
+    if (keeps) past_.reserve(past_.size() + 1);
+    // Nothing below can fail.
     if (looked_ != nullptr) forget();
     looked_ = nullptr;
-    jumps_ = jumps(true);
+    jumps_ = std::move(all);
     for (State& state : pending_->revised) {
         if (state.step == committed_.step)
             committed_ = std::move(state);
@@ -104,7 +110,7 @@ void Solver::commit() {
             past_[static_cast<std::size_t>(state.step - past_.front().step)] = std::move(state);
     }
     if (pending_->state.step == committed_.step) past_.clear();  // a state that was set: nothing leads back behind it
-    if (keeps_past() && pending_->state.step > committed_.step) {
+    if (keeps) {
         past_.push_back(std::move(committed_));
         if (past_.size() > static_cast<std::size_t>(problem_.options.backtracking_depth)) past_.erase(past_.begin());
     }
@@ -224,10 +230,10 @@ void Solver::warn_of_unresolved_front(const State& before, const State& after) {
             for (const CrackFront& front : delam::crack_fronts(*state))
                 for (const FrontPoint& point : front.points) pairs = std::max(pairs, point.zone_pairs);
         if (pairs < 0.0 || pairs >= resolving_pairs) continue;
-        warned_of_front_ = true;
         monitor_.log(1, text("step ", after.step, " at time ", after.time, ": a front of interface ", i, " grew with ", std::floor(pairs),
                              " pairs in its process zone, which takes ", resolving_pairs,
                              ": when and how far it grows depends on the mesh; finer cells or solution = energetic cure it (said once)"));
+        warned_of_front_ = true;
         return;
     }
 }
@@ -235,9 +241,9 @@ void Solver::warn_of_unresolved_front(const State& before, const State& after) {
 double Solver::largest_rotation() const {
     const double largest = delam::largest_rotation(*problem_.mesh, displacement());
     if (largest > small_rotation && !warned_of_rotation_) {
-        warned_of_rotation_ = true;
         monitor_.log(1, text("step ", state().step, " at time ", state().time, ": cells turn by up to ", largest,
                              " rad; strains are small ones, off by about half the square of that, ", 0.5 * largest * largest, " (said once)"));
+        warned_of_rotation_ = true;
     }
     return largest;
 }

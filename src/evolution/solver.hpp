@@ -95,7 +95,7 @@ public:
     // e* of the bodies at this state, in material axes; empty: there are none.
     std::vector<Strain> eigenstrains() const;
     // What the last search looked at, in words.
-    const std::string& searched() const { return stepper_.searched(); }
+    const std::string& searched() const { return searched_; }
 
 private:
     struct Pending {
@@ -126,6 +126,7 @@ private:
     std::vector<Jump> jumps_;
     std::optional<Pending> pending_;
     const State* looked_ = nullptr;
+    std::string searched_;
     mutable std::vector<double> displacement_;  // of state(), empty: not recovered
     mutable std::vector<std::optional<std::vector<CrackFront>>> fronts_;  // likewise, [interfaces]
     bool warned_of_front_ = false;

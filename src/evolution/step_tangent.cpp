@@ -20,14 +20,13 @@ constexpr double mixity_difference = 1e-6;
 
 Linearised::Linearised(JumpOperator& op, const PairLaws& pairs, const ContactScene& contact, const State& state)
     : op_(op), pairs_(pairs), contact_(contact), state_(state), dim_(static_cast<std::size_t>(contact.dimension)),
-      springs_{spring_stiffness(pairs, state.adhesion), {}, {}}, memory_(op.memory()) {
+      springs_{spring_stiffness(pairs, state.adhesion), {}, {}} {
+    op.recall(state.memory);
     springs_.held.assign(springs_.stiffness.size(), 0);
     for (std::size_t p = 0; p < state.closed.size(); ++p)
         for (std::size_t c = 0; c < dim_; ++c)
             springs_.held[p * dim_ + c] = contact.bonded[p] != 0 || (c == 0 && state.closed[p] != 0) ? 1 : 0;
 }
-
-Linearised::~Linearised() { op_.recall(memory_); }
 
 Response Linearised::unit(std::span<const double> theta, const std::vector<double>& force) {
     Springs springs = springs_;

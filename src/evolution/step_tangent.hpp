@@ -26,10 +26,7 @@ namespace delam {
 class Linearised {
 public:
     Linearised(JumpOperator& op, const PairLaws& pairs, const ContactScene& contact, const State& state);
-    // The operator's memory is given back, whatever happens.
-    ~Linearised();
-    Linearised(const Linearised&) = delete;
-    Linearised& operator=(const Linearised&) = delete;
+    // From the state's own memory, so that the last digits are a function of the state; every other call that solves recalls that of its state likewise.
 
     // At the adhesion of the state, [patterns][patterns]. Error(DELAM_ERROR_STATE): a pattern acts along what nothing holds.
     std::vector<double> tangent(std::span<const Pattern> patterns);
@@ -57,7 +54,6 @@ private:
     const State& state_;
     std::size_t dim_;
     Springs springs_;
-    std::vector<double> memory_;
     std::vector<Response> columns_;  // of unit factors
 };
 

@@ -85,6 +85,21 @@ struct SparseCholesky::Impl {
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
+    // One solve. The buffers are made here, of the sizes that CHOLMOD would ask for: CHOLMOD 3 does not look whether it got its own.
+    const double* solve(int system, cholmod_dense& rhs) const {
+        const bool super = factor->is_super != 0;
+        const std::size_t n = factor->n, rows = super ? n : 4;
+        common.status = CHOLMOD_OK;  // of an earlier call
+        cholmod_l_ensure_dense(&x_buffer, n, 1, n, CHOLMOD_REAL, &common);
+        check("solve");
+        cholmod_l_ensure_dense(&y_work, rows, super ? 1 : n, rows, CHOLMOD_REAL, &common);
+        check("solve");
+        if (super) cholmod_l_ensure_dense(&e_work, 1, factor->maxesize, 1, CHOLMOD_REAL, &common);
+        check("solve");
+        cholmod_l_solve2(system, factor, &rhs, nullptr, &x_buffer, nullptr, &y_work, &e_work, &common);
+        check("solve");
+        return static_cast<const double*>(x_buffer->x);
+    }
     void check(const char* stage) const {
         if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
         if (common.status == CHOLMOD_TOO_LARGE) fail(DELAM_ERROR_MEMORY, "CHOLMOD ", stage, ": problem too large");
@@ -165,10 +180,7 @@ void SparseCholesky::solve(std::span<const double> b, std::span<double> x) const
     if (impl.size == 0) return;
     const AsManyThreadsAsIdleCores threads;
     cholmod_dense rhs = view(b);
-    cholmod_l_solve2(CHOLMOD_A, impl.factor, &rhs, nullptr, &impl.x_buffer, nullptr, &impl.y_work, &impl.e_work,
-                     &impl.common);
-    impl.check("solve");
-    std::memcpy(x.data(), impl.x_buffer->x, b.size() * sizeof(double));
+    std::memcpy(x.data(), impl.solve(CHOLMOD_A, rhs), b.size() * sizeof(double));
 }
 
 void SparseCholesky::solve_leading(std::span<const double> b, std::span<double> x) const {
@@ -180,10 +192,7 @@ void SparseCholesky::solve_leading(std::span<const double> b, std::span<double> 
     std::copy(b.begin(), b.end(), v.begin());
     for (const int system : {CHOLMOD_P, CHOLMOD_L, CHOLMOD_Lt, CHOLMOD_Pt}) {
         cholmod_dense rhs = view(v);
-        cholmod_l_solve2(system, impl.factor, &rhs, nullptr, &impl.x_buffer, nullptr, &impl.y_work, &impl.e_work,
-                         &impl.common);
-        impl.check("solve");
-        std::memcpy(v.data(), impl.x_buffer->x, v.size() * sizeof(double));
+        std::memcpy(v.data(), impl.solve(system, rhs), v.size() * sizeof(double));
         if (system == CHOLMOD_L) std::fill(v.begin() + static_cast<std::ptrdiff_t>(leading), v.end(), 0.0);
     }
     std::copy(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(leading), x.begin());

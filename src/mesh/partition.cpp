@@ -78,7 +78,8 @@ Parts cut_with_metis(Graph& graph, idx_t parts) {
         status = METIS_PartGraphKway(&vertices, &constraints, graph.start.data(), graph.neighbour.data(), nullptr,
                                      nullptr, nullptr, &parts, nullptr, nullptr, options.data(), &cut, part.data());
     }
-    if (status == METIS_ERROR_MEMORY) throw std::bad_alloc();
+    // Without memory in its innermost stage METIS speaks of an error at large, which nothing else here leads to.
+    if (status == METIS_ERROR_MEMORY || status == METIS_ERROR) throw std::bad_alloc();
     if (status != METIS_OK) fail(DELAM_ERROR_INTERNAL, "METIS_PartGraphKway: status ", status);
     return {part.begin(), part.end()};
 }

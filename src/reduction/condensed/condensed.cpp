@@ -163,6 +163,8 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
     std::size_t far_ones = 0;
     for (std::size_t i = 0; i < unknowns; ++i) far_ones += near[i] == 0 && now[i] >= 0.0 ? 1 : 0;
     if (!renew) renew = spent_ + (back.empty() ? 0.0 : outer_->release_cost(back)) > Condensation::cost(far_ones, count(near));
+    // From here to the end of condense_inner there is no zone: what is interrupted half-way is never taken for a choice that holds.
+    zone_.reset();
     spring_ = std::move(now);
     inside_ = std::move(set);
     if (renew)
@@ -175,6 +177,9 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
 void Condensed::condense_outer(std::span<const std::uint8_t> near) {
     monitor_.progress("zone", condensations_, 0);
     ++condensations_;
+    inner_.reset();
+    zone_.reset();
+    outer_.reset();
     near_.assign(near.begin(), near.end());
     outer_spring_ = spring_;
     released_.clear();
@@ -191,9 +196,6 @@ void Condensed::condense_outer(std::span<const std::uint8_t> near) {
     // Far ones first: what a front reaches next then lies at the end of the factor, where a release is cheap.
     const std::vector<std::int64_t> away = distance(near_);
     std::stable_sort(eliminated.begin(), eliminated.end(), [&](std::int64_t a, std::int64_t b) { return away[index(a)] > away[index(b)]; });
-    inner_.reset();
-    zone_.reset();
-    outer_.reset();
     outer_ = std::make_unique<Condensation>(bulk_->energy(), std::move(kept), std::move(eliminated), stiffness);
 }
 
@@ -207,9 +209,9 @@ void Condensed::release(std::vector<std::int64_t> unknowns) {
     inner_.reset();
     zone_.reset();
     outer->release(bulk_->energy(), unknowns, stiffness);
-    outer_ = std::move(outer);
-    for (const std::int64_t i : unknowns) near_[index(i)] = 1;
     released_.push_back(std::move(unknowns));
+    for (const std::int64_t i : released_.back()) near_[index(i)] = 1;
+    outer_ = std::move(outer);
 }
 
 void Condensed::condense_inner() {
@@ -509,6 +511,7 @@ void Condensed::recall(std::span<const double> memory) {
     if (std::ranges::equal(memory, this->memory())) return;
     auto [age, inside, near, groups] = parse(memory);
     const auto part = [&](std::size_t k) { return memory.subspan(k * unknowns, unknowns); };
+    zone_.reset();  // as in choose
     age_ = std::move(age);
     inside_ = std::move(inside);
     last_.assign(part(3).begin(), part(3).end());

@@ -54,9 +54,10 @@ void CoarseProblem::set_weights(std::span<const double> weight) {
         carries[i] = weight[i] > 0.0 ? 1.0 : 0.0;
         same = same && (weight[i] > 0.0) == (weight_[i] > 0.0);
     }
+    weight_.clear();  // none, until the factor is there: it may be interrupted
     if (!same) independent_ = independent_rows(weighted_product(carries), 1e-11);
+    factor_ = SemidefiniteFactor(weighted_product(weight), independent_);
     weight_.assign(weight.begin(), weight.end());
-    factor_ = SemidefiniteFactor(weighted_product(weight_), independent_);
 }
 
 std::vector<double> CoarseProblem::apply(std::span<const double> lambda) const {

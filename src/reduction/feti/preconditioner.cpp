@@ -91,6 +91,7 @@ void FetiPreconditioner::build_pattern() {
 void FetiPreconditioner::update(const Springs& springs) {
     if (kind_ == Kind::none) return;
     if (springs.stiffness == current_.stiffness && springs.held == current_.held) return;
+    current_ = Springs();  // none, until all that follows is there: it may be interrupted
     in_e_.assign(index(rows_.jump_count), 0);
     for (std::int64_t r = 0; r < rows_.jump_count; ++r) in_e_[index(r)] = springs.held[index(r)] == 0 ? 1 : 0;
 
@@ -108,9 +109,12 @@ void FetiPreconditioner::update(const Springs& springs) {
         }
         dependency_weight_[k] = kind_ == Kind::series ? 1e3 * stiffest : compliance > 0.0 ? 1.0 / compliance : 0.0;
     }
+    if (kind_ == Kind::series) factorise(springs);
     current_ = springs;
-    if (kind_ != Kind::series) return;
+}
 
+// T of the series form.
+void FetiPreconditioner::factorise(const Springs& springs) {
     t_.value = base_.value;
     const auto entry = [this](std::int64_t i, std::int64_t j) -> double& {
         const auto begin = t_.column.begin() + t_.start[index(i)], end = t_.column.begin() + t_.start[index(i) + 1];

@@ -34,6 +34,7 @@ private:
     enum class Kind { none, lumped, dirichlet, series };
     void apply_scaled(Team& team, std::span<const double> r, std::span<double> z) const;
     void build_pattern();
+    void factorise(const Springs& springs);
 
     const DualRows& rows_;
     const std::vector<Subdomain>& subdomains_;

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// fault_cancel [STRIDE [SCENE ...]]: every STRIDE-th call of the progress callback asks for the end, by its result or by
+// delam_context_cancel. Always DELAM_CANCELLED, the state before the call, and the same result when the host goes on.
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+#include "scenes.hpp"
+
+namespace {
+
+using faults::expect;
+
+class Canceller : public faults::Host {
+public:
+    explicit Canceller(int stride) : stride_(stride) {}
+
+    void made(delam_context* context) override {
+        Host::made(context);
+        expect(delam_context_set_progress(context, poll, this) == DELAM_OK, "delam_context_set_progress");
+    }
+
+    void call(const std::string& name, Repeat, const Call& call, const Call&) override {
+        const bool watched = solver_ != nullptr;
+        const faults::Transcript before = watched ? faults::state_of(solver_) : faults::Transcript();
+        for (int k = 1;; k += stride_) {
+            left_ = k;
+            by_request_ = !by_request_;
+            const std::int32_t status = call();
+            const bool asked = left_ <= 0;
+            left_ = 0;
+            if (!asked) {
+                expect(status == DELAM_OK, name + ": " + delam_status_name(status) + ": " + message());
+                return;
+            }
+            const std::string where = name + " cancelled at poll " + std::to_string(k) + " ('" + stage_ + "')";
+            expect(status == DELAM_CANCELLED, where + ": " + delam_status_name(status) + ": " + message());
+            ++cancelled;
+            if (!watched) continue;
+            const std::string difference = before.difference(faults::state_of(solver_));
+            expect(difference.empty(), where + ": state: " + difference);
+        }
+    }
+
+    long cancelled = 0;
+
+private:
+    // At its turn, and at that alone, it asks.
+    static std::int32_t poll(const char* stage, std::int64_t, std::int64_t, void* user) {
+        auto& self = *static_cast<Canceller*>(user);
+        if (self.left_ <= 0 || --self.left_ > 0) return 0;
+        self.left_ = -1;
+        self.stage_ = stage;
+        if (!self.by_request_) return 1;
+        delam_context_cancel(self.context_);
+        return 0;
+    }
+
+    int stride_;
+    int left_ = 0;
+    bool by_request_ = false;
+    std::string stage_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const int stride = argc > 1 ? std::atoi(argv[1]) : 1;
+    int failed = 0;
+    for (const faults::Strip& strip : faults::strips()) {
+        bool wanted = argc <= 2;
+        for (int i = 2; i < argc; ++i) wanted = wanted || strip.name == argv[i];
+        if (!wanted) continue;
+        try {
+            faults::Calm calm;
+            faults::march(calm, strip);
+            Canceller canceller(stride);
+            faults::march(canceller, strip);
+            const std::string difference = calm.transcript.difference(canceller.transcript);
+            expect(difference.empty(), "result: " + difference);
+            expect(canceller.cancelled > 0, "nothing was cancelled");
+            std::printf("%-12s %ld calls cancelled, %zu results the same\n", strip.name.c_str(), canceller.cancelled,
+                        calm.transcript.size());
+        } catch (const std::exception& e) {
+            std::printf("%-12s failed: %s\n", strip.name.c_str(), e.what());
+            ++failed;
+        }
+    }
+    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}

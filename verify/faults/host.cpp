@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "host.hpp"
+
+namespace faults {
+
+void Transcript::add(const std::string& name, const void* bytes, std::size_t size) {
+    entries_.emplace_back(name, size > 0 ? std::string(static_cast<const char*>(bytes), size) : std::string());
+}
+
+std::string Transcript::difference(const Transcript& other) const {
+    for (std::size_t i = 0; i < entries_.size() && i < other.entries_.size(); ++i) {
+        if (entries_[i].first != other.entries_[i].first)
+            return "entry " + std::to_string(i) + " is " + entries_[i].first + " or " + other.entries_[i].first;
+        if (entries_[i].second != other.entries_[i].second)
+            return "entry " + std::to_string(i) + ", " + entries_[i].first + ", differs";
+    }
+    return entries_.size() == other.entries_.size() ? "" : "other numbers of entries";
+}
+
+Transcript state_of(delam_solver* solver) {
+    Transcript state;
+    const auto require = [](std::int32_t status, const std::string& what) {
+        expect(status == DELAM_OK, "reading " + what + ": " + delam_status_name(status));
+    };
+    std::int64_t needed = 0;
+    require(delam_solver_save(solver, 0, nullptr, &needed), "saved bytes");
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(needed));
+    require(delam_solver_save(solver, needed, bytes.data(), &needed), "saved bytes");
+    state.add("saved bytes", bytes);
+    for (const char* key : {"jump", "traction", "adhesion", "mixity", "contact"}) {
+        std::int64_t rows = 0, columns = 0;
+        require(delam_solver_field_shape(solver, key, -1, &rows, &columns), key);
+        std::vector<double> values(static_cast<std::size_t>(rows * columns));
+        require(delam_solver_field(solver, key, -1, rows * columns, values.data()), key);
+        state.add(key, values);
+    }
+    for (const char* key : {"step", "time", "stored_bulk", "stored_interface", "dissipated", "work", "am_iterations"}) {
+        double value = 0.0;
+        require(delam_solver_value(solver, key, &value), key);
+        state.add(key, &value, sizeof value);
+    }
+    state.add("searched", std::string(delam_solver_searched(solver)));
+    return state;
+}
+
+}  // namespace faults

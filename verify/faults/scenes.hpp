@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Complete small scenes, from the context to its end, each call handed to a host: mesh, law, problem, march with rolled back
+// steps, fields, fronts, tangent, save and load.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host.hpp"
+
+namespace faults {
+
+// A strip of two layers, 70 mm long, unbonded over the first 30 mm, peeled off from that end.
+struct Strip {
+    std::string name;
+    int dimension = 2;
+    std::int64_t cells = 14;             // along
+    std::string mesh = "layers";         // layers | conforming | projected
+    std::string law = "piecewise-linear";  // host: callbacks
+    bool brittle = false;
+    bool strained = false;               // a dead force and an eigenstrain beside the peel
+    std::vector<std::pair<std::string, std::string>> texts;   // options
+    std::vector<std::pair<std::string, double>> numbers;
+    int steps = 4;
+};
+
+const std::vector<Strip>& strips();
+void march(Host& host, const Strip& strip);
+
+}  // namespace faults
