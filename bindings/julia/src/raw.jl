@@ -24,6 +24,7 @@ const DELAM_ERROR_MEMORY = Int32(-6)
 const DELAM_ERROR_NUMERICAL = Int32(-7)
 const DELAM_ERROR_SNAPSHOT = Int32(-8)
 const DELAM_ERROR_INTERNAL = Int32(-9)
+const DELAM_ERROR_FILE = Int32(-10)
 const DELAM_TRI3 = Int32(1)
 const DELAM_QUAD4 = Int32(2)
 const DELAM_TET4 = Int32(3)
@@ -67,6 +68,10 @@ end
 
 function delam_status_name(status)
     @ccall libdelam.delam_status_name(status::Int32)::Cstring
+end
+
+function delam_blas_threads()
+    @ccall libdelam.delam_blas_threads()::Int32
 end
 
 function delam_context_create(out)
@@ -135,6 +140,19 @@ end
 function delam_mesh_add_obstacle(mesh, count, nodes, normals, weights, control_node, index_base, out_interface)
     @ccall libdelam.delam_mesh_add_obstacle(mesh::Ptr{delam_mesh}, count::Int64, nodes::Ptr{Int64},
         normals::Ptr{Cdouble}, weights::Ptr{Cdouble}, control_node::Int64, index_base::Int32,
+        out_interface::Ptr{Int64})::Int32
+end
+
+function delam_mesh_add_host_body(mesh, body, count, nodes, index_base)
+    @ccall libdelam.delam_mesh_add_host_body(mesh::Ptr{delam_mesh}, body::Int32, count::Int64,
+        nodes::Ptr{Int64}, index_base::Int32)::Int32
+end
+
+function delam_mesh_add_pairs(mesh, body_a, body_b, count, nodes_a, nodes_b, normals, weights, face_count,
+                              nodes_per_face, faces, index_base, out_interface)
+    @ccall libdelam.delam_mesh_add_pairs(mesh::Ptr{delam_mesh}, body_a::Int32, body_b::Int32, count::Int64,
+        nodes_a::Ptr{Int64}, nodes_b::Ptr{Int64}, normals::Ptr{Cdouble}, weights::Ptr{Cdouble},
+        face_count::Int64, nodes_per_face::Int32, faces::Ptr{Int64}, index_base::Int32,
         out_interface::Ptr{Int64})::Int32
 end
 
@@ -273,6 +291,13 @@ end
 
 function delam_problem_set_formulation(problem, body, formulation)
     @ccall libdelam.delam_problem_set_formulation(problem::Ptr{delam_problem}, body::Int32, formulation::Cstring)::Int32
+end
+
+function delam_problem_set_stiffness(problem, count, nodes, dofs, row_starts, columns, values, kernel_count, kernel,
+                                     index_base)
+    @ccall libdelam.delam_problem_set_stiffness(problem::Ptr{delam_problem}, count::Int64, nodes::Ptr{Int64},
+        dofs::Ptr{Int64}, row_starts::Ptr{Int64}, columns::Ptr{Int64}, values::Ptr{Cdouble},
+        kernel_count::Int64, kernel::Ptr{Cdouble}, index_base::Int32)::Int32
 end
 
 function delam_problem_set_law(problem, interface_index, law)
@@ -422,6 +447,15 @@ function delam_solver_rollback(solver)
     @ccall libdelam.delam_solver_rollback(solver::Ptr{delam_solver})::Int32
 end
 
+function delam_solver_pending(solver, pending)
+    @ccall libdelam.delam_solver_pending(solver::Ptr{delam_solver}, pending::Ptr{Int32})::Int32
+end
+
+function delam_solver_set_history(solver, pattern, count, times, values)
+    @ccall libdelam.delam_solver_set_history(solver::Ptr{delam_solver}, pattern::Int64, count::Int64,
+        times::Ptr{Cdouble}, values::Ptr{Cdouble})::Int32
+end
+
 function delam_solver_equilibrate(solver, time, adhesion)
     @ccall libdelam.delam_solver_equilibrate(solver::Ptr{delam_solver}, time::Cdouble, adhesion::Ptr{Cdouble})::Int32
 end
@@ -468,6 +502,21 @@ end
 
 function delam_solver_tangent(solver, capacity, matrix)
     @ccall libdelam.delam_solver_tangent(solver::Ptr{delam_solver}, capacity::Int64, matrix::Ptr{Cdouble})::Int32
+end
+
+function delam_solver_step_tangent(solver, capacity, matrix)
+    @ccall libdelam.delam_solver_step_tangent(solver::Ptr{delam_solver}, capacity::Int64, matrix::Ptr{Cdouble})::Int32
+end
+
+function delam_solver_condensed_size(solver, unknowns, entries)
+    @ccall libdelam.delam_solver_condensed_size(solver::Ptr{delam_solver}, unknowns::Ptr{Int64},
+        entries::Ptr{Int64})::Int32
+end
+
+function delam_solver_condensed(solver, capacity, stiffness, load, constant, row_starts, columns, values, offset)
+    @ccall libdelam.delam_solver_condensed(solver::Ptr{delam_solver}, capacity::Int64, stiffness::Ptr{Cdouble},
+        load::Ptr{Cdouble}, constant::Ptr{Cdouble}, row_starts::Ptr{Int64}, columns::Ptr{Int64},
+        values::Ptr{Cdouble}, offset::Ptr{Cdouble})::Int32
 end
 
 function delam_solver_plan(solver)
@@ -517,31 +566,41 @@ function delam_solver_load(solver, size, bytes)
     @ccall libdelam.delam_solver_load(solver::Ptr{delam_solver}, size::Int64, bytes::Ptr{UInt8})::Int32
 end
 
+function delam_solver_save_file(solver, path)
+    @ccall libdelam.delam_solver_save_file(solver::Ptr{delam_solver}, path::Cstring)::Int32
+end
+
+function delam_solver_load_file(solver, path)
+    @ccall libdelam.delam_solver_load_file(solver::Ptr{delam_solver}, path::Cstring)::Int32
+end
+
 const FUNCTIONS = (
-    :delam_version, :delam_commit, :delam_abi, :delam_status_name, :delam_context_create, :delam_context_destroy,
-    :delam_context_message, :delam_context_set_log, :delam_context_set_progress, :delam_context_cancel,
-    :delam_mesh_create, :delam_mesh_create_layers, :delam_mesh_add_cells, :delam_mesh_add_conforming_cells,
-    :delam_mesh_add_interface, :delam_mesh_add_all_interfaces, :delam_mesh_add_projected_interface,
-    :delam_mesh_add_obstacle, :delam_mesh_destroy, :delam_mesh_size, :delam_mesh_nodes, :delam_mesh_node_bodies,
-    :delam_mesh_node_origins, :delam_mesh_node_ties, :delam_mesh_cells, :delam_mesh_interface_size,
-    :delam_mesh_interface_pairs, :delam_mesh_interface_faces, :delam_mesh_find_nodes, :delam_mesh_find_patch,
-    :delam_law_create, :delam_law_set, :delam_law_set_text, :delam_law_set_table, :delam_law_parameter_count,
-    :delam_law_parameter_info, :delam_law_create_host, :delam_law_check, :delam_law_toughness, :delam_law_respond,
-    :delam_law_destroy, :delam_problem_create, :delam_problem_destroy, :delam_problem_set_plane,
-    :delam_problem_set_elastic, :delam_problem_set_orthotropic, :delam_problem_set_orientation,
-    :delam_problem_set_formulation, :delam_problem_set_law, :delam_problem_set_bonded, :delam_problem_set_contact,
+    :delam_version, :delam_commit, :delam_abi, :delam_status_name, :delam_blas_threads, :delam_context_create,
+    :delam_context_destroy, :delam_context_message, :delam_context_set_log, :delam_context_set_progress,
+    :delam_context_cancel, :delam_mesh_create, :delam_mesh_create_layers, :delam_mesh_add_cells,
+    :delam_mesh_add_conforming_cells, :delam_mesh_add_interface, :delam_mesh_add_all_interfaces,
+    :delam_mesh_add_projected_interface, :delam_mesh_add_obstacle, :delam_mesh_add_host_body, :delam_mesh_add_pairs,
+    :delam_mesh_destroy, :delam_mesh_size, :delam_mesh_nodes, :delam_mesh_node_bodies, :delam_mesh_node_origins,
+    :delam_mesh_node_ties, :delam_mesh_cells, :delam_mesh_interface_size, :delam_mesh_interface_pairs,
+    :delam_mesh_interface_faces, :delam_mesh_find_nodes, :delam_mesh_find_patch, :delam_law_create, :delam_law_set,
+    :delam_law_set_text, :delam_law_set_table, :delam_law_parameter_count, :delam_law_parameter_info,
+    :delam_law_create_host, :delam_law_check, :delam_law_toughness, :delam_law_respond, :delam_law_destroy,
+    :delam_problem_create, :delam_problem_destroy, :delam_problem_set_plane, :delam_problem_set_elastic,
+    :delam_problem_set_orthotropic, :delam_problem_set_orientation, :delam_problem_set_formulation,
+    :delam_problem_set_stiffness, :delam_problem_set_law, :delam_problem_set_bonded, :delam_problem_set_contact,
     :delam_problem_set_adhesion, :delam_problem_add_pattern, :delam_problem_prescribe_nodes,
     :delam_problem_prescribe_mean, :delam_problem_add_equation, :delam_problem_add_periodic, :delam_problem_add_forces,
     :delam_problem_add_eigenstrain, :delam_problem_set_number, :delam_problem_set_text, :delam_option_count,
     :delam_option_info, :delam_problem_check, :delam_problem_hash, :delam_problem_dofs, :delam_problem_process_zone,
     :delam_problem_body_matrix, :delam_problem_constraints, :delam_problem_forces, :delam_problem_eigenstrain_energy,
     :delam_problem_factors, :delam_problem_pattern_count, :delam_problem_pattern_name, :delam_solver_create,
-    :delam_solver_destroy, :delam_solver_advance, :delam_solver_commit, :delam_solver_rollback,
-    :delam_solver_equilibrate, :delam_solver_value, :delam_solver_value_count, :delam_solver_value_name,
-    :delam_solver_field_shape, :delam_solver_field, :delam_solver_average, :delam_solver_front_count,
-    :delam_solver_front, :delam_solver_tangent, :delam_solver_plan, :delam_solver_plan_count, :delam_solver_plan_item,
-    :delam_solver_option, :delam_solver_searched, :delam_solver_look, :delam_solver_jump_count, :delam_solver_jump,
-    :delam_solver_save, :delam_solver_load,
+    :delam_solver_destroy, :delam_solver_advance, :delam_solver_commit, :delam_solver_rollback, :delam_solver_pending,
+    :delam_solver_set_history, :delam_solver_equilibrate, :delam_solver_value, :delam_solver_value_count,
+    :delam_solver_value_name, :delam_solver_field_shape, :delam_solver_field, :delam_solver_average,
+    :delam_solver_front_count, :delam_solver_front, :delam_solver_tangent, :delam_solver_step_tangent,
+    :delam_solver_condensed_size, :delam_solver_condensed, :delam_solver_plan, :delam_solver_plan_count,
+    :delam_solver_plan_item, :delam_solver_option, :delam_solver_searched, :delam_solver_look, :delam_solver_jump_count,
+    :delam_solver_jump, :delam_solver_save, :delam_solver_load, :delam_solver_save_file, :delam_solver_load_file,
 )
 
 end
