@@ -13,10 +13,10 @@ struct Stop <: Exception end
     solver = Solver(double_cantilever(law=host_bilinear(spy=_ -> failing[] && throw(Stop()))))
     failing[] = true
     @test_throws Stop advance!(solver, 0.5)
-    @test !solver.pending && solver["time"] == 0.0
+    @test !pending(solver) && solver["time"] == 0.0
     failing[] = false
     advance!(solver, 0.5)
-    @test solver.pending
+    @test pending(solver)
 
     # Progress is told, cancels with true, and hands on what it throws, Ctrl-C too.
     stages = String[]
@@ -31,7 +31,7 @@ struct Stop <: Exception end
     for (given, thrown) in ((true, Cancelled), (InterruptException(), InterruptException), (Stop(), Stop))
         answer[] = given
         @test_throws thrown advance!(solver, 0.5)
-        @test !solver.pending && solver["time"] == 0.0
+        @test !pending(solver) && solver["time"] == 0.0
     end
     answer[] = false
     advance!(solver, 0.5)

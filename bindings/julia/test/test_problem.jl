@@ -22,6 +22,26 @@
     @test size(coefficients) == (1, rows.rows)
     @test coefficients[1, 1:2] == [0.5, 0.5]
 
+    # The same matrix handed back is the same problem.
+    own = Problem(problem.mesh; plane="plane-strain")
+    set_elastic!(own, 135e9, 0.3)
+    set_formulation!(own, "incompatible")
+    for body in 0:1
+        matrix = Delam.body_matrix(own, body)
+        ids = findall(==(body), node_bodies(own.mesh))
+        set_stiffness!(own, ids, matrix.row_starts, matrix.columns, matrix.values)
+    end
+    @test Matrix(Delam.body_matrix(own, 0)) ≈ stiffness
+    @test_throws DimensionMismatch set_stiffness!(own, [1, 2], [1], Int64[], Float64[])
+
+    # Bodies without cells, and pairs by hand.
+    bare = Mesh([0.0 1.0 0.0 1.0; 0.0 0.0 0.0 0.0])
+    add_host_body!(bare, 0, [1, 2])
+    add_host_body!(bare, 1, [3, 4])
+    joint = add_pairs!(bare, 0, 1, [1, 2], [3, 4], [0.0, 1.0], 0.5; faces=reshape([1, 2], 2, 1))
+    @test nodes_a(joint) == [1, 2] && nodes_b(joint) == [3, 4] && weights(joint) == [0.5, 0.5]
+    @test faces(joint) == reshape([1, 2], 2, 1)
+
     incomplete = Problem(problem.mesh)
     @test_throws ProblemError check(incomplete)
     set_orthotropic!(incomplete, [140e9, 10e9, 10e9, 0.3, 0.3, 0.4, 5e9, 5e9, 3.5e9])
