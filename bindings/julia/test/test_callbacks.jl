@@ -45,7 +45,14 @@ struct Stop <: Exception end
     # Calls from inside a callback are refused.
     inner = Ref{Any}(nothing)
     reentrant = Problem(Mesh(lengths=0.1, divisions=4, thickness=[1e-3], layer_divisions=[1]))
-    reentrant.context.progress = (stage, done, total) -> (inner[] = try dofs(reentrant) catch e e end; false)
+    reentrant.context.progress = function (stage, done, total)
+        try
+            dofs(reentrant)
+        catch exception
+            inner[] = exception
+        end
+        return false
+    end
     set_elastic!(reentrant, 1e9, 0.3)
     prescribe!(reentrant, find_nodes(reentrant.mesh, (0, 0), (0, 1e-3)), "x")
     prescribe!(reentrant, find_node(reentrant.mesh, (0, 0)), "y")

@@ -12,7 +12,7 @@
     problem["solution"] = "local"
     @test problem_hash(problem) != before
     @test options()["solution"].type == "text"
-    @test_throws InvalidArgument problem["no such option"] = 1.0
+    @test_throws InvalidArgument setindex!(problem, 1.0, "no such option")
 
     # What the library has assembled: symmetric, of a free body.
     stiffness = Matrix(Delam.body_matrix(problem, 0))

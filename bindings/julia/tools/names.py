@@ -10,7 +10,7 @@ BASE = set("""
     finalize finalizer findall findfirst first get haskey hypot identity include isdir isempty islocked isopen
     issorted join joinpath keys last length lock lstrip maximum minimum minmax mktempdir nameof ndims nothing
     objectid open pairs parse permutedims pipeline pointer_from_objref print println push! readchomp reenable_sigint
-    repeat reshape rethrow similar size sort split sprint sqrt startswith stdout sum task_local_storage throw
+    repeat reshape rethrow setindex! similar size sort split sprint sqrt startswith stdout sum task_local_storage throw
     time_ns trylock typeof undef unlock unsafe_pointer_to_objref unsafe_store! unsafe_string vcat vec zeros
 """.split())
 
