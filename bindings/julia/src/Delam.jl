@@ -25,8 +25,8 @@ include("interface.jl")
 include("parameter.jl")
 include("law.jl")
 include("problem.jl")
-include("matrices.jl")
 include("solver.jl")
+include("matrices.jl")
 include("fields.jl")
 include("reports.jl")
 include("history.jl")
@@ -34,16 +34,17 @@ include("profile.jl")
 
 export Context, Mesh, Interface, Law, Problem, Pattern, Solver, History, Profile
 export DelamError, InvalidArgument, InvalidHandle, MeshError, ProblemError, StateError, OutOfMemory, NumericalError,
-    SnapshotError, InternalError, NotConverged, Cancelled, LimitReached
-export add_cells!, add_interface!, add_all_interfaces!, add_projected_interface!, add_obstacle!, find_nodes, find_node,
+    SnapshotError, FileError, InternalError, NotConverged, Cancelled, LimitReached
+export add_cells!, add_interface!, add_all_interfaces!, add_projected_interface!, add_obstacle!,
+    add_host_body!, add_pairs!, find_nodes, find_node,
     find_patch, interfaces, nodes, node_bodies, node_origins, node_ties, cells, dimension, node_count, cell_count,
     body_count, interface_count, pair_count, nodes_a, nodes_b, weights, frames, places, faces
 export host_law, parameters, set!, check, toughness, respond, options
 export set_plane!, set_elastic!, set_orthotropic!, set_orientation!, set_formulation!, set_law!, set_bonded!,
     set_contact!, set_adhesion!, add_pattern!, prescribe!, prescribe_mean!, add_equation!, add_periodic!, add_forces!,
-    add_eigenstrain!, patterns, problem_hash, dofs, process_zone, factors
-export advance!, commit!, rollback!, equilibrate!, march!, history, record!, write_csv, look!, save, load!, field,
-    average, fronts, tangent, plan, plan_items, option, searched, jumps, profile, cancel
+    add_eigenstrain!, set_stiffness!, patterns, problem_hash, dofs, process_zone, factors
+export advance!, commit!, rollback!, pending, equilibrate!, set_history!, march!, history, record!, write_csv, look!,
+    save, load!, field, average, fronts, tangent, step_tangent, condensed, plan, plan_items, option, searched, jumps, profile, cancel
 
 __init__() = load_library()
 

@@ -5,7 +5,8 @@
 #
 # Nothing may be thrown through C. What a callback throws is kept, the library is asked to stop, and it is thrown again
 # once the call is over. Ctrl-C is held back during a call (`disable_sigint`) and let in where it can be caught: inside
-# the progress callback, which then cancels, and at the call's end.
+# the progress callback, which then cancels by what it returns (a request by delam_context_cancel beside that would wait
+# for the next call), and at the call's end.
 
 """
     Context(; progress=nothing)
@@ -76,7 +77,6 @@ function on_progress(stage::Cstring, done::Int64, total::Int64, user::Ptr{Cvoid}
         return Int32(stop === true)
     catch exception
         context.exception = exception
-        exception isa InterruptException && Raw.delam_context_cancel(context.handle)
         return Int32(1)
     end
 end

@@ -5,8 +5,8 @@
 
 An error of the library (status < 0), which leaves the object as it was, or an outcome (status > 0), which leaves it
 valid. Each status has a name: `InvalidArgument`, `InvalidHandle`, `MeshError`, `ProblemError`, `StateError`,
-`OutOfMemory`, `NumericalError`, `SnapshotError`, `InternalError`; `NotConverged`, `Cancelled`, `LimitReached`. The text
-is in `message`.
+`OutOfMemory`, `NumericalError`, `SnapshotError`, `FileError`, `InternalError`; `NotConverged`, `Cancelled`,
+`LimitReached`. The text is in `message`.
 """
 struct DelamError{status} <: Exception
     message::String
@@ -22,6 +22,7 @@ const StateError = DelamError{Raw.DELAM_ERROR_STATE}
 const OutOfMemory = DelamError{Raw.DELAM_ERROR_MEMORY}
 const NumericalError = DelamError{Raw.DELAM_ERROR_NUMERICAL}
 const SnapshotError = DelamError{Raw.DELAM_ERROR_SNAPSHOT}
+const FileError = DelamError{Raw.DELAM_ERROR_FILE}
 const InternalError = DelamError{Raw.DELAM_ERROR_INTERNAL}
 const NotConverged = DelamError{Raw.DELAM_NOT_CONVERGED}
 const Cancelled = DelamError{Raw.DELAM_CANCELLED}

@@ -58,3 +58,12 @@ function tangent(solver::Solver)
     ask(handle -> Raw.delam_solver_tangent(handle, length(out), out), solver)
     return out
 end
+
+"(patterns, patterns): change of reactions with factors at the end of the pending step, damage included."
+function step_tangent(solver::Solver)
+    count = length(patterns(solver.problem))
+    out = zeros(count, count)
+    ask(handle -> Raw.delam_solver_step_tangent(handle, length(out), out), solver)
+    # Row p, column q in C: symmetric but with mixity_rule = converged.
+    return permutedims(out)
+end

@@ -53,6 +53,24 @@ function add_obstacle!(mesh::Mesh, nodes, normals, control_node; weights=nothing
     end
 end
 
+"""
+    add_pairs!(mesh, body_a, body_b, nodes_a, nodes_b, normals, weights; faces)
+
+An interface of pairs that the host knows, in the order given. `normals`: from a to b, a column each or one for all;
+`faces` (nodes of a face, faces): numbers of pairs, without which there are no fronts.
+"""
+function add_pairs!(mesh::Mesh, body_a, body_b, nodes_a, nodes_b, normals, weights; faces=Matrix{Int64}(undef, 0, 0))
+    first_side, second_side, sides = indices(nodes_a), indices(nodes_b), indices(faces)
+    count, d = length(first_side), dimension(mesh)
+    expect("nodes_b", second_side, count)
+    towards = columns("normals", normals, d, count)
+    shares = spread("weights", weights, count)
+    new_interface(mesh) do handle, out
+        Raw.delam_mesh_add_pairs(handle, body_a, body_b, count, first_side, second_side, towards, shares,
+            size(sides, 2), size(sides, 1), sides, 1, out)
+    end
+end
+
 interfaces(mesh::Mesh) = [Interface(mesh, i) for i in 1:interface_count(mesh)]
 
 function interface_size(interface::Interface)

@@ -58,5 +58,8 @@ library_version() = unsafe_string(Raw.delam_version())
 "Commit that it was built from, or \"unknown\"."
 library_commit() = unsafe_string(Raw.delam_commit())
 
+"Threads that the BLAS of this process uses; 0: it does not say. Not those of Julia's own."
+blas_threads() = Int(Raw.delam_blas_threads())
+
 "File that it was loaded from, as the loader was asked for it."
 library_location() = loaded_from[]

@@ -30,6 +30,31 @@ function Base.Matrix(matrix::ByRows)
     return full
 end
 
+"""
+    set_stiffness!(problem, nodes, row_starts, columns, values; dofs=nothing, kernel=nothing)
+
+The stiffness of whole bodies as the host has assembled it, in the place of cells and material: all nodes of the bodies
+and a matrix by rows, both triangles. Of a symmetric `SparseMatrixCSC` these are `colptr`, `rowval`, `nzval`.
+`dofs` (dimension, nodes): its row for each displacement, else they follow the nodes; `kernel` (displacements, motions):
+what costs no energy, else the library finds it.
+"""
+function set_stiffness!(problem::Problem, nodes, row_starts, columns, values; dofs=nothing, kernel=nothing)
+    own, starts, places_, entries = indices(nodes), indices(row_starts), indices(columns), floats(values)
+    count, d = length(own), dimension(problem.mesh)
+    expect("row_starts", starts, d * count + 1)
+    expect("columns", places_, length(entries))
+    starts[end] == length(entries) + 1 ||
+        throw(InvalidArgument("row_starts ends with $(starts[end]), values has $(length(entries)) entries"))
+    order = dofs === nothing ? C_NULL : expect("dofs", indices(dofs), d, count)
+    motions = kernel === nothing ? C_NULL : floats(kernel)
+    motion_count = kernel === nothing ? -1 : size(motions, 2)
+    kernel === nothing || expect("kernel", motions, d * count, motion_count)
+    ask(problem) do handle
+        Raw.delam_problem_set_stiffness(handle, count, own, order, starts, places_, entries, motion_count, motions, 1)
+    end
+    return problem
+end
+
 "Stiffness of a body over its nodes in ascending order, both triangles."
 function body_matrix(problem::Problem, body)
     rows, entries = Ref(Int64(0)), Ref(Int64(0))
@@ -64,6 +89,26 @@ function forces(problem::Problem, pattern)
     out = Matrix{Float64}(undef, d, div(first(dofs(problem)), d))
     ask(handle -> Raw.delam_problem_forces(handle, from_zero(pattern), length(out), out), problem)
     return out
+end
+
+"""
+    condensed(solver)
+
+All bodies condensed onto the interfaces: with x `(unknowns)`, factors θ and the local jumps j of all interfaces, the
+energy is 1/2 x'S x - x'L θ + 1/2 θ'A θ and j = N x + O'θ, where S is `stiffness`, L `load` (unknowns, patterns), A
+`constant`, N `jumps` by rows and O `offset` (patterns, jumps).
+"""
+function condensed(solver::Solver)
+    unknowns, entries = Ref(Int64(0)), Ref(Int64(0))
+    ask(handle -> Raw.delam_solver_condensed_size(handle, unknowns, entries), solver)
+    n, p, rows = unknowns[], length(patterns(solver.problem)), last(dofs(solver.problem))
+    stiffness, load, constant = zeros(n, n), zeros(n, p), zeros(p, p)
+    by_rows, offset = ByRows(rows, n, entries[]), zeros(p, rows)
+    ask(solver) do handle
+        Raw.delam_solver_condensed(handle, length(stiffness), stiffness, load, constant, by_rows.row_starts,
+            by_rows.columns, by_rows.values, offset)
+    end
+    return (stiffness=stiffness, load=load, constant=constant, jumps=counted_from_one!(by_rows), offset=offset)
 end
 
 "(patterns, patterns): of the eigenstrains, 0 for other patterns."

@@ -70,6 +70,17 @@ function add_cells!(mesh::Mesh, cell, connectivity, bodies=0; conforming=false)
     return mesh
 end
 
+"""
+    add_host_body!(mesh, body, nodes)
+
+A body without cells, of nodes that belong to none, whose stiffness the host gives (`set_stiffness!`).
+"""
+function add_host_body!(mesh::Mesh, body, nodes)
+    own = indices(nodes)
+    ask(handle -> Raw.delam_mesh_add_host_body(handle, body, length(own), own, 1), mesh)
+    return mesh
+end
+
 # ---- what is there
 
 function mesh_size(mesh::Mesh)

@@ -144,8 +144,8 @@ function patterns(problem::Problem)
     return [ask_text(handle -> Raw.delam_problem_pattern_name(handle, i), problem) for i in 0:count[]-1]
 end
 
-driving(drive::Pair) = from_zero(first(drive)) + 1, last(drive)
-driving(pattern) = from_zero(pattern) + 1, 1.0
+driving(drive::Pair) = (from_zero(first(drive)) + 1, last(drive))
+driving(pattern) = (from_zero(pattern) + 1, 1.0)
 
 "Numbers of patterns and their coefficients, (patterns) or (patterns, count)."
 function driven(drive, count)

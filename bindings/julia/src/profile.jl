@@ -42,7 +42,7 @@ function chains(edges, count)
         push!(left, minmax(a, b))
     end
     found = Vector{Int64}[]
-    for start in sort(1:count; by=i -> length(neighbours[i]) != 1)
+    for start in sort(collect(1:count); by=i -> length(neighbours[i]) != 1)
         chain = [start]
         while true
             ahead = findfirst(n -> minmax(chain[end], n) in left, neighbours[chain[end]])

@@ -2,8 +2,8 @@
 """
 The C interface, one to one. Generated from delam.h by tools/generate_raw.py: change that, not this.
 
-Arguments are as in C: indices from 0 unless an `index_base` says so, `C_NULL` where nothing is meant. An array
-is passed as it is, a number to be written as a `Ref`; nothing is checked.
+Arguments are as in C: indices from 0 unless an `index_base` says so, `C_NULL` where nothing is meant. An
+array is passed as it is, a number to be written as a `Ref`; nothing is checked.
 """
 module Raw
 

@@ -17,11 +17,10 @@ mutable struct Solver <: Object
     context::Context
     problem::Problem
     not_converged::Symbol
-    pending::Bool
     kept::Vector{Any}
 
     Solver(handle::Ptr{Raw.delam_solver}, problem::Problem, not_converged::Symbol) =
-        finalizer(release, new(handle, problem.context, problem, not_converged, false, copy(problem.kept)))
+        finalizer(release, new(handle, problem.context, problem, not_converged, copy(problem.kept)))
 end
 
 function Solver(problem::Problem; time=0.0, not_converged=:warn)
@@ -45,24 +44,20 @@ end
 
 # ---- steps
 
-"Runs a call that makes a step pending, or none; `pending` is true to that whenever Ctrl-C comes."
-function leaves(body, solver, pending)
-    ask(solver; accepted=Raw.DELAM_NOT_CONVERGED) do handle
-        status = body(handle)
-        if status == Raw.DELAM_OK || status == Raw.DELAM_NOT_CONVERGED
-            solver.pending = pending
-        end
-        return status
-    end
+"Is there a step to be committed or rolled back?"
+function pending(solver::Solver)
+    out = Ref(Int32(0))
+    ask(handle -> Raw.delam_solver_pending(handle, out), solver)
+    return out[] != 0
 end
 
 function stepped!(body, solver)
-    already = solver.pending
+    already = pending(solver)
     status = try
-        leaves(body, solver, true)
+        ask(body, solver; accepted=Raw.DELAM_NOT_CONVERGED)
     catch
         # The step was done when the interruption was seen.
-        solver.pending && !already && rollback!(solver)
+        pending(solver) && !already && rollback!(solver)
         rethrow()
     end
     tell_outcome(solver, status)
@@ -82,13 +77,13 @@ end
 
 "Keeps the pending step."
 function commit!(solver::Solver)
-    leaves(handle -> Raw.delam_solver_commit(handle), solver, false)
+    ask(handle -> Raw.delam_solver_commit(handle), solver)
     return solver
 end
 
 "The state before the pending step, bit for bit."
 function rollback!(solver::Solver)
-    leaves(handle -> Raw.delam_solver_rollback(handle), solver, false)
+    ask(handle -> Raw.delam_solver_rollback(handle), solver)
     return solver
 end
 
@@ -104,7 +99,7 @@ function march!(f, solver::Solver, times)
             advance!(solver, time)
             commit!(solver)
         catch
-            solver.pending && isopen(solver) && rollback!(solver)
+            isopen(solver) && pending(solver) && rollback!(solver)
             rethrow()
         end
         f(solver)
@@ -112,6 +107,18 @@ function march!(f, solver::Solver, times)
     return solver
 end
 march!(solver::Solver, times) = march!(identity, solver, times)
+
+"""
+    set_history!(solver, pattern, times, values)
+
+Another history of a load pattern from the committed time on: straight from the factor there to the first point.
+"""
+function set_history!(solver::Solver, pattern, times, values)
+    at, factor = floats(times), floats(values)
+    expect("values", factor, length(at))
+    ask(handle -> Raw.delam_solver_set_history(handle, from_zero(pattern), length(at), at, factor), solver)
+    return solver
+end
 
 # ---- values
 
@@ -130,7 +137,7 @@ end
 Base.haskey(solver::Solver, key) = key in keys(solver)
 
 Base.show(io::IO, solver::Solver) =
-    isopen(solver) ? print(io, "Solver at time $(solver["time"])", solver.pending ? ", a step is pending" : "") :
+    isopen(solver) ? print(io, "Solver at time $(solver["time"])", pending(solver) ? ", a step is pending" : "") :
     print(io, "Solver, closed")
 
 """
@@ -153,7 +160,7 @@ function look!(f, solver::Solver, step)
     end
 end
 
-# ---- state as bytes
+# ---- state as bytes and files
 
 "The committed state as bytes."
 function save(solver::Solver)
@@ -167,6 +174,18 @@ end
 "Goes on from saved bytes of the same scene and options."
 function load!(solver::Solver, state::AbstractVector{UInt8})
     bytes = convert(Vector{UInt8}, state)
-    leaves(handle -> Raw.delam_solver_load(handle, length(bytes), bytes), solver, false)
+    ask(handle -> Raw.delam_solver_load(handle, length(bytes), bytes), solver)
+    return solver
+end
+
+"The same as a file, which is there as a whole or not at all."
+function save(solver::Solver, path::AbstractString)
+    ask(handle -> Raw.delam_solver_save_file(handle, path), solver)
+    return
+end
+
+"Goes on from a file."
+function load!(solver::Solver, path::AbstractString)
+    ask(handle -> Raw.delam_solver_load_file(handle, path), solver)
     return solver
 end

@@ -12,7 +12,7 @@
     problem["solution"] = "local"
     @test problem_hash(problem) != before
     @test options()["solution"].type == "text"
-    @test_throws InvalidArgument problem["no such option"] = 1.0
+    @test_throws InvalidArgument setindex!(problem, 1.0, "no such option")
 
     # What the library has assembled: symmetric, of a free body.
     stiffness = Matrix(Delam.body_matrix(problem, 0))
@@ -21,6 +21,26 @@
     rows, coefficients = Delam.constraints(problem)
     @test size(coefficients) == (1, rows.rows)
     @test coefficients[1, 1:2] == [0.5, 0.5]
+
+    # The same matrix handed back is the same problem.
+    own = Problem(problem.mesh; plane="plane-strain")
+    set_elastic!(own, 135e9, 0.3)
+    set_formulation!(own, "incompatible")
+    for body in 0:1
+        matrix = Delam.body_matrix(own, body)
+        ids = findall(==(body), node_bodies(own.mesh))
+        set_stiffness!(own, ids, matrix.row_starts, matrix.columns, matrix.values)
+    end
+    @test Matrix(Delam.body_matrix(own, 0)) ≈ stiffness
+    @test_throws DimensionMismatch set_stiffness!(own, [1, 2], [1], Int64[], Float64[])
+
+    # Bodies without cells, and pairs by hand.
+    bare = Mesh([0.0 1.0 0.0 1.0; 0.0 0.0 0.0 0.0])
+    add_host_body!(bare, 0, [1, 2])
+    add_host_body!(bare, 1, [3, 4])
+    joint = add_pairs!(bare, 0, 1, [1, 2], [3, 4], [0.0, 1.0], 0.5; faces=reshape([1, 2], 2, 1))
+    @test nodes_a(joint) == [1, 2] && nodes_b(joint) == [3, 4] && weights(joint) == [0.5, 0.5]
+    @test faces(joint) == reshape([1, 2], 2, 1)
 
     incomplete = Problem(problem.mesh)
     @test_throws ProblemError check(incomplete)

@@ -28,15 +28,35 @@
     state = save(solver)
     before = field(solver, "jump", 1)
     advance!(solver, 1.1)
-    @test solver.pending
+    @test pending(solver)
     @test_throws StateError advance!(solver, 1.2)
+    @test step_tangent(solver)[1, 1] > 0.0
     rollback!(solver)
+    @test !pending(solver)
     @test field(solver, "jump", 1) == before
     other = Solver(double_cantilever())
     load!(other, state)
     @test field(other, "jump", 1) == before
     @test_throws SnapshotError load!(other, state[1:end-1])
+    mktempdir() do folder
+        path = joinpath(folder, "state")
+        save(solver, path)
+        load!(other, path)
+        @test field(other, "jump", 1) == before
+        @test_throws FileError load!(other, joinpath(folder, "none"))
+    end
     @test_throws InvalidArgument solver["no such value"]
+
+    # A history from here on.
+    set_history!(solver, 1, [2.0], [0.0])
+    advance!(solver, 1.5)
+    @test solver["load:opening"] ≈ 3e-3
+    rollback!(solver)
+
+    # The condensed operator has the energy of the bodies and the loads.
+    small = condensed(solver)
+    @test small.stiffness ≈ small.stiffness'
+    @test size(small.offset) == (1, 102) && size(small.load, 2) == 1
 
     text = sprint(io -> write_csv(io, rows))
     @test length(split(text, "\n"; keepempty=false)) == 22

@@ -22,7 +22,7 @@ ROOT = HERE.parents[2]
 def commands(build):
     found = {}
     for language in ("c", "cpp", "fortran"):
-        program = build / "verify" / "bench" / f"calls_{language}"
+        program = build / "verify" / f"calls_{language}"
         if program.exists():
             found[language] = [str(program)]
         else:
