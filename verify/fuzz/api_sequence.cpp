@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 
+#include <unistd.h>
+
 #include "contract.hpp"
 #include "input.hpp"
 #include "small_scene.hpp"
@@ -206,6 +208,45 @@ std::int32_t add_obstacle(Input& in, delam_mesh* mesh) {
                                    in.seldom() ? nullptr : &index}.status;
 }
 
+// Nodes without cells, or any; pairs of them.
+std::int32_t add_host_body(Input& in, delam_mesh* mesh) {
+    const MeshSizes s = sizes_of(mesh);
+    const std::int32_t base = in.base();
+    std::vector<std::int32_t> bodies(static_cast<std::size_t>(s.nodes));
+    delam_mesh_node_bodies(mesh, s.nodes, bodies.data());
+    std::vector<std::int64_t> nodes;
+    for (std::int64_t n = 0; n < s.nodes && nodes.size() < 8; ++n)
+        if (bodies[static_cast<std::size_t>(n)] < 0 && !in.seldom()) nodes.push_back(n + (base == 1 ? 1 : 0));
+    if (in.seldom()) nodes = in.indices(few(in), s.nodes, base);
+    return in_order{delam_mesh_add_host_body, mesh, in.small_label(5), static_cast<std::int64_t>(nodes.size()),
+                    maybe(in, nodes), base}.status;
+}
+
+std::int32_t add_pairs(Input& in, delam_mesh* mesh) {
+    const MeshSizes s = sizes_of(mesh);
+    const std::size_t count = few(in), faces = few(in) / 2;
+    const std::int32_t base = in.base(), per_face = in.seldom() ? static_cast<std::int32_t>(in.hostile_whole() % 12)
+                                                                : 2 + static_cast<std::int32_t>(in.below(7));
+    const std::int32_t body_a = in.small_label(5), body_b = in.small_label(5);
+    std::vector<std::int32_t> bodies(static_cast<std::size_t>(s.nodes));
+    delam_mesh_node_bodies(mesh, s.nodes, bodies.data());
+    std::vector<std::int64_t> nodes_a, nodes_b;
+    for (std::int64_t n = 0; n < s.nodes; ++n) {
+        if (bodies[static_cast<std::size_t>(n)] == body_a && nodes_a.size() < count) nodes_a.push_back(n + (base == 1 ? 1 : 0));
+        if (bodies[static_cast<std::size_t>(n)] == body_b && nodes_b.size() < count) nodes_b.push_back(n + (base == 1 ? 1 : 0));
+    }
+    nodes_a.resize(count), nodes_b.resize(count);
+    if (in.seldom()) nodes_a = in.indices(count, s.nodes, base);
+    std::vector<double> normals = in.reals(3 * count), weights(count);
+    for (double& w : weights) w = in.real();
+    std::vector<std::int64_t> face = in.indices(faces * static_cast<std::size_t>(std::max(per_face, 0)),
+                                                static_cast<std::int64_t>(count), base);
+    std::int64_t index = -1;
+    return in_order{delam_mesh_add_pairs, mesh, body_a, body_b, static_cast<std::int64_t>(count), maybe(in, nodes_a),
+                    maybe(in, nodes_b), maybe(in, normals), maybe(in, weights), static_cast<std::int64_t>(faces), per_face,
+                    maybe(in, face), base, in.seldom() ? nullptr : &index}.status;
+}
+
 std::int32_t create_layers(Input& in, Host& host, delam_mesh** out) {
     const std::int32_t dimension = in.seldom() ? static_cast<std::int32_t>(in.hostile_whole()) : 2 + in.flag();
     std::vector<double> lengths = {in.real(), in.real()};
@@ -328,6 +369,59 @@ std::int32_t body_matrix(Input& in, const delam_problem* problem) {
                                      maybe(in, values)}.status;
 }
 
+// A stiffness that the library has assembled comes back as the host's own, or a band matrix does; then it is spoiled.
+std::int32_t set_stiffness(const delam_mesh* mesh, Input& in, delam_problem* problem) {
+    const MeshSizes s = mesh == nullptr ? MeshSizes{} : sizes_of(mesh);
+    const std::int32_t body = in.small_label(5), base = in.base();
+    const std::int64_t shift = base == 1 ? 1 : 0;
+    std::vector<std::int32_t> bodies(static_cast<std::size_t>(s.nodes));
+    if (mesh != nullptr) delam_mesh_node_bodies(mesh, s.nodes, bodies.data());
+    std::vector<std::int64_t> nodes;
+    for (std::int64_t n = 0; n < s.nodes; ++n)
+        if (bodies[static_cast<std::size_t>(n)] == body) nodes.push_back(n);
+    // As long as three components a node would need, whatever the dimension is.
+    const std::size_t most = 3 * nodes.size();
+    std::int64_t rows = 0, entries = 0;
+    delam_problem_body_matrix(problem, body, &rows, &entries, nullptr, nullptr, nullptr);
+    std::vector<std::int64_t> starts, columns;
+    std::vector<double> values;
+    if (rows > 0 && rows == static_cast<std::int64_t>(nodes.size()) * s.dimension) {
+        starts.resize(static_cast<std::size_t>(rows + 1)), columns.resize(static_cast<std::size_t>(entries));
+        values.resize(columns.size());
+        delam_problem_body_matrix(problem, body, nullptr, nullptr, starts.data(), columns.data(), values.data());
+    } else {
+        for (std::size_t i = 0; i < nodes.size() * static_cast<std::size_t>(s.dimension); ++i) {
+            starts.push_back(static_cast<std::int64_t>(columns.size()));
+            columns.push_back(static_cast<std::int64_t>(i)), values.push_back(100.0);
+        }
+        starts.push_back(static_cast<std::int64_t>(columns.size()));
+    }
+    starts.resize(most + 1, starts.back());
+    for (std::int64_t left = in.below(4); left > 0 && !values.empty(); --left) {
+        const std::size_t at = in.raw<std::uint16_t>();
+        switch (in.below(4)) {
+            case 0: values[at % values.size()] = in.hostile_real(); break;
+            case 1: values[at % values.size()] = 100.0 * in.signed_real(); break;
+            case 2: columns[at % columns.size()] = in.index(static_cast<std::int64_t>(most)); break;
+            default: {  // ends are beyond the arrays nowhere
+                const std::int64_t start = in.hostile_whole();
+                starts[at % starts.size()] = std::min(start, static_cast<std::int64_t>(columns.size()));
+            }
+        }
+    }
+    for (std::int64_t& v : starts) v = v > std::numeric_limits<std::int64_t>::min() ? v + shift : v;
+    for (std::int64_t& v : columns) v = v < std::numeric_limits<std::int64_t>::max() ? v + shift : v;
+    for (std::int64_t& v : nodes) v += shift;
+    std::vector<std::int64_t> dofs(most);
+    for (std::size_t i = 0; i < dofs.size(); ++i) dofs[i] = static_cast<std::int64_t>(i) + shift;
+    if (in.seldom()) dofs = in.indices(most, static_cast<std::int64_t>(most), base);
+    const std::int64_t kernels = in.below(5) - 1;
+    std::vector<double> kernel = in.reals(most * static_cast<std::size_t>(std::max<std::int64_t>(kernels, 0)));
+    return in_order{delam_problem_set_stiffness, problem, static_cast<std::int64_t>(nodes.size()), maybe(in, nodes),
+                    in.flag() ? nullptr : dofs.data(), maybe(in, starts), maybe(in, columns), maybe(in, values), kernels,
+                    kernels > 0 ? maybe(in, kernel) : nullptr, base}.status;
+}
+
 std::int32_t constraints(Input& in, const delam_problem* problem) {
     std::int64_t rows = 0, entries = 0, patterns = 0;
     delam_problem_constraints(problem, &rows, &entries, &patterns, nullptr, nullptr, nullptr, nullptr);
@@ -428,6 +522,45 @@ std::int32_t read_plan(Input& in, delam_solver* solver) {
 std::int32_t tangent(Input& in, delam_solver* solver, std::int64_t patterns) {
     Room<double> room(in, patterns * patterns);
     return delam_solver_tangent(solver, room.capacity, room.data());
+}
+
+std::int32_t set_history(Input& in, delam_solver* solver) {
+    const std::size_t count = few(in);
+    std::vector<double> times(count), values = in.reals(count);
+    double last = next_time(in, solver);
+    for (double& t : times) t = last, last += in.real();
+    return in_order{delam_solver_set_history, solver, in.index(2), static_cast<std::int64_t>(count), maybe(in, times),
+                    maybe(in, values)}.status;
+}
+
+std::int64_t patterns_of(delam_solver* solver) {
+    std::int64_t count = 0, patterns = 0;
+    delam_solver_value_count(solver, &count);
+    for (std::int64_t i = 0; i < count; ++i) patterns += std::string(delam_solver_value_name(solver, i)).starts_with("load:");
+    return patterns;
+}
+
+std::int32_t condensed(Input& in, delam_solver* solver) {
+    const std::int64_t patterns = patterns_of(solver);
+    std::int64_t unknowns = 0, entries = 0, rows = 0, columns = 0;
+    const std::int32_t status = delam_solver_condensed_size(solver, &unknowns, &entries);
+    if (status != DELAM_OK) return status;
+    delam_solver_field_shape(solver, "jump", -1, &rows, &columns);
+    const auto size = [](std::int64_t n) { return static_cast<std::size_t>(n); };
+    Room<double> stiffness(in, unknowns * unknowns);
+    std::vector<double> load(size(patterns * unknowns)), constant(size(patterns * patterns)), values(size(entries)),
+        offset(size(rows * columns * patterns));
+    std::vector<std::int64_t> starts(size(rows * columns + 1)), of(size(entries));
+    return in_order{delam_solver_condensed, solver, stiffness.capacity, stiffness.data(), maybe(in, load),
+                    maybe(in, constant), maybe(in, starts), maybe(in, of), maybe(in, values), maybe(in, offset)}.status;
+}
+
+// A file in memory, of this process.
+std::string file_name() { return "/dev/shm/delam-fuzz-" + std::to_string(::getpid()) + ".state"; }
+const char* some_path(Input& in) {
+    static const std::string own = file_name();
+    static const char* const wrong[] = {"/nowhere/at/all", "/dev/shm"};
+    return in.seldom() ? in.word(wrong) : own.c_str();
 }
 
 // Bytes of one solver into another, of the same scene or not, whole or cut.
@@ -563,6 +696,10 @@ const Call calls[] = {
      }},
     {"delam_mesh_add_obstacle", Subject::mesh, may::argument | may::mesh,
      [](const Asked& a) { return add_obstacle(a.in, a.mesh); }},
+    {"delam_mesh_add_host_body", Subject::mesh, may::argument | may::mesh,
+     [](const Asked& a) { return add_host_body(a.in, a.mesh); }},
+    {"delam_mesh_add_pairs", Subject::mesh, may::argument | may::mesh,
+     [](const Asked& a) { return add_pairs(a.in, a.mesh); }},
     {"delam_mesh_find_nodes", Subject::mesh, may::argument, [](const Asked& a) { return find_in(a.in, a.mesh, false); }},
     {"delam_mesh_find_patch", Subject::mesh, may::argument, [](const Asked& a) { return find_in(a.in, a.mesh, true); }},
     {"delam_mesh_nodes", Subject::mesh, may::argument,
@@ -611,6 +748,8 @@ const Call calls[] = {
          static const char* const words[] = {"standard", "incompatible", "mean-dilatation"};
          return in_order{delam_problem_set_formulation, a.problem, a.in.body(), a.in.word(words)}.status;
      }},
+    {"delam_problem_set_stiffness", Subject::problem, may::argument,
+     [](const Asked& a) { return set_stiffness(a.world.mesh.pick(a.in), a.in, a.problem); }},
     {"delam_problem_set_law", Subject::problem, may::argument | may::problem,
      [](const Asked& a) {
          return watched(a.world, a.in,
@@ -731,7 +870,33 @@ const Call calls[] = {
     {"delam_solver_front", Subject::solver, may::argument | may::problem, [](const Asked& a) { return read_front(a.in, a.solver); }},
     {"delam_solver_tangent", Subject::solver, may::cancelled | may::argument | may::state | may::numerical,
      [](const Asked& a) {
-         return watched(a.world, a.in, [&] { return tangent(a.in, a.solver, 1 + a.in.below(3)); });
+         return watched(a.world, a.in, [&] { return tangent(a.in, a.solver, patterns_of(a.solver)); });
+     }},
+    {"delam_solver_step_tangent", Subject::solver, may::cancelled | may::argument | may::state | may::numerical,
+     [](const Asked& a) {
+         return watched(a.world, a.in, [&] {
+             const std::int64_t patterns = patterns_of(a.solver);
+             Room<double> room(a.in, patterns * patterns);
+             return delam_solver_step_tangent(a.solver, room.capacity, room.data());
+         });
+     }},
+    {"delam_solver_set_history", Subject::solver, may::argument | may::state,
+     [](const Asked& a) { return set_history(a.in, a.solver); }},
+    {"delam_solver_condensed", Subject::solver, may::argument | may::state,
+     [](const Asked& a) { return condensed(a.in, a.solver); }},
+    {"delam_solver_pending", Subject::solver, may::argument,
+     [](const Asked& a) {
+         std::int32_t pending = -1;
+         const std::int32_t status = delam_solver_pending(a.solver, a.in.seldom() ? nullptr : &pending);
+         expect(status != DELAM_OK || pending == 0 || pending == 1, "0 or 1", "delam_solver_pending");
+         return status;
+     }},
+    {"delam_solver_save_file", Subject::solver, may::argument | may::file,
+     [](const Asked& a) { return delam_solver_save_file(a.solver, some_path(a.in)); }},
+    {"delam_solver_load_file", Subject::solver,
+     may::cancelled | may::argument | may::numerical | may::snapshot | may::file,
+     [](const Asked& a) {
+         return watched(a.world, a.in, [&] { return delam_solver_load_file(a.solver, some_path(a.in)); });
      }},
     {"delam_solver_jump", Subject::solver, may::argument, [](const Asked& a) { return read_jumps(a.in, a.solver); }},
     {"delam_solver_plan_item", Subject::solver, may::argument, [](const Asked& a) { return read_plan(a.in, a.solver); }},
@@ -833,6 +998,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (trace) std::fprintf(stderr, "%s\n", call.name);
         one(world, in, call);
     }
+    ::unlink(file_name().c_str());
     // Contexts may go before what was made with them.
     if (in.flag()) world.host[0].reset(), world.host[1].reset();
     return 0;

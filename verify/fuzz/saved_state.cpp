@@ -66,7 +66,10 @@ public:
         }
         const auto own = std::find(states_.begin(), states_.end(), bytes);
         expect(own != states_.end() || put_right, "bytes that were changed are refused", "delam_solver_load");
-        expect(saved(solver_) == bytes, "a state is saved as it was loaded", "delam_solver_save");
+        // Bytes of an earlier version are saved as the present one.
+        const Bytes again = saved(solver_);
+        expect(again == bytes || !std::equal(again.begin(), again.begin() + 12, bytes.begin()),
+               "a state is saved as it was loaded", "delam_solver_save");
         read_everything();
         const auto step = own - states_.begin();
         if (own != states_.end() && step < steps) {
