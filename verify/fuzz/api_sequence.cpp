@@ -35,7 +35,8 @@ std::int32_t host_adhesion(double, double driving, double* adhesion, double* slo
     if (law.fails()) return 1;
     // zeta* of zeta Y + g with -g'(zeta) = 1/(zeta/sqrt(Go) + (1 - zeta)/sqrt(Ge))^2, sqrt(Go Ge) = Gc
     const double first = std::sqrt(host_onset), last = host_toughness / first, root = std::sqrt(driving);
-    *adhesion = driving <= host_onset ? 1.0 : root >= last ? 0.0 : (1.0 / root - 1.0 / last) / (1.0 / first - 1.0 / last);
+    const double softening = (1.0 / root - 1.0 / last) / (1.0 / first - 1.0 / last);
+    *adhesion = driving <= host_onset ? 1.0 : root >= last ? 0.0 : softening;
     *slope = *adhesion <= 0.0 || *adhesion >= 1.0 ? 0.0 : -0.5 / (root * driving) / (1.0 / first - 1.0 / last);
     if (law.nonsense) *adhesion = std::nan(""), *slope = 1.0;
     return 0;
@@ -192,7 +193,8 @@ std::int32_t add_cells(Input& in, delam_mesh* mesh, bool conforming) {
     std::vector<std::int32_t> bodies(count);
     for (std::int32_t& label : bodies) label = in.small_label(4);
     const auto call = conforming ? delam_mesh_add_conforming_cells : delam_mesh_add_cells;
-    return in_order{call, mesh, type, static_cast<std::int64_t>(count), maybe(in, connectivity), maybe(in, bodies), base}.status;
+    return in_order{call, mesh, type, static_cast<std::int64_t>(count), maybe(in, connectivity), maybe(in, bodies),
+                    base}.status;
 }
 
 std::int32_t add_obstacle(Input& in, delam_mesh* mesh) {
@@ -203,7 +205,8 @@ std::int32_t add_obstacle(Input& in, delam_mesh* mesh) {
     std::vector<double> normals = in.reals(count * static_cast<std::size_t>(s.dimension));
     std::vector<double> weights = in.reals(count);
     std::int64_t index = -1;
-    return in_order{delam_mesh_add_obstacle, mesh, static_cast<std::int64_t>(count), maybe(in, nodes), maybe(in, normals),
+    return in_order{delam_mesh_add_obstacle, mesh, static_cast<std::int64_t>(count), maybe(in, nodes),
+                    maybe(in, normals),
                                    in.flag() ? nullptr : weights.data(), in.index(s.nodes), base,
                                    in.seldom() ? nullptr : &index}.status;
 }
@@ -232,8 +235,10 @@ std::int32_t add_pairs(Input& in, delam_mesh* mesh) {
     delam_mesh_node_bodies(mesh, s.nodes, bodies.data());
     std::vector<std::int64_t> nodes_a, nodes_b;
     for (std::int64_t n = 0; n < s.nodes; ++n) {
-        if (bodies[static_cast<std::size_t>(n)] == body_a && nodes_a.size() < count) nodes_a.push_back(n + (base == 1 ? 1 : 0));
-        if (bodies[static_cast<std::size_t>(n)] == body_b && nodes_b.size() < count) nodes_b.push_back(n + (base == 1 ? 1 : 0));
+        const std::int32_t body = bodies[static_cast<std::size_t>(n)];
+        const std::int64_t index = n + (base == 1 ? 1 : 0);
+        if (body == body_a && nodes_a.size() < count) nodes_a.push_back(index);
+        if (body == body_b && nodes_b.size() < count) nodes_b.push_back(index);
     }
     nodes_a.resize(count), nodes_b.resize(count);
     if (in.seldom()) nodes_a = in.indices(count, s.nodes, base);
@@ -243,7 +248,8 @@ std::int32_t add_pairs(Input& in, delam_mesh* mesh) {
                                                 static_cast<std::int64_t>(count), base);
     std::int64_t index = -1;
     return in_order{delam_mesh_add_pairs, mesh, body_a, body_b, static_cast<std::int64_t>(count), maybe(in, nodes_a),
-                    maybe(in, nodes_b), maybe(in, normals), maybe(in, weights), static_cast<std::int64_t>(faces), per_face,
+                    maybe(in, nodes_b), maybe(in, normals), maybe(in, weights), static_cast<std::int64_t>(faces),
+                    per_face,
                     maybe(in, face), base, in.seldom() ? nullptr : &index}.status;
 }
 
@@ -286,7 +292,8 @@ std::int32_t find_in(Input& in, const delam_mesh* mesh, bool patch) {
     std::int64_t count = -1;
     const std::int32_t body = in.seldom() ? in.small_label(3) : static_cast<std::int32_t>(in.below(4)) - 1;
     if (patch)
-        return in_order{delam_mesh_find_patch, mesh, body, lower.data(), upper.data(), maybe(in, direction), nodes.capacity,
+        return in_order{delam_mesh_find_patch, mesh, body, lower.data(), upper.data(), maybe(in, direction),
+                        nodes.capacity,
                                      nodes.data(), weights.data(), in.seldom() ? nullptr : &count}.status;
     return in_order{delam_mesh_find_nodes, mesh, body, maybe(in, lower), maybe(in, upper), nodes.capacity, nodes.data(),
                                  in.seldom() ? nullptr : &count}.status;
@@ -299,7 +306,8 @@ std::int32_t add_pattern(Input& in, delam_problem* problem) {
     double last = in.flag() ? 0.0 : in.signed_real();
     for (double& t : times) t = last, last += in.real();
     std::int64_t index = -1;
-    return in_order{delam_problem_add_pattern, problem, in.word(names), static_cast<std::int64_t>(count), maybe(in, times),
+    return in_order{delam_problem_add_pattern, problem, in.word(names), static_cast<std::int64_t>(count),
+                    maybe(in, times),
                                      maybe(in, values), in.seldom() ? nullptr : &index}.status;
 }
 
@@ -316,7 +324,8 @@ std::int32_t add_load(Input& in, delam_problem* problem, Load load) {
     std::vector<double> coefficients = in.reals(std::max<std::size_t>(1, count) * std::max<std::size_t>(1, patterns));
     switch (load) {
         case Load::nodes:
-            return in_order{delam_problem_prescribe_nodes, problem, entries, maybe(in, nodes), maybe(in, direction), driven,
+            return in_order{delam_problem_prescribe_nodes, problem, entries, maybe(in, nodes), maybe(in, direction),
+                            driven,
                                                  maybe(in, by), maybe(in, coefficients), base}.status;
         case Load::mean:
             return in_order{delam_problem_prescribe_mean, problem, entries, maybe(in, nodes), maybe(in, weights),
@@ -326,7 +335,8 @@ std::int32_t add_load(Input& in, delam_problem* problem, Load load) {
             return in_order{delam_problem_add_equation, problem, entries, maybe(in, nodes), maybe(in, vectors), driven,
                                               maybe(in, by), maybe(in, coefficients), base}.status;
         case Load::forces:
-            return in_order{delam_problem_add_forces, problem, in.index(s.patterns), entries, maybe(in, nodes), maybe(in, vectors),
+            return in_order{delam_problem_add_forces, problem, in.index(s.patterns), entries, maybe(in, nodes),
+                            maybe(in, vectors),
                                             base}.status;
     }
     return DELAM_OK;
@@ -337,7 +347,8 @@ std::int32_t add_periodic(Input& in, delam_problem* problem) {
     if (in.flag()) periods = {1.0, 0.0, 0.0, 0.0, 0.0, 0.25, 0.0, 0.0, 1.0};
     const std::int32_t base = in.base();
     std::vector<std::int64_t> controls = in.indices(3, sizes_of(problem).dofs / 3, base);
-    return in_order{delam_problem_add_periodic, problem, in.seldom() ? in.hostile_whole() % 4 : in.below(4), maybe(in, periods),
+    return in_order{delam_problem_add_periodic, problem, in.seldom() ? in.hostile_whole() % 4 : in.below(4),
+                    maybe(in, periods),
                                       maybe(in, controls), in.flag() ? 0.0 : in.fraction(), base}.status;
 }
 
@@ -418,7 +429,8 @@ std::int32_t set_stiffness(const delam_mesh* mesh, Input& in, delam_problem* pro
     const std::int64_t kernels = in.below(5) - 1;
     std::vector<double> kernel = in.reals(most * static_cast<std::size_t>(std::max<std::int64_t>(kernels, 0)));
     return in_order{delam_problem_set_stiffness, problem, static_cast<std::int64_t>(nodes.size()), maybe(in, nodes),
-                    in.flag() ? nullptr : dofs.data(), maybe(in, starts), maybe(in, columns), maybe(in, values), kernels,
+                    in.flag() ? nullptr : dofs.data(), maybe(in, starts), maybe(in, columns), maybe(in, values),
+                    kernels,
                     kernels > 0 ? maybe(in, kernel) : nullptr, base}.status;
 }
 
@@ -427,8 +439,9 @@ std::int32_t constraints(Input& in, const delam_problem* problem) {
     delam_problem_constraints(problem, &rows, &entries, &patterns, nullptr, nullptr, nullptr, nullptr);
     std::vector<std::int64_t> starts(static_cast<std::size_t>(rows + 1)), columns(static_cast<std::size_t>(entries));
     std::vector<double> values(columns.size()), coefficients(static_cast<std::size_t>(rows * patterns));
-    const std::int32_t status = in_order{delam_problem_constraints, problem, nullptr, nullptr, nullptr, maybe(in, starts),
-                                                          columns.data(), values.data(), maybe(in, coefficients)}.status;
+    const std::int32_t status = in_order{delam_problem_constraints, problem, nullptr, nullptr, nullptr,
+                                         maybe(in, starts), columns.data(), values.data(),
+                                         maybe(in, coefficients)}.status;
     for (const double v : values) expect(std::isfinite(v), "constraints are finite", "delam_problem_constraints");
     for (const double v : coefficients) expect(std::isfinite(v), "constraints are finite", "delam_problem_constraints");
     return status;
@@ -459,7 +472,8 @@ std::int32_t equilibrate(Input& in, delam_solver* solver) {
     delam_solver_field_shape(solver, "adhesion", -1, &pairs, &one);
     std::vector<double> adhesion(static_cast<std::size_t>(pairs));
     for (double& zeta : adhesion) zeta = in.fraction();
-    return in_order{delam_solver_equilibrate, solver, next_time(in, solver), in.flag() ? nullptr : adhesion.data()}.status;
+    return in_order{delam_solver_equilibrate, solver, next_time(in, solver),
+                    in.flag() ? nullptr : adhesion.data()}.status;
 }
 
 std::int32_t read_field(Input& in, delam_solver* solver) {
@@ -482,7 +496,8 @@ std::int32_t read_front(Input& in, delam_solver* solver) {
     std::vector<std::int64_t> starts(closed.entries.size() + 1);
     const std::size_t room = lengths.entries.size();
     std::vector<double> places(3 * room), directions(3 * room), rates(3 * room), zones(room), pairs(room);
-    return in_order{delam_solver_front, solver, index, closed.capacity, lengths.capacity, maybe(in, starts), closed.data(),
+    return in_order{delam_solver_front, solver, index, closed.capacity, lengths.capacity, maybe(in, starts),
+                    closed.data(),
                               maybe(in, places), maybe(in, directions), lengths.data(), maybe(in, rates),
                               maybe(in, zones), maybe(in, pairs)}.status;
 }
@@ -536,7 +551,8 @@ std::int32_t set_history(Input& in, delam_solver* solver) {
 std::int64_t patterns_of(delam_solver* solver) {
     std::int64_t count = 0, patterns = 0;
     delam_solver_value_count(solver, &count);
-    for (std::int64_t i = 0; i < count; ++i) patterns += std::string(delam_solver_value_name(solver, i)).starts_with("load:");
+    for (std::int64_t i = 0; i < count; ++i)
+        patterns += std::string(delam_solver_value_name(solver, i)).starts_with("load:") ? 1 : 0;
     return patterns;
 }
 
@@ -570,7 +586,8 @@ std::int32_t save_and_load(World& world, Input& in, delam_solver* solver) {
     std::vector<std::uint8_t> bytes = saved(from);
     if (in.seldom()) bytes.resize(bytes.size() - static_cast<std::size_t>(in.below(9)));
     if (in.seldom() && !bytes.empty()) bytes[in.raw<std::uint16_t>() % bytes.size()] ^= in.byte();
-    return in_order{delam_solver_load, solver, in.seldom() ? in.hostile_whole() % 2 : static_cast<std::int64_t>(bytes.size()),
+    return in_order{delam_solver_load, solver,
+                    in.seldom() ? in.hostile_whole() % 2 : static_cast<std::int64_t>(bytes.size()),
                              maybe(in, bytes)}.status;
 }
 
@@ -578,7 +595,8 @@ std::int32_t law_respond(Input& in, const delam_law* law) {
     const std::size_t count = few(in);
     std::vector<double> jump = in.reals(3 * count), mixity(count), old(count), adhesion(count), traction(3 * count);
     for (std::size_t i = 0; i < count; ++i) mixity[i] = in.fraction(), old[i] = in.fraction();
-    return in_order{delam_law_respond, law, in.seldom() ? 4 : 2 + in.flag(), static_cast<std::int64_t>(count), maybe(in, jump),
+    return in_order{delam_law_respond, law, in.seldom() ? 4 : 2 + in.flag(), static_cast<std::int64_t>(count),
+                    maybe(in, jump),
                              maybe(in, mixity), maybe(in, old), adhesion.data(), maybe(in, traction)}.status;
 }
 
@@ -626,7 +644,8 @@ const Call calls[] = {
      }},
     {"delam_mesh_create_layers", Subject::host, may::argument | may::mesh,
      [](const Asked& a) {
-         return a.world.make(a.world.mesh, a.in, a.host, [&](delam_mesh** o) { return create_layers(a.in, a.host, o); });
+         return a.world.make(a.world.mesh, a.in, a.host,
+                             [&](delam_mesh** o) { return create_layers(a.in, a.host, o); });
      }},
     {"delam_law_create", Subject::host, may::argument,
      [](const Asked& a) {
@@ -692,7 +711,8 @@ const Call calls[] = {
      [](const Asked& a) {
          std::int64_t index = -1;
          return in_order{delam_mesh_add_projected_interface, a.mesh, a.in.small_label(3), a.in.small_label(3),
-                                                   a.in.flag() ? 0.0 : a.in.real(), a.in.seldom() ? nullptr : &index}.status;
+                                                   a.in.flag() ? 0.0 : a.in.real(),
+                         a.in.seldom() ? nullptr : &index}.status;
      }},
     {"delam_mesh_add_obstacle", Subject::mesh, may::argument | may::mesh,
      [](const Asked& a) { return add_obstacle(a.in, a.mesh); }},
@@ -700,7 +720,8 @@ const Call calls[] = {
      [](const Asked& a) { return add_host_body(a.in, a.mesh); }},
     {"delam_mesh_add_pairs", Subject::mesh, may::argument | may::mesh,
      [](const Asked& a) { return add_pairs(a.in, a.mesh); }},
-    {"delam_mesh_find_nodes", Subject::mesh, may::argument, [](const Asked& a) { return find_in(a.in, a.mesh, false); }},
+    {"delam_mesh_find_nodes", Subject::mesh, may::argument,
+     [](const Asked& a) { return find_in(a.in, a.mesh, false); }},
     {"delam_mesh_find_patch", Subject::mesh, may::argument, [](const Asked& a) { return find_in(a.in, a.mesh, true); }},
     {"delam_mesh_nodes", Subject::mesh, may::argument,
      [](const Asked& a) {
@@ -716,13 +737,17 @@ const Call calls[] = {
     {"delam_law_set", Subject::law, may::argument,
      [](const Asked& a) { return in_order{delam_law_set, a.law, a.in.word(law_keys), a.in.signed_real()}.status; }},
     {"delam_law_set_text", Subject::law, may::argument,
-     [](const Asked& a) { return in_order{delam_law_set_text, a.law, a.in.seldom() ? a.in.word(law_keys) : "criterion", a.in.word(criteria)}.status; }},
+     [](const Asked& a) {
+         return in_order{delam_law_set_text, a.law, a.in.seldom() ? a.in.word(law_keys) : "criterion",
+                         a.in.word(criteria)}.status;
+     }},
     {"delam_law_set_table", Subject::law, may::argument, [](const Asked& a) { return law_table(a.in, a.law); }},
     {"delam_law_check", Subject::law, may::problem,
      [](const Asked& a) { return watched(a.world, a.in, [&] { return delam_law_check(a.law); }); }},
     {"delam_law_toughness", Subject::law, may::argument | may::problem,
      [](const Asked& a) { return law_toughness(a.in, a.law); }},
-    {"delam_law_respond", Subject::law, may::argument | may::problem, [](const Asked& a) { return law_respond(a.in, a.law); }},
+    {"delam_law_respond", Subject::law, may::argument | may::problem,
+     [](const Asked& a) { return law_respond(a.in, a.law); }},
     {"delam_law_destroy", Subject::law, may::usual,
      [](const Asked& a) {
          a.world.law.put(static_cast<std::size_t>(a.in.below(slots)), nullptr, nullptr);
@@ -753,7 +778,8 @@ const Call calls[] = {
     {"delam_problem_set_law", Subject::problem, may::argument | may::problem,
      [](const Asked& a) {
          return watched(a.world, a.in,
-                        [&] { return in_order{delam_problem_set_law, a.problem, a.in.index(2), a.world.law.pick(a.in)}.status; });
+                        [&] { return in_order{delam_problem_set_law, a.problem, a.in.index(2),
+                                              a.world.law.pick(a.in)}.status; });
      }},
     {"delam_problem_set_bonded", Subject::problem, may::argument,
      [](const Asked& a) { return delam_problem_set_bonded(a.problem, a.in.index(2)); }},
@@ -791,7 +817,8 @@ const Call calls[] = {
     {"delam_problem_set_number", Subject::problem, may::argument,
      [](const Asked& a) {
          const char* key = option_key(a.in);
-         return in_order{delam_problem_set_number, a.problem, key, a.in.seldom() ? a.in.hostile_real() : a.in.real()}.status;
+         return in_order{delam_problem_set_number, a.problem, key,
+                         a.in.seldom() ? a.in.hostile_real() : a.in.real()}.status;
      }},
     {"delam_problem_set_text", Subject::problem, may::argument,
      [](const Asked& a) {
@@ -825,7 +852,8 @@ const Call calls[] = {
          Room<double> room(a.in, sizes_of(a.problem).patterns);
          const std::int32_t status = delam_problem_factors(a.problem, a.in.signed_real(), room.capacity, room.data());
          for (std::int64_t p = 0; status == DELAM_OK && p < sizes_of(a.problem).patterns; ++p)
-             expect(std::isfinite(room.entries[static_cast<std::size_t>(p)]), "factors are finite", "delam_problem_factors");
+             expect(std::isfinite(room.entries[static_cast<std::size_t>(p)]), "factors are finite",
+                    "delam_problem_factors");
          return status;
      }},
     {"delam_problem_destroy", Subject::problem, may::usual,
@@ -833,7 +861,8 @@ const Call calls[] = {
          a.world.problem.put(static_cast<std::size_t>(a.in.below(slots)), nullptr, nullptr);
          return DELAM_OK;
      }},
-    {"delam_solver_create", Subject::problem, may::not_converged | may::cancelled | may::limit | may::argument | may::problem | may::numerical,
+    {"delam_solver_create", Subject::problem,
+     may::not_converged | may::cancelled | may::limit | may::argument | may::problem | may::numerical,
      [](const Asked& a) {
          return watched(a.world, a.in, [&] {
              return a.world.make(a.world.solver, a.in, a.host, [&](delam_solver** o) {
@@ -842,12 +871,14 @@ const Call calls[] = {
          });
      }},
 
-    {"delam_solver_advance", Subject::solver, may::not_converged | may::cancelled | may::limit | may::argument | may::problem | may::state | may::numerical,
+    {"delam_solver_advance", Subject::solver,
+     may::not_converged | may::cancelled | may::limit | may::argument | may::problem | may::state | may::numerical,
      [](const Asked& a) {
          return watched(a.world, a.in, [&] { return delam_solver_advance(a.solver, next_time(a.in, a.solver)); });
      }},
     {"delam_solver_commit", Subject::solver, may::state, [](const Asked& a) { return delam_solver_commit(a.solver); }},
-    {"delam_solver_rollback", Subject::solver, may::state, [](const Asked& a) { return delam_solver_rollback(a.solver); }},
+    {"delam_solver_rollback", Subject::solver, may::state,
+     [](const Asked& a) { return delam_solver_rollback(a.solver); }},
     {"delam_solver_equilibrate", Subject::solver,
      may::not_converged | may::cancelled | may::limit | may::argument | may::problem | may::state | may::numerical,
      [](const Asked& a) { return watched(a.world, a.in, [&] { return equilibrate(a.in, a.solver); }); }},
@@ -858,7 +889,8 @@ const Call calls[] = {
          double value = 0.0;
          return in_order{delam_solver_value, a.solver, a.in.word(value_keys), a.in.seldom() ? nullptr : &value}.status;
      }},
-    {"all values", Subject::solver, may::argument | may::problem, [](const Asked& a) { return read_all_values(a.solver); }},
+    {"all values", Subject::solver, may::argument | may::problem,
+     [](const Asked& a) { return read_all_values(a.solver); }},
     {"delam_solver_field", Subject::solver, may::argument, [](const Asked& a) { return read_field(a.in, a.solver); }},
     {"delam_solver_average", Subject::solver, may::argument,
      [](const Asked& a) {
@@ -867,7 +899,8 @@ const Call calls[] = {
          return in_order{delam_solver_average, a.solver, a.in.body(), &volume, maybe(a.in, strain),
                                      maybe(a.in, stress)}.status;
      }},
-    {"delam_solver_front", Subject::solver, may::argument | may::problem, [](const Asked& a) { return read_front(a.in, a.solver); }},
+    {"delam_solver_front", Subject::solver, may::argument | may::problem,
+     [](const Asked& a) { return read_front(a.in, a.solver); }},
     {"delam_solver_tangent", Subject::solver, may::cancelled | may::argument | may::state | may::numerical,
      [](const Asked& a) {
          return watched(a.world, a.in, [&] { return tangent(a.in, a.solver, patterns_of(a.solver)); });
@@ -899,10 +932,12 @@ const Call calls[] = {
          return watched(a.world, a.in, [&] { return delam_solver_load_file(a.solver, some_path(a.in)); });
      }},
     {"delam_solver_jump", Subject::solver, may::argument, [](const Asked& a) { return read_jumps(a.in, a.solver); }},
-    {"delam_solver_plan_item", Subject::solver, may::argument, [](const Asked& a) { return read_plan(a.in, a.solver); }},
+    {"delam_solver_plan_item", Subject::solver, may::argument,
+     [](const Asked& a) { return read_plan(a.in, a.solver); }},
     {"delam_solver_option", Subject::solver, may::argument,
      [](const Asked& a) {
-         expect(delam_solver_option(a.solver, "solution") != nullptr, "a known option has a value", "delam_solver_option");
+         expect(delam_solver_option(a.solver, "solution") != nullptr, "a known option has a value",
+                "delam_solver_option");
          expect(delam_solver_searched(a.solver) != nullptr, "never NULL", "delam_solver_searched");
          return DELAM_OK;
      }},
@@ -929,7 +964,8 @@ void refuse_others(const Call& call, World& world, Input& in) {
     expect(delam_law_check(asked.law) == DELAM_ERROR_HANDLE, "foreign handles are refused", "law");
     expect(delam_problem_check(asked.problem) == DELAM_ERROR_HANDLE, "foreign handles are refused", "problem");
     expect(delam_solver_advance(asked.solver, 1.0) == DELAM_ERROR_HANDLE, "foreign handles are refused", "solver");
-    expect(delam_solver_jump_count(asked.solver, &count) == DELAM_ERROR_HANDLE, "foreign handles are refused", "solver");
+    expect(delam_solver_jump_count(asked.solver, &count) == DELAM_ERROR_HANDLE, "foreign handles are refused",
+           "solver");
 }
 
 // One call on one object: what it may return, and that errors, cancellations and limits leave the object as it was.
@@ -989,7 +1025,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         world.heard = world.host[0].get();
         world.heard->begin();
         const std::int32_t status = delam_solver_create(scene.problem, 0.0, &solver);
-        world.heard->settle("delam_solver_create", status, may::not_converged | may::limit | may::argument | may::problem | may::numerical);
+        world.heard->settle("delam_solver_create", status,
+                            may::not_converged | may::limit | may::argument | may::problem | may::numerical);
         if (solver != nullptr) world.solver.put(0, solver, world.host[0].get());
     }
     const bool trace = std::getenv("FUZZ_TRACE") != nullptr;
