@@ -161,11 +161,11 @@ int32_t delam_problem_set_stiffness(delam_problem* problem, int64_t count, const
         GivenMatrix given{require_indices(nodes, count, core.mesh->node_count(), index_base, "nodes"), {}, {}, {}, {}, {}};
         if (dofs != nullptr) given.dofs = require_indices(dofs, rows, rows, index_base, "dofs");
         for (std::int64_t r = 0; r <= rows; ++r) {
-            const std::int64_t start = row_starts[r] - index_base, before = r == 0 ? 0 : given.row_starts.back();
-            if (start < before || (r == 0 && start != 0) || start > (std::int64_t{1} << 48))
+            const std::int64_t before = r == 0 ? 0 : given.row_starts.back(), start = row_starts[r];
+            if (start < before + index_base || (r == 0 && start != index_base) || start > (std::int64_t{1} << 48))
                 fail(DELAM_ERROR_ARGUMENT, "row_starts[", r, "] = ", row_starts[r], r == 0 ? ": must be " : ": must be at least ",
                      before + index_base);
-            given.row_starts.push_back(start);
+            given.row_starts.push_back(start - index_base);
         }
         const std::int64_t entries = given.row_starts.back();
         require_array(values, entries, "values");

@@ -380,6 +380,7 @@ START_TEST(loads) {
     const double weights[2] = {1.0, -1.0};
     const int64_t top[2] = {9, 10};
     const int64_t twice[2] = {9, 9};
+    const double huge[4] = {1.7e308, 1.7e308, 1.7e308, 1.7e308};
     const int64_t corner = 0;
     int64_t pattern = -1;
     int64_t other = -1;
@@ -417,6 +418,10 @@ START_TEST(loads) {
            "weights: their sum is ");
     expect(delam_problem_prescribe_mean(problem, 2, twice, values + 1, y, 0, NULL, NULL, 0), DELAM_ERROR_ARGUMENT,
            "node 9 is listed twice");
+    expect(delam_problem_prescribe_mean(problem, 2, top, huge, y, 0, NULL, NULL, 0), DELAM_ERROR_ARGUMENT,
+           "weights: their sum is inf");
+    expect(delam_problem_add_equation(problem, 2, twice, huge, 0, NULL, NULL, 0), DELAM_ERROR_ARGUMENT,
+           "a coefficient of node 9 comes to inf");
     expect(delam_problem_add_forces(problem, pattern, 1, top, force, 0), DELAM_ERROR_ARGUMENT, "forces[1] = nan");
     unchanged();
     fine(delam_problem_prescribe_nodes(problem, 1, top, down, 1, &pattern, &one, 0));

@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 
+#include <unistd.h>
+
 #include "contract.hpp"
 #include "input.hpp"
 #include "small_scene.hpp"
@@ -33,7 +35,8 @@ std::int32_t host_adhesion(double, double driving, double* adhesion, double* slo
     if (law.fails()) return 1;
     // zeta* of zeta Y + g with -g'(zeta) = 1/(zeta/sqrt(Go) + (1 - zeta)/sqrt(Ge))^2, sqrt(Go Ge) = Gc
     const double first = std::sqrt(host_onset), last = host_toughness / first, root = std::sqrt(driving);
-    *adhesion = driving <= host_onset ? 1.0 : root >= last ? 0.0 : (1.0 / root - 1.0 / last) / (1.0 / first - 1.0 / last);
+    const double softening = (1.0 / root - 1.0 / last) / (1.0 / first - 1.0 / last);
+    *adhesion = driving <= host_onset ? 1.0 : root >= last ? 0.0 : softening;
     *slope = *adhesion <= 0.0 || *adhesion >= 1.0 ? 0.0 : -0.5 / (root * driving) / (1.0 / first - 1.0 / last);
     if (law.nonsense) *adhesion = std::nan(""), *slope = 1.0;
     return 0;
@@ -190,7 +193,8 @@ std::int32_t add_cells(Input& in, delam_mesh* mesh, bool conforming) {
     std::vector<std::int32_t> bodies(count);
     for (std::int32_t& label : bodies) label = in.small_label(4);
     const auto call = conforming ? delam_mesh_add_conforming_cells : delam_mesh_add_cells;
-    return in_order{call, mesh, type, static_cast<std::int64_t>(count), maybe(in, connectivity), maybe(in, bodies), base}.status;
+    return in_order{call, mesh, type, static_cast<std::int64_t>(count), maybe(in, connectivity), maybe(in, bodies),
+                    base}.status;
 }
 
 std::int32_t add_obstacle(Input& in, delam_mesh* mesh) {
@@ -201,9 +205,52 @@ std::int32_t add_obstacle(Input& in, delam_mesh* mesh) {
     std::vector<double> normals = in.reals(count * static_cast<std::size_t>(s.dimension));
     std::vector<double> weights = in.reals(count);
     std::int64_t index = -1;
-    return in_order{delam_mesh_add_obstacle, mesh, static_cast<std::int64_t>(count), maybe(in, nodes), maybe(in, normals),
+    return in_order{delam_mesh_add_obstacle, mesh, static_cast<std::int64_t>(count), maybe(in, nodes),
+                    maybe(in, normals),
                                    in.flag() ? nullptr : weights.data(), in.index(s.nodes), base,
                                    in.seldom() ? nullptr : &index}.status;
+}
+
+// Nodes without cells, or any; pairs of them.
+std::int32_t add_host_body(Input& in, delam_mesh* mesh) {
+    const MeshSizes s = sizes_of(mesh);
+    const std::int32_t base = in.base();
+    std::vector<std::int32_t> bodies(static_cast<std::size_t>(s.nodes));
+    delam_mesh_node_bodies(mesh, s.nodes, bodies.data());
+    std::vector<std::int64_t> nodes;
+    for (std::int64_t n = 0; n < s.nodes && nodes.size() < 8; ++n)
+        if (bodies[static_cast<std::size_t>(n)] < 0 && !in.seldom()) nodes.push_back(n + (base == 1 ? 1 : 0));
+    if (in.seldom()) nodes = in.indices(few(in), s.nodes, base);
+    return in_order{delam_mesh_add_host_body, mesh, in.small_label(5), static_cast<std::int64_t>(nodes.size()),
+                    maybe(in, nodes), base}.status;
+}
+
+std::int32_t add_pairs(Input& in, delam_mesh* mesh) {
+    const MeshSizes s = sizes_of(mesh);
+    const std::size_t count = few(in), faces = few(in) / 2;
+    const std::int32_t base = in.base(), per_face = in.seldom() ? static_cast<std::int32_t>(in.hostile_whole() % 12)
+                                                                : 2 + static_cast<std::int32_t>(in.below(7));
+    const std::int32_t body_a = in.small_label(5), body_b = in.small_label(5);
+    std::vector<std::int32_t> bodies(static_cast<std::size_t>(s.nodes));
+    delam_mesh_node_bodies(mesh, s.nodes, bodies.data());
+    std::vector<std::int64_t> nodes_a, nodes_b;
+    for (std::int64_t n = 0; n < s.nodes; ++n) {
+        const std::int32_t body = bodies[static_cast<std::size_t>(n)];
+        const std::int64_t index = n + (base == 1 ? 1 : 0);
+        if (body == body_a && nodes_a.size() < count) nodes_a.push_back(index);
+        if (body == body_b && nodes_b.size() < count) nodes_b.push_back(index);
+    }
+    nodes_a.resize(count), nodes_b.resize(count);
+    if (in.seldom()) nodes_a = in.indices(count, s.nodes, base);
+    std::vector<double> normals = in.reals(3 * count), weights(count);
+    for (double& w : weights) w = in.real();
+    std::vector<std::int64_t> face = in.indices(faces * static_cast<std::size_t>(std::max(per_face, 0)),
+                                                static_cast<std::int64_t>(count), base);
+    std::int64_t index = -1;
+    return in_order{delam_mesh_add_pairs, mesh, body_a, body_b, static_cast<std::int64_t>(count), maybe(in, nodes_a),
+                    maybe(in, nodes_b), maybe(in, normals), maybe(in, weights), static_cast<std::int64_t>(faces),
+                    per_face,
+                    maybe(in, face), base, in.seldom() ? nullptr : &index}.status;
 }
 
 std::int32_t create_layers(Input& in, Host& host, delam_mesh** out) {
@@ -245,7 +292,8 @@ std::int32_t find_in(Input& in, const delam_mesh* mesh, bool patch) {
     std::int64_t count = -1;
     const std::int32_t body = in.seldom() ? in.small_label(3) : static_cast<std::int32_t>(in.below(4)) - 1;
     if (patch)
-        return in_order{delam_mesh_find_patch, mesh, body, lower.data(), upper.data(), maybe(in, direction), nodes.capacity,
+        return in_order{delam_mesh_find_patch, mesh, body, lower.data(), upper.data(), maybe(in, direction),
+                        nodes.capacity,
                                      nodes.data(), weights.data(), in.seldom() ? nullptr : &count}.status;
     return in_order{delam_mesh_find_nodes, mesh, body, maybe(in, lower), maybe(in, upper), nodes.capacity, nodes.data(),
                                  in.seldom() ? nullptr : &count}.status;
@@ -258,7 +306,8 @@ std::int32_t add_pattern(Input& in, delam_problem* problem) {
     double last = in.flag() ? 0.0 : in.signed_real();
     for (double& t : times) t = last, last += in.real();
     std::int64_t index = -1;
-    return in_order{delam_problem_add_pattern, problem, in.word(names), static_cast<std::int64_t>(count), maybe(in, times),
+    return in_order{delam_problem_add_pattern, problem, in.word(names), static_cast<std::int64_t>(count),
+                    maybe(in, times),
                                      maybe(in, values), in.seldom() ? nullptr : &index}.status;
 }
 
@@ -275,7 +324,8 @@ std::int32_t add_load(Input& in, delam_problem* problem, Load load) {
     std::vector<double> coefficients = in.reals(std::max<std::size_t>(1, count) * std::max<std::size_t>(1, patterns));
     switch (load) {
         case Load::nodes:
-            return in_order{delam_problem_prescribe_nodes, problem, entries, maybe(in, nodes), maybe(in, direction), driven,
+            return in_order{delam_problem_prescribe_nodes, problem, entries, maybe(in, nodes), maybe(in, direction),
+                            driven,
                                                  maybe(in, by), maybe(in, coefficients), base}.status;
         case Load::mean:
             return in_order{delam_problem_prescribe_mean, problem, entries, maybe(in, nodes), maybe(in, weights),
@@ -285,7 +335,8 @@ std::int32_t add_load(Input& in, delam_problem* problem, Load load) {
             return in_order{delam_problem_add_equation, problem, entries, maybe(in, nodes), maybe(in, vectors), driven,
                                               maybe(in, by), maybe(in, coefficients), base}.status;
         case Load::forces:
-            return in_order{delam_problem_add_forces, problem, in.index(s.patterns), entries, maybe(in, nodes), maybe(in, vectors),
+            return in_order{delam_problem_add_forces, problem, in.index(s.patterns), entries, maybe(in, nodes),
+                            maybe(in, vectors),
                                             base}.status;
     }
     return DELAM_OK;
@@ -296,7 +347,8 @@ std::int32_t add_periodic(Input& in, delam_problem* problem) {
     if (in.flag()) periods = {1.0, 0.0, 0.0, 0.0, 0.0, 0.25, 0.0, 0.0, 1.0};
     const std::int32_t base = in.base();
     std::vector<std::int64_t> controls = in.indices(3, sizes_of(problem).dofs / 3, base);
-    return in_order{delam_problem_add_periodic, problem, in.seldom() ? in.hostile_whole() % 4 : in.below(4), maybe(in, periods),
+    return in_order{delam_problem_add_periodic, problem, in.seldom() ? in.hostile_whole() % 4 : in.below(4),
+                    maybe(in, periods),
                                       maybe(in, controls), in.flag() ? 0.0 : in.fraction(), base}.status;
 }
 
@@ -328,13 +380,68 @@ std::int32_t body_matrix(Input& in, const delam_problem* problem) {
                                      maybe(in, values)}.status;
 }
 
+// A stiffness that the library has assembled comes back as the host's own, or a band matrix does; then it is spoiled.
+std::int32_t set_stiffness(const delam_mesh* mesh, Input& in, delam_problem* problem) {
+    const MeshSizes s = mesh == nullptr ? MeshSizes{} : sizes_of(mesh);
+    const std::int32_t body = in.small_label(5), base = in.base();
+    const std::int64_t shift = base == 1 ? 1 : 0;
+    std::vector<std::int32_t> bodies(static_cast<std::size_t>(s.nodes));
+    if (mesh != nullptr) delam_mesh_node_bodies(mesh, s.nodes, bodies.data());
+    std::vector<std::int64_t> nodes;
+    for (std::int64_t n = 0; n < s.nodes; ++n)
+        if (bodies[static_cast<std::size_t>(n)] == body) nodes.push_back(n);
+    // As long as three components a node would need, whatever the dimension is.
+    const std::size_t most = 3 * nodes.size();
+    std::int64_t rows = 0, entries = 0;
+    delam_problem_body_matrix(problem, body, &rows, &entries, nullptr, nullptr, nullptr);
+    std::vector<std::int64_t> starts, columns;
+    std::vector<double> values;
+    if (rows > 0 && rows == static_cast<std::int64_t>(nodes.size()) * s.dimension) {
+        starts.resize(static_cast<std::size_t>(rows + 1)), columns.resize(static_cast<std::size_t>(entries));
+        values.resize(columns.size());
+        delam_problem_body_matrix(problem, body, nullptr, nullptr, starts.data(), columns.data(), values.data());
+    } else {
+        for (std::size_t i = 0; i < nodes.size() * static_cast<std::size_t>(s.dimension); ++i) {
+            starts.push_back(static_cast<std::int64_t>(columns.size()));
+            columns.push_back(static_cast<std::int64_t>(i)), values.push_back(100.0);
+        }
+        starts.push_back(static_cast<std::int64_t>(columns.size()));
+    }
+    starts.resize(most + 1, starts.back());
+    for (std::int64_t left = in.below(4); left > 0 && !values.empty(); --left) {
+        const std::size_t at = in.raw<std::uint16_t>();
+        switch (in.below(4)) {
+            case 0: values[at % values.size()] = in.hostile_real(); break;
+            case 1: values[at % values.size()] = 100.0 * in.signed_real(); break;
+            case 2: columns[at % columns.size()] = in.index(static_cast<std::int64_t>(most)); break;
+            default: {  // ends are beyond the arrays nowhere
+                const std::int64_t start = in.hostile_whole();
+                starts[at % starts.size()] = std::min(start, static_cast<std::int64_t>(columns.size()));
+            }
+        }
+    }
+    for (std::int64_t& v : starts) v = v > std::numeric_limits<std::int64_t>::min() ? v + shift : v;
+    for (std::int64_t& v : columns) v = v < std::numeric_limits<std::int64_t>::max() ? v + shift : v;
+    for (std::int64_t& v : nodes) v += shift;
+    std::vector<std::int64_t> dofs(most);
+    for (std::size_t i = 0; i < dofs.size(); ++i) dofs[i] = static_cast<std::int64_t>(i) + shift;
+    if (in.seldom()) dofs = in.indices(most, static_cast<std::int64_t>(most), base);
+    const std::int64_t kernels = in.below(5) - 1;
+    std::vector<double> kernel = in.reals(most * static_cast<std::size_t>(std::max<std::int64_t>(kernels, 0)));
+    return in_order{delam_problem_set_stiffness, problem, static_cast<std::int64_t>(nodes.size()), maybe(in, nodes),
+                    in.flag() ? nullptr : dofs.data(), maybe(in, starts), maybe(in, columns), maybe(in, values),
+                    kernels,
+                    kernels > 0 ? maybe(in, kernel) : nullptr, base}.status;
+}
+
 std::int32_t constraints(Input& in, const delam_problem* problem) {
     std::int64_t rows = 0, entries = 0, patterns = 0;
     delam_problem_constraints(problem, &rows, &entries, &patterns, nullptr, nullptr, nullptr, nullptr);
     std::vector<std::int64_t> starts(static_cast<std::size_t>(rows + 1)), columns(static_cast<std::size_t>(entries));
     std::vector<double> values(columns.size()), coefficients(static_cast<std::size_t>(rows * patterns));
-    const std::int32_t status = in_order{delam_problem_constraints, problem, nullptr, nullptr, nullptr, maybe(in, starts),
-                                                          columns.data(), values.data(), maybe(in, coefficients)}.status;
+    const std::int32_t status = in_order{delam_problem_constraints, problem, nullptr, nullptr, nullptr,
+                                         maybe(in, starts), columns.data(), values.data(),
+                                         maybe(in, coefficients)}.status;
     for (const double v : values) expect(std::isfinite(v), "constraints are finite", "delam_problem_constraints");
     for (const double v : coefficients) expect(std::isfinite(v), "constraints are finite", "delam_problem_constraints");
     return status;
@@ -365,7 +472,8 @@ std::int32_t equilibrate(Input& in, delam_solver* solver) {
     delam_solver_field_shape(solver, "adhesion", -1, &pairs, &one);
     std::vector<double> adhesion(static_cast<std::size_t>(pairs));
     for (double& zeta : adhesion) zeta = in.fraction();
-    return in_order{delam_solver_equilibrate, solver, next_time(in, solver), in.flag() ? nullptr : adhesion.data()}.status;
+    return in_order{delam_solver_equilibrate, solver, next_time(in, solver),
+                    in.flag() ? nullptr : adhesion.data()}.status;
 }
 
 std::int32_t read_field(Input& in, delam_solver* solver) {
@@ -388,7 +496,8 @@ std::int32_t read_front(Input& in, delam_solver* solver) {
     std::vector<std::int64_t> starts(closed.entries.size() + 1);
     const std::size_t room = lengths.entries.size();
     std::vector<double> places(3 * room), directions(3 * room), rates(3 * room), zones(room), pairs(room);
-    return in_order{delam_solver_front, solver, index, closed.capacity, lengths.capacity, maybe(in, starts), closed.data(),
+    return in_order{delam_solver_front, solver, index, closed.capacity, lengths.capacity, maybe(in, starts),
+                    closed.data(),
                               maybe(in, places), maybe(in, directions), lengths.data(), maybe(in, rates),
                               maybe(in, zones), maybe(in, pairs)}.status;
 }
@@ -430,6 +539,46 @@ std::int32_t tangent(Input& in, delam_solver* solver, std::int64_t patterns) {
     return delam_solver_tangent(solver, room.capacity, room.data());
 }
 
+std::int32_t set_history(Input& in, delam_solver* solver) {
+    const std::size_t count = few(in);
+    std::vector<double> times(count), values = in.reals(count);
+    double last = next_time(in, solver);
+    for (double& t : times) t = last, last += in.real();
+    return in_order{delam_solver_set_history, solver, in.index(2), static_cast<std::int64_t>(count), maybe(in, times),
+                    maybe(in, values)}.status;
+}
+
+std::int64_t patterns_of(delam_solver* solver) {
+    std::int64_t count = 0, patterns = 0;
+    delam_solver_value_count(solver, &count);
+    for (std::int64_t i = 0; i < count; ++i)
+        patterns += std::string(delam_solver_value_name(solver, i)).starts_with("load:") ? 1 : 0;
+    return patterns;
+}
+
+std::int32_t condensed(Input& in, delam_solver* solver) {
+    const std::int64_t patterns = patterns_of(solver);
+    std::int64_t unknowns = 0, entries = 0, rows = 0, columns = 0;
+    const std::int32_t status = delam_solver_condensed_size(solver, &unknowns, &entries);
+    if (status != DELAM_OK) return status;
+    delam_solver_field_shape(solver, "jump", -1, &rows, &columns);
+    const auto size = [](std::int64_t n) { return static_cast<std::size_t>(n); };
+    Room<double> stiffness(in, unknowns * unknowns);
+    std::vector<double> load(size(patterns * unknowns)), constant(size(patterns * patterns)), values(size(entries)),
+        offset(size(rows * columns * patterns));
+    std::vector<std::int64_t> starts(size(rows * columns + 1)), of(size(entries));
+    return in_order{delam_solver_condensed, solver, stiffness.capacity, stiffness.data(), maybe(in, load),
+                    maybe(in, constant), maybe(in, starts), maybe(in, of), maybe(in, values), maybe(in, offset)}.status;
+}
+
+// A file in memory, of this process.
+std::string file_name() { return "/dev/shm/delam-fuzz-" + std::to_string(::getpid()) + ".state"; }
+const char* some_path(Input& in) {
+    static const std::string own = file_name();
+    static const char* const wrong[] = {"/nowhere/at/all", "/dev/shm"};
+    return in.seldom() ? in.word(wrong) : own.c_str();
+}
+
 // Bytes of one solver into another, of the same scene or not, whole or cut.
 std::int32_t save_and_load(World& world, Input& in, delam_solver* solver) {
     const delam_solver* from = world.solver.pick(in);
@@ -437,7 +586,8 @@ std::int32_t save_and_load(World& world, Input& in, delam_solver* solver) {
     std::vector<std::uint8_t> bytes = saved(from);
     if (in.seldom()) bytes.resize(bytes.size() - static_cast<std::size_t>(in.below(9)));
     if (in.seldom() && !bytes.empty()) bytes[in.raw<std::uint16_t>() % bytes.size()] ^= in.byte();
-    return in_order{delam_solver_load, solver, in.seldom() ? in.hostile_whole() % 2 : static_cast<std::int64_t>(bytes.size()),
+    return in_order{delam_solver_load, solver,
+                    in.seldom() ? in.hostile_whole() % 2 : static_cast<std::int64_t>(bytes.size()),
                              maybe(in, bytes)}.status;
 }
 
@@ -445,7 +595,8 @@ std::int32_t law_respond(Input& in, const delam_law* law) {
     const std::size_t count = few(in);
     std::vector<double> jump = in.reals(3 * count), mixity(count), old(count), adhesion(count), traction(3 * count);
     for (std::size_t i = 0; i < count; ++i) mixity[i] = in.fraction(), old[i] = in.fraction();
-    return in_order{delam_law_respond, law, in.seldom() ? 4 : 2 + in.flag(), static_cast<std::int64_t>(count), maybe(in, jump),
+    return in_order{delam_law_respond, law, in.seldom() ? 4 : 2 + in.flag(), static_cast<std::int64_t>(count),
+                    maybe(in, jump),
                              maybe(in, mixity), maybe(in, old), adhesion.data(), maybe(in, traction)}.status;
 }
 
@@ -493,7 +644,8 @@ const Call calls[] = {
      }},
     {"delam_mesh_create_layers", Subject::host, may::argument | may::mesh,
      [](const Asked& a) {
-         return a.world.make(a.world.mesh, a.in, a.host, [&](delam_mesh** o) { return create_layers(a.in, a.host, o); });
+         return a.world.make(a.world.mesh, a.in, a.host,
+                             [&](delam_mesh** o) { return create_layers(a.in, a.host, o); });
      }},
     {"delam_law_create", Subject::host, may::argument,
      [](const Asked& a) {
@@ -559,11 +711,17 @@ const Call calls[] = {
      [](const Asked& a) {
          std::int64_t index = -1;
          return in_order{delam_mesh_add_projected_interface, a.mesh, a.in.small_label(3), a.in.small_label(3),
-                                                   a.in.flag() ? 0.0 : a.in.real(), a.in.seldom() ? nullptr : &index}.status;
+                                                   a.in.flag() ? 0.0 : a.in.real(),
+                         a.in.seldom() ? nullptr : &index}.status;
      }},
     {"delam_mesh_add_obstacle", Subject::mesh, may::argument | may::mesh,
      [](const Asked& a) { return add_obstacle(a.in, a.mesh); }},
-    {"delam_mesh_find_nodes", Subject::mesh, may::argument, [](const Asked& a) { return find_in(a.in, a.mesh, false); }},
+    {"delam_mesh_add_host_body", Subject::mesh, may::argument | may::mesh,
+     [](const Asked& a) { return add_host_body(a.in, a.mesh); }},
+    {"delam_mesh_add_pairs", Subject::mesh, may::argument | may::mesh,
+     [](const Asked& a) { return add_pairs(a.in, a.mesh); }},
+    {"delam_mesh_find_nodes", Subject::mesh, may::argument,
+     [](const Asked& a) { return find_in(a.in, a.mesh, false); }},
     {"delam_mesh_find_patch", Subject::mesh, may::argument, [](const Asked& a) { return find_in(a.in, a.mesh, true); }},
     {"delam_mesh_nodes", Subject::mesh, may::argument,
      [](const Asked& a) {
@@ -579,13 +737,17 @@ const Call calls[] = {
     {"delam_law_set", Subject::law, may::argument,
      [](const Asked& a) { return in_order{delam_law_set, a.law, a.in.word(law_keys), a.in.signed_real()}.status; }},
     {"delam_law_set_text", Subject::law, may::argument,
-     [](const Asked& a) { return in_order{delam_law_set_text, a.law, a.in.seldom() ? a.in.word(law_keys) : "criterion", a.in.word(criteria)}.status; }},
+     [](const Asked& a) {
+         return in_order{delam_law_set_text, a.law, a.in.seldom() ? a.in.word(law_keys) : "criterion",
+                         a.in.word(criteria)}.status;
+     }},
     {"delam_law_set_table", Subject::law, may::argument, [](const Asked& a) { return law_table(a.in, a.law); }},
     {"delam_law_check", Subject::law, may::problem,
      [](const Asked& a) { return watched(a.world, a.in, [&] { return delam_law_check(a.law); }); }},
     {"delam_law_toughness", Subject::law, may::argument | may::problem,
      [](const Asked& a) { return law_toughness(a.in, a.law); }},
-    {"delam_law_respond", Subject::law, may::argument | may::problem, [](const Asked& a) { return law_respond(a.in, a.law); }},
+    {"delam_law_respond", Subject::law, may::argument | may::problem,
+     [](const Asked& a) { return law_respond(a.in, a.law); }},
     {"delam_law_destroy", Subject::law, may::usual,
      [](const Asked& a) {
          a.world.law.put(static_cast<std::size_t>(a.in.below(slots)), nullptr, nullptr);
@@ -611,10 +773,13 @@ const Call calls[] = {
          static const char* const words[] = {"standard", "incompatible", "mean-dilatation"};
          return in_order{delam_problem_set_formulation, a.problem, a.in.body(), a.in.word(words)}.status;
      }},
+    {"delam_problem_set_stiffness", Subject::problem, may::argument,
+     [](const Asked& a) { return set_stiffness(a.world.mesh.pick(a.in), a.in, a.problem); }},
     {"delam_problem_set_law", Subject::problem, may::argument | may::problem,
      [](const Asked& a) {
          return watched(a.world, a.in,
-                        [&] { return in_order{delam_problem_set_law, a.problem, a.in.index(2), a.world.law.pick(a.in)}.status; });
+                        [&] { return in_order{delam_problem_set_law, a.problem, a.in.index(2),
+                                              a.world.law.pick(a.in)}.status; });
      }},
     {"delam_problem_set_bonded", Subject::problem, may::argument,
      [](const Asked& a) { return delam_problem_set_bonded(a.problem, a.in.index(2)); }},
@@ -652,7 +817,8 @@ const Call calls[] = {
     {"delam_problem_set_number", Subject::problem, may::argument,
      [](const Asked& a) {
          const char* key = option_key(a.in);
-         return in_order{delam_problem_set_number, a.problem, key, a.in.seldom() ? a.in.hostile_real() : a.in.real()}.status;
+         return in_order{delam_problem_set_number, a.problem, key,
+                         a.in.seldom() ? a.in.hostile_real() : a.in.real()}.status;
      }},
     {"delam_problem_set_text", Subject::problem, may::argument,
      [](const Asked& a) {
@@ -686,7 +852,8 @@ const Call calls[] = {
          Room<double> room(a.in, sizes_of(a.problem).patterns);
          const std::int32_t status = delam_problem_factors(a.problem, a.in.signed_real(), room.capacity, room.data());
          for (std::int64_t p = 0; status == DELAM_OK && p < sizes_of(a.problem).patterns; ++p)
-             expect(std::isfinite(room.entries[static_cast<std::size_t>(p)]), "factors are finite", "delam_problem_factors");
+             expect(std::isfinite(room.entries[static_cast<std::size_t>(p)]), "factors are finite",
+                    "delam_problem_factors");
          return status;
      }},
     {"delam_problem_destroy", Subject::problem, may::usual,
@@ -694,7 +861,8 @@ const Call calls[] = {
          a.world.problem.put(static_cast<std::size_t>(a.in.below(slots)), nullptr, nullptr);
          return DELAM_OK;
      }},
-    {"delam_solver_create", Subject::problem, may::not_converged | may::cancelled | may::limit | may::argument | may::problem | may::numerical,
+    {"delam_solver_create", Subject::problem,
+     may::not_converged | may::cancelled | may::limit | may::argument | may::problem | may::numerical,
      [](const Asked& a) {
          return watched(a.world, a.in, [&] {
              return a.world.make(a.world.solver, a.in, a.host, [&](delam_solver** o) {
@@ -703,12 +871,14 @@ const Call calls[] = {
          });
      }},
 
-    {"delam_solver_advance", Subject::solver, may::not_converged | may::cancelled | may::limit | may::argument | may::problem | may::state | may::numerical,
+    {"delam_solver_advance", Subject::solver,
+     may::not_converged | may::cancelled | may::limit | may::argument | may::problem | may::state | may::numerical,
      [](const Asked& a) {
          return watched(a.world, a.in, [&] { return delam_solver_advance(a.solver, next_time(a.in, a.solver)); });
      }},
     {"delam_solver_commit", Subject::solver, may::state, [](const Asked& a) { return delam_solver_commit(a.solver); }},
-    {"delam_solver_rollback", Subject::solver, may::state, [](const Asked& a) { return delam_solver_rollback(a.solver); }},
+    {"delam_solver_rollback", Subject::solver, may::state,
+     [](const Asked& a) { return delam_solver_rollback(a.solver); }},
     {"delam_solver_equilibrate", Subject::solver,
      may::not_converged | may::cancelled | may::limit | may::argument | may::problem | may::state | may::numerical,
      [](const Asked& a) { return watched(a.world, a.in, [&] { return equilibrate(a.in, a.solver); }); }},
@@ -719,7 +889,8 @@ const Call calls[] = {
          double value = 0.0;
          return in_order{delam_solver_value, a.solver, a.in.word(value_keys), a.in.seldom() ? nullptr : &value}.status;
      }},
-    {"all values", Subject::solver, may::argument | may::problem, [](const Asked& a) { return read_all_values(a.solver); }},
+    {"all values", Subject::solver, may::argument | may::problem,
+     [](const Asked& a) { return read_all_values(a.solver); }},
     {"delam_solver_field", Subject::solver, may::argument, [](const Asked& a) { return read_field(a.in, a.solver); }},
     {"delam_solver_average", Subject::solver, may::argument,
      [](const Asked& a) {
@@ -728,16 +899,45 @@ const Call calls[] = {
          return in_order{delam_solver_average, a.solver, a.in.body(), &volume, maybe(a.in, strain),
                                      maybe(a.in, stress)}.status;
      }},
-    {"delam_solver_front", Subject::solver, may::argument | may::problem, [](const Asked& a) { return read_front(a.in, a.solver); }},
+    {"delam_solver_front", Subject::solver, may::argument | may::problem,
+     [](const Asked& a) { return read_front(a.in, a.solver); }},
     {"delam_solver_tangent", Subject::solver, may::cancelled | may::argument | may::state | may::numerical,
      [](const Asked& a) {
-         return watched(a.world, a.in, [&] { return tangent(a.in, a.solver, 1 + a.in.below(3)); });
+         return watched(a.world, a.in, [&] { return tangent(a.in, a.solver, patterns_of(a.solver)); });
+     }},
+    {"delam_solver_step_tangent", Subject::solver, may::cancelled | may::argument | may::state | may::numerical,
+     [](const Asked& a) {
+         return watched(a.world, a.in, [&] {
+             const std::int64_t patterns = patterns_of(a.solver);
+             Room<double> room(a.in, patterns * patterns);
+             return delam_solver_step_tangent(a.solver, room.capacity, room.data());
+         });
+     }},
+    {"delam_solver_set_history", Subject::solver, may::argument | may::state,
+     [](const Asked& a) { return set_history(a.in, a.solver); }},
+    {"delam_solver_condensed", Subject::solver, may::argument | may::state,
+     [](const Asked& a) { return condensed(a.in, a.solver); }},
+    {"delam_solver_pending", Subject::solver, may::argument,
+     [](const Asked& a) {
+         std::int32_t pending = -1;
+         const std::int32_t status = delam_solver_pending(a.solver, a.in.seldom() ? nullptr : &pending);
+         expect(status != DELAM_OK || pending == 0 || pending == 1, "0 or 1", "delam_solver_pending");
+         return status;
+     }},
+    {"delam_solver_save_file", Subject::solver, may::argument | may::file,
+     [](const Asked& a) { return delam_solver_save_file(a.solver, some_path(a.in)); }},
+    {"delam_solver_load_file", Subject::solver,
+     may::cancelled | may::argument | may::numerical | may::snapshot | may::file,
+     [](const Asked& a) {
+         return watched(a.world, a.in, [&] { return delam_solver_load_file(a.solver, some_path(a.in)); });
      }},
     {"delam_solver_jump", Subject::solver, may::argument, [](const Asked& a) { return read_jumps(a.in, a.solver); }},
-    {"delam_solver_plan_item", Subject::solver, may::argument, [](const Asked& a) { return read_plan(a.in, a.solver); }},
+    {"delam_solver_plan_item", Subject::solver, may::argument,
+     [](const Asked& a) { return read_plan(a.in, a.solver); }},
     {"delam_solver_option", Subject::solver, may::argument,
      [](const Asked& a) {
-         expect(delam_solver_option(a.solver, "solution") != nullptr, "a known option has a value", "delam_solver_option");
+         expect(delam_solver_option(a.solver, "solution") != nullptr, "a known option has a value",
+                "delam_solver_option");
          expect(delam_solver_searched(a.solver) != nullptr, "never NULL", "delam_solver_searched");
          return DELAM_OK;
      }},
@@ -764,7 +964,8 @@ void refuse_others(const Call& call, World& world, Input& in) {
     expect(delam_law_check(asked.law) == DELAM_ERROR_HANDLE, "foreign handles are refused", "law");
     expect(delam_problem_check(asked.problem) == DELAM_ERROR_HANDLE, "foreign handles are refused", "problem");
     expect(delam_solver_advance(asked.solver, 1.0) == DELAM_ERROR_HANDLE, "foreign handles are refused", "solver");
-    expect(delam_solver_jump_count(asked.solver, &count) == DELAM_ERROR_HANDLE, "foreign handles are refused", "solver");
+    expect(delam_solver_jump_count(asked.solver, &count) == DELAM_ERROR_HANDLE, "foreign handles are refused",
+           "solver");
 }
 
 // One call on one object: what it may return, and that errors, cancellations and limits leave the object as it was.
@@ -824,7 +1025,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         world.heard = world.host[0].get();
         world.heard->begin();
         const std::int32_t status = delam_solver_create(scene.problem, 0.0, &solver);
-        world.heard->settle("delam_solver_create", status, may::not_converged | may::limit | may::argument | may::problem | may::numerical);
+        world.heard->settle("delam_solver_create", status,
+                            may::not_converged | may::limit | may::argument | may::problem | may::numerical);
         if (solver != nullptr) world.solver.put(0, solver, world.host[0].get());
     }
     const bool trace = std::getenv("FUZZ_TRACE") != nullptr;
@@ -833,6 +1035,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (trace) std::fprintf(stderr, "%s\n", call.name);
         one(world, in, call);
     }
+    ::unlink(file_name().c_str());
     // Contexts may go before what was made with them.
     if (in.flag()) world.host[0].reset(), world.host[1].reset();
     return 0;

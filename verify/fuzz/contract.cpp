@@ -71,7 +71,7 @@ void Host::begin() {
 void Host::settle(const char* call, std::int32_t status, Statuses documented) {
     if (status == DELAM_OK) return;
     const Statuses always = bit(DELAM_ERROR_HANDLE) | bit(DELAM_ERROR_MEMORY);
-    if (status < DELAM_ERROR_INTERNAL || status > DELAM_LIMIT || ((documented | always) & bit(status)) == 0) {
+    if (status < DELAM_ERROR_FILE || status > DELAM_LIMIT || ((documented | always) & bit(status)) == 0) {
         std::fprintf(stderr, "%s: %s, '%s'\n", call, delam_status_name(status),
                      context != nullptr ? delam_context_message(context) : "");
         expect(false, "a status that the comment of the function lists", call);

@@ -27,6 +27,7 @@ constexpr Statuses problem = bit(DELAM_ERROR_PROBLEM);
 constexpr Statuses state = bit(DELAM_ERROR_STATE);
 constexpr Statuses numerical = bit(DELAM_ERROR_NUMERICAL);
 constexpr Statuses snapshot = bit(DELAM_ERROR_SNAPSHOT);
+constexpr Statuses file = bit(DELAM_ERROR_FILE);
 constexpr Statuses not_converged = bit(DELAM_NOT_CONVERGED);
 constexpr Statuses cancelled = bit(DELAM_CANCELLED);
 constexpr Statuses limit = bit(DELAM_LIMIT);

@@ -74,7 +74,7 @@ public:
     std::int64_t index(std::int64_t count) { return seldom() ? hostile_whole() : below(count); }
     std::int32_t small_label(std::int64_t count) { return static_cast<std::int32_t>(index(count)); }
     // A body's label or -1, or a hostile one.
-    std::int32_t body() { return seldom() ? static_cast<std::int32_t>(hostile_whole()) : static_cast<std::int32_t>(below(4)) - 1; }
+    std::int32_t body() { return static_cast<std::int32_t>(seldom() ? hostile_whole() : below(4) - 1); }
     // 0 or 1, seldom neither.
     std::int32_t base() { return seldom() ? static_cast<std::int32_t>(hostile_whole()) : flag() ? 1 : 0; }
 

@@ -62,7 +62,8 @@ void add_unmatched(Arrays& a, Host& host, Input& in) {
     Arrays other = block(host, in);
     if (other.dimension != a.dimension || other.type != a.type) return;
     double top = 0.0;
-    for (std::size_t i = size(a.dimension - 1); i < a.nodes.size(); i += size(a.dimension)) top = std::max(top, a.nodes[i]);
+    for (std::size_t i = size(a.dimension - 1); i < a.nodes.size(); i += size(a.dimension))
+        top = std::max(top, a.nodes[i]);
     const std::int64_t first = a.node_count();
     for (std::size_t i = 0; i < other.nodes.size(); ++i)
         a.nodes.push_back(other.nodes[i] + (i % size(a.dimension) == size(a.dimension - 1) ? top : 0.0));
@@ -84,7 +85,9 @@ void spoil(Arrays& a, Input& in) {
             }
             case 3: a.connectivity[at % a.connectivity.size()] = in.hostile_whole(); break;
             case 4: a.connectivity[at % a.connectivity.size()] = in.below(a.node_count()); break;
-            case 5: std::swap(a.connectivity[at % a.connectivity.size()], a.connectivity[(at + 1) % a.connectivity.size()]); break;
+            case 5:
+                std::swap(a.connectivity[at % a.connectivity.size()], a.connectivity[(at + 1) % a.connectivity.size()]);
+                break;
             case 6: a.bodies[at % a.bodies.size()] = static_cast<std::int32_t>(in.index(3)); break;
             case 7: {
                 const double factor = in.real();
@@ -99,7 +102,7 @@ void spoil(Arrays& a, Input& in) {
         for (double& x : a.nodes) x *= in.flag() ? 1e-160 : 1e160;
     a.base = in.base();
     if (a.base == 1)
-        for (std::int64_t& node : a.connectivity) node = node < std::numeric_limits<std::int64_t>::max() ? node + 1 : node;
+        for (std::int64_t& node : a.connectivity) node += node < std::numeric_limits<std::int64_t>::max() ? 1 : 0;
 }
 
 class Target {
@@ -153,7 +156,8 @@ private:
         const std::int64_t nodes = per_cell(a.type);
         change("delam_mesh_add_cells", may::argument | may::mesh | may::state, [&] {
             const auto cells = conforming ? delam_mesh_add_conforming_cells : delam_mesh_add_cells;
-            return cells(mesh_, a.type, to - from, a.connectivity.data() + from * nodes, a.bodies.data() + from, a.base);
+            return cells(mesh_, a.type, to - from, a.connectivity.data() + from * nodes, a.bodies.data() + from,
+                         a.base);
         });
     }
 
@@ -185,7 +189,8 @@ private:
             upper[a.dimension - 1] = 0.0;
             nodes.resize(size(a.node_count() + 1));
             std::int64_t found = 0;
-            delam_mesh_find_nodes(mesh_, static_cast<std::int32_t>(in_.below(3)), lower, upper, a.node_count(), nodes.data(), &found);
+            delam_mesh_find_nodes(mesh_, static_cast<std::int32_t>(in_.below(3)), lower, upper, a.node_count(),
+                                  nodes.data(), &found);
             nodes.resize(size(std::min(found, a.node_count())));
             for (std::int64_t& node : nodes) node += base == 1 ? 1 : 0;
         } else {

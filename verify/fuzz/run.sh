@@ -21,7 +21,8 @@ if ((${#targets[@]} == 0)); then
     targets=(api_sequence scene saved_state mesh_arrays)
 fi
 
-if ! command -v clang++ >/dev/null || ! echo 'extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }' |
+probe='extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }'
+if ! command -v clang++ >/dev/null || ! printf '%s' "$probe" |
     clang++ -x c++ - -fsanitize=fuzzer,address -o /dev/null 2>/dev/null; then
     printf 'skipped: clang with libFuzzer is needed (Debian: clang)\n'
     exit 77
@@ -62,8 +63,8 @@ for target in "${targets[@]}"; do
     if ! { mapfile -d '' -t inputs < <(find "${committed[@]}" -type f -print0) &&
         "$program" -timeout=10 -rss_limit_mb=3000 "${inputs[@]}" >"$folder/$target.replay" 2>&1 &&
         "$program" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=3000 -malloc_limit_mb=1500 -len_control=0 \
-            -max_len=$longest -artifact_prefix="$found/" -print_final_stats=1 "${options[@]}" "$grown" "${committed[@]}" \
-            >"$folder/$target.log" 2>&1; }; then
+            -max_len=$longest -artifact_prefix="$found/" -print_final_stats=1 "${options[@]}" \
+            "$grown" "${committed[@]}" >"$folder/$target.log" 2>&1; }; then
         failed+=("$target")
         tail -n 40 "$folder/$target.replay" "$folder/$target.log" 2>/dev/null || true
     fi

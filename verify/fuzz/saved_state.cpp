@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Saved states that were tampered with. An input names a scene, a number of steps, and what is done to the bytes that
 // the solver saves then: so it means the same in every version of the format. Afterwards the checksum may be put right,
-// so that what lies behind it is read. Refused by name, with nothing changed; or accepted, and then a state like others.
+// so that what lies behind it is read. Refused by name, with nothing changed; or accepted, and then a state like
+// others.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -66,7 +67,10 @@ public:
         }
         const auto own = std::find(states_.begin(), states_.end(), bytes);
         expect(own != states_.end() || put_right, "bytes that were changed are refused", "delam_solver_load");
-        expect(saved(solver_) == bytes, "a state is saved as it was loaded", "delam_solver_save");
+        // Bytes of an earlier version are saved as the present one.
+        const Bytes again = saved(solver_);
+        expect(again == bytes || !std::equal(again.begin(), again.begin() + 12, bytes.begin()),
+               "a state is saved as it was loaded", "delam_solver_save");
         read_everything();
         const auto step = own - states_.begin();
         if (own != states_.end() && step < steps) {
@@ -94,8 +98,8 @@ private:
             const std::string key = delam_solver_value_name(solver_, i);
             host_.settle(key.c_str(), delam_solver_value(solver_, key.c_str(), &value), may::problem);
         }
-        for (const char* key : {"displacement", "stress", "rotation", "jump", "traction", "adhesion", "mixity", "contact",
-                                "reaction"}) {
+        for (const char* key : {"displacement", "stress", "rotation", "jump", "traction", "adhesion", "mixity",
+                                "contact", "reaction"}) {
             std::int64_t rows = 0, columns = 0;
             delam_solver_field_shape(solver_, key, -1, &rows, &columns);
             std::vector<double> field(static_cast<std::size_t>(rows * columns));

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Prints a libFuzzer dictionary of a description of scene files: all that stands in it as code, keys with " = " behind."""
+"""Prints a libFuzzer dictionary of a description of scene files: what stands in it as code, keys with " = " behind."""
 import re
 import sys
 
@@ -14,4 +14,5 @@ for line in re.findall(r"\| passed over \|(.*)", text) + re.findall(r"\| element
 for word in sorted(words):
     word = word.strip()
     for entry in ([word, word + " = "] if re.fullmatch("[a-z_]+", word) else [word]):
-        print('"' + "".join(c if 32 <= ord(c) < 127 and c not in '"\\' else "".join(f"\\x{b:02x}" for b in c.encode()) for c in entry) + '"')
+        plain = [chr(b) if 32 <= b < 127 and chr(b) not in '"\\' else f"\\x{b:02x}" for b in entry.encode()]
+        print('"' + "".join(plain) + '"')

@@ -12,7 +12,8 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed) {
     static const char* const values[] = {
-        "0", "-1", "1", "2", "3", "9223372036854775807", "-9223372036854775808", "1e-300", "1e300", "nan", "inf", "-inf",
+        "0", "-1", "1", "2", "3", "9223372036854775807", "-9223372036854775808", "1e-300", "1e300", "nan", "inf",
+        "-inf",
         "0.0", "-0.0", "0.5", "1e-9", "4294967296", "\"\"", "\"*\"", "true", "false", "[]", "[[]]", "{}", "[0.0, 1.0]",
         "[1.0, 0.0]", "[0.0, 0.0]", "[1e300, -1e300]", "[[0.0, 1.0], [1.0, 0.0]]", "1979-05-27", "[0.0, 0.0, 0.0]",
         "[\"x\", \"y\"]", "[\"z\"]", "0.0625", "0.25", "{ lower = [0.0, 0.0], upper = [1.0, 1.0] }"};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes of a few cells that are correct, peel or shear within a few steps, and differ in what they make the library do.
+// Scenes of a few cells that are correct, peel or shear within a few steps, and differ in what they make the library
+// do.
 #pragma once
 
 #include "contract.hpp"

@@ -30,7 +30,14 @@ std::size_t distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
+// toml++ gives no double for whole numbers that none holds exactly, beyond 2^53: the nearest then.
+double number_of(const toml::node& node) {
+    if (const auto* whole = node.as_integer()) return static_cast<double>(whole->get());
+    return node.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
 std::string shown(const toml::node& node) {
+    if (const auto* whole = node.as_integer()) return fmt::format("{}", whole->get());
     // 6.0 must not be shown as 6 where a whole number is asked for.
     if (const auto value = node.value<double>();
         value && node.is_floating_point() && *value == std::floor(*value) && std::abs(*value) < 1e15)
@@ -57,7 +64,7 @@ Place place_of(const toml::node& node, const std::string& file, const std::strin
 double checked_number(const toml::node& node, const Place& where, const Range& range) {
     if (!node.is_number())
         throw SceneFailure(where, fmt::format("{}: a number {} is expected", shown(node), range.text));
-    const double value = *node.value<double>();
+    const double value = number_of(node);
     if (!range.contains(value)) throw SceneFailure(where, fmt::format("{} is not allowed: {}", value, range.text));
     return value;
 }
