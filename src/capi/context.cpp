@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "capi/handles.hpp"
+#include "linalg/room.hpp"
 
 int32_t delam_context_create(delam_context** out) {
     if (out == nullptr) return DELAM_ERROR_ARGUMENT;
     *out = nullptr;
     try {
+        delam::prepare_blas();
         *out = new delam_context;
         return DELAM_OK;
     } catch (...) {

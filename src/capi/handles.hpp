@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/float_environment.hpp"
 #include "base/monitor.hpp"
 #include "body/model.hpp"
 #include "delam/delam.h"
@@ -100,6 +101,7 @@ template <class H, class Body>
 std::int32_t guard(const H* self, Body&& body) noexcept {
     if (!alive(self)) return DELAM_ERROR_HANDLE;
     const std::shared_ptr<Context> context = self->context;  // outlives a handle that a callback destroys
+    const DefaultFloats floats;
     try {
         if constexpr (std::is_void_v<decltype(body())>) {
             body();

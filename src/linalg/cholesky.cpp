@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "delam/delam.h"
+#include "linalg/room.hpp"
 
 // Only modules under the LGPL are called by name (Core, Cholesky, Partition/CAMD); the supernodal kernels (GPL) are reached
 // through cholmod_l_factorize where the CHOLMOD at hand has them, and never when DELAM_CHOLMOD_SIMPLICIAL is defined.
@@ -30,6 +31,7 @@ namespace {
 class AsManyThreadsAsIdleCores {
 public:
     AsManyThreadsAsIdleCores() {
+        require_room(std::size_t{1} << 16);  // without it GNU's OpenMP ends the process
         if (omp_get_dynamic == nullptr || omp_set_dynamic == nullptr) return;
         before_ = omp_get_dynamic();
         omp_set_dynamic(1);

@@ -11,8 +11,8 @@ bool can_fail();
 void fail_at(long k, bool all = false);
 // Ends it; has one failed?
 bool stop_failing();
-// METIS and the OpenMP runtime have ways of their own to go on without memory (src/capi/CONTRACT.md, "Memory"): what they ask
-// for themselves does not fail, and is not counted, unless it is spared no more.
+// The OpenMP runtime and OpenBLAS with several threads end the process when they get none (src/capi/CONTRACT.md, "Memory"): what
+// they ask for themselves does not fail, and is not counted, unless it is spared no more.
 void spare_others(bool yes);
 // Blocks that are not yet freed.
 long live_blocks();

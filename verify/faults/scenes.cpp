@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scenes.hpp"
 
+#include <unistd.h>
+
 #include <array>
+#include <cstdio>
 #include <cstring>
 
 #include "../cases/host_bilinear.hpp"
@@ -217,6 +220,22 @@ void make_problem(Host& host, Handles& h, const Strip& s) {
                    [&] { return delam_problem_set_text(h.problem, key.c_str(), value.c_str()); });
     for (const auto& [key, value] : s.numbers)
         host.query("delam_problem_set_number " + key, [&] { return delam_problem_set_number(h.problem, key.c_str(), value); });
+    if (s.given) {  // the upper body as a host would hand it over: the stiffness that the library itself assembles
+        std::int64_t rows = 0, entries = 0;
+        host.query("delam_problem_body_matrix", [&] {
+            return delam_problem_body_matrix(h.problem, 1, &rows, &entries, nullptr, nullptr, nullptr);
+        });
+        std::vector<std::int64_t> starts(at(rows) + 1), columns(at(entries));
+        std::vector<double> values(at(entries));
+        host.query("delam_problem_body_matrix", [&] {
+            return delam_problem_body_matrix(h.problem, 1, &rows, &entries, starts.data(), columns.data(), values.data());
+        });
+        const std::vector<std::int64_t> own = find(host, h, 1, {-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0});
+        host.query("delam_problem_set_stiffness", [&] {
+            return delam_problem_set_stiffness(h.problem, static_cast<std::int64_t>(own.size()), own.data(), nullptr,
+                                               starts.data(), columns.data(), values.data(), -1, nullptr, 0);
+        });
+    }
     host.query("delam_problem_check", [&] { return delam_problem_check(h.problem); });
     std::array<char, 17> hash{};
     host.query("delam_problem_hash", [&] { return delam_problem_hash(h.problem, hash.data()); });
@@ -271,6 +290,25 @@ void read(Host& host, Handles& h, const Strip& s) {
     host.query("delam_solver_tangent",
                [&] { return delam_solver_tangent(solver, static_cast<std::int64_t>(tangent.size()), tangent.data()); });
     host.transcript.add("tangent", tangent);
+    std::int32_t pending = 0;
+    host.query("delam_solver_pending", [&] { return delam_solver_pending(solver, &pending); });
+    if (pending != 0) {
+        host.query("delam_solver_step_tangent", [&] {
+            return delam_solver_step_tangent(solver, static_cast<std::int64_t>(tangent.size()), tangent.data());
+        });
+        host.transcript.add("step tangent", tangent);
+    }
+    if (s.condensed()) {
+        std::int64_t unknowns = 0, entries = 0;
+        host.query("delam_solver_condensed_size", [&] { return delam_solver_condensed_size(solver, &unknowns, &entries); });
+        std::vector<double> stiffness(at(unknowns * unknowns)), load(at(unknowns) * patterns);
+        host.query("delam_solver_condensed", [&] {
+            return delam_solver_condensed(solver, unknowns * unknowns, stiffness.data(), load.data(), nullptr, nullptr, nullptr,
+                                          nullptr, nullptr);
+        });
+        host.transcript.add("condensed", stiffness);
+        host.transcript.add("condensed", load);
+    }
     host.transcript.add("plan", words(host, "delam_solver_plan", [&] { return delam_solver_plan(solver); }));
     host.transcript.add("option", words(host, "delam_solver_option", [&] { return delam_solver_option(solver, "damage_tolerance"); }));
     std::int64_t jumps = 0;
@@ -334,6 +372,18 @@ void march(Host& host, const Strip& s) {
     host.query("delam_solver_look", [&] { return delam_solver_look(h.solver, s.steps); });
     host.query("delam_solver_look", [&] { return delam_solver_look(h.solver, -1); });
 
+    // As files, and another history from here on.
+    const std::string path = "delam-fault-" + s.name + "-" + std::to_string(getpid()) + ".state";
+    host.query("delam_solver_save_file", [&] { return delam_solver_save_file(h.solver, path.c_str()); });
+    host.query("delam_solver_load_file", [&] { return delam_solver_load_file(h.solver, path.c_str()); });
+    std::remove(path.c_str());
+    expect(save(host, h.solver) == last, s.name + ": a file holds something else");
+    const std::array<double, 1> later{3.0}, back{0.5 * end};
+    host.query("delam_solver_set_history", [&] { return delam_solver_set_history(h.solver, 0, 1, later.data(), back.data()); });
+    advance(2.5);
+    commit();
+    host.transcript.add("saved bytes", save(host, h.solver));
+
     // Back to the half, here and in a solver made anew, and on from there.
     host.query("delam_solver_load", [&] { return delam_solver_load(h.solver, static_cast<std::int64_t>(half.size()), half.data()); });
     host.transcript.add("loaded bytes", save(host, h.solver));
@@ -347,6 +397,12 @@ void march(Host& host, const Strip& s) {
                 [&] { return delam_solver_destroy(&h.other), DELAM_OK; });
     host.query("delam_solver_load", [&] { return delam_solver_load(h.other, static_cast<std::int64_t>(last.size()), last.data()); });
     expect(save(host, h.other) == last, s.name + ": what a new solver has loaded is something else");
+}
+
+bool Strip::condensed() const {
+    for (const auto& [key, value] : texts)
+        if (key == "reduction") return value == "condensed";
+    return false;
 }
 
 const std::vector<Strip>& strips() {
@@ -371,7 +427,7 @@ const std::vector<Strip>& strips() {
         s.mesh = "conforming";
         s.strained = true;
         s.texts = Texts{{"reduction", "feti"}};
-        s.numbers = {{"subdomains", 4.0}};
+        s.numbers = {{"subdomains", 4.0}, {"threads", 2.0}};
         s.steps = 2;
         all.push_back(s);
 
@@ -386,6 +442,7 @@ const std::vector<Strip>& strips() {
         s = {};
         s.name = "host-law";
         s.mesh = "projected";
+        s.given = true;
         s.law = "host";
         s.texts = Texts{{"reduction", "condensed"}, {"mixity_rule", "converged"}};
         s.steps = 3;

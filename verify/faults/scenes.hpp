@@ -22,6 +22,8 @@ struct Strip {
     std::vector<std::pair<std::string, std::string>> texts;   // options
     std::vector<std::pair<std::string, double>> numbers;
     int steps = 4;
+    bool given = false;                  // the stiffness of the upper body handed over as CSR
+    bool condensed() const;
 };
 
 const std::vector<Strip>& strips();
