@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# clang.sh FOLDER INCLUDE: each header alone and the test without a warning of clang, in C++17 and C++20.
+# clang.sh FOLDER INCLUDE: each header alone and the tests without a warning of clang, in C++17 and C++20.
 folder=$1
 include=$2
 if ! command -v clang++ >/dev/null; then
@@ -8,7 +8,7 @@ if ! command -v clang++ >/dev/null; then
     exit 77
 fi
 for standard in 17 20; do
-    for file in "$folder"/include/delam/*.hpp "$folder"/include/delam/cpp/*.hpp "$folder/test/test_delam_hpp.cpp"; do
+    for file in "$folder"/include/delam/*.hpp "$folder"/include/delam/cpp/*.hpp "$folder"/test/*.cpp; do
         clang++ -x c++ -std=c++$standard -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -I"$include" \
             -I"$folder/include" -fsyntax-only "$file" || exit 1
     done

@@ -2,8 +2,8 @@
 //
 // libdelam for C++17: move-only owners over delam.h, in headers alone. Hosts include this one.
 //
-//   errors     statuses < 0 throw delam::Error with the status and the context's message. Outcomes (> 0) of a load
-//              step are returned as Outcome; elsewhere they throw too.
+//   errors     statuses < 0 throw delam::Error with the status and the context's message, those of files its FileError.
+//              Outcomes (> 0) of a load step are returned as Outcome; elsewhere they throw too.
 //   arrays     View<T>: a pointer with a size, a std::vector, a std::array or a braced list; rows one after another
 //              as in delam.h. Sizes are checked where the library cannot. Results come as std::vector, or go into the
 //              caller's buffer (Solver::field).

@@ -17,6 +17,8 @@ namespace delam {
 
 inline std::string version() { return delam_version(); }
 inline std::string commit() { return delam_commit(); }
+// Threads of the linear algebra of this process; 0: it does not say.
+inline std::int32_t blas_threads() { return delam_blas_threads(); }
 
 // An option of problems, or a parameter of a law.
 struct Description {

@@ -119,6 +119,26 @@ public:
                                                &made));
         return made;
     }
+    // A body without cells, whose stiffness Problem::set_stiffness takes.
+    void add_host_body(std::int32_t body, View<std::int64_t> nodes) {
+        shared_->check(delam_mesh_add_host_body(get(), body, nodes.count(), nodes.data(), 0));
+    }
+    // normals: [pairs][dimension], from a to b; faces: [faces][nodes per face], as pair indices.
+    std::int64_t add_pairs(std::int32_t body_a, std::int32_t body_b, View<std::int64_t> nodes_a,
+                           View<std::int64_t> nodes_b, View<double> normals, View<double> weights,
+                           View<std::int64_t> faces = {}, std::int32_t nodes_per_face = 0) {
+        detail::require(nodes_b.size() == nodes_a.size() && weights.size() == nodes_a.size() &&
+                            normals.size() == nodes_a.size() * detail::length(dimension()),
+                        "nodes_b, normals and weights: not one for each node of a");
+        detail::require(nodes_per_face > 0 ? faces.count() % nodes_per_face == 0 : faces.size() == 0,
+                        "faces: not a whole number of them");
+        const std::int64_t face_count = nodes_per_face > 0 ? faces.count() / nodes_per_face : 0;
+        std::int64_t made = -1;
+        shared_->check(delam_mesh_add_pairs(get(), body_a, body_b, nodes_a.count(), nodes_a.data(), nodes_b.data(),
+                                            normals.data(), weights.data(), face_count, nodes_per_face, faces.data(), 0,
+                                            &made));
+        return made;
+    }
 
     MeshSize size() const {
         MeshSize size{};

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,30 @@ public:
     }
     void set_formulation(std::int32_t body, Text formulation) {
         shared_->check(delam_problem_set_formulation(get(), body, formulation.get()));
+    }
+    // The stiffness of whole bodies as the host has assembled it. nodes: all of theirs, in the order of the rows unless
+    // dofs [nodes][dimension] has the row of each displacement; kernel: [motions][rows] without energy, empty where
+    // there are none; without it the library finds them.
+    void set_stiffness(View<std::int64_t> nodes, View<std::int64_t> row_starts, View<std::int64_t> columns,
+                       View<double> values, View<std::int64_t> dofs = {},
+                       std::optional<View<double>> kernel = std::nullopt) {
+        const std::size_t rows = nodes.size() * detail::length(dimension_);
+        detail::require(row_starts.size() == rows + 1, "row_starts: not one for each row and one behind the last");
+        detail::require(columns.size() == values.size() && row_starts.data()[rows] == values.count(),
+                        "columns and values: not as many as row_starts ends with");
+        detail::require(dofs.size() == 0 || dofs.size() == rows, "dofs: not [nodes][dimension]");
+        detail::require(!kernel || kernel->size() == 0 || (rows > 0 && kernel->size() % rows == 0),
+                        "kernel: not a whole number of motions");
+        std::int64_t motions = -1;
+        if (kernel) motions = kernel->size() == 0 ? 0 : static_cast<std::int64_t>(kernel->size() / rows);
+        shared_->check(delam_problem_set_stiffness(get(), nodes.count(), nodes.data(),
+                                                   dofs.size() == 0 ? nullptr : dofs.data(), row_starts.data(),
+                                                   columns.data(), values.data(), motions,
+                                                   motions > 0 ? kernel->data() : nullptr, 0));
+    }
+    void set_stiffness(View<std::int64_t> nodes, const Matrix& matrix, View<std::int64_t> dofs = {},
+                       std::optional<View<double>> kernel = std::nullopt) {
+        set_stiffness(nodes, matrix.row_starts, matrix.columns, matrix.values, dofs, kernel);
     }
     void set_law(std::int64_t interface_index, const Law& law) {
         if (law.host()) laws_.push_back(law.host());

@@ -48,7 +48,11 @@ struct Shared {
     void check(std::int32_t status) const {
         if (settle(status) != DELAM_OK) fail(status);
     }
-    [[noreturn]] void fail(std::int32_t status) const { throw Error(status, delam_context_message(handle.get())); }
+    [[noreturn]] void fail(std::int32_t status) const {
+        const std::string message = delam_context_message(handle.get());
+        if (status == DELAM_ERROR_FILE) throw FileError(message);
+        throw Error(status, message);
+    }
 };
 
 inline std::size_t length(std::int64_t count) { return static_cast<std::size_t>(count); }

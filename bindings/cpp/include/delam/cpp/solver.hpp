@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,6 +28,16 @@ struct Average {
     double volume;
     std::array<double, 6> strain, stress;
 };
+// At the factors theta the energy of bodies and dead forces is 1/2 x.S x - theta.L x + 1/2 theta.A theta, and the local
+// jumps of all pairs are N x + O theta.
+struct Condensed {
+    std::int64_t unknowns;
+    std::vector<double> stiffness;  // S [unknowns][unknowns]
+    std::vector<double> load;       // L [patterns][unknowns]
+    std::vector<double> constant;   // A [patterns][patterns]
+    Matrix jump;                    // N, a row for each component of each pair
+    std::vector<double> offset;     // O [rows of N][patterns]
+};
 struct Fronts {
     std::vector<std::int64_t> starts;
     std::vector<std::int32_t> closed;
@@ -45,7 +56,8 @@ struct Jump {
 
 class Solver {
 public:
-    Solver(const Problem& problem, double time) : shared_(problem.shared()), laws_(problem.host_laws()) {
+    Solver(const Problem& problem, double time)
+        : shared_(problem.shared()), laws_(problem.host_laws()), patterns_(problem.pattern_count()) {
         delam_solver* made = nullptr;
         const auto status = delam_solver_create(problem.get(), time, &made);
         handle_.reset(made);
@@ -69,6 +81,17 @@ public:
     }
     void commit() { shared_->check(delam_solver_commit(get())); }
     void rollback() { shared_->check(delam_solver_rollback(get())); }
+    // A step is there to be committed or rolled back.
+    bool pending() const {
+        std::int32_t pending = 0;
+        shared_->check(delam_solver_pending(get(), &pending));
+        return pending != 0;
+    }
+    // Another history of a pattern from the committed time on.
+    void set_history(std::int64_t pattern, View<double> times, View<double> values) {
+        detail::require(times.size() == values.size(), "times and values: unequal sizes");
+        shared_->check(delam_solver_set_history(get(), pattern, times.count(), times.data(), values.data()));
+    }
 
     double value(Text key) {
         double value = 0.0;
@@ -126,11 +149,28 @@ public:
                                           fronts.zone_pairs.data()));
         return fronts;
     }
-    // [patterns][patterns]; patterns: how many the problem has.
-    std::vector<double> tangent(std::int64_t patterns) {
-        std::vector<double> matrix(detail::length(patterns * patterns));
-        shared_->check(delam_solver_tangent(get(), patterns * patterns, matrix.data()));
-        return matrix;
+    // [patterns][patterns]: at the adhesion and contact held; of the pending step, damage included.
+    std::vector<double> tangent() { return tangent_by(delam_solver_tangent); }
+    std::vector<double> step_tangent() { return tangent_by(delam_solver_step_tangent); }
+    Condensed condensed() const {
+        std::int64_t unknowns = 0;
+        std::int64_t entries = 0;
+        shared_->check(delam_solver_condensed_size(get(), &unknowns, &entries));
+        const Field jump = shape("jump");
+        const auto rows = detail::length(jump.rows * jump.columns);
+        Condensed all;
+        all.unknowns = unknowns;
+        all.stiffness.resize(detail::length(unknowns * unknowns));
+        all.load.resize(detail::length(patterns_ * unknowns));
+        all.constant.resize(detail::length(patterns_ * patterns_));
+        all.jump.row_starts.resize(rows + 1);
+        all.jump.columns.resize(detail::length(entries));
+        all.jump.values.resize(detail::length(entries));
+        all.offset.resize(rows * detail::length(patterns_));
+        shared_->check(delam_solver_condensed(get(), unknowns * unknowns, all.stiffness.data(), all.load.data(),
+                                              all.constant.data(), all.jump.row_starts.data(), all.jump.columns.data(),
+                                              all.jump.values.data(), all.offset.data()));
+        return all;
     }
 
     std::string plan() { return delam_solver_plan(get()); }
@@ -174,10 +214,22 @@ public:
         return bytes;
     }
     void load(View<std::uint8_t> bytes) { shared_->check(delam_solver_load(get(), bytes.count(), bytes.data())); }
+    // The same bytes as a file.
+    void save(const std::filesystem::path& path) const {
+        shared_->check(delam_solver_save_file(get(), path.c_str()));
+    }
+    void load(const std::filesystem::path& path) { shared_->check(delam_solver_load_file(get(), path.c_str())); }
 
 private:
+    std::vector<double> tangent_by(std::int32_t (*function)(delam_solver*, std::int64_t, double*)) {
+        std::vector<double> matrix(detail::length(patterns_ * patterns_));
+        shared_->check(function(get(), patterns_ * patterns_, matrix.data()));
+        return matrix;
+    }
+
     std::shared_ptr<detail::Shared> shared_;
     std::vector<std::shared_ptr<detail::HostLaw>> laws_;
+    std::int64_t patterns_;
     detail::Handle<delam_solver, delam_solver_destroy> handle_;
     Outcome initial_ = Outcome::done;
 };

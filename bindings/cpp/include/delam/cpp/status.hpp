@@ -21,6 +21,12 @@ private:
     std::int32_t status_;
 };
 
+// A file that cannot be opened, read or written.
+class FileError : public Error {
+public:
+    explicit FileError(const std::string& message) : Error(DELAM_ERROR_FILE, message) {}
+};
+
 enum class Outcome : std::int32_t {
     done = DELAM_OK,
     not_converged = DELAM_NOT_CONVERGED,
