@@ -374,7 +374,7 @@ int32_t delam_mesh_interface_pairs(const delam_mesh* mesh, int64_t interface_ind
 int32_t delam_mesh_interface_faces(const delam_mesh* mesh, int64_t interface_index, int64_t* faces) {
     return guard(mesh, [&] {
         const InterfaceGeometry& face = require_interface(*mesh->core, interface_index);
-        require_pointer(faces, "faces");
+        require_array(faces, static_cast<std::int64_t>(face.face.size()), "faces");
         std::copy(face.face.begin(), face.face.end(), faces);
     });
 }

@@ -581,6 +581,7 @@ CASE_TEST(no_faces) {
     cases::expect(fronts == 0, "fronts without faces");
     const auto stress = solver.field("stress");
     cases::expect(stress.empty(), "stresses without cells");
+    cases::expect(delam_mesh_interface_faces(m, index, nullptr) == DELAM_OK, "NULL for no faces");
 }
 
 }  // namespace
