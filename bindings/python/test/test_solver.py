@@ -219,7 +219,7 @@ class Bytes(unittest.TestCase):
         with self.assertRaises(delam.SnapshotError):
             other.load(state)
         with self.assertRaisesRegex(delam.ArgumentError, "state"):
-            solver.load("text")
+            solver.load(3.5)
         self.assertEqual(solver.save(), state)
 
 

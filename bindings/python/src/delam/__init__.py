@@ -10,23 +10,23 @@ Arrays are numpy's, indices start at 0, units are whatever is consistent. Errors
 Warnings and notes of the library go to the logger "delam". delam.plot draws (matplotlib), delam.meshes reads and writes
 meshes (meshio)."""
 from . import _library
-from .errors import (ArgumentError, Cancelled, DelamError, HandleError, InternalError, LimitReached, MeshError,
-                     NotConverged, NotConvergedWarning, NumericalError, Outcome, OutOfMemory, ProblemError,
-                     SnapshotError, StateError)
+from .errors import (ArgumentError, Cancelled, DelamError, FileError, HandleError, InternalError, LimitReached,
+                     MeshError, NotConverged, NotConvergedWarning, NumericalError, Outcome, OutOfMemory,
+                     ProblemError, SnapshotError, StateError)
 from .history import History
 from .law import Law, Parameter
 from .mesh import CELLS, Cells, Interface, Mesh, Ties
 from .options import Options, options
 from .problem import Pattern, Problem, Sparse
-from .solver import Average, Fronts, Jump, PlanItem, Solver, Values
+from .solver import Average, Condensed, Fronts, Jump, PlanItem, Solver, Values
 
 __version__ = "0.1.0"
 
-__all__ = ["ArgumentError", "Average", "CELLS", "Cancelled", "Cells", "DelamError", "Fronts", "HandleError", "History",
-           "Interface", "InternalError", "Jump", "Law", "LimitReached", "Mesh", "MeshError", "NotConverged",
-           "NotConvergedWarning", "NumericalError", "Options", "OutOfMemory", "Outcome", "Parameter", "Pattern",
-           "PlanItem", "Problem", "ProblemError", "SnapshotError", "Solver", "Sparse", "StateError", "Ties", "Values",
-           "library_commit", "library_location", "library_version", "options"]
+__all__ = ["ArgumentError", "Average", "CELLS", "Cancelled", "Cells", "Condensed", "DelamError", "FileError", "Fronts",
+           "HandleError", "History", "Interface", "InternalError", "Jump", "Law", "LimitReached", "Mesh", "MeshError",
+           "NotConverged", "NotConvergedWarning", "NumericalError", "Options", "OutOfMemory", "Outcome", "Parameter",
+           "Pattern", "PlanItem", "Problem", "ProblemError", "SnapshotError", "Solver", "Sparse", "StateError", "Ties",
+           "Values", "blas_threads", "library_commit", "library_location", "library_version", "options"]
 
 
 def library_version():
@@ -42,6 +42,12 @@ def library_commit():
 def library_location():
     """File it was loaded from, as the loader was asked for it."""
     return _library.location
+
+
+def blas_threads():
+    """Threads of the linear algebra of this process, 0: it does not say. Equal digits from run to run need an equal
+    number. Those of the library's own are option threads."""
+    return _library.library.delam_blas_threads()
 
 
 def __getattr__(name):

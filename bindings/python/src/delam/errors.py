@@ -74,6 +74,12 @@ class SnapshotError(DelamError, ValueError):
     status = _raw.DELAM_ERROR_SNAPSHOT
 
 
+class FileError(DelamError, OSError):
+    """A file that cannot be opened, read or written; the message says why."""
+
+    status = _raw.DELAM_ERROR_FILE
+
+
 class InternalError(DelamError, RuntimeError):
     """A defect of the library: please report."""
 
@@ -107,8 +113,8 @@ class NotConvergedWarning(RuntimeWarning):
 
 
 _KINDS = {kind.status: kind for kind in (ArgumentError, HandleError, MeshError, ProblemError, StateError, OutOfMemory,
-                                         NumericalError, SnapshotError, InternalError, NotConverged, Cancelled,
-                                         LimitReached)}
+                                         NumericalError, SnapshotError, FileError, InternalError, NotConverged,
+                                         Cancelled, LimitReached)}
 
 
 def error_of(status, message):

@@ -7,7 +7,7 @@ import numpy as np
 
 from . import _raw
 from ._arrays import direction as axis
-from ._arrays import floats, gate, indices, listed, ndim, pointer
+from ._arrays import floats, gate, indices, listed, ndim, pointer, spread
 from ._call import Context, Object, integer, number
 from ._library import library
 from .errors import ArgumentError
@@ -138,7 +138,8 @@ class Mesh(Object):
         mesh.add_cells("quad4", connectivity, bodies)
         interface = mesh.add_interface(0, 1)
 
-    Indices are 0-based throughout. Nodes without cells are control nodes."""
+    Indices are 0-based throughout. Nodes without cells are control nodes, or those of bodies of which the host gives
+    the stiffness (add_host_body)."""
 
     def __init__(self, nodes):
         nodes = floats("nodes", nodes, (None, (2, 3)))
@@ -227,15 +228,42 @@ class Mesh(Object):
         """A rigid obstacle that moves with its control node, a node without cells. normals: from the obstacle into the
         body, one each or one for all."""
         nodes = indices("nodes", nodes, size=self.node_count)
-        if ndim(normals) == 1 or isinstance(normals, str):
-            normals = np.tile(axis("normals", normals, self.dimension), (nodes.size, 1))
-        normals = floats("normals", normals, (nodes.size, self.dimension))
+        normals = self._normals(normals, nodes.size)
         if weights is not None:
             weights = floats("weights", weights, (nodes.size,))
         index = ctypes.c_int64()
         self._call(library.delam_mesh_add_obstacle, nodes.size, pointer(nodes), pointer(normals), pointer(weights),
                    integer("control_node", control_node), 0, index)
         return Interface(self, index.value)
+
+    def add_host_body(self, body, nodes):
+        """A body without cells, whose stiffness Problem.set_stiffness takes. nodes: of no body yet, indices or a
+        mask."""
+        nodes = indices("nodes", nodes, size=self.node_count)
+        self._call(library.delam_mesh_add_host_body, integer("body", body, 32), nodes.size, pointer(nodes), 0)
+
+    def add_pairs(self, body_a, body_b, nodes_a, nodes_b, normals, weights, faces=None):
+        """An interface of pairs that the host knows, in the order given; their nodes may lie apart.
+
+        normals: from a to b, one each or one for all; weights: length (2D) or area (3D) that a pair stands for,
+        likewise; faces: [faces][nodes of a face] as indices of pairs. Fronts, the gradient term and the neighbours that
+        an energetic search advances to are known from faces alone."""
+        nodes_a = indices("nodes_a", nodes_a)
+        nodes_b = indices("nodes_b", nodes_b, (nodes_a.size,))
+        normals = self._normals(normals, nodes_a.size)
+        weights = spread("weights", weights, nodes_a.size)
+        faces = np.empty((0, 0), np.int64) if faces is None else indices("faces", faces, (None, None))
+        index = ctypes.c_int64()
+        self._call(library.delam_mesh_add_pairs, integer("body_a", body_a, 32), integer("body_b", body_b, 32),
+                   nodes_a.size, pointer(nodes_a), pointer(nodes_b), pointer(normals), pointer(weights), faces.shape[0],
+                   faces.shape[1], pointer(faces), 0, index)
+        return Interface(self, index.value)
+
+    def _normals(self, normals, count):
+        """One each, or one for all."""
+        if ndim(normals) == 1 or isinstance(normals, str):
+            normals = np.tile(axis("normals", normals, self.dimension), (count, 1))
+        return floats("normals", normals, (count, self.dimension))
 
     @property
     def interfaces(self):
@@ -279,7 +307,7 @@ class Mesh(Object):
 
     @property
     def node_bodies(self):
-        """Body of each node, -1 for one without cells."""
+        """Body of each node, -1 for one of none."""
         out = np.empty(self.node_count, np.int32)
         self._call(library.delam_mesh_node_bodies, out.size, pointer(out))
         return out

@@ -31,6 +31,21 @@ class Sparse(NamedTuple):
         np.add.at(out, (rows, self.columns), self.values)
         return out
 
+
+def _rows_of(matrix):
+    """row_starts, columns and values of a Sparse or of what has SciPy's names for them. Compressed columns are as good,
+    the stiffness is symmetric."""
+    if isinstance(matrix, Sparse):
+        return matrix.row_starts, matrix.columns, matrix.values
+    if getattr(matrix, "format", "csr") not in ("csr", "csc") and hasattr(matrix, "tocsr"):
+        matrix = matrix.tocsr()
+    try:
+        return matrix.indptr, matrix.indices, matrix.data
+    except AttributeError:
+        raise ArgumentError(f"matrix is a {type(matrix).__name__}, expected a delam.Sparse, a matrix of scipy.sparse, "
+                            f"or another with indptr, indices and data") from None
+
+
 class Pattern:
     """A load pattern of a problem; stands for its index wherever one is asked for."""
 
@@ -123,6 +138,32 @@ class Problem(Object):
     def set_formulation(self, formulation, body=None):
         """"standard" (initially), "incompatible" or "mean-dilatation"."""
         self._call(library.delam_problem_set_formulation, body_label(body), text("formulation", formulation))
+
+    def set_stiffness(self, nodes, matrix, dofs=None, kernel=None):
+        """The stiffness of whole bodies as the host has assembled it, in the place of cells and material.
+
+        nodes   all nodes of one or several bodies, indices or a mask
+        matrix  a Sparse (body_matrix gives one) or a matrix of scipy.sparse, both triangles; entries that come twice
+                add up
+        dofs    [nodes][dimension] row of each displacement; None: dimension * i + component of nodes[i]
+        kernel  [motions][rows] without energy; None: the library finds them, []: there are none"""
+        nodes = indices("nodes", nodes, size=self._node_count)
+        size = nodes.size * self.dimension
+        row_starts, columns, values = _rows_of(matrix)
+        row_starts = indices("row_starts", row_starts, (size + 1,))
+        values = floats("values", values, (None,))
+        columns = indices("columns", columns, (values.size,))
+        # The library reads as many entries as the last row ends with.
+        if row_starts[-1] != values.size:
+            raise ArgumentError(f"row_starts[{size}] = {row_starts[-1]}, expected {values.size}, the number of values")
+        if dofs is not None:
+            dofs = indices("dofs", dofs, (nodes.size, self.dimension))
+        motions = -1
+        if kernel is not None:
+            kernel = floats("kernel", kernel, (None, size)) if np.size(kernel) else np.empty((0, size))
+            motions = kernel.shape[0]
+        self._call(library.delam_problem_set_stiffness, nodes.size, pointer(nodes), pointer(dofs), pointer(row_starts),
+                   pointer(columns), pointer(values), motions, pointer(kernel), 0)
 
     # ---- interfaces
 

@@ -3,19 +3,21 @@
 import collections.abc
 import contextlib
 import ctypes
+import os
 import warnings
 from typing import NamedTuple
 
 import numpy as np
 
 from . import _raw
-from ._arrays import floats, pointer
+from ._arrays import floats, listed, pointer
 from ._call import Object, integer, number, text
 from ._library import library
 from .errors import ArgumentError, NotConverged, NotConvergedWarning
 from .history import History, steps_of
 from .mesh import body_label
 from .options import unknown
+from .problem import Sparse
 
 # What these say takes a recovery of all displacements; a history has them only when they are asked for.
 COSTLY = frozenset(("rotation_max", "kkt_gap", "kkt_pressure", "kkt_complementarity", "kkt_equilibrium"))
@@ -27,6 +29,18 @@ class Average(NamedTuple):
     volume: float
     strain: np.ndarray
     stress: np.ndarray
+
+
+class Condensed(NamedTuple):
+    """All bodies condensed onto the interfaces, and the loads with them: at the factors theta the energy of bodies and
+    dead forces is 1/2 x.S x - theta.L x + 1/2 theta.A theta, and the local jumps of all pairs, component by component,
+    are N x + O theta. What the interfaces store comes on top."""
+
+    stiffness: np.ndarray  # S [unknowns][unknowns], symmetric
+    load: np.ndarray  # L [patterns][unknowns]
+    constant: np.ndarray  # A [patterns][patterns]
+    jump: Sparse  # N
+    offset: np.ndarray  # O [rows of N][patterns]
 
 
 class Fronts(NamedTuple):
@@ -70,6 +84,17 @@ class PlanItem(NamedTuple):
     cost: float
     saving: float
     unit: str
+
+
+def _encoded(path):
+    """A path in the encoding of the file system."""
+    try:
+        encoded = os.fsencode(path)
+    except TypeError:
+        raise ArgumentError(f"path = {path!r} is a {type(path).__name__}, expected a str or os.PathLike") from None
+    if b"\0" in encoded:
+        raise ArgumentError(f"path = {path!r} contains a zero character")
+    return encoded
 
 
 class Values(collections.abc.Mapping):
@@ -118,7 +143,6 @@ class Solver(Object):
                              library.delam_solver_create, problem._handle, number("time", time),
                              keep=problem._keep, long=True, outcomes=(_raw.DELAM_NOT_CONVERGED,))
         self.problem = problem
-        self.pending = False
         count = ctypes.c_int64()
         self._call(library.delam_solver_value_count, count)
         names = (self.context.text(library.delam_solver_value_name, self._pointer, i) for i in range(count.value))
@@ -127,6 +151,11 @@ class Solver(Object):
 
     def _call(self, function, *arguments):
         self.context.call(function, self._handle, *arguments)
+
+    @property
+    def _pattern_count(self):
+        """Of the solver: its problem may have got more since."""
+        return sum(name.startswith("load:") for name in self._keys)
 
     def _outcome(self, outcome, level):
         status, message = outcome
@@ -148,22 +177,22 @@ class Solver(Object):
 
     # ---- steps
 
-    def _leaves(self, pending, function, *arguments, long=True):
-        """Calls a function that makes a step pending, or none; `pending` is true to that whenever Ctrl-C comes."""
-        handle = self._handle
+    @property
+    def pending(self):
+        """A step is there to be committed or rolled back."""
+        out = ctypes.c_int32()
+        self._call(library.delam_solver_pending, out)
+        return bool(out.value)
 
-        def call():
-            status = function(handle, *arguments)
-            if status in (_raw.DELAM_OK, _raw.DELAM_NOT_CONVERGED):
-                self.pending = pending
-            return status
-
-        return self.context.call(call, whole=True, long=long, outcomes=(_raw.DELAM_NOT_CONVERGED,))
+    def _whole(self, function, *arguments, long=True):
+        """Calls a function that changes the state: Ctrl-C comes after it."""
+        return self.context.call(function, self._handle, *arguments, whole=True, long=long,
+                                 outcomes=(_raw.DELAM_NOT_CONVERGED,))
 
     def _step(self, function, *arguments):
         already = self.pending
         try:
-            outcome = self._leaves(True, function, *arguments)
+            outcome = self._whole(function, *arguments)
         except BaseException:
             # The step was done when the interruption was seen.
             if self.pending and not already:
@@ -183,11 +212,19 @@ class Solver(Object):
         self._step(library.delam_solver_equilibrate, number("time", time), pointer(adhesion))
 
     def commit(self):
-        self._leaves(False, library.delam_solver_commit, long=False)
+        self._whole(library.delam_solver_commit, long=False)
 
     def rollback(self):
         """The state before the pending step, bit for bit."""
-        self._leaves(False, library.delam_solver_rollback, long=False)
+        self._whole(library.delam_solver_rollback, long=False)
+
+    def set_history(self, pattern, times, values):
+        """Another history of a load pattern from the committed time on: straight from the factor there to values[0] at
+        times[0], on through the points, constant beyond the last. It is saved with the state."""
+        times = floats("times", listed(times), (None,))
+        values = floats("values", listed(values), (times.size,))
+        self._call(library.delam_solver_set_history, self.problem.pattern(pattern), times.size, pointer(times),
+                   pointer(values))
 
     def march(self, times, values=None, progress=False):
         """Advances and commits, time after time; yields a dict of values after each step.
@@ -239,10 +276,14 @@ class Solver(Object):
         finally:
             self.look(-1)
 
-    # ---- state as bytes
+    # ---- the committed state, as bytes or as a file
 
-    def save(self):
-        """The committed state."""
+    def save(self, path=None):
+        """The committed state: bytes, or a file of them at `path`, which is put in its place when it is complete and on
+        disk."""
+        if path is not None:
+            self._call(library.delam_solver_save_file, _encoded(path))
+            return None
         needed = ctypes.c_int64()
         self._call(library.delam_solver_save, 0, None, needed)
         out = np.empty(needed.value, np.uint8)
@@ -250,12 +291,16 @@ class Solver(Object):
         return out.tobytes()
 
     def load(self, state):
-        """Goes on from saved bytes of the same scene and options."""
+        """Goes on from a state of the same scene and options: saved bytes, or the path (str, os.PathLike) of a file of
+        them. A pending step is dropped."""
+        if isinstance(state, (str, os.PathLike)):
+            self._whole(library.delam_solver_load_file, _encoded(state))
+            return
         try:
             state = np.frombuffer(state, np.uint8)
         except (TypeError, ValueError) as error:
             raise ArgumentError(f"state: {error}") from None
-        self._leaves(False, library.delam_solver_load, state.size, pointer(state))
+        self._whole(library.delam_solver_load, state.size, pointer(state))
 
     # ---- fields
 
@@ -295,8 +340,29 @@ class Solver(Object):
 
     def tangent(self):
         """[patterns][patterns]: change of reactions with factors at the adhesion and contact held; symmetric."""
-        out = np.empty((len(self.problem.patterns),) * 2)
+        out = np.empty((self._pattern_count,) * 2)
         self.context.call(library.delam_solver_tangent, self._handle, out.size, pointer(out), long=True)
+        return out
+
+    def step_tangent(self):
+        """[patterns][patterns]: change of reactions with factors at the end of the pending step, damage included."""
+        out = np.empty((self._pattern_count,) * 2)
+        self.context.call(library.delam_solver_step_tangent, self._handle, out.size, pointer(out), long=True)
+        return out
+
+    def condensed(self):
+        """The operator that the steps work with, for hosts that condense: a Condensed. StateError: the solver works by
+        FETI, which has none."""
+        unknowns, entries = ctypes.c_int64(), ctypes.c_int64()
+        self._call(library.delam_solver_condensed_size, unknowns, entries)
+        pairs, dimension = self._shape("jump", -1)
+        n, rows, patterns = unknowns.value, pairs * dimension, self._pattern_count
+        jump = Sparse((rows, n), np.empty(rows + 1, np.int64), np.empty(entries.value, np.int64),
+                      np.empty(entries.value))
+        out = Condensed(np.empty((n, n)), np.empty((patterns, n)), np.empty((patterns, patterns)), jump,
+                        np.empty((rows, patterns)))
+        self._call(library.delam_solver_condensed, n * n, *(pointer(array) for array in out[:3]),
+                   *(pointer(array) for array in jump[1:]), pointer(out.offset))
         return out
 
     # ---- what was done
