@@ -32,9 +32,9 @@ SIDES, END = (1, 2), 3  # numbers of regions of GetFEM's meshes: the two sides o
 class Arms:
     """What is GetFEM's: two arms, one above the other, as a model with the displacement "u".
 
-    A mesh of GetFEM's has each point once, the fields on it need not: the partition by arm gives every node of the
-    interface twice, once for each arm. Its rows are displacements in the order node by node, component by component,
-    and nodes in an order of its own."""
+    A mesh of GetFEM's has each point once, fields on it need not: partitioned by arm they have every node of the
+    interface twice, once for each arm. Rows run node by node, component by component; the order of the nodes is
+    GetFEM's own."""
 
     def __init__(self, mesh, height, element, integration, young, poisson):
         """height: of the interface; element, integration: GetFEM's names; young: an expression of place X."""
@@ -147,8 +147,7 @@ class Hosted:
         self.arms, self.problem, self.glue, self.nodes = arms, problem, glue, nodes
 
     def march(self, times):
-        self.solver = delam.Solver(self.problem)
-        self.steps = steps_of(self.solver, times)
+        self.solver, self.steps = march(self.problem, times)
 
     def put(self, fields):
         """The displacements of a step into GetFEM's model."""
@@ -160,7 +159,7 @@ class Hosted:
         rest = np.zeros((self.problem.mesh.node_count, self.arms.dimension))
         rest[self.nodes] = self.arms.forces()
         largest = np.abs(rest).max()
-        # The traction acts on face b as it is and on face a turned round: as a pull on b it points to a.
+        # Where the interface opens its traction is positive: it pulls b back and a after it.
         pull = np.einsum("p,pi,pij->pj", self.glue.weights, fields["traction"], self.glue.frames)
         np.add.at(rest, self.glue.nodes_b, pull)
         np.add.at(rest, self.glue.nodes_a, -pull)
@@ -170,10 +169,11 @@ class Hosted:
         return np.abs(rest).max() / largest
 
 
-def steps_of(solver, times):
-    """Values and fields of every step."""
+def march(problem, times):
+    """The solver, and values and fields of every step."""
+    solver = delam.Solver(problem)
     fields = ("displacement", "adhesion", "jump", "traction", "reaction")
-    return [(values, {name: solver.field(name) for name in fields}) for values in solver.march(times)]
+    return solver, [(values, {name: solver.field(name) for name in fields}) for values in solver.march(times)]
 
 
 class Differences(dict):
@@ -279,8 +279,7 @@ def enf(folder, clock):
     own_mesh = delam.Mesh.layers(length, across, [height, height], [upwards, upwards], "quad4")
     own_problem = scene(own_mesh, own_mesh.add_interface(0, 1))
     own_problem.set_elastic(young, poisson)
-    own_solver = delam.Solver(own_problem)
-    own = clock("library, its own bodies", steps_of, own_solver, times)
+    _, own = clock("library, its own bodies", march, own_problem, times)
 
     nodes = same_places(arms.nodes, arms.bodies, own_mesh.nodes, own_mesh.node_bodies)
     found = compare(hosted, own, nodes, "reaction:press")
@@ -345,8 +344,7 @@ def dcb_3d(folder, clock):
     hosted = Hosted(arms, problem, glue, nodes)
     clock("library, the host's bodies", hosted.march, times)
 
-    own_solver = delam.Solver(scene())
-    own = clock("library, its own bodies", steps_of, own_solver, times)
+    own_solver, own = clock("library, its own bodies", march, scene(), times)
     found = compare(hosted, own, nodes, "reaction:open")
     pulled = np.flatnonzero((arms.nodes[:, 0] < 1e-9) & (np.abs(arms.nodes[:, 2] - height) > height - 1e-9))
     outwards = np.where(arms.nodes[pulled, 2] > height, 1.0, -1.0)[:, None] * (0.0, 0.0, 1.0)
