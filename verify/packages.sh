@@ -16,7 +16,7 @@ if ! command -v npm >/dev/null; then
     DELAM_PARSER_PACKAGES=(nodejs npm)
 fi
 # The long tier of the tests.
-DELAM_LONG_PACKAGES=(clang libclang-rt-dev doxygen dpkg-dev valgrind paraview python3-paraview)
+DELAM_LONG_PACKAGES=(clang libclang-rt-dev doxygen dpkg-dev valgrind paraview python3-paraview python3-getfem)
 
 # delam_install PACKAGE...: installs what is missing, as root or through sudo; else prints the command and fails.
 delam_install() {
