@@ -484,9 +484,10 @@ DELAM_API int32_t delam_problem_set_formulation(delam_problem *problem, int32_t 
  *   row_starts  [dimension*count + 1], from index_base too; columns, values [entries]: CSR, both triangles; entries
  *               that come twice add up. Symmetric to 1e-9, positive on what deforms (one sparse factorisation tells)
  *   kernel      [kernel_count][dimension*count] motions without energy, by row. Parts that hang together in the matrix
- *               are rigid pieces, their free motions rigid ones: a mechanism within is refused. kernel_count -1 (kernel
- *               NULL): the library finds how far a piece is held by the host's own supports; what is held by less than
- *               1e-9 of the largest diagonal entry but more than 1e-12 must be told
+ *               are rigid pieces, their free motions rigid ones: a mechanism within is refused. Rows that the host has
+ *               emptied but for the diagonal, for supports of its own, are held for ever. kernel_count -1 (kernel NULL):
+ *               the library finds how far a piece is held; what costs less than 1e-9 of the piece's largest diagonal
+ *               entry but more than 1e-12 must be told
  * DELAM_ERROR_ARGUMENT names the node, row or entry.
  * FETI takes each piece whole. Later calls replace the stiffness of the bodies that they have.
  * [unit values F/L, kernel 1; null dofs; status argument; source C. Farhat, M. Geradin, Int. J. Numer. Meth.
@@ -608,8 +609,8 @@ DELAM_API int32_t delam_problem_dofs(const delam_problem *problem, int64_t *prim
  * shorter of modes I and II: E' Gc/s^2, in slender arms of thickness h (E' Gc/s^2)^(1/4) h^(3/4) in mode I and (h E'
  * Gc)^(1/2)/s in mode II (Yang and Cox, Int. J. Fract. 133, 2005), where these are shorter. E' = E/(1 - nu^2), in plane
  * stress E, of an orthotropic body its smallest Young's modulus, h: volume of the body over area of the interface; of
- * the two bodies the one with the shorter zone. An estimate: a factor of 2 either way. length 0: bonded, or a law
- * without softening.
+ * the two bodies the one with the shorter zone. An estimate: a factor of 2 either way. length 0: bonded, a law
+ * without softening, or bodies of the host's alone.
  * [unit length L, spacing L; null length, spacing; status argument, problem; source Q. Yang, B. Cox, Int. J. Fract. 133
  * (2005); since 0.1] */
 DELAM_API int32_t delam_problem_process_zone(const delam_problem *problem, int64_t interface_index, double *length,
@@ -796,7 +797,7 @@ DELAM_API int32_t delam_solver_field(delam_solver *solver, const char *key, int6
 /* Strain and stress on average over the volume of a body (label; -1: of all), of the state that values and fields speak
  * of; exact. strain, stress: [6] in the order xx, yy, zz, xy, yz, zx, shear strains doubled (prescribed strains are
  * part of them), stress in F/L2; *volume in L2 or L3. In 2D the rest follows from the plane assumption. What cracks
- * open between bodies is not in it. Recovers the displacements.
+ * open between bodies is not in it. Bodies without cells have no volume. Recovers the displacements.
  * [unit volume L2 or L3, strain 1, stress F/L2; null volume, strain, stress; status argument; source none;
  * since 0.1] */
 DELAM_API int32_t delam_solver_average(const delam_solver *solver, int32_t body, double *volume, double *strain,

@@ -49,6 +49,12 @@ std::vector<std::vector<std::int64_t>> components(const SparseMatrix& k, std::in
     return found;
 }
 
+double diagonal(const SparseMatrix& k, std::int64_t row) {
+    const auto begin = k.column.begin() + k.start[index(row)], end = k.column.begin() + k.start[index(row) + 1];
+    const auto found = std::lower_bound(begin, end, row);
+    return found != end && *found == row ? k.value[static_cast<std::size_t>(found - k.column.begin())] : 0.0;
+}
+
 // K Q of some nodes' DOFs; entries to other nodes are zero.
 DenseMatrix forces(const SparseMatrix& k, std::span<const std::int64_t> nodes, std::int64_t dim, const DenseMatrix& motions) {
     std::vector<double> u(index(k.rows), 0.0);
@@ -71,13 +77,39 @@ DenseMatrix some_columns(const DenseMatrix& q, const DenseMatrix& combination, s
     return multiply(q, part);
 }
 
-// With as many DOFs held as there are free motions, a solid has no motion without energy left.
-void refuse_mechanisms(const Mesh& mesh, std::int32_t body, const HostStiffness& own, double largest) {
+double largest_diagonal(const SparseMatrix& k, std::span<const std::int64_t> nodes, std::int64_t dim) {
+    double largest = 0.0;
+    for (const std::int64_t node : nodes)
+        for (std::int64_t row = node * dim; row < (node + 1) * dim; ++row) largest = std::max(largest, diagonal(k, row));
+    return largest;
+}
+
+// Pieces without a free motion need not be told apart: nodes that the host has cut off for supports of its own may be many.
+void unite_held_pieces(HostStiffness& own, std::int64_t dim) {
+    HostPiece united;
+    std::vector<HostPiece> pieces;
+    for (HostPiece& piece : own.pieces) {
+        if (piece.free.columns > 0)
+            pieces.push_back(std::move(piece));
+        else
+            united.nodes.insert(united.nodes.end(), piece.nodes.begin(), piece.nodes.end());
+    }
+    if (!united.nodes.empty()) {
+        std::sort(united.nodes.begin(), united.nodes.end());
+        united.free = DenseMatrix(dim * static_cast<std::int64_t>(united.nodes.size()), 0);
+        pieces.push_back(std::move(united));
+    }
+    own.pieces = std::move(pieces);
+}
+
+// With as many DOFs held as there are free motions, a solid has no motion without energy left. Judged with a unit diagonal: what one row is soft beside
+// another says nothing (rows that the host has emptied have whatever number it likes).
+void refuse_mechanisms(const Mesh& mesh, std::int32_t body, const HostStiffness& own) {
     const std::int64_t dim = mesh.dimension();
     const std::vector<std::int64_t> nodes = mesh.body_nodes(body);
     std::vector<std::int64_t> place(index(own.matrix.rows), 0), kept;
     for (const HostPiece& piece : own.pieces) {
-        if (piece.free.columns == 0) continue;
+        if (piece.fixed()) continue;
         DenseMatrix rows(piece.free.columns, piece.free.rows);
         for (std::int64_t i = 0; i < piece.free.rows; ++i)
             for (std::int64_t c = 0; c < piece.free.columns; ++c) rows(c, i) = piece.free(i, c);
@@ -88,18 +120,21 @@ void refuse_mechanisms(const Mesh& mesh, std::int32_t body, const HostStiffness&
             place[index(local * dim + dof % dim)] = -1;
         }
     }
+    std::vector<double> scale;
     for (std::int64_t r = 0; r < own.matrix.rows; ++r) {
         if (place[index(r)] < 0) continue;
         place[index(r)] = static_cast<std::int64_t>(kept.size());
         kept.push_back(r);
+        scale.push_back(1.0 / std::sqrt(diagonal(own.matrix, r)));
     }
     SparseMatrix held;
     held.rows = held.columns = static_cast<std::int64_t>(kept.size());
     for (const std::int64_t r : kept) {
         for (std::int64_t e = own.matrix.start[index(r)]; e < own.matrix.start[index(r) + 1]; ++e) {
-            if (place[index(own.matrix.column[index(e)])] < 0) continue;
-            held.column.push_back(place[index(own.matrix.column[index(e)])]);
-            held.value.push_back(own.matrix.value[index(e)] / largest);
+            const std::int64_t column = place[index(own.matrix.column[index(e)])];
+            if (column < 0) continue;
+            held.column.push_back(column);
+            held.value.push_back(scale[index(place[index(r)])] * own.matrix.value[index(e)] * scale[index(column)]);
         }
         held.start.push_back(held.entries());
     }
@@ -112,28 +147,62 @@ void refuse_mechanisms(const Mesh& mesh, std::int32_t body, const HostStiffness&
          ", allowed > ", mechanism, ") at node ", nodes[index(dof / dim)], ", component ", dof % dim, ": a mechanism, or an indefinite matrix");
 }
 
-double largest_diagonal(const SparseMatrix& k) {
-    double largest = 0.0;
-    for (std::int64_t row = 0; row < k.rows; ++row)
-        for (std::int64_t e = k.start[index(row)]; e < k.start[index(row) + 1]; ++e)
-            if (k.column[index(e)] == row) largest = std::max(largest, k.value[index(e)]);
-    return largest;
+// Rigid motions of a piece (columns of q): those that are free, then those that are held, as combinations of q.
+struct Split {
+    DenseMatrix combination;
+    std::int64_t free = 0;
+};
+
+// By their energy.
+Split found_split(const SparseMatrix& k, std::span<const std::int64_t> local, std::int64_t dim, const DenseMatrix& q, const std::string& where) {
+    DenseMatrix energy = multiply_transposed(q, forces(k, local, dim, q));
+    for (std::int64_t i = 0; i < q.columns; ++i)
+        for (std::int64_t j = 0; j < i; ++j) energy(i, j) = energy(j, i) = 0.5 * (energy(i, j) + energy(j, i));
+    Eigen eigen = eigen_symmetric(std::move(energy));
+    const double largest = largest_diagonal(k, local, dim);
+    Split split;
+    for (const double e : eigen.value) {
+        if (e < -resisted * largest)
+            fail(DELAM_ERROR_ARGUMENT, where, ": a rigid motion has the energy ", 0.5 * e, " < 0: the matrix is indefinite");
+        if (std::abs(e) <= rounding * largest)
+            ++split.free;
+        else if (e < resisted * largest)
+            fail(DELAM_ERROR_ARGUMENT, where, ": a rigid motion costs ", e / largest, " of the largest diagonal entry, between ", rounding, " (free) and ", resisted,
+                 " (held): tell the kernel");
+    }
+    split.combination = std::move(eigen.vector);
+    return split;
 }
 
-// How many of the rigid motions, in ascending order of energy, are free.
-std::int64_t count_free(const std::vector<double>& energy, double largest, const std::string& where) {
-    std::int64_t count = 0;
-    for (const double e : energy) {
-        const double relative = std::abs(e) / largest;
-        if (relative <= rounding) {
-            ++count;
-            continue;
+// By what the host tells, as far as it moves the piece.
+Split told_split(const SparseMatrix& k, std::span<const std::int64_t> local, std::int64_t dim, const DenseMatrix& q, const DenseMatrix& told, const std::string& where) {
+    DenseMatrix own(q.rows, told.columns);
+    for (std::int64_t c = 0; c < own.columns; ++c)
+        for (std::int64_t i = 0; i < own.rows; ++i) own(i, c) = told(local[index(i / dim)] * dim + i % dim, c);
+    const DenseMatrix share = multiply_transposed(q, own), back = multiply(q, share), f = forces(k, local, dim, own);
+    const double largest = largest_diagonal(k, local, dim);
+    DenseMatrix span(q.columns, q.columns);  // less than zero on what they span: its eigenvectors come first
+    for (std::int64_t c = 0; c < own.columns; ++c) {
+        double length = 0.0, off = 0.0, pull = 0.0;
+        for (std::int64_t i = 0; i < own.rows; ++i) {
+            length += own(i, c) * own(i, c);
+            off += (own(i, c) - back(i, c)) * (own(i, c) - back(i, c));
+            pull += f(i, c) * f(i, c);
         }
-        if (relative < resisted)
-            fail(DELAM_ERROR_ARGUMENT, where, ": a rigid motion costs ", relative, " of the largest diagonal entry, between ", rounding,
-                 " (free) and ", resisted, " (held): tell the kernel");
+        if (length == 0.0) continue;
+        if (std::sqrt(off) > told_tolerance * std::sqrt(length))
+            fail(DELAM_ERROR_ARGUMENT, "kernel[", c, "] is no rigid motion of ", where, " (", std::sqrt(off / length), " of it is not; allowed ", told_tolerance, ")");
+        if (std::sqrt(pull) > told_tolerance * largest * std::sqrt(length))
+            fail(DELAM_ERROR_ARGUMENT, "kernel[", c, "] takes forces of ", std::sqrt(pull / length) / largest, " of the largest diagonal entry to move ", where, "; allowed ",
+                 told_tolerance);
+        for (std::int64_t i = 0; i < q.columns; ++i)
+            for (std::int64_t j = 0; j < q.columns; ++j) span(i, j) -= share(i, c) * share(j, c) / length;
     }
-    return count;
+    Eigen eigen = eigen_symmetric(std::move(span));
+    Split split;
+    while (split.free < q.columns && eigen.value[index(split.free)] < -told_tolerance) ++split.free;
+    split.combination = std::move(eigen.vector);
+    return split;
 }
 
 }  // namespace
@@ -143,8 +212,7 @@ HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix m
     const std::vector<std::int64_t> nodes = mesh.body_nodes(body);
     HostStiffness made;
     made.matrix = std::move(matrix);
-    const double largest = largest_diagonal(made.matrix);
-    std::int64_t told_of = 0;
+    std::int64_t free = 0;
     for (const std::vector<std::int64_t>& local : components(made.matrix, dim)) {
         HostPiece piece;
         for (const std::int64_t i : local) piece.nodes.push_back(nodes[index(i)]);
@@ -152,55 +220,25 @@ HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix m
         DenseMatrix q(dim * static_cast<std::int64_t>(local.size()), 0);
         q.value = rigid_modes(mesh, piece.nodes);
         q.columns = static_cast<std::int64_t>(q.value.size()) / q.rows;
-        if (q.columns < rigid)
+        const Split split = kernel.told ? told_split(made.matrix, local, dim, q, kernel.motions, where) : found_split(made.matrix, local, dim, q, where);
+        // A node alone, whose rows the host has emptied for supports of its own, has translations only; its own diagonal resists them.
+        if (split.free > 0 && q.columns < rigid)
             fail(DELAM_ERROR_ARGUMENT, where, ", lie on one ", dim == 2 ? "point" : "line", ": they are no solid, whose rigid motions are ", rigid);
-        DenseMatrix gram;
-        std::int64_t free = 0;
-        if (kernel.told) {
-            // Motions told, in terms of rigid ones; what spans them is free.
-            DenseMatrix own(q.rows, kernel.motions.columns);
-            for (std::int64_t c = 0; c < own.columns; ++c)
-                for (std::int64_t i = 0; i < own.rows; ++i) own(i, c) = kernel.motions(local[index(i / dim)] * dim + i % dim, c);
-            const DenseMatrix share = multiply_transposed(q, own), back = multiply(q, share), f = forces(made.matrix, local, dim, own);
-            DenseMatrix span(rigid, rigid);
-            for (std::int64_t c = 0; c < own.columns; ++c) {
-                double length = 0.0, off = 0.0, pull = 0.0;
-                for (std::int64_t i = 0; i < own.rows; ++i) {
-                    length += own(i, c) * own(i, c);
-                    off += (own(i, c) - back(i, c)) * (own(i, c) - back(i, c));
-                    pull += f(i, c) * f(i, c);
-                }
-                if (length == 0.0) continue;
-                if (std::sqrt(off) > told_tolerance * std::sqrt(length))
-                    fail(DELAM_ERROR_ARGUMENT, "kernel[", c, "] is no rigid motion of ", where, " (", std::sqrt(off / length), " of it is not; allowed ", told_tolerance, ")");
-                if (std::sqrt(pull) > told_tolerance * largest * std::sqrt(length))
-                    fail(DELAM_ERROR_ARGUMENT, "kernel[", c, "] takes forces of ", std::sqrt(pull / length) / largest, " of the largest diagonal entry to move ", where,
-                         "; allowed ", told_tolerance);
-                for (std::int64_t i = 0; i < rigid; ++i)
-                    for (std::int64_t j = 0; j < rigid; ++j) span(i, j) -= share(i, c) * share(j, c) / length;  // free ones come first
-            }
-            gram = std::move(span);
-            const Eigen eigen = eigen_symmetric(gram);
-            while (free < rigid && eigen.value[index(free)] < -told_tolerance) ++free;
-            piece.free = some_columns(q, eigen.vector, 0, free);
-            piece.held = some_columns(q, eigen.vector, free, rigid);
-        } else {
-            gram = multiply_transposed(q, forces(made.matrix, local, dim, q));
-            for (std::int64_t i = 0; i < rigid; ++i)
-                for (std::int64_t j = 0; j < i; ++j) gram(i, j) = gram(j, i) = 0.5 * (gram(i, j) + gram(j, i));
-            const Eigen eigen = eigen_symmetric(gram);
-            if (eigen.value.front() < -resisted * largest)
-                fail(DELAM_ERROR_ARGUMENT, where, ": a rigid motion has the energy ", 0.5 * eigen.value.front(), " < 0: the matrix is indefinite");
-            free = count_free(eigen.value, largest, where);
-            piece.free = some_columns(q, eigen.vector, 0, free);
-            piece.held = some_columns(q, eigen.vector, free, rigid);
-        }
-        told_of += free;
+        piece.free = some_columns(q, split.combination, 0, split.free);
+        piece.held = some_columns(q, split.combination, split.free, q.columns);
+        free += split.free;
         made.pieces.push_back(std::move(piece));
     }
-    if (kernel.told && told_of < kernel.motions.columns && made.pieces.size() == 1)
-        fail(DELAM_ERROR_ARGUMENT, "kernel: of ", kernel.motions.columns, " motions of body ", mesh.body_label(body), " only ", told_of, " are independent");
-    refuse_mechanisms(mesh, body, made, largest);
+    // Motions told of several bodies at once may leave this one at rest.
+    std::int64_t moving = 0;
+    for (std::int64_t c = 0; c < kernel.motions.columns; ++c) {
+        const auto motion = std::span(kernel.motions.value).subspan(index(c * kernel.motions.rows), index(kernel.motions.rows));
+        moving += std::any_of(motion.begin(), motion.end(), [](double u) { return u != 0.0; }) ? 1 : 0;
+    }
+    if (kernel.told && free < moving && made.pieces.size() == 1)
+        fail(DELAM_ERROR_ARGUMENT, "kernel: of ", moving, " motions of body ", mesh.body_label(body), " only ", free, " are independent");
+    refuse_mechanisms(mesh, body, made);
+    unite_held_pieces(made, dim);
     return made;
 }
 

@@ -259,6 +259,7 @@ Patch find_patch(const Mesh& mesh, std::int32_t body, std::span<const double> lo
     double length = 0.0;
     for (const double d : direction) length = std::hypot(length, d);
     if (!(length > 0.0)) fail(DELAM_ERROR_ARGUMENT, "direction: its length is ", length, ", must be > 0");
+    if (body >= 0 && mesh.host_body(body)) fail(DELAM_ERROR_ARGUMENT, "body ", mesh.body_label(body), " has no cells and so no faces");
 
     std::vector<double> weight(at(mesh.node_count()), 0.0);
     Window window(mesh, lower, upper);

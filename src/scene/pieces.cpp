@@ -26,6 +26,7 @@ Pieces rigid_pieces(const Problem& problem) {
     Pieces pieces;
     pieces.body = parts.subdomain_body;
     pieces.nodes.resize(pieces.body.size());
+    pieces.fixed.assign(pieces.body.size(), 0);
     pieces.of_node.assign(index(mesh.node_count()), -1);
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
         const std::int64_t piece = parts.cell_subdomain[index(c)];
@@ -45,6 +46,7 @@ Pieces rigid_pieces(const Problem& problem) {
         if (problem.stiffness[b] == nullptr) continue;
         for (const HostPiece& own : problem.stiffness[b]->pieces) {
             for (const std::int64_t node : own.nodes) pieces.of_node[index(node)] = static_cast<std::int64_t>(pieces.count());
+            pieces.fixed.push_back(own.fixed() ? 1 : 0);
             for (std::int64_t c = 0; c < own.held.columns; ++c) {
                 Pieces::Row row;
                 for (std::int64_t i = 0; i < own.held.rows; ++i) row.emplace_back(own.nodes[index(i / dim)] * dim + i % dim, own.held(i, c));

@@ -21,7 +21,8 @@ struct Pieces {
     };
     std::vector<Hinge> hinges;
 
-    // Rigid motions that the host's own supports resist: sum of coefficient u[dof] would be zero on what is free.
+    std::vector<std::uint8_t> fixed;  // [pieces] 1: the host's own supports hold it altogether
+    // Rigid motions of the others that they resist: sum of coefficient u[dof] would be zero on what is free.
     using Row = std::vector<std::pair<std::int64_t, double>>;
     std::vector<Row> resisted;
 

@@ -221,7 +221,7 @@ void Search::measure() {
             f.centre[d] = 0.5 * (corners[0][d] + corners[1][d]);
             f.length = std::max(f.length, 0.5 * (corners[1][d] - corners[0][d]));
         }
-        if (control_group(g)) f.length = 1.0;
+        if (control_group(g) || !(f.length > 0.0)) f.length = 1.0;
         frame_[g] = f;
     }
 }
@@ -301,6 +301,10 @@ std::vector<double> Search::gram(const std::vector<std::size_t>& cluster) {
     }
     for (std::size_t i = 0; i < cluster.size(); ++i)
         for (std::size_t m = dimension_; control_group(cluster[i]) && m < modes_; ++m) g[(i * modes_ + m) * (n + 1)] = 1.0;
+    for (std::size_t piece = 0; piece < pieces_.count(); ++piece) {
+        const auto held = pieces_.fixed[piece] != 0 ? offset.find(groups_.find(piece)) : offset.end();
+        for (std::size_t m = 0; held != offset.end() && m < modes_; ++m) g[(held->second + m) * (n + 1)] += 1.0;
+    }
     return g;
 }
 

@@ -110,7 +110,7 @@ std::string names(const Mesh& mesh, const FreeMotion& motion) {
 
 void check_supports(const Problem& problem) {
     const bool held_by_host = std::any_of(problem.stiffness.begin(), problem.stiffness.end(), [](const auto& own) {
-        return own != nullptr && std::any_of(own->pieces.begin(), own->pieces.end(), [](const HostPiece& p) { return p.held.columns > 0; });
+        return own != nullptr && std::any_of(own->pieces.begin(), own->pieces.end(), [](const HostPiece& p) { return p.fixed() || p.held.columns > 0; });
     });
     if (problem.constraints.empty() && !held_by_host)
         fail(DELAM_ERROR_PROBLEM, "missing support: no displacement is prescribed anywhere");

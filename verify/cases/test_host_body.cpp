@@ -358,6 +358,77 @@ CASE_TEST(partly_grounded) {
     }
 }
 
+// Supports of the host's by empty rows and any diagonal, as finite element programs make them: the march of the scene whose supports the library knows.
+void emptied_rows(int loop) {
+    const Example& example = examples()[1];
+    Scene own = example.make();
+    example.dress(own);
+    Scene scene = without_cells(own, example.bodies);
+    const auto dim = static_cast<std::size_t>(own.dimension());
+    const std::vector<std::vector<double>> axes{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    const auto foot = own.find(0, {0.0, 0.0, 0.0}, {0.0, 0.004, 0.0}), end = own.find(0, {0.02, 0.0, 0.0}, {0.02, 0.004, 0.0});
+    Csr k = body_matrix(own, 0);
+    const auto nodes = nodes_of(own, 0);
+    const auto emptied = [&](std::size_t dof) {
+        const std::int64_t node = nodes[dof / dim];
+        return std::find(foot.begin(), foot.end(), node) != foot.end() || (dof % dim == 2 && std::find(end.begin(), end.end(), node) != end.end());
+    };
+    const double diagonal = loop % 3 == 0 ? 1.0 : loop % 3 == 1 ? 1e-3 : 1e25;
+    for (std::size_t r = 0; r + 1 < k.start.size(); ++r)
+        for (auto e = static_cast<std::size_t>(k.start[r]); e < static_cast<std::size_t>(k.start[r + 1]); ++e) {
+            const auto c = static_cast<std::size_t>(k.column[e]);
+            if (emptied(r) || emptied(c)) k.value[e] = r == c ? diagonal : 0.0;
+        }
+    scene.require(give(scene, nodes, k), "lower ply");
+    for (const std::int32_t body : {1, 2}) scene.require(give(scene, nodes_of(own, body), body_matrix(own, body)), "plies");
+    // dress_peel without its supports.
+    scene.law(0, {1e12, 1e12, 50.0, 50.0, 200.0, 400.0});
+    scene.law(1, {1e12, 1e12, 60.0, 60.0, 220.0, 400.0});
+    for (std::int64_t i = 0; i < 2; ++i) {
+        const auto pairs = scene.pairs(i);
+        std::vector<std::int64_t> notch;
+        for (std::size_t p = 0; p < pairs.count(); ++p)
+            if (scene.coordinate(pairs.node_a[p], 0) < 0.0075 - 0.002 * static_cast<double>(i)) notch.push_back(static_cast<std::int64_t>(p));
+        scene.adhesion(i, notch, std::vector<double>(notch.size(), 0.0));
+    }
+    const auto top = scene.find(2, {0.0, 0.0, 0.003}, {0.0, 0.004, 0.003});
+    scene.drive(top, axes[2], scene.pattern("drive", {0.0, 1.0}, {0.0, 4e-4}), std::vector<double>(top.size(), 1.0));
+    const bool feti = loop >= 3;
+    for (Scene* s : {&own, &scene}) s->text("reduction", feti ? "feti" : "condensed");
+    same_march(own, scene, example.end, steps, feti ? 1e-6 : 1e-9, std::string(feti ? "FETI" : "condensed") + ", diagonal " + std::to_string(diagonal));
+}
+
+START_TEST(emptied) { cases::run_body(emptied_rows, _i); }
+END_TEST
+
+// A kernel told for two bodies in one call, three motions of each.
+CASE_TEST(kernel_of_two_bodies) {
+    Scene own(2, {2.0}, {2}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
+    own.interface(0, 1);
+    own.begin();
+    own.elastic(-1, 1e9, 0.3);
+    Scene scene = without_cells(own, {0, 1});
+    Csr both = body_matrix(own, 0);
+    const Csr upper = body_matrix(own, 1);
+    const auto rows = both.start.size() - 1;
+    for (std::size_t r = 1; r < upper.start.size(); ++r) both.start.push_back(static_cast<std::int64_t>(both.value.size()) + upper.start[r]);
+    for (const auto c : upper.column) both.column.push_back(c + static_cast<std::int64_t>(rows));
+    both.value.insert(both.value.end(), upper.value.begin(), upper.value.end());
+    auto nodes = nodes_of(own, 0);
+    const auto more = nodes_of(own, 1);
+    nodes.insert(nodes.end(), more.begin(), more.end());
+    std::vector<double> kernel(6 * 2 * rows, 0.0);
+    for (std::size_t body = 0; body < 2; ++body)
+        for (std::size_t i = 0; i < rows / 2; ++i) {
+            const std::int64_t node = nodes[body * rows / 2 + i];
+            const std::size_t x = body * rows + 2 * i;
+            kernel[(3 * body) * 2 * rows + x] = kernel[(3 * body + 1) * 2 * rows + x + 1] = 1.0;
+            kernel[(3 * body + 2) * 2 * rows + x] = -own.coordinate(node, 1);
+            kernel[(3 * body + 2) * 2 * rows + x + 1] = own.coordinate(node, 0);
+        }
+    scene.require(give(scene, nodes, both, 6, kernel.data()), "six motions of two bodies");
+}
+
 // One label, two plies that the matrix does not join: two pieces, each with its own motions.
 CASE_TEST(two_pieces_of_one_body) {
     Scene own(2, {0.12}, {60}, {2e-3, 2e-3, 2e-3}, {1, 1, 1}, DELAM_QUAD4);
@@ -592,6 +663,8 @@ int main() {
     tcase_add_loop_test(tests, march, 0, 2 * static_cast<int>(examples().size()));
     tcase_add_loop_test(tests, grounded, 0, 6);
     tcase_add_test(tests, partly_grounded);
+    tcase_add_loop_test(tests, emptied, 0, 6);
+    tcase_add_test(tests, kernel_of_two_bodies);
     tcase_add_test(tests, two_pieces_of_one_body);
     tcase_add_test(tests, refusals);
     tcase_add_test(tests, no_faces);

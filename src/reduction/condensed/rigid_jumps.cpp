@@ -43,6 +43,7 @@ public:
         piece_of_ = parts.of_node;
         hinges_ = parts.hinges;
         resisted_ = parts.resisted;
+        fixed_ = parts.fixed;
         std::vector<std::array<std::array<double, 3>, 2>> box(pieces_.size());
         for (std::size_t p = 0; p < pieces_.size(); ++p)
             for (const std::int64_t node : parts.nodes[p])
@@ -57,6 +58,8 @@ public:
                 pieces_[p].centre[k] = 0.5 * (box[p][0][k] + box[p][1][k]);
                 pieces_[p].size = std::max(pieces_[p].size, 0.5 * (box[p][1][k] - box[p][0][k]));
             }
+        for (Piece& piece : pieces_)
+            if (!(piece.size > 0.0)) piece.size = 1.0;
     }
 
     // Of the pieces, then the translations of each control node.
@@ -89,6 +92,14 @@ public:
 
     const std::vector<Pieces::Hinge>& hinges() const { return hinges_; }
     const std::vector<Pieces::Row>& resisted() const { return resisted_; }
+    // What holds pieces that cannot move at all.
+    void hold(DenseMatrix& gram) const {
+        for (std::size_t p = 0; p < fixed_.size(); ++p)
+            for (std::int64_t m = 0; fixed_[p] != 0 && m < modes_; ++m) {
+                const std::int64_t i = static_cast<std::int64_t>(p) * modes_ + m;
+                gram(i, i) += 1.0;
+            }
+    }
     std::int64_t dimension() const { return dim_; }
 
 private:
@@ -100,6 +111,7 @@ private:
     std::vector<std::int64_t> piece_of_;
     std::vector<Pieces::Hinge> hinges_;
     std::vector<Pieces::Row> resisted_;
+    std::vector<std::uint8_t> fixed_;
 };
 
 void accumulate(DenseMatrix& gram, const std::map<std::int64_t, double>& row) {
@@ -119,6 +131,7 @@ DenseMatrix rigid_jumps(const Problem& problem) {
             motions.add(row, constraint.dof[i] / dim, constraint.dof[i] % dim, constraint.coefficient[i]);
         accumulate(gram, row);
     }
+    motions.hold(gram);
     for (const Pieces::Row& resisted : motions.resisted()) {
         std::map<std::int64_t, double> row;
         for (const auto& [dof, coefficient] : resisted) motions.add(row, dof / dim, dof % dim, coefficient);
