@@ -21,6 +21,8 @@ module delam_meshes
     procedure :: add_all_interfaces => mesh_add_all_interfaces
     procedure :: add_projected_interface => mesh_add_projected_interface
     procedure :: add_obstacle => mesh_add_obstacle
+    procedure :: add_host_body => mesh_add_host_body
+    procedure :: add_pairs => mesh_add_pairs
     procedure :: get_size => mesh_get_size
     procedure :: nodes => mesh_nodes
     procedure :: node_bodies => mesh_node_bodies
@@ -235,6 +237,48 @@ contains
     call settle(code, self, status, message)
   end subroutine mesh_add_obstacle
 
+  ! A body without cells, whose stiffness the problem's set_stiffness takes.
+  subroutine mesh_add_host_body(self, body, nodes, status, message)
+    class(delam_mesh), intent(in) :: self
+    integer, intent(in) :: body
+    integer(delam_index), intent(in), contiguous :: nodes(:)
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    call settle(delam_mesh_add_host_body(self%handle(), int(body, c_int32_t), size(nodes, kind=c_int64_t), nodes, &
+                                         1_c_int32_t), self, status, message)
+  end subroutine mesh_add_host_body
+
+  ! Pairs that the host knows. normals: (dimension, pairs), from a to b; faces as pair indices: (nodes per face, faces).
+  subroutine mesh_add_pairs(self, body_a, body_b, nodes_a, nodes_b, normals, weights, faces, interface, status, message)
+    class(delam_mesh), intent(in) :: self
+    integer, intent(in) :: body_a, body_b
+    integer(delam_index), intent(in), contiguous :: nodes_a(:), nodes_b(:)
+    real(delam_real), intent(in), contiguous :: normals(:,:), weights(:)
+    integer(delam_index), intent(in), contiguous, optional :: faces(:,:)
+    integer, intent(out), optional :: interface
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    integer(c_int64_t) :: made, face_count
+    integer(c_int32_t) :: code, per_face
+    if (size(normals, 1) /= dimension_of(self) .or. &
+        any([size(nodes_b), size(normals, 2), size(weights)] /= size(nodes_a))) then
+      call refuse('normals must be (dimension, pairs), nodes_a, nodes_b and weights (pairs)', status, message)
+      return
+    end if
+    face_count = 0
+    per_face = 0
+    if (present(faces)) then
+      face_count = size(faces, 2, c_int64_t)
+      per_face = size(faces, 1, c_int32_t)
+    end if
+    made = -1
+    code = delam_mesh_add_pairs(self%handle(), int(body_a, c_int32_t), int(body_b, c_int32_t), &
+                                size(nodes_a, kind=c_int64_t), nodes_a, nodes_b, normals, weights, face_count, &
+                                per_face, faces, 1_c_int32_t, made)
+    if (present(interface)) interface = int(made) + 1
+    call settle(code, self, status, message)
+  end subroutine mesh_add_pairs
+
   ! 0 where the mesh does not exist.
   function dimension_of(self) result(dimension)
     class(delam_mesh), intent(in) :: self
@@ -267,7 +311,7 @@ contains
     call settle(code, self, status, message)
   end function mesh_nodes
 
-  ! Label of the body of each node; -1 for a node without cells.
+  ! Label of the body of each node; -1 for a node of none.
   function mesh_node_bodies(self, status, message) result(bodies)
     class(delam_mesh), intent(in) :: self
     integer, intent(out), optional :: status

@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 ! Who owns a handle. Only delam_object is for hosts.
 module delam_objects
-  use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr
+  use, intrinsic :: iso_c_binding, only: c_ptr, c_int64_t, c_null_ptr
   use delam_raw
   use delam_callbacks, only: delam_observer, delam_host_law
   implicit none
@@ -17,6 +17,7 @@ module delam_objects
     character(7) :: kind = ''
     integer :: owners = 1
     integer :: dimension = 0   ! of a problem's mesh
+    integer(c_int64_t) :: patterns = 0   ! of a solver's problem, when it was made
     type(shared), pointer :: context => null()
     type(keeper), allocatable :: kept(:)
     class(delam_host_law), allocatable :: law

@@ -22,6 +22,7 @@ module delam_problems
     procedure :: set_orthotropic => problem_set_orthotropic
     procedure :: set_orientation => problem_set_orientation
     procedure :: set_formulation => problem_set_formulation
+    procedure :: set_stiffness => problem_set_stiffness
     procedure :: set_law => problem_set_law
     procedure :: set_bonded => problem_set_bonded
     procedure :: set_contact => problem_set_contact
@@ -140,6 +141,37 @@ contains
                 status, &
                 message)
   end subroutine problem_set_formulation
+
+  ! The stiffness of whole bodies as the host has assembled it; by rows, as body_matrix gives it. nodes: all of theirs;
+  ! dofs: (dimension, nodes), the row of each displacement, absent: one after another; kernel: (rows, motions) without
+  ! energy, absent: the library finds them.
+  subroutine problem_set_stiffness(self, nodes, row_starts, columns, values, dofs, kernel, status, message)
+    class(delam_problem), intent(in) :: self
+    integer(delam_index), intent(in), contiguous :: nodes(:), row_starts(:), columns(:)
+    real(delam_real), intent(in), contiguous :: values(:)
+    integer(delam_index), intent(in), contiguous, optional :: dofs(:,:)
+    real(delam_real), intent(in), contiguous, optional :: kernel(:,:)
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    integer :: rows
+    integer(c_int64_t) :: motions
+    logical :: equal
+    rows = size(row_starts) - 1
+    equal = rows >= 0 .and. size(columns, kind=c_int64_t) == size(values, kind=c_int64_t)
+    if (equal) equal = row_starts(rows + 1) == size(values, kind=c_int64_t) + 1
+    if (equal .and. size(nodes) > 0) equal = mod(rows, size(nodes)) == 0 .and. in_space(self, rows/size(nodes))
+    if (present(dofs)) equal = equal .and. size(dofs, 2) == size(nodes) .and. size(dofs) == rows
+    if (present(kernel)) equal = equal .and. size(kernel, 1) == rows
+    if (.not. equal) then
+      call refuse('row_starts must be (dimension*nodes + 1) and end behind the columns and values, dofs ' // &
+                  '(dimension, nodes), kernel (dimension*nodes, motions)', status, message)
+      return
+    end if
+    motions = -1
+    if (present(kernel)) motions = size(kernel, 2, c_int64_t)
+    call settle(delam_problem_set_stiffness(self%handle(), size(nodes, kind=c_int64_t), nodes, dofs, row_starts, &
+                                            columns, values, motions, kernel, 1_c_int32_t), self, status, message)
+  end subroutine problem_set_stiffness
 
   subroutine problem_set_law(self, interface, law, status, message)
     class(delam_problem), intent(in) :: self

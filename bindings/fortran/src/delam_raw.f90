@@ -786,7 +786,7 @@ module delam_raw
     function delam_solver_pending(solver, pending) bind(c, name="delam_solver_pending") result(status)
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
       type(c_ptr), value :: solver
-      integer(c_int32_t), intent(inout), optional :: pending(*)
+      integer(c_int32_t), intent(inout), optional :: pending
       integer(c_int32_t) :: status
     end function delam_solver_pending
     function delam_solver_set_history(solver, pattern, count, times, values) bind(c, &
@@ -901,7 +901,7 @@ module delam_raw
         result(status)
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
       type(c_ptr), value :: solver
-      integer(c_int64_t), intent(inout), optional :: unknowns(*)
+      integer(c_int64_t), intent(inout), optional :: unknowns
       integer(c_int64_t), intent(inout), optional :: entries
       integer(c_int32_t) :: status
     end function delam_solver_condensed_size
@@ -914,7 +914,7 @@ module delam_raw
       real(c_double), intent(inout), optional :: load(*)
       real(c_double), intent(inout), optional :: constant(*)
       integer(c_int64_t), intent(inout), optional :: row_starts(*)
-      integer(c_int64_t), intent(inout), optional :: columns
+      integer(c_int64_t), intent(inout), optional :: columns(*)
       real(c_double), intent(inout), optional :: values(*)
       real(c_double), intent(inout), optional :: offset(*)
       integer(c_int32_t) :: status

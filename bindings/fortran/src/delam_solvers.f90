@@ -19,6 +19,8 @@ module delam_solvers
     procedure :: advance => solver_advance
     procedure :: commit => solver_commit
     procedure :: rollback => solver_rollback
+    procedure :: pending => solver_pending
+    procedure :: set_history => solver_set_history
     procedure :: equilibrate => solver_equilibrate
     procedure :: value => solver_value
     procedure :: value_count => solver_value_count
@@ -29,6 +31,8 @@ module delam_solvers
     procedure :: average => solver_average
     procedure :: front => solver_front
     procedure :: tangent => solver_tangent
+    procedure :: step_tangent => solver_step_tangent
+    procedure :: condensed => solver_condensed
     procedure :: plan => solver_plan
     procedure :: plan_count => solver_plan_count
     procedure :: plan_item => solver_plan_item
@@ -39,6 +43,8 @@ module delam_solvers
     procedure :: jump => solver_jump
     procedure :: save => solver_save
     procedure :: load => solver_load
+    procedure :: save_file => solver_save_file
+    procedure :: load_file => solver_load_file
     procedure, private :: same_solver
     generic :: assignment(=) => same_solver
     final :: drop_solver
@@ -69,6 +75,7 @@ contains
     code = delam_solver_create(problem%handle(), time, made%handle)
     if (c_associated(made%handle)) then
       of => shared_of(problem)
+      if (delam_problem_pattern_count(problem%handle(), made%patterns) /= DELAM_OK) made%patterns = 0
       call adopt(self, made, 'solver', of%context)
       call keep_all(made, of)
     else
@@ -98,6 +105,34 @@ contains
     character(*), intent(out), optional :: message
     call settle(delam_solver_rollback(self%handle()), self, status, message)
   end subroutine solver_rollback
+
+  ! Is there a step to be committed or rolled back?
+  function solver_pending(self, status, message) result(pending)
+    class(delam_solver), intent(in) :: self
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    logical :: pending
+    integer(c_int32_t) :: code, answer
+    answer = 0
+    code = delam_solver_pending(self%handle(), answer)
+    pending = answer /= 0
+    call settle(code, self, status, message)
+  end function solver_pending
+
+  ! Another history of a pattern from the committed time on: the line from there through (times, values).
+  subroutine solver_set_history(self, pattern, times, values, status, message)
+    class(delam_solver), intent(in) :: self
+    integer(delam_index), intent(in) :: pattern
+    real(delam_real), intent(in), contiguous :: times(:), values(:)
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    if (size(times) /= size(values)) then
+      call refuse('times and values: unequal sizes', status, message)
+      return
+    end if
+    call settle(delam_solver_set_history(self%handle(), pattern - 1, size(times, kind=c_int64_t), times, values), &
+                self, status, message)
+  end subroutine solver_set_history
 
   ! adhesion: of all pairs, interface after interface; absent: the committed one.
   subroutine solver_equilibrate(self, time, adhesion, status, message)
@@ -260,18 +295,75 @@ contains
     call settle(code, self, status, message)
   end subroutine solver_front
 
-  ! (patterns, patterns)
-  function solver_tangent(self, patterns, status, message) result(matrix)
+  ! At the adhesion and contact held: (patterns, patterns), symmetric.
+  function solver_tangent(self, status, message) result(matrix)
     class(delam_solver), intent(in) :: self
-    integer(delam_index), intent(in) :: patterns
     integer, intent(out), optional :: status
     character(*), intent(out), optional :: message
     real(delam_real), allocatable :: matrix(:,:)
+    integer(c_int64_t) :: patterns
     integer(c_int32_t) :: code
+    patterns = patterns_of(self)
     allocate(matrix(patterns, patterns))
     code = delam_solver_tangent(self%handle(), patterns*patterns, matrix)
     call settle(code, self, status, message)
   end function solver_tangent
+
+  ! Of the pending step, damage included: matrix(q, p) is the change of the reaction of pattern p with the factor of q.
+  function solver_step_tangent(self, status, message) result(matrix)
+    class(delam_solver), intent(in) :: self
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    real(delam_real), allocatable :: matrix(:,:)
+    integer(c_int64_t) :: patterns
+    integer(c_int32_t) :: code
+    patterns = patterns_of(self)
+    allocate(matrix(patterns, patterns))
+    code = delam_solver_step_tangent(self%handle(), patterns*patterns, matrix)
+    call settle(code, self, status, message)
+  end function solver_step_tangent
+
+  ! All bodies condensed onto the interfaces. With S = stiffness: (unknowns, unknowns), L = load: (unknowns, patterns)
+  ! and A = constant: (patterns, patterns), 1/2 x.S x - theta.(x L) + 1/2 theta.A theta is the energy of bodies and dead
+  ! forces; the local jumps of all pairs, component by component, are N x + theta O with the rows of N as those of
+  ! body_matrix and O = offset: (patterns, rows).
+  subroutine solver_condensed(self, stiffness, load, constant, row_starts, columns, values, offset, status, message)
+    class(delam_solver), intent(in) :: self
+    real(delam_real), allocatable, intent(out) :: stiffness(:,:), load(:,:), constant(:,:)
+    integer(delam_index), allocatable, intent(out) :: row_starts(:), columns(:)
+    real(delam_real), allocatable, intent(out) :: values(:), offset(:,:)
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    integer(c_int64_t) :: patterns, unknowns, entries, pairs, dimension, rows
+    integer(c_int32_t) :: code
+    patterns = patterns_of(self)
+    unknowns = 0
+    entries = 0
+    pairs = 0
+    dimension = 0
+    code = delam_solver_condensed_size(self%handle(), unknowns, entries)
+    if (code == DELAM_OK) code = delam_solver_field_shape(self%handle(), zero_ended('jump'), -1_c_int64_t, pairs, &
+                                                          dimension)
+    rows = pairs*dimension
+    allocate(stiffness(unknowns, unknowns), load(unknowns, patterns), constant(patterns, patterns))
+    allocate(row_starts(rows + 1), columns(entries), values(entries), offset(patterns, rows))
+    row_starts = 0
+    if (code == DELAM_OK) code = delam_solver_condensed(self%handle(), unknowns*unknowns, stiffness, load, constant, &
+                                                        row_starts, columns, values, offset)
+    row_starts = row_starts + 1
+    columns = columns + 1
+    call settle(code, self, status, message)
+  end subroutine solver_condensed
+
+  ! 0 where the solver does not exist.
+  function patterns_of(self) result(patterns)
+    class(delam_solver), intent(in) :: self
+    integer(c_int64_t) :: patterns
+    type(shared), pointer :: it
+    patterns = 0
+    it => shared_of(self)
+    if (associated(it)) patterns = it%patterns
+  end function patterns_of
 
   function solver_plan(self) result(text)
     class(delam_solver), intent(in) :: self
@@ -391,5 +483,22 @@ contains
     character(*), intent(out), optional :: message
     call settle(delam_solver_load(self%handle(), size(bytes, kind=c_int64_t), bytes), self, status, message)
   end subroutine solver_load
+
+  ! The same bytes as a file. Blanks at the end of the path do not count, as in open.
+  subroutine solver_save_file(self, path, status, message)
+    class(delam_solver), intent(in) :: self
+    character(*), intent(in) :: path
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    call settle(delam_solver_save_file(self%handle(), zero_ended(path)), self, status, message)
+  end subroutine solver_save_file
+
+  subroutine solver_load_file(self, path, status, message)
+    class(delam_solver), intent(in) :: self
+    character(*), intent(in) :: path
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    call settle(delam_solver_load_file(self%handle(), zero_ended(path)), self, status, message)
+  end subroutine solver_load_file
 
 end module delam_solvers

@@ -30,7 +30,8 @@ SCALARS = {
     "cost": (), "saving": (), "step": (), "before": (), "time": (), "stored": (), "released": (), "debonded": (),
     "interface_index": (), "first_pair": (), "last_pair": (),
     "adhesion": ("delam_law_respond",), "slope": (), "mixity_slope": (), "dissipated": (),
-    "columns": ("delam_problem_body_matrix", "delam_problem_constraints"),
+    "columns": ("delam_problem_body_matrix", "delam_problem_constraints", "delam_solver_condensed"),
+    "unknowns": (), "pending": (),
 }
 
 
