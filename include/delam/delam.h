@@ -485,7 +485,7 @@ DELAM_API int32_t delam_problem_set_formulation(delam_problem *problem, int32_t 
  *               that come twice add up. Symmetric to 1e-9, positive on what deforms (one sparse factorisation tells)
  *   kernel      [kernel_count][dimension*count] motions without energy, by row. Parts that hang together in the matrix
  *               are rigid pieces, their free motions rigid ones: a mechanism within is refused. Rows that the host has
- *               emptied but for the diagonal, for supports of its own, are held for ever. kernel_count -1 (kernel NULL):
+ *               emptied but for the diagonal, for supports of its own, are held for ever. kernel_count -1 (NULL then):
  *               the library finds how far a piece is held; what costs less than 1e-9 of the piece's largest diagonal
  *               entry but more than 1e-12 must be told
  * DELAM_ERROR_ARGUMENT names the node, row or entry.
