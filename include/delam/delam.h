@@ -486,8 +486,8 @@ DELAM_API int32_t delam_problem_set_formulation(delam_problem *problem, int32_t 
  *   kernel      [kernel_count][dimension*count] motions without energy, by row. Parts that hang together in the matrix
  *               are rigid pieces, their free motions rigid ones: a mechanism within is refused. Rows that the host has
  *               emptied but for the diagonal, for supports of its own, are held for ever. kernel_count -1 (NULL then):
- *               the library finds how far a piece is held; what costs less than 1e-9 of the piece's largest diagonal
- *               entry but more than 1e-12 must be told
+ *               the library finds how far a piece is held; a motion whose energy is between 1e-12 and 1e-9 of that of
+ *               the diagonal alone must be told
  * DELAM_ERROR_ARGUMENT names the node, row or entry.
  * FETI takes each piece whole. Later calls replace the stiffness of the bodies that they have.
  * [unit values F/L, kernel 1; null dofs; status argument; source C. Farhat, M. Geradin, Int. J. Numer. Meth.

@@ -13,7 +13,7 @@ namespace delam {
 
 namespace {
 
-// Energy of a rigid motion of unit length over the largest diagonal entry: rounding below the one, a support above the other.
+// Energy of a rigid motion over that of the diagonal alone: rounding below the one, a support above the other.
 constexpr double rounding = 1e-12, resisted = 1e-9;
 // What a told motion may miss of a rigid one, and the force it may need.
 constexpr double told_tolerance = 1e-6;
@@ -77,11 +77,14 @@ DenseMatrix some_columns(const DenseMatrix& q, const DenseMatrix& combination, s
     return multiply(q, part);
 }
 
-double largest_diagonal(const SparseMatrix& k, std::span<const std::int64_t> nodes, std::int64_t dim) {
-    double largest = 0.0;
-    for (const std::int64_t node : nodes)
-        for (std::int64_t row = node * dim; row < (node + 1) * dim; ++row) largest = std::max(largest, diagonal(k, row));
-    return largest;
+// D Q of some nodes' DOFs, D the diagonal of K: the forces that would be if all else were held.
+DenseMatrix diagonal_forces(const SparseMatrix& k, std::span<const std::int64_t> nodes, std::int64_t dim, const DenseMatrix& motions) {
+    DenseMatrix f = motions;
+    for (std::int64_t i = 0; i < f.rows; ++i) {
+        const double d = diagonal(k, nodes[index(i / dim)] * dim + i % dim);
+        for (std::int64_t c = 0; c < f.columns; ++c) f(i, c) *= d;
+    }
+    return f;
 }
 
 // Pieces without a free motion need not be told apart: nodes that the host has cut off for supports of its own may be many.
@@ -147,31 +150,77 @@ void refuse_mechanisms(const Mesh& mesh, std::int32_t body, const HostStiffness&
          ", allowed > ", mechanism, ") at node ", nodes[index(dof / dim)], ", component ", dof % dim, ": a mechanism, or an indefinite matrix");
 }
 
-// Rigid motions of a piece (columns of q): those that are free, then those that are held, as combinations of q.
+// The matrix to judge rigid motions by: in a solid that is free no diagonal entry is larger than the others of its row together. What is more is a support of
+// the host's (a penalty, a number on an emptied row), of which it matters that it is there; were it 1e25, all else would be rounding beside it.
+SparseMatrix with_tame_supports(SparseMatrix k, std::int64_t dim) {
+    const auto entry = [&](std::int64_t row) -> double& {
+        const auto begin = k.column.begin() + k.start[index(row)], end = k.column.begin() + k.start[index(row) + 1];
+        return k.value[static_cast<std::size_t>(std::lower_bound(begin, end, row) - k.column.begin())];
+    };
+    std::vector<double> others(index(k.rows), 0.0);
+    for (std::int64_t row = 0; row < k.rows; ++row)
+        for (std::int64_t e = k.start[index(row)]; e < k.start[index(row) + 1]; ++e)
+            if (k.column[index(e)] != row) others[index(row)] += std::abs(k.value[index(e)]);
+    for (std::int64_t row = 0; row < k.rows; ++row)
+        if (others[index(row)] > 0.0) entry(row) = std::min(entry(row), 2.0 * others[index(row)]);
+    for (std::int64_t row = 0; row < k.rows; ++row) {
+        double beside = 0.0;  // of the same node
+        for (std::int64_t c = row / dim * dim; c < (row / dim + 1) * dim && others[index(row)] == 0.0; ++c)
+            if (others[index(c)] > 0.0) beside = std::max(beside, entry(c));
+        if (beside > 0.0) entry(row) = std::min(entry(row), beside);
+    }
+    return k;
+}
+
+// Rigid motions of a piece, as combinations of the orthonormal columns of q: those that are free, then those that are held, orthogonal to them.
 struct Split {
     DenseMatrix combination;
     std::int64_t free = 0;
 };
 
-// By their energy.
-Split found_split(const SparseMatrix& k, std::span<const std::int64_t> local, std::int64_t dim, const DenseMatrix& q, const std::string& where) {
-    DenseMatrix energy = multiply_transposed(q, forces(k, local, dim, q));
-    for (std::int64_t i = 0; i < q.columns; ++i)
-        for (std::int64_t j = 0; j < i; ++j) energy(i, j) = energy(j, i) = 0.5 * (energy(i, j) + energy(j, i));
-    Eigen eigen = eigen_symmetric(std::move(energy));
-    const double largest = largest_diagonal(k, local, dim);
-    Split split;
-    for (const double e : eigen.value) {
-        if (e < -resisted * largest)
-            fail(DELAM_ERROR_ARGUMENT, where, ": a rigid motion has the energy ", 0.5 * e, " < 0: the matrix is indefinite");
-        if (std::abs(e) <= rounding * largest)
-            ++split.free;
-        else if (e < resisted * largest)
-            fail(DELAM_ERROR_ARGUMENT, where, ": a rigid motion costs ", e / largest, " of the largest diagonal entry, between ", rounding, " (free) and ", resisted,
-                 " (held): tell the kernel");
+// From any vectors that span the free ones; those that are less than told_tolerance of the others' lengths span nothing.
+Split split_by(const DenseMatrix& free) {
+    DenseMatrix span(free.rows, free.rows);  // less than zero on what they span: its eigenvectors come first
+    for (std::int64_t c = 0; c < free.columns; ++c) {
+        double square = 0.0;
+        for (std::int64_t i = 0; i < free.rows; ++i) square += free(i, c) * free(i, c);
+        if (square == 0.0) continue;
+        for (std::int64_t i = 0; i < free.rows; ++i)
+            for (std::int64_t j = 0; j < free.rows; ++j) span(i, j) -= free(i, c) * free(j, c) / square;
     }
+    Eigen eigen = eigen_symmetric(std::move(span));
+    Split split;
+    while (split.free < free.rows && eigen.value[index(split.free)] < -told_tolerance) ++split.free;
     split.combination = std::move(eigen.vector);
     return split;
+}
+
+// By their energy over that of the diagonal alone: x.A x / x.B x, A = Q^T K Q, B = Q^T D Q = L L^T.
+Split found_split(const SparseMatrix& k, std::span<const std::int64_t> local, std::int64_t dim, const DenseMatrix& q, const std::string& where) {
+    DenseMatrix energy = multiply_transposed(q, forces(k, local, dim, q)), lower = multiply_transposed(q, diagonal_forces(k, local, dim, q));
+    if (!factor_definite(lower)) fail(DELAM_ERROR_ARGUMENT, where, ": diagonal entries that are too far apart, by more than 1e16");
+    for (int side = 0; side < 2; ++side) {  // L^-1 A, then L^-1 of its transpose
+        solve_lower(lower, energy);
+        for (std::int64_t i = 0; i < q.columns; ++i)
+            for (std::int64_t j = 0; j < i; ++j) std::swap(energy(i, j), energy(j, i));
+    }
+    for (std::int64_t i = 0; i < q.columns; ++i)
+        for (std::int64_t j = 0; j < i; ++j) energy(i, j) = energy(j, i) = 0.5 * (energy(i, j) + energy(j, i));
+    const Eigen eigen = eigen_symmetric(std::move(energy));
+    DenseMatrix free(q.columns, 0);
+    for (std::int64_t e = 0; e < q.columns; ++e) {
+        const double ratio = eigen.value[index(e)];
+        if (ratio < -resisted) fail(DELAM_ERROR_ARGUMENT, where, ": a rigid motion has an energy < 0, ", ratio, " of the diagonal's: the matrix is indefinite");
+        if (std::abs(ratio) > rounding) {
+            if (ratio >= resisted) continue;
+            fail(DELAM_ERROR_ARGUMENT, where, ": a rigid motion costs ", ratio, " of the energy of the diagonal, between ", rounding, " (free) and ", resisted, " (held): tell the kernel");
+        }
+        std::vector<double> x(eigen.vector.value.begin() + e * q.columns, eigen.vector.value.begin() + (e + 1) * q.columns);
+        solve_lower_transposed(lower, x);
+        free.value.insert(free.value.end(), x.begin(), x.end());
+        ++free.columns;
+    }
+    return split_by(free);
 }
 
 // By what the host tells, as far as it moves the piece.
@@ -179,30 +228,23 @@ Split told_split(const SparseMatrix& k, std::span<const std::int64_t> local, std
     DenseMatrix own(q.rows, told.columns);
     for (std::int64_t c = 0; c < own.columns; ++c)
         for (std::int64_t i = 0; i < own.rows; ++i) own(i, c) = told(local[index(i / dim)] * dim + i % dim, c);
-    const DenseMatrix share = multiply_transposed(q, own), back = multiply(q, share), f = forces(k, local, dim, own);
-    const double largest = largest_diagonal(k, local, dim);
-    DenseMatrix span(q.columns, q.columns);  // less than zero on what they span: its eigenvectors come first
+    const DenseMatrix share = multiply_transposed(q, own), back = multiply(q, share);
+    const DenseMatrix needed = forces(k, local, dim, own), held = diagonal_forces(k, local, dim, own);
     for (std::int64_t c = 0; c < own.columns; ++c) {
-        double length = 0.0, off = 0.0, pull = 0.0;
+        double length = 0.0, off = 0.0, pull = 0.0, most = 0.0;
         for (std::int64_t i = 0; i < own.rows; ++i) {
             length += own(i, c) * own(i, c);
             off += (own(i, c) - back(i, c)) * (own(i, c) - back(i, c));
-            pull += f(i, c) * f(i, c);
+            pull += needed(i, c) * needed(i, c);
+            most += held(i, c) * held(i, c);
         }
-        if (length == 0.0) continue;
         if (std::sqrt(off) > told_tolerance * std::sqrt(length))
             fail(DELAM_ERROR_ARGUMENT, "kernel[", c, "] is no rigid motion of ", where, " (", std::sqrt(off / length), " of it is not; allowed ", told_tolerance, ")");
-        if (std::sqrt(pull) > told_tolerance * largest * std::sqrt(length))
-            fail(DELAM_ERROR_ARGUMENT, "kernel[", c, "] takes forces of ", std::sqrt(pull / length) / largest, " of the largest diagonal entry to move ", where, "; allowed ",
+        if (std::sqrt(pull) > told_tolerance * std::sqrt(most))
+            fail(DELAM_ERROR_ARGUMENT, "kernel[", c, "] takes forces of ", std::sqrt(pull / most), " of those of the diagonal alone to move ", where, "; allowed ",
                  told_tolerance);
-        for (std::int64_t i = 0; i < q.columns; ++i)
-            for (std::int64_t j = 0; j < q.columns; ++j) span(i, j) -= share(i, c) * share(j, c) / length;
     }
-    Eigen eigen = eigen_symmetric(std::move(span));
-    Split split;
-    while (split.free < q.columns && eigen.value[index(split.free)] < -told_tolerance) ++split.free;
-    split.combination = std::move(eigen.vector);
-    return split;
+    return split_by(share);
 }
 
 }  // namespace
@@ -212,6 +254,7 @@ HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix m
     const std::vector<std::int64_t> nodes = mesh.body_nodes(body);
     HostStiffness made;
     made.matrix = std::move(matrix);
+    const SparseMatrix judged = with_tame_supports(made.matrix, dim);
     std::int64_t free = 0;
     for (const std::vector<std::int64_t>& local : components(made.matrix, dim)) {
         HostPiece piece;
@@ -220,7 +263,7 @@ HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix m
         DenseMatrix q(dim * static_cast<std::int64_t>(local.size()), 0);
         q.value = rigid_modes(mesh, piece.nodes);
         q.columns = static_cast<std::int64_t>(q.value.size()) / q.rows;
-        const Split split = kernel.told ? told_split(made.matrix, local, dim, q, kernel.motions, where) : found_split(made.matrix, local, dim, q, where);
+        const Split split = kernel.told ? told_split(judged, local, dim, q, kernel.motions, where) : found_split(judged, local, dim, q, where);
         // A node alone, whose rows the host has emptied for supports of its own, has translations only; its own diagonal resists them.
         if (split.free > 0 && q.columns < rigid)
             fail(DELAM_ERROR_ARGUMENT, where, ", lie on one ", dim == 2 ? "point" : "line", ": they are no solid, whose rigid motions are ", rigid);
