@@ -47,6 +47,11 @@ def check(header, raw):
     return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
+def compare(header):
+    return subprocess.run([sys.executable, os.path.join(TOOLS, "make_raw.py"), header, "--compare", RAW],
+                          capture_output=True, text=True, check=False)
+
+
 def broken(text, procedure, pattern, replacement):
     """The module with one thing changed in one procedure; the same number of lines of every other one."""
     begin = re.search(rf"^ *(?:function|subroutine) {procedure}\(", text, flags=re.M).start()
@@ -59,8 +64,7 @@ def broken(text, procedure, pattern, replacement):
 
 def main():
     failures = []
-    made = subprocess.run([sys.executable, os.path.join(TOOLS, "make_raw.py"), HEADER, "--compare", RAW],
-                          capture_output=True, text=True, check=False)
+    made = compare(HEADER)
     print(made.stdout + made.stderr, end="")
     if made.returncode != 0:
         failures.append("the committed module is out of date")
@@ -94,7 +98,14 @@ def main():
                                       "DELAM_API int32_t delam_abi(void);\n"
                                       "DELAM_API int32_t delam_new_one(double of);"))
         must_fail("a function that the module lacks", other, RAW, "delam_new_one")
-    print(f"{len(BREAKS) + 2} breaks tried")
+        # What a pointer means is no class: the generator reads it in the comments.
+        for what, told in (("a number told as an array", "pending: 1"), ("a pointer told nothing of", "1")):
+            with open(other, "w", encoding="utf-8") as file:
+                file.write(header.replace("/* *pending: 1", f"/* {told}"))
+            done = compare(other)
+            if done.returncode == 0 or "pending" not in done.stdout + done.stderr:
+                failures.append(f"not caught: {what}: {done.stdout}{done.stderr}")
+    print(f"{len(BREAKS) + 4} breaks tried")
     for failure in failures:
         print(failure)
     return 1 if failures else 0

@@ -5,8 +5,8 @@
 --compare exits with 1 and the first differences when FILE is not what the header gives.
 
 C scalars become arguments by value, arrays `name(*)`, handles type(c_ptr). Pointers to data are `optional`: absent is
-NULL (TS 29113, -std=f2008ts; Fortran 2018 has it too). C does not say whether a pointer means one number or many:
-SCALARS does.
+NULL (TS 29113, -std=f2008ts; Fortran 2018 has it too). C does not say whether a pointer to be written means one number
+or many: the comment of the function does, which speaks of *name or of name.
 """
 import argparse
 import difflib
@@ -21,19 +21,6 @@ KINDS = {
     "double": "real(c_double)",
 }
 
-# Parameters that point to one number, in every function but those named; a name that is not here is an array.
-SCALARS = {
-    "out_interface": (), "out_count": (), "out_pattern": (), "needed": (), "count": (), "entries": (), "rows": (),
-    "node_count": (), "cell_count": (), "body_count": (), "interface_count": (), "dimension": (),
-    "body_a": (), "body_b": (), "pair_count": (), "face_count": (), "nodes_per_face": (), "pattern_count": (),
-    "primal": (), "dual": (), "length": (), "spacing": (), "value": (), "volume": (), "fronts": (), "points": (),
-    "cost": (), "saving": (), "step": (), "before": (), "time": (), "stored": (), "released": (), "debonded": (),
-    "interface_index": (), "first_pair": (), "last_pair": (),
-    "adhesion": ("delam_law_respond",), "slope": (), "mixity_slope": (), "dissipated": (),
-    "columns": ("delam_problem_body_matrix", "delam_problem_constraints", "delam_solver_condensed"),
-    "unknowns": (), "pending": (),
-}
-
 
 class Parameter:
     def __init__(self, text):
@@ -45,10 +32,13 @@ class Parameter:
         self.type = match[2]
         self.stars = len(match[3])
         self.name = match[4]
+        self.single = False
 
 
 def declarations(header):
     """Macros with numbers, opaque types, callbacks and functions, in the order of the header."""
+    comments = {name: comment for comment, name in
+                re.findall(r"/\*((?:[^*]|\*(?!/))*)\*/\s*DELAM_API[^;(]*?\b(delam_\w+)\s*\(", header)}
     text = re.sub(r"/\*.*?\*/", " ", header, flags=re.S)
     macros = re.findall(r"^#define (DELAM_\w+) (-?\d+)\s*$", text, flags=re.M)
     text = re.sub(r"^\s*#.*$", " ", text, flags=re.M)
@@ -65,7 +55,15 @@ def declarations(header):
         return [(result, name, [Parameter(p) for p in words.split(",")] if words.strip() not in ("", "void") else [])
                 for result, name, words in part]
 
-    return macros, opaque, split(callbacks), split(functions)
+    functions = split(functions)
+    for _, name, parameters in functions:
+        for p in parameters:
+            if p.stars == 1 and not p.const and p.type in KINDS:
+                words = re.findall(rf"(\*?)\b{p.name}\b", comments.get(name, ""))
+                if not words:
+                    raise SystemExit(f"make_raw.py: {name}: the comment says nothing of {p.name}: one number or many?")
+                p.single = "*" in words
+    return macros, opaque, split(callbacks), functions
 
 
 def argument(function, p, opaque, callbacks, called_back):
@@ -90,12 +88,12 @@ def argument(function, p, opaque, callbacks, called_back):
     return f"{KINDS[p.type]}, {intent}" + ("" if called_back else ", optional")
 
 
-def is_array(function, p, opaque, called_back):
+def is_array(p, opaque, called_back):
     if p.stars == 0 or p.type in opaque or p.type == "void" or p.stars == 2 or called_back:
         return False
     if p.type == "char" or p.const:
         return True
-    return p.name not in SCALARS or function in SCALARS[p.name]
+    return not p.single
 
 
 def interface(function, opaque, callbacks, called_back=False):
@@ -114,7 +112,7 @@ def interface(function, opaque, callbacks, called_back=False):
         lines.append("    " + ("    " if i else "") + part + (" &" if i + 1 < len(wrapped) else ""))
     lines.append("      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double")
     for p in parameters:
-        rank = "(*)" if is_array(name, p, opaque, called_back) else ""
+        rank = "(*)" if is_array(p, opaque, called_back) else ""
         lines.append(f"      {argument(name, p, opaque, callbacks, called_back)} :: {p.name}{rank}")
     if value:
         lines.append(f"      {'type(c_ptr)' if '*' in result else KINDS[result]} :: {value}")
