@@ -325,9 +325,9 @@ DELAM_API int32_t delam_mesh_find_nodes(const delam_mesh *mesh, int32_t body, co
  * faces as triangles). Only faces whose outward normal is within 45 degrees of direction [dimension] (any length > 0)
  * count. nodes, weights: [capacity], of which the first *count are written; *count receives how many there are. Weights
  * in L (2D) or L2 (3D), with a sum > 0. Those of linear cells are all > 0; quadratic cells also have negative ones (a
- * corner of an 8-node face: -1/12 of its area).
- * [unit lower L, upper L >= lower, direction 1, weights L or L2 sum > 0; null none; status argument; source none; since
- * 0.1] */
+ * corner of an 8-node face: -1/12 of its area). DELAM_ERROR_MESH: two cells lie on the same side of a face they share.
+ * [unit lower L, upper L >= lower, direction 1, weights L or L2 sum > 0; null none; status argument, mesh; source none;
+ * since 0.1] */
 DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, const double *lower, const double *upper,
                                         const double *direction, int64_t capacity, int64_t *nodes, double *weights,
                                         int64_t *count);
@@ -595,7 +595,8 @@ DELAM_API int32_t delam_option_info(int64_t index, const char **key, const char 
                                     const char **initial, const char **range, const char **meaning);
 
 /* Everything there and consistent: materials, laws, supports against every rigid motion of what hangs together.
- * [status problem; since 0.1] */
+ * Cells that lie on the same side of a face that they share: DELAM_ERROR_MESH.
+ * [status mesh, problem; since 0.1] */
 DELAM_API int32_t delam_problem_check(delam_problem *problem);
 /* Hash of everything that determines the result, as 16 hexadecimal digits and a terminating zero: out[17].
  * [null none; status argument; since 0.1] */
@@ -655,7 +656,7 @@ DELAM_API const char *delam_problem_pattern_name(const delam_problem *problem, i
 /* Checks the problem, cuts and factors the bodies. The problem is taken as it is now. The state is the initial one at
  * time `time` (step 0): unloaded histories are expected there; the displacement at that time's loads is solved for at
  * the initial adhesion. DELAM_NOT_CONVERGED: that displacement step met a limit; *out is valid all the same.
- * [unit time t finite; null none; owns out caller; status not_converged, cancelled, limit, argument, problem,
+ * [unit time t finite; null none; owns out caller; status not_converged, cancelled, limit, argument, mesh, problem,
  * numerical; source src/reduction/README.md; since 0.1] */
 DELAM_API int32_t delam_solver_create(const delam_problem *problem, double time, delam_solver **out);
 /* Destroys a solver and its state.

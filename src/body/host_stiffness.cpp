@@ -226,8 +226,14 @@ Split found_split(const SparseMatrix& k, std::span<const std::int64_t> local, st
 // By what the host tells, as far as it moves the piece.
 Split told_split(const SparseMatrix& k, std::span<const std::int64_t> local, std::int64_t dim, const DenseMatrix& q, const DenseMatrix& told, const std::string& where) {
     DenseMatrix own(q.rows, told.columns);
-    for (std::int64_t c = 0; c < own.columns; ++c)
-        for (std::int64_t i = 0; i < own.rows; ++i) own(i, c) = told(local[index(i / dim)] * dim + i % dim, c);
+    for (std::int64_t c = 0; c < own.columns; ++c) {
+        double largest_part = 0.0;  // a motion may be told in any size
+        for (std::int64_t i = 0; i < own.rows; ++i) {
+            own(i, c) = told(local[index(i / dim)] * dim + i % dim, c);
+            largest_part = std::max(largest_part, std::abs(own(i, c)));
+        }
+        for (std::int64_t i = 0; i < own.rows && largest_part > 0.0; ++i) own(i, c) /= largest_part;
+    }
     const DenseMatrix share = multiply_transposed(q, own), back = multiply(q, share);
     const DenseMatrix needed = forces(k, local, dim, own), held = diagonal_forces(k, local, dim, own);
     for (std::int64_t c = 0; c < own.columns; ++c) {

@@ -73,7 +73,7 @@ private:
 };
 
 template <class Walker, class S>
-void walk(Walker& w, S& state) {
+void walk(Walker& w, S&& state) {
     w.item(state.step);
     w.item(state.time);
     w.item(state.theta);
@@ -191,7 +191,9 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
     walk(r, state);
     std::uint64_t kept = 0;
     r.item(kept);
-    if (kept > r.left()) fail(DELAM_ERROR_SNAPSHOT, "snapshot ends early at byte ", bytes.size());
+    Writer least;  // no state takes fewer bytes than an empty one
+    walk(least, State{});
+    if (kept > r.left() / least.bytes.size()) fail(DELAM_ERROR_SNAPSHOT, "snapshot ends early at byte ", bytes.size());
     std::vector<State> past(kept);
     for (State& earlier : past) walk(r, earlier);
     std::vector<Jump> jumps;

@@ -15,6 +15,9 @@ namespace {
 // Of the geometric mean of the two diagonal entries; above it the host has made a mistake, below it the mean is taken.
 constexpr double asymmetry = 1e-9;
 
+// Energies of motions, and their squares, have to stay finite.
+constexpr double largest_stiffness = 1e150;
+
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 struct Place {
@@ -34,8 +37,9 @@ SparseMatrix symmetric(const Mesh& mesh, std::int32_t body, std::int64_t rows, s
         for (std::int64_t e = k.start[index(r)]; e < k.start[index(r) + 1]; ++e)
             if (k.column[index(e)] == r) diagonal[index(r)] = k.value[index(e)];
     for (std::int64_t r = 0; r < rows; ++r)
-        if (!(diagonal[index(r)] > 0.0))
-            fail(DELAM_ERROR_ARGUMENT, "the stiffness of body ", mesh.body_label(body), " has ", diagonal[index(r)], " on the diagonal at ", name(r), ": must be > 0");
+        if (!(diagonal[index(r)] > 0.0 && diagonal[index(r)] <= largest_stiffness))
+            fail(DELAM_ERROR_ARGUMENT, "the stiffness of body ", mesh.body_label(body), " has ", diagonal[index(r)], " on the diagonal at ", name(r),
+                 ": must be > 0 and <= ", largest_stiffness);
     std::vector<Triplet> mean;
     mean.reserve(k.value.size());
     for (std::int64_t r = 0; r < rows; ++r) {
@@ -45,10 +49,14 @@ SparseMatrix symmetric(const Mesh& mesh, std::int32_t body, std::int64_t rows, s
             const std::int64_t c = e < k.start[index(r) + 1] ? k.column[index(e)] : none, d = f < turned.start[index(r) + 1] ? turned.column[index(f)] : none;
             const double a = c <= d ? k.value[index(e++)] : 0.0, b = d <= c ? turned.value[index(f++)] : 0.0;
             const std::int64_t column = std::min(c, d);
-            const double scale = std::sqrt(diagonal[index(r)] * diagonal[index(column)]);
+            const double scale = std::sqrt(diagonal[index(r)]) * std::sqrt(diagonal[index(column)]);
             if (!(std::abs(a - b) <= asymmetry * scale))
                 fail(DELAM_ERROR_ARGUMENT, "the stiffness of body ", mesh.body_label(body), " is not symmetric: ", a, " and ", b, " between ", name(r), " and ",
                      name(column), ", allowed difference ", asymmetry * scale);
+            // Of a matrix without negative energies none is beyond the mean; twice that is no rounding.
+            if (!(std::abs(a) <= 2.0 * scale))
+                fail(DELAM_ERROR_ARGUMENT, "the stiffness of body ", mesh.body_label(body), " has ", a, " between ", name(r), " and ", name(column), ", beyond ",
+                     scale, ", the geometric mean of their diagonal entries: the matrix is indefinite");
             mean.push_back({r, column, 0.5 * a + 0.5 * b});
         }
     }

@@ -722,7 +722,8 @@ const Call calls[] = {
      [](const Asked& a) { return add_pairs(a.in, a.mesh); }},
     {"delam_mesh_find_nodes", Subject::mesh, may::argument,
      [](const Asked& a) { return find_in(a.in, a.mesh, false); }},
-    {"delam_mesh_find_patch", Subject::mesh, may::argument, [](const Asked& a) { return find_in(a.in, a.mesh, true); }},
+    {"delam_mesh_find_patch", Subject::mesh, may::argument | may::mesh,
+     [](const Asked& a) { return find_in(a.in, a.mesh, true); }},
     {"delam_mesh_nodes", Subject::mesh, may::argument,
      [](const Asked& a) {
          Room<double> room(a.in, sizes_of(a.mesh).nodes * sizes_of(a.mesh).dimension);
@@ -825,7 +826,7 @@ const Call calls[] = {
          const char* key = option_key(a.in);
          return delam_problem_set_text(a.problem, key, a.in.word(option_texts));
      }},
-    {"delam_problem_check", Subject::problem, may::problem,
+    {"delam_problem_check", Subject::problem, may::mesh | may::problem,
      [](const Asked& a) { return watched(a.world, a.in, [&] { return delam_problem_check(a.problem); }); }},
     {"delam_problem_process_zone", Subject::problem, may::argument | may::problem,
      [](const Asked& a) {
@@ -862,7 +863,7 @@ const Call calls[] = {
          return DELAM_OK;
      }},
     {"delam_solver_create", Subject::problem,
-     may::not_converged | may::cancelled | may::limit | may::argument | may::problem | may::numerical,
+     may::not_converged | may::cancelled | may::limit | may::argument | may::mesh | may::problem | may::numerical,
      [](const Asked& a) {
          return watched(a.world, a.in, [&] {
              return a.world.make(a.world.solver, a.in, a.host, [&](delam_solver** o) {

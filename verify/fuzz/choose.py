@@ -14,7 +14,7 @@ for line in lines[2 + count:]:
         sizes[int(rest[0])] = int(rest[1])
     elif word == "FT":
         edges[int(rest[0])] = {int(feature) // 8 for feature in rest[1:]}  # 8 counts of an edge
-reached = set()
+reached, possible = set(), len(set().union(*edges.values()))
 for _ in range(int(sys.argv[2])):
     if not edges:
         break
@@ -23,3 +23,4 @@ for _ in range(int(sys.argv[2])):
         break
     reached |= edges.pop(best)
     print(names[best])
+print(f"{len(reached)} of {possible} edges", file=sys.stderr)

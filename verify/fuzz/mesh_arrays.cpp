@@ -214,7 +214,7 @@ private:
         std::int64_t count = 0;
         const std::int32_t body = in_.small_label(3);
         const auto room = static_cast<std::int64_t>(nodes.size());
-        if (call("delam_mesh_find_patch", may::argument,
+        if (call("delam_mesh_find_patch", may::argument | may::mesh,
                  delam_mesh_find_patch(mesh_, body, lower.data(), upper.data(), direction.data(), room, nodes.data(),
                                        weights.data(), &count)))
             for (std::int64_t i = 0; i < count; ++i)
@@ -251,10 +251,12 @@ private:
         }
         for (const char* key : {"minimisation_limit", "linear_limit"}) delam_problem_set_number(problem_, key, 50.0);
         if (in_.flag()) delam_problem_set_text(problem_, "reduction", "feti");
-        call("delam_problem_check", may::problem, delam_problem_check(problem_));
+        call("delam_problem_check", may::mesh | may::problem, delam_problem_check(problem_));
         const std::int32_t status = delam_solver_create(problem_, 0.0, &solver_);
         call("delam_solver_create",
-             may::not_converged | may::cancelled | may::limit | may::argument | may::problem | may::numerical, status);
+             may::not_converged | may::cancelled | may::limit | may::argument | may::mesh | may::problem |
+                 may::numerical,
+             status);
         if (solver_ == nullptr) return;
         const std::int32_t step = delam_solver_advance(solver_, 1.0);
         call("delam_solver_advance",

@@ -44,10 +44,15 @@ failed=()
 for target in "${targets[@]}"; do
     program=$(find "$folder" -name "fuzz_$target" -type f -perm -u+x | head -n 1)
     longest=400
+    kept=45
     options=()
     if [[ $target == scene ]]; then
         longest=4000
         options=(-dict="$folder/scene.dictionary")
+    elif [[ $target == api_sequence ]]; then
+        kept=80
+    elif [[ $target == saved_state ]]; then
+        kept=20
     fi
     found=$folder/found/$target
     grown=$folder/corpus/$target
@@ -77,7 +82,7 @@ for target in "${targets[@]}"; do
         mkdir -p "$merged"
         "$program" -merge=1 -merge_control_file="$control" -timeout=10 -rss_limit_mb=3000 "$merged" "$grown" \
             "${committed[@]}" >"$folder/$target.merge" 2>&1
-        python3 "$here/choose.py" "$control" 45 >"$folder/$target.chosen"
+        python3 "$here/choose.py" "$control" "$kept" >"$folder/$target.chosen"
         rm -rf "$merged"
         mkdir -p "$merged"
         xargs -d '\n' cp -t "$merged" <"$folder/$target.chosen"
