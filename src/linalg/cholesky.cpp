@@ -143,7 +143,7 @@ cholmod_dense view(std::span<const double> b) {
 
 }  // namespace
 
-SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing) : impl_(std::make_unique<Impl>()) {
+SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing, const Look& look) : impl_(std::make_unique<Impl>()) {
     Impl& impl = *impl_;
     impl.size = matrix.rows;
     impl.trailing = trailing;
@@ -154,6 +154,7 @@ SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing
     std::vector<SuiteSparse_long> group(static_cast<std::size_t>(matrix.rows), 0);
     std::fill(group.begin() + static_cast<std::ptrdiff_t>(interior), group.end(), 1);
     if (cholmod_l_camd(&a, nullptr, 0, group.data(), order.data(), &impl.common) == 0) impl.check("ordering");
+    ask(look);
     std::iota(order.begin() + static_cast<std::ptrdiff_t>(interior), order.end(), static_cast<SuiteSparse_long>(interior));
     impl.common.nmethods = 1;
     impl.common.method[0].ordering = CHOLMOD_GIVEN;

@@ -22,7 +22,8 @@ class SparseCholesky {
 public:
     // Symbolic analysis of a symmetric matrix (both triangles stored). The last `trailing` variables are eliminated last, in
     // their given order, the others before them by (constrained) minimum degree.
-    explicit SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing = 0);
+    // look: asked for between ordering and analysis.
+    explicit SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing = 0, const Look& look = {});
     ~SparseCholesky();
     SparseCholesky(SparseCholesky&&) noexcept;
     SparseCholesky& operator=(SparseCholesky&&) noexcept;

@@ -43,6 +43,15 @@ int narrow(std::int64_t n) {
     return static_cast<int>(n);
 }
 
+// Multiplications of a part of an operation: about a twentieth of a second.
+constexpr double part = 5e8;
+
+// So many columns a part, of `cost` multiplications each, in steps that the kernels like.
+std::int64_t columns_a_part(double cost, std::int64_t all) {
+    if (cost * static_cast<double>(all) <= part) return std::max<std::int64_t>(all, 1);
+    return std::clamp<std::int64_t>(static_cast<std::int64_t>(part / cost) / 64 * 64, 64, std::max<std::int64_t>(all, 64));
+}
+
 int leading(std::int64_t n) { return std::max(1, narrow(n)); }
 
 }  // namespace
@@ -93,7 +102,7 @@ void mirror_lower(DenseMatrix& a) {
 }
 
 // Column panel after column panel: panel k touches only the square below and to the right of its first row.
-DenseMatrix lower_times_transpose(const DenseMatrix& lower) {
+DenseMatrix lower_times_transpose(const DenseMatrix& lower, const Look& look) {
     constexpr std::int64_t width = 128;
     DenseMatrix product(lower.rows, lower.rows);
     const int lda = leading(lower.rows);
@@ -102,6 +111,7 @@ DenseMatrix lower_times_transpose(const DenseMatrix& lower) {
         const int n = narrow(lower.rows - k), panel = static_cast<int>(std::min(width, lower.rows - k));
         dsyrk_("L", "N", &n, &panel, &unit, &lower.value[static_cast<std::size_t>(k + k * lower.rows)], &lda, &unit,
                &product.value[static_cast<std::size_t>(k + k * lower.rows)], &lda);
+        ask(look);
     }
     mirror_lower(product);
     return product;
@@ -125,18 +135,47 @@ void multiply_transposed(const DenseMatrix& a, std::span<const double> x, std::s
         std::fill(y.begin(), y.end(), 0.0);
 }
 
-bool factor_definite(DenseMatrix& a) {
+// Beyond `small` a panel of columns after the other: its own triangle, the rows below, and what it takes from the columns behind it.
+bool factor_definite(DenseMatrix& a, const Look& look) {
+    constexpr std::int64_t small = 1024, width = 256;
     const int n = narrow(a.rows), lda = leading(a.rows);
     int info = 0;
-    if (n > 0) dpotrf_("L", &n, a.value.data(), &lda, &info);
-    return info == 0;
+    if (n <= small) {
+        if (n > 0) dpotrf_("L", &n, a.value.data(), &lda, &info);
+        return info == 0;
+    }
+    const double unit = 1.0, minus = -1.0;
+    const auto at = [&a](std::int64_t i, std::int64_t j) { return a.value.data() + i + j * a.rows; };
+    for (std::int64_t k = 0; k < n; k += width) {
+        const int panel = static_cast<int>(std::min<std::int64_t>(width, n - k)), below = static_cast<int>(n - k - panel);
+        dpotrf_("L", &panel, at(k, k), &lda, &info);
+        if (info != 0) return false;
+        if (below == 0) break;
+        const std::int64_t behind = k + panel;
+        dtrsm_("R", "L", "T", "N", &below, &panel, &unit, at(k, k), &lda, at(behind, k), &lda);
+        const std::int64_t step = columns_a_part(static_cast<double>(below) * panel, below);
+        for (std::int64_t j = behind; j < n; j += step) {
+            const int columns = static_cast<int>(std::min<std::int64_t>(step, n - j)), rest = static_cast<int>(n - j - columns);
+            dsyrk_("L", "N", &columns, &panel, &minus, at(j, k), &lda, &unit, at(j, j), &lda);
+            if (rest > 0)
+                dgemm_("N", "T", &rest, &columns, &panel, &minus, at(j + columns, k), &lda, at(j, k), &lda, &unit, at(j + columns, j), &lda);
+            ask(look);
+        }
+    }
+    return true;
 }
 
-void solve_lower(const DenseMatrix& lower, DenseMatrix& b, std::int64_t first) {
-    const int m = narrow(b.rows - first), n = narrow(b.columns), lda = leading(lower.rows), ldb = leading(b.rows);
+void solve_lower(const DenseMatrix& lower, DenseMatrix& b, std::int64_t first, const Look& look) {
+    const int m = narrow(b.rows - first), lda = leading(lower.rows), ldb = leading(b.rows);
     const double alpha = 1.0;
-    if (m > 0 && n > 0)
-        dtrsm_("L", "L", "N", "N", &m, &n, &alpha, lower.value.data() + first * (lower.rows + 1), &lda, b.value.data() + first, &ldb);
+    if (m == 0) return;
+    const std::int64_t step = columns_a_part(0.5 * m * m, b.columns);
+    for (std::int64_t j = 0; j < b.columns; j += step) {
+        const int columns = narrow(std::min(step, b.columns - j));
+        dtrsm_("L", "L", "N", "N", &m, &columns, &alpha, lower.value.data() + first * (lower.rows + 1), &lda, b.value.data() + first + j * b.rows,
+               &ldb);
+        ask(look);
+    }
 }
 
 void solve_lower(const DenseMatrix& lower, std::span<double> x) {
@@ -151,17 +190,26 @@ void solve_lower_transposed(const DenseMatrix& lower, std::span<double> x) {
 
 namespace {
 
-void accumulate_gram(DenseMatrix& c, const DenseMatrix& v, double sign) {
+void accumulate_gram(DenseMatrix& c, const DenseMatrix& v, double sign, const Look& look) {
     const int n = narrow(c.rows), k = narrow(v.rows), ldv = leading(v.rows), ldc = leading(c.rows);
     const double beta = 1.0;
-    if (n > 0 && k > 0) dsyrk_("L", "T", &n, &k, &sign, v.value.data(), &ldv, &beta, c.value.data(), &ldc);
+    if (n == 0 || k == 0) return;
+    const std::int64_t step = columns_a_part(0.5 * n * k, n);
+    const auto column = [&v](std::int64_t j) { return v.value.data() + j * v.rows; };
+    for (std::int64_t j = 0; j < n; j += step) {
+        const int columns = static_cast<int>(std::min<std::int64_t>(step, n - j)), rest = static_cast<int>(n - j - columns);
+        double* corner = c.value.data() + j * (c.rows + 1);
+        dsyrk_("L", "T", &columns, &k, &sign, column(j), &ldv, &beta, corner, &ldc);
+        if (rest > 0) dgemm_("T", "N", &rest, &columns, &k, &sign, column(j + columns), &ldv, column(j), &ldv, &beta, corner + columns, &ldc);
+        ask(look);
+    }
 }
 
 }  // namespace
 
-void subtract_gram(DenseMatrix& c, const DenseMatrix& v) { accumulate_gram(c, v, -1.0); }
+void subtract_gram(DenseMatrix& c, const DenseMatrix& v, const Look& look) { accumulate_gram(c, v, -1.0, look); }
 
-void add_gram(DenseMatrix& c, const DenseMatrix& v) { accumulate_gram(c, v, 1.0); }
+void add_gram(DenseMatrix& c, const DenseMatrix& v, const Look& look) { accumulate_gram(c, v, 1.0, look); }
 
 void subtract_product(DenseMatrix& c, const DenseMatrix& v, const DenseMatrix& w) {
     const int m = narrow(c.rows), n = narrow(c.columns), k = narrow(v.rows);
@@ -171,12 +219,14 @@ void subtract_product(DenseMatrix& c, const DenseMatrix& v, const DenseMatrix& w
         dgemm_("T", "N", &m, &n, &k, &alpha, v.value.data(), &ldv, w.value.data(), &ldw, &beta, c.value.data(), &ldc);
 }
 
-DenseMatrix inverse_definite(DenseMatrix a) {
+DenseMatrix inverse_definite(DenseMatrix a, const Look& look) {
     const int n = narrow(a.rows), lda = leading(a.rows);
     int info = 0;
-    if (n > 0) dpotrf_("L", &n, a.value.data(), &lda, &info);
-    if (info == 0 && n > 0) dpotri_("L", &n, a.value.data(), &lda, &info);
+    if (!factor_definite(a, look)) fail(DELAM_ERROR_NUMERICAL, "a dense block of ", n, " rows is not positive definite");
+    ask(look);
+    if (n > 0) dpotri_("L", &n, a.value.data(), &lda, &info);
     if (info != 0) fail(DELAM_ERROR_NUMERICAL, "a dense block of ", n, " rows is not positive definite (row ", info, ")");
+    ask(look);
     mirror_lower(a);
     return a;
 }

@@ -17,7 +17,7 @@ std::string Transcript::difference(const Transcript& other) const {
     return entries_.size() == other.entries_.size() ? "" : "other numbers of entries";
 }
 
-Transcript state_of(delam_solver* solver) {
+Transcript state_of(delam_solver* solver, bool words) {
     Transcript state;
     const auto require = [](std::int32_t status, const std::string& what) {
         expect(status == DELAM_OK, "reading " + what + ": " + delam_status_name(status));
@@ -39,7 +39,7 @@ Transcript state_of(delam_solver* solver) {
         require(delam_solver_value(solver, key, &value), key);
         state.add(key, &value, sizeof value);
     }
-    state.add("searched", std::string(delam_solver_searched(solver)));
+    if (words) state.add("searched", std::string(delam_solver_searched(solver)));
     return state;
 }
 

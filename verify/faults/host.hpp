@@ -72,6 +72,7 @@ public:
 };
 
 // State of a solver, pending step included, without recovering displacements: saved bytes, fields of the pairs, ledger.
-Transcript state_of(delam_solver* solver);
+// words: and what the last search has looked at, which a step leaves behind that is taken back.
+Transcript state_of(delam_solver* solver, bool words = true);
 
 }  // namespace faults

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fault_memory [MOST [SCENE ...]]: the k-th allocation inside a call fails, for k = 1, 2, 3 ... up to MOST / 2, and MOST / 2
-// more spread over what is left of the call (MOST 0: all). A status, an object that goes on as if nothing had been, no leak.
+// fault_memory [MOST [SCENE ...]]: the k-th allocation inside a call fails, for k = 1, 2, 3 ... up to MOST / 2, and from there
+// on farther and farther apart (MOST 0: every one). A status, an object that goes on as if nothing had been, no leak.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -20,7 +20,9 @@ public:
     void call(const std::string& name, Repeat repeat, const Call& call, const Call& undo) override {
         ++calls;
         const bool watched = solver_ != nullptr;
-        const faults::Transcript before = watched ? faults::state_of(solver_) : faults::Transcript();
+        const auto state = [&](bool words) { return watched ? faults::state_of(solver_, words) : faults::Transcript(); };
+        faults::Transcript before = state(true);
+        const faults::Transcript numbers = state(false);
         long step = 1, blocks = 0;
         for (long k = 1;; k += step) {
             const long live = faults::live_blocks();
@@ -37,6 +39,9 @@ public:
                 ++done_without;
                 if (repeat == Repeat::once) return;
                 if (repeat == Repeat::after_undo) expect(undo() == DELAM_OK, where + ", but done: taking it back");
+                const std::string difference = numbers.difference(state(false));
+                expect(difference.empty(), where + ", but done, and taken back: state: " + difference);
+                before = state(true);
             } else {
                 expect(status == DELAM_ERROR_MEMORY, where + ": " + delam_status_name(status) + ": " + message());
                 blocks = faults::live_blocks();

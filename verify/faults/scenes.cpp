@@ -373,7 +373,7 @@ void march(Host& host, const Strip& s) {
     host.query("delam_solver_look", [&] { return delam_solver_look(h.solver, -1); });
 
     // As files, and another history from here on.
-    const std::string path = "delam-fault-" + s.name + "-" + std::to_string(getpid()) + ".state";
+    const std::string path = "delam-fault-" + s.name + "-" + std::to_string(gettid()) + ".state";
     host.query("delam_solver_save_file", [&] { return delam_solver_save_file(h.solver, path.c_str()); });
     host.query("delam_solver_load_file", [&] { return delam_solver_load_file(h.solver, path.c_str()); });
     std::remove(path.c_str());

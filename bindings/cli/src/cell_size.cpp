@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include <fmt/format.h>
+
+#include "number.hpp"
 
 namespace cli {
 
@@ -43,7 +44,7 @@ std::string suggested_size(const std::vector<double>& lengths, double h) {
         // Few digits first, then nearness to what was asked for.
         for (int digits = 1; digits <= 9; ++digits) {
             const std::string text = fmt::format("{:.{}g}", common / k, digits);
-            const double value = std::strtod(text.c_str(), nullptr);
+            const double value = number_in(text);
             if (!std::all_of(lengths.begin(), lengths.end(), [&](double l) { return divides(value, l); })) continue;
             const double cost = digits + 4 * std::abs(std::log2(k / middle));
             if (cost < best_cost) {

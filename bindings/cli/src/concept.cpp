@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "concept.hpp"
 
-#include <cstdlib>
 #include <string_view>
+
+#include "number.hpp"
 
 namespace cli {
 
@@ -31,7 +32,7 @@ std::vector<std::pair<std::string, std::variant<double, std::string>>> options_o
         if (std::string_view(type) == "text")
             out.emplace_back(key, std::string(value));
         else
-            out.emplace_back(key, std::strtod(value, nullptr));
+            out.emplace_back(key, number_in(value));
     }
     return out;
 }

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "delam/delam.h"
+#include "number.hpp"
 #include "rows.hpp"
 
 namespace cli {
@@ -28,7 +28,7 @@ double estimate_tolerance(const Scene& scene) {
         const char* key = "";
         const char* initial = "";
         delam_option_info(i, &key, nullptr, nullptr, &initial, nullptr, nullptr);
-        if (key == option_key) return std::strtod(initial, nullptr);
+        if (key == option_key) return number_in(initial);
     }
     return 0.0;
 }

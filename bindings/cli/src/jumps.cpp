@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "jumps.hpp"
 
-#include <cstdlib>
 
 #include <fmt/format.h>
 
 #include "call.hpp"
+#include "number.hpp"
 
 namespace cli {
 
 bool locates_jumps(const delam_solver* solver) {
     const char* tolerance = delam_solver_option(solver, "jump_tolerance");
-    return tolerance != nullptr && std::strtod(tolerance, nullptr) > 0;
+    return tolerance != nullptr && number_in(tolerance) > 0;
 }
 
 std::string jumps_text(const Model& model, const delam_solver* solver) {

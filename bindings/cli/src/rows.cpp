@@ -2,7 +2,8 @@
 #include "rows.hpp"
 
 #include <algorithm>
-#include <cstdlib>
+
+#include "number.hpp"
 
 namespace cli {
 
@@ -29,7 +30,7 @@ std::vector<std::map<std::string, double>> rows_of(std::string_view history) {
         const std::vector<std::string> cells = parts(rows[i], ',');
         std::map<std::string, double> of;
         for (std::size_t k = 0; k < std::min(titles.size(), cells.size()); ++k)
-            of.emplace(titles[k], std::strtod(cells[k].c_str(), nullptr));
+            of.emplace(titles[k], number_in(cells[k]));
         out.push_back(std::move(of));
     }
     return out;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <locale>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -272,6 +273,7 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& settin
     }
     for (const std::string& setting : settings) apply_setting(parsed, setting);
     std::ostringstream content;
+    content.imbue(std::locale::classic());
     content << parsed;
     scene.content_hash = hash_text(content.str());
     scene.file_hash = hash_text(bytes);

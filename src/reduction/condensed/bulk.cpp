@@ -20,7 +20,7 @@ std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr double dependent = dependent_equation;
 
 // The stiffness of all bodies over all mesh DOFs; rows of nodes of no body are empty.
-SparseMatrix assemble(const Problem& problem) {
+SparseMatrix assemble(const Problem& problem, const Look& look) {
     const Mesh& mesh = *problem.mesh;
     const std::int64_t dim = mesh.dimension();
     const std::int64_t dofs = mesh.node_count() * dim;
@@ -29,6 +29,7 @@ SparseMatrix assemble(const Problem& problem) {
     for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
         nodes.push_back(mesh.body_nodes(body));
         part.push_back(problem.body_stiffness(body));
+        ask(look);
     }
     SparseMatrix k;
     k.rows = k.columns = dofs;
@@ -151,13 +152,17 @@ SparseMatrix with_diagonal(SparseMatrix k, std::int64_t first) {
 }  // namespace
 
 Bulk::Bulk(const Problem& problem, Monitor& monitor) : problem_(problem) {
-    monitor.progress("assemble", 0, 0);
-    stiffness_ = assemble(problem_);
+    const Look assembling = [&monitor] { monitor.progress("assemble", 0, 0); }, analysing = [&monitor] { monitor.progress("analyse", 0, 0); };
+    ask(assembling);
+    stiffness_ = assemble(problem_, assembling);
+    ask(assembling);
     jump_rows_ = jump_matrix(problem_);
+    ask(assembling);
     variables_ = make_jump_variables(problem_);
+    ask(assembling);
     transformed_ = with_diagonal(congruence(stiffness_, variables_.transform), variables_.leading);
-    monitor.progress("analyse", 0, 0);
-    factor_ = std::make_unique<SparseCholesky>(transformed_, variables_.trailing());
+    ask(analysing);
+    factor_ = std::make_unique<SparseCholesky>(transformed_, variables_.trailing(), analysing);
     size_ = factor_->size();
 }
 
@@ -183,8 +188,9 @@ void Bulk::condense(Monitor& monitor) {
         fail(DELAM_ERROR_NUMERICAL,
              "the stiffness of the bonded structure is not positive definite: check supports, materials and the shapes of cells");
     transformed_ = SparseMatrix();
-    monitor.progress("condense", 0, 0);
-    energy_.stiffness = lower_times_transpose(factor_->trailing_factor());
+    const Look condensing = [&monitor] { monitor.progress("condense", 0, 0); };
+    ask(condensing);
+    energy_.stiffness = lower_times_transpose(factor_->trailing_factor(), condensing);
     for (std::int64_t t = 0; t < trailing; ++t) energy_.stiffness(t, t) -= shift[index(t)];
 
     // Loads: with t = 0 each pattern has the displacements u_p; the forces K u_p - f_p that are left act on the trailing variables.
@@ -212,8 +218,10 @@ void Bulk::condense(Monitor& monitor) {
         multiply_transposed(variables_.transform, nodal, carried);
         std::copy(carried.begin() + leading, carried.end(), energy_.load.value.begin() + static_cast<std::int64_t>(p) * trailing);
         bonded.push_back(std::move(u));
+        ask(condensing);
     }
-    resolve_equations();
+    resolve_equations(condensing);
+    ask(condensing);
 
     // A_pq = u_p^T K u_q - f_p^T u_q - f_q^T u_p + W_pq, W of the eigenstrains: no difference of large numbers, whatever the lift was.
     const std::vector<double> closed(index(energy().rows()), 0.0);
@@ -226,6 +234,7 @@ void Bulk::condense(Monitor& monitor) {
         }
         multiply(stiffness_, bonded[p], nodal);
         stressed.push_back(nodal);
+        ask(condensing);
     }
     pattern_stiffness_ = DenseMatrix(static_cast<std::int64_t>(patterns), static_cast<std::int64_t>(patterns));
     for (std::size_t p = 0; p < patterns; ++p)
@@ -260,7 +269,7 @@ void Bulk::balance_strains() {
 }
 
 // Equations fix some trailing variables by the rest; the displacements among the rest are minimised out.
-void Bulk::resolve_equations() {
+void Bulk::resolve_equations(const Look& look) {
     const std::int64_t trailing = variables_.trailing(), kept = variables_.kept;
     const auto patterns = static_cast<std::int64_t>(problem_.patterns.size());
     const std::vector<SolvedEquation> solved = solve_equations(variables_);
@@ -309,7 +318,7 @@ void Bulk::resolve_equations() {
         std::vector<std::int64_t> eliminated(index(kept_rest_)), stay(index(rest - kept_rest_));
         std::iota(eliminated.begin(), eliminated.end(), 0);
         std::iota(stay.begin(), stay.end(), kept_rest_);
-        base_ = std::make_unique<Condensation>(energy_, std::move(stay), std::move(eliminated), std::vector<double>(index(rest), 0.0));
+        base_ = std::make_unique<Condensation>(energy_, std::move(stay), std::move(eliminated), std::vector<double>(index(rest), 0.0), look);
         energy_ = DenseEnergy();
     }
 

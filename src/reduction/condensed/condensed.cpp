@@ -75,6 +75,10 @@ Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor
     inside_.assign(unknowns, 1);
 }
 
+Look Condensed::look() {
+    return [this] { monitor_.progress("zone", condensations_, 0); };
+}
+
 double Condensed::spring_of(const Springs& springs, std::size_t unknown) const {
     const auto row = index(bulk_->row_of_unknown()[unknown]);
     return springs.held[row] != 0 ? -1.0 : springs.stiffness[row];
@@ -196,7 +200,7 @@ void Condensed::condense_outer(std::span<const std::uint8_t> near) {
     // Far ones first: what a front reaches next then lies at the end of the factor, where a release is cheap.
     const std::vector<std::int64_t> away = distance(near_);
     std::stable_sort(eliminated.begin(), eliminated.end(), [&](std::int64_t a, std::int64_t b) { return away[index(a)] > away[index(b)]; });
-    outer_ = std::make_unique<Condensation>(bulk_->energy(), std::move(kept), std::move(eliminated), stiffness);
+    outer_ = std::make_unique<Condensation>(bulk_->energy(), std::move(kept), std::move(eliminated), stiffness, look());
 }
 
 void Condensed::release(std::vector<std::int64_t> unknowns) {
@@ -208,7 +212,7 @@ void Condensed::release(std::vector<std::int64_t> unknowns) {
     std::unique_ptr<Condensation> outer = std::move(outer_);
     inner_.reset();
     zone_.reset();
-    outer->release(bulk_->energy(), unknowns, stiffness);
+    outer->release(bulk_->energy(), unknowns, stiffness, look());
     released_.push_back(std::move(unknowns));
     for (const std::int64_t i : released_.back()) near_[index(i)] = 1;
     outer_ = std::move(outer);
@@ -229,7 +233,7 @@ void Condensed::condense_inner() {
     }
     for (const std::int64_t k : kept) zone_unknowns_.push_back(near[index(k)]);
     zone_.reset();
-    inner_ = std::make_unique<Condensation>(outer_->energy(), std::move(kept), std::move(eliminated), stiffness);
+    inner_ = std::make_unique<Condensation>(outer_->energy(), std::move(kept), std::move(eliminated), stiffness, look());
     spent_ += Condensation::cost(near.size() - zone_unknowns_.size(), zone_unknowns_.size());
 
     const std::size_t unknowns = inside_.size();
@@ -264,7 +268,7 @@ void Condensed::condense_inner() {
             for (std::int64_t z = 0; z < floating.rows; ++z) floating(z, c) = free(zone_unknowns_[index(z)], c);
         floating = orthonormalised(std::move(floating));
     }
-    zone_ = std::make_unique<Zone>(inner_->energy(), std::move(rows), std::move(floating));
+    zone_ = std::make_unique<Zone>(inner_->energy(), std::move(rows), std::move(floating), look());
 }
 
 Zone& Condensed::zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) {

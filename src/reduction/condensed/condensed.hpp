@@ -48,6 +48,7 @@ private:
     };
     // Throws Error(DELAM_ERROR_SNAPSHOT) where it contradicts itself or this operator.
     Choice parse(std::span<const double> memory) const;
+    Look look();
     bool covers(const Springs& springs) const;
     void choose(const Springs& springs, std::span<const std::uint8_t> wanted);
     void condense_outer(std::span<const std::uint8_t> near);

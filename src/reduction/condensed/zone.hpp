@@ -21,7 +21,8 @@ namespace delam {
 class Zone {
 public:
     // rows: with unknowns counted within the zone. rigid: [unknowns][motions], orthonormal.
-    Zone(const DenseEnergy& energy, std::vector<Bulk::Row> rows, DenseMatrix rigid);
+    // look: asked for within factor().
+    Zone(const DenseEnergy& energy, std::vector<Bulk::Row> rows, DenseMatrix rigid, Look look = {});
 
     struct Coupling {
         std::int64_t row, column;  // of the zone; both (r, q) and (q, r) are given
@@ -63,6 +64,7 @@ private:
     DenseMatrix rigid_rows_; // N Z
     DenseMatrix shifted_;    // S + rho Z Z^T where Z is not empty
 
+    Look look_;
     // Of the last factor():
     std::vector<std::uint8_t> held_;
     std::vector<Triplet> springs_;          // C in unknowns, sum N^T C N

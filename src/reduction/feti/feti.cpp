@@ -69,6 +69,7 @@ Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monito
     const auto touched = builder.touched(subdomains_.size());
     const bool with_schur = problem_.options.preconditioner == "dirichlet" || problem_.options.preconditioner == "series";
     const auto parts = static_cast<std::int64_t>(subdomains_.size());
+    const Look look = monitor_.look_from("condense", parts, parts);
     const auto condense = [&](std::int64_t i) {
         const std::size_t s = index(i);
         Subdomain& subdomain = subdomains_[s];
@@ -86,19 +87,24 @@ Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monito
             subdomain.stiffness = restricted(own->matrix, problem_.mesh->body_nodes(subdomain.body), piece.nodes, problem_.mesh->dimension());
             subdomain.rigid = piece.free;
         }
-        subdomain.condense(problem_.mesh->body_label(subdomain.body), with_schur);
+        subdomain.condense(problem_.mesh->body_label(subdomain.body), with_schur, look);
     };
     Team(problem_.options.threads).run(parts, condense, [&](std::int64_t done) { monitor_.progress("condense", done, parts); });
+    ask(look);
     rows_ = builder.finish(subdomains_);
+    ask(look);
     copies_ = builder.copies();
     b_transposed_ = transpose(rows_.b);
     scaling_ = make_scaling(rows_, subdomains_, problem_.options.scaling);
+    ask(look);
     preconditioner_ =
-        std::make_unique<FetiPreconditioner>(rows_, subdomains_, scaling_, problem_.options.preconditioner);
+        std::make_unique<FetiPreconditioner>(rows_, subdomains_, scaling_, problem_.options.preconditioner, look);
+    ask(look);
     coarse_ = std::make_unique<CoarseProblem>(rows_, subdomains_);
 
     flexibility_diagonal_.assign(index(rows_.count()), 0.0);
     for (std::size_t s = 0; s < subdomains_.size(); ++s) {
+        ask(look);
         const std::int64_t first = rows_.offset[s], last = rows_.offset[s + 1];
         for (std::int64_t r = 0; r < rows_.b.rows; ++r)
             for (std::int64_t i = rows_.b.start[index(r)]; i < rows_.b.start[index(r) + 1]; ++i)
@@ -119,7 +125,8 @@ Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monito
     for (double& f : flexibility_diagonal_)
         if (!(f > 0.0)) f = known > 0 ? sum / static_cast<double>(known) : 1.0;
     prescribed_ = problem_.prescribed_matrix();
-    precompute_forces(cells);
+    ask(look);
+    precompute_forces(cells, look);
 }
 
 // Cells of each subdomain.
@@ -160,7 +167,7 @@ std::vector<std::vector<std::int64_t>> Feti::cut() {
     return cells;
 }
 
-void Feti::precompute_forces(std::span<const std::vector<std::int64_t>> cells) {
+void Feti::precompute_forces(std::span<const std::vector<std::int64_t>> cells, const Look& look) {
     const std::size_t patterns = problem_.patterns.size();
     const int dim = problem_.mesh->dimension();
     force_.assign(patterns, std::vector<std::vector<double>>(subdomains_.size()));
@@ -204,6 +211,7 @@ void Feti::precompute_forces(std::span<const std::vector<std::int64_t>> cells) {
                             dot(sub.condense_load(force_[q][s]), u) + sub.interior_work(force_[q][s], f);
             }
             first += index(sub.rigid_count);
+            ask(look);
         }
         multiply(rows_.b, boundary, force_jump_[p]);
     }

@@ -33,19 +33,19 @@ SparseMatrix boundary_block(const Subdomain& s) {
 }  // namespace
 
 FetiPreconditioner::FetiPreconditioner(const DualRows& rows, const std::vector<Subdomain>& subdomains,
-                                       const Scaling& scaling, const std::string& kind)
+                                       const Scaling& scaling, const std::string& kind, const Look& look)
     : rows_(rows), subdomains_(subdomains), scaling_(scaling) {
     kind_ = kind == "none" ? Kind::none : kind == "lumped" ? Kind::lumped : kind == "dirichlet" ? Kind::dirichlet : Kind::series;
     if (kind_ == Kind::none) return;
     scaled_transposed_ = transpose(scaling_.b_d);
     if (kind_ == Kind::lumped)
         for (const Subdomain& s : subdomains_) lumped_.push_back(boundary_block(s));
-    if (kind_ == Kind::series) build_pattern();
+    if (kind_ == Kind::series) build_pattern(look);
 }
 
 // base = E^T S~ E, assembled subdomain by subdomain from the jump rows that meet it: W S W^T with W the subdomain's part of E^T B_D. A row
 // has one entry in W where two nodes are paired, but all of a face's where nodes are tied to faces: two products, not a double sum.
-void FetiPreconditioner::build_pattern() {
+void FetiPreconditioner::build_pattern(const Look& look) {
     struct Touch {
         std::int64_t row;  // position among the rows that meet the subdomain
         std::int64_t dof;
@@ -77,6 +77,7 @@ void FetiPreconditioner::build_pattern() {
             for (const Touch& t : touched[s]) block(t.row, j) += t.value * half(t.dof, j);
         for (std::int64_t j = 0; j < rows; ++j)
             for (std::int64_t i = 0; i < rows; ++i) triplets.push_back({met[s][index(i)], met[s][index(j)], block(i, j)});
+        ask(look);
     }
     for (const auto& dependency : scaling_.dependencies)  // room for z z^T
         for (const std::int64_t i : dependency.row)
@@ -84,8 +85,9 @@ void FetiPreconditioner::build_pattern() {
                 if (i < rows_.jump_count && j < rows_.jump_count) triplets.push_back({i, j, 0.0});
     for (std::int64_t r = 0; r < rows_.jump_count; ++r) triplets.push_back({r, r, 0.0});
     base_ = from_triplets(rows_.jump_count, rows_.jump_count, std::move(triplets));
+    ask(look);
     t_ = base_;
-    t_factor_ = std::make_unique<SparseCholesky>(t_);
+    t_factor_ = std::make_unique<SparseCholesky>(t_, 0, look);
 }
 
 void FetiPreconditioner::update(const Springs& springs) {

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Large dense operations are done in parts, between which the host is asked: the same matrices, the same digits each time, and an
+// exception on the way out at each part.
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "linalg/dense.hpp"
+
+// Last: its macro fail() would break delam::fail().
+#include <check.h>
+
+using namespace delam;
+
+namespace {
+
+constexpr std::int64_t n = 1400;  // a whole number of panels and a rest
+
+// Definite, with a decaying coupling.
+DenseMatrix definite() {
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> value(-1.0, 1.0);
+    DenseMatrix a(n, n);
+    for (std::int64_t j = 0; j < n; ++j)
+        for (std::int64_t i = j; i < n; ++i) a(i, j) = i == j ? 60.0 : value(random);
+    mirror_lower(a);
+    return a;
+}
+
+void clear_upper(DenseMatrix& a) {
+    for (std::int64_t j = 0; j < n; ++j)
+        for (std::int64_t i = 0; i < j; ++i) a(i, j) = 0.0;
+}
+
+double distance(const DenseMatrix& a, const DenseMatrix& b) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < a.value.size(); ++i) largest = std::max(largest, std::abs(a.value[i] - b.value[i]));
+    return largest;
+}
+
+START_TEST(factor) {
+    const DenseMatrix a = definite();
+    DenseMatrix lower = a, again = a;
+    int looks = 0;
+    ck_assert(factor_definite(lower, [&] { ++looks; }));
+    ck_assert(factor_definite(again));
+    ck_assert_int_gt(looks, 3);
+    ck_assert(lower.value == again.value);
+    clear_upper(lower);
+    ck_assert(distance(lower_times_transpose(lower), a) <= 1e-11);
+    DenseMatrix indefinite = a;
+    indefinite(n - 1, n - 1) = -1.0;
+    ck_assert(!factor_definite(indefinite));
+}
+END_TEST
+
+START_TEST(inverse) {
+    const DenseMatrix a = definite();
+    const DenseMatrix product = multiply(inverse_definite(a), a);
+    DenseMatrix unit(n, n);
+    for (std::int64_t i = 0; i < n; ++i) unit(i, i) = 1.0;
+    ck_assert(distance(product, unit) <= 1e-11);
+}
+END_TEST
+
+START_TEST(products) {
+    DenseMatrix lower = definite(), v = definite();
+    ck_assert(factor_definite(lower));
+    int looks = 0;
+    DenseMatrix gram(n, n);
+    add_gram(gram, v, [&] { ++looks; });
+    ck_assert_int_gt(looks, 1);
+    mirror_lower(gram);
+    ck_assert(distance(gram, multiply(v, v)) <= 1e-9);
+    looks = 0;
+    solve_lower(lower, v, 0, [&] { ++looks; });
+    ck_assert_int_gt(looks, 1);
+    clear_upper(lower);
+    ck_assert(distance(multiply(lower, v), definite()) <= 1e-11);
+}
+END_TEST
+
+START_TEST(stopped) {
+    int looks = 0;
+    DenseMatrix a = definite();
+    bool left = false;
+    try {
+        factor_definite(a, [&] {
+            if (++looks == 2) throw std::runtime_error("enough");
+        });
+    } catch (const std::runtime_error&) {
+        left = true;
+    }
+    ck_assert(left);
+    ck_assert_int_eq(looks, 2);
+}
+END_TEST
+
+}  // namespace
+
+int main() {
+    Suite* suite = suite_create("panels");
+    TCase* tests = tcase_create("panels");
+    tcase_add_test(tests, factor);
+    tcase_add_test(tests, inverse);
+    tcase_add_test(tests, products);
+    tcase_add_test(tests, stopped);
+    suite_add_tcase(suite, tests);
+    SRunner* runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
