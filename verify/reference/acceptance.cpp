@@ -39,16 +39,18 @@ std::string Acceptance::text() const {
 }
 
 Acceptance accept(const Solver& solver, const Exported& exported) {
+    Fields fields{solver.value("time"),    solver.field("displacement"), solver.field("jump"), solver.field("traction"),
+                  solver.field("adhesion"), solver.field("reaction"),     {}};
+    for (const double flag : solver.field("contact")) fields.contact.push_back(flag != 0.0);
+    return accept(solver.scene(), fields, exported);
+}
+
+Acceptance accept(const Scene& scene, const Fields& fields, const Exported& exported) {
     const auto d = static_cast<std::size_t>(exported.dimension);
-    const auto u = solver.field("displacement");
-    const auto jump = solver.field("jump");
-    const auto traction = solver.field("traction");
-    const auto adhesion = solver.field("adhesion");
-    const auto contact = solver.field("contact");
-    const auto reaction = solver.field("reaction");
+    const auto& [time, u, jump, traction, adhesion, reaction, contact] = fields;
     std::vector<double> prescribed;
     std::vector<double> force;
-    exported.load(solver.scene(), solver.value("time"), prescribed, force);
+    exported.load(scene, time, prescribed, force);
 
     Acceptance result;
     const double u_size = largest(u);
@@ -59,12 +61,14 @@ Acceptance accept(const Solver& solver, const Exported& exported) {
 
     // Out-of-balance force, summed in extended precision so that the check adds no rounding of its own.
     std::vector<long double> unbalance(exported.dofs);
+    std::vector<double> size(exported.dofs);  // of the summands
     for (std::size_t i = 0; i < exported.dofs; ++i) {
         unbalance[i] = -static_cast<long double>(force[i]);
         for (auto e = exported.stiffness.start[i]; e < exported.stiffness.start[i + 1]; ++e) {
             const auto s = static_cast<std::size_t>(e);
             unbalance[i] += static_cast<long double>(exported.stiffness.value[s]) *
                             static_cast<long double>(u[static_cast<std::size_t>(exported.stiffness.column[s])]);
+            size[i] += std::abs(exported.stiffness.value[s] * u[static_cast<std::size_t>(exported.stiffness.column[s])]);
         }
     }
     for (std::size_t c = 0; c < exported.constraints.rows(); ++c) {
@@ -84,9 +88,9 @@ Acceptance accept(const Solver& solver, const Exported& exported) {
     std::size_t pair = 0;
     for (std::size_t i = 0; i < exported.interfaces.size(); ++i) {
         const Pairs& pairs = exported.interfaces[i];
-        const InterfaceStiffness& stiffness = solver.scene().stiffness()[i];
+        const InterfaceStiffness& stiffness = scene.stiffness()[i];
         for (std::size_t k = 0; k < pairs.count(); ++k, ++pair) {
-            const bool closed = contact[pair] != 0.0;
+            const bool closed = contact[pair];
             const double zeta = adhesion[pair];
             result.adhesion = std::max({result.adhesion, -zeta, zeta - 1.0});
             for (std::size_t c = 0; c < d; ++c) {
@@ -127,14 +131,22 @@ Acceptance accept(const Solver& solver, const Exported& exported) {
     for (const Exported::Tie& tie : exported.ties)
         for (std::size_t k = 0; k < d; ++k) {
             long double& own = unbalance[static_cast<std::size_t>(tie.node) * d + k];
-            for (const auto& [node, weight] : tie.of) unbalance[static_cast<std::size_t>(node) * d + k] += static_cast<long double>(weight) * own;
+            for (const auto& [node, weight] : tie.of) {
+                unbalance[static_cast<std::size_t>(node) * d + k] += static_cast<long double>(weight) * own;
+                size[static_cast<std::size_t>(node) * d + k] += std::abs(weight) * size[static_cast<std::size_t>(tie.node) * d + k];
+            }
             own = 0.0L;
         }
 
-    double worst = 0.0;
-    for (const long double r : unbalance) worst = std::max(worst, std::abs(static_cast<double>(r)));
+    double worst = 0.0, beyond_rounding = 0.0;
+    for (std::size_t i = 0; i < unbalance.size(); ++i) {
+        const double rest = std::abs(static_cast<double>(unbalance[i]));
+        worst = std::isnan(rest) ? rest : std::max(worst, rest);
+        beyond_rounding = std::max(beyond_rounding, rest - 8.0 * std::numeric_limits<double>::epsilon() * size[i]);
+    }
     const double scale = largest(reaction) > 0.0 ? largest(reaction) : std::max(largest_force, largest(force));
     result.equilibrium = relative(worst, scale);
+    result.balance = std::isnan(worst) ? result.equilibrium : relative(beyond_rounding, scale);
     return result;
 }
 
