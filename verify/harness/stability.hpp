@@ -51,6 +51,7 @@ struct Trial {
     double direct_limit = 0.0;              // of the direct reference's own error; 0: the same
     double acceptance_limit = 1e-8;         // of the primal KKT and the energies booked
     double defect_limit = 0.0;              // of the balance of energies; 0: not judged (it falls with the steps)
+    bool device_jumps = false;              // jumps are prescribed: work inside a step is then no trapezoid
     bool may_say = false;                   // not converged, said so, is as good as right
     std::string refused;                    // expected: a refusal or outcome with these words
     bool condensed = true, feti = true, direct = true;

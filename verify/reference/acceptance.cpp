@@ -45,7 +45,7 @@ Acceptance accept(const Solver& solver, const Exported& exported) {
     return accept(solver.scene(), fields, exported);
 }
 
-Acceptance accept(const Scene& scene, const Fields& fields, const Exported& exported) {
+Acceptance accept(const Scene& scene, const Fields& fields, const Exported& exported, const Least& least) {
     const auto d = static_cast<std::size_t>(exported.dimension);
     const auto& [time, u, jump, traction, adhesion, reaction, contact] = fields;
     std::vector<double> prescribed;
@@ -54,8 +54,9 @@ Acceptance accept(const Scene& scene, const Fields& fields, const Exported& expo
 
     Acceptance result;
     const double u_size = largest(u);
-    const double jump_size = largest(jump);
-    const double traction_size = largest(traction);
+    const double jump_size = std::max(largest(jump), least.jump);
+    const double traction_size = std::max(largest(traction), least.traction);
+    const double between_size = std::max(jump_size, least.between_displacements);
     // u_b - u_a of stiff interfaces cancels: nothing smaller than some ulps of u can be asked of doubles.
     const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * u_size;
 
@@ -110,11 +111,11 @@ Acceptance accept(const Scene& scene, const Fields& fields, const Exported& expo
                 }
                 const auto opening = static_cast<double>(from_displacement);
                 const double mismatch = std::abs(opening - jump[at]) - rounding;
-                result.jump_mismatch = std::max(result.jump_mismatch, relative(mismatch, jump_size));
+                result.jump_mismatch = std::max(result.jump_mismatch, relative(mismatch, between_size));
                 if (!stiffness.bonded && c == 0) {
                     result.gap = std::max(result.gap, relative(-jump[at], jump_size));
                     result.gap_displacement =
-                        std::max(result.gap_displacement, relative(-opening - rounding, jump_size));
+                        std::max(result.gap_displacement, relative(-opening - rounding, between_size));
                 }
                 if (stiffness.bonded || (closed && c == 0)) continue;
                 const double spring = zeta * (c == 0 ? stiffness.normal : stiffness.tangential);
@@ -144,7 +145,8 @@ Acceptance accept(const Scene& scene, const Fields& fields, const Exported& expo
         worst = std::isnan(rest) ? rest : std::max(worst, rest);
         beyond_rounding = std::max(beyond_rounding, rest - 8.0 * std::numeric_limits<double>::epsilon() * size[i]);
     }
-    const double scale = largest(reaction) > 0.0 ? largest(reaction) : std::max(largest_force, largest(force));
+    const double own = largest(reaction) > 0.0 ? largest(reaction) : std::max(largest_force, largest(force));
+    const double scale = std::max(own, least.force);
     result.equilibrium = relative(worst, scale);
     result.balance = std::isnan(worst) ? result.equilibrium : relative(beyond_rounding, scale);
     return result;

@@ -32,7 +32,12 @@ struct Fields {
     std::vector<double> displacement, jump, traction, adhesion, reaction;
     std::vector<bool> contact;
 };
-Acceptance accept(const Scene& scene, const Fields& fields, const Exported& exported);
+// What violations are measured by is at least this: a state without stress has no size of its own.
+struct Least {
+    double jump = 0.0, traction = 0.0, force = 0.0;
+    double between_displacements = 0.0;  // jumps that are u_b - u_a
+};
+Acceptance accept(const Scene& scene, const Fields& fields, const Exported& exported, const Least& least = {});
 
 // The pending, else the committed state of the solver; `exported` belongs to the solver's scene.
 Acceptance accept(const Solver& solver, const Exported& exported);
