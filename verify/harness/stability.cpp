@@ -287,6 +287,12 @@ std::string format(const char* text, double value) {
 
 }  // namespace
 
+std::vector<Result> states_of(const Trial& trial, Realisation realisation) {
+    March m = march(trial, realisation);
+    if (m.states.size() != trial.times.size()) throw reference::Failure(0, m.message);
+    return std::move(m.states);
+}
+
 double largest(const std::vector<double>& values) {
     double size = 0.0;
     for (const double v : values) size = std::isnan(v) ? infinite : std::max(size, std::abs(v));

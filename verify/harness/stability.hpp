@@ -60,6 +60,9 @@ struct Trial {
     std::function<reference::Scene()> held;
 };
 
+// The states of a march of the trial; throws Failure where it ends early.
+std::vector<Result> states_of(const Trial& trial, Realisation realisation);
+
 class Study {
 public:
     explicit Study(const Options& options);
