@@ -95,9 +95,11 @@ Result from(const reference::State& s, const Exported& e, const Scene& scene, co
 
 // Worst violation of all states, measured by the largest jump, traction and force of the march. Displacements need agree
 // with jumps to a thousandth of the same limit: iterative solutions have no more where k [u] is all that is known of [u].
-double kkt_of(const Scene& scene, const Exported& e, const std::vector<Result>& states) {
+double kkt_of(const Trial& trial, const Scene& scene, const Exported& e, const std::vector<Result>& states) {
     constexpr double compatible = 1e-3;
     reference::Least least;
+    least.traction = trial.least_traction;
+    least.force = trial.least_force;
     double u = 0.0;
     for (const Result& r : states) {
         least.jump = std::max(least.jump, largest(r.jump));
@@ -207,7 +209,7 @@ March march(const Trial& trial, Realisation realisation) {
         Solver solver(scene, 0.0);
         Result before = read(solver, exported, realisation, 0);
         const double start = before.stored_bulk + before.stored_interface + before.load_potential;
-        double work = 0.0, dissipated = 0.0, scale = 0.0;
+        double work = 0.0, dissipated = 0.0, scale = trial.least_energy;
         std::vector<double> booked_less_own;
         std::optional<OwnLaw> law;
         if (trial.law) law.emplace(*trial.law);
@@ -240,7 +242,7 @@ March march(const Trial& trial, Realisation realisation) {
             before = std::move(now);
             solver.commit();
         }
-        m.kkt = kkt_of(scene, exported, m.states);
+        m.kkt = kkt_of(trial, scene, exported, m.states);
         for (const double miss : booked_less_own)
             m.ledger = worse(m.ledger, miss == 0.0 ? 0.0 : scale > 0.0 ? miss / scale : infinite);
         m.defect = m.defect == 0.0 ? 0.0 : scale > 0.0 ? m.defect / scale : infinite;
@@ -258,7 +260,7 @@ March direct_march(const Trial& trial, const std::vector<Result>& states) {
     try {
         const Scene scene = trial.held ? trial.held() : trial.scene();
         DirectReference direct(scene);
-        double scale = 0.0, miss = 0.0;
+        double scale = trial.least_energy, miss = 0.0;
         for (const Result& at : states) {
             const reference::State s = direct.solve(at.time, at.adhesion);
             Result r = from(s, direct.exported(), scene, at);
@@ -269,7 +271,7 @@ March direct_march(const Trial& trial, const std::vector<Result>& states) {
                              std::abs(r.stored_interface - own.interface)});
             m.states.push_back(std::move(r));
         }
-        m.kkt = kkt_of(scene, direct.exported(), m.states);
+        m.kkt = kkt_of(trial, scene, direct.exported(), m.states);
         m.ledger = miss == 0.0 ? 0.0 : miss / scale;
     } catch (const reference::Failure& failure) {
         m.ended = true;
@@ -499,7 +501,8 @@ Scene make_cantilever(const Cantilever& c) {
     }
     std::vector<double> up(static_cast<std::size_t>(c.dimension), 0.0);
     up.back() = 1.0;
-    const auto load = scene.pattern("lift", {0.0, 1.0}, {0.0, c.lift});
+    const auto load = c.times.empty() ? scene.pattern("lift", {0.0, 1.0}, {0.0, c.lift})
+                                      : scene.pattern("lift", c.times, c.lifts);
     const auto corner = scene.find(1, at(0, 0, top), at(0, c.width, top));
     scene.drive(corner, up, load, std::vector<double>(corner.size(), 1.0));
     scene.number("damage_tolerance", c.delta);

@@ -51,6 +51,8 @@ struct Trial {
     double direct_limit = 0.0;              // of the direct reference's own error; 0: the same
     double acceptance_limit = 1e-8;         // of the primal KKT and the energies booked
     double defect_limit = 0.0;              // of the balance of energies; 0: not judged (it falls with the steps)
+    // Violations are measured by at least these: of a scene that has no stress of its own.
+    double least_traction = 0.0, least_force = 0.0, least_energy = 0.0;
     bool device_jumps = false;              // jumps are prescribed: work inside a step is then no trapezoid
     bool may_say = false;                   // not converged, said so, is as good as right
     std::string refused;                    // expected: a refusal or outcome with these words
@@ -112,6 +114,7 @@ struct Cantilever {
     reference::LawData law{1e13, 2e13, 50.0, 80.0, 200.0, 400.0};
     bool bonded = false;
     double lift = 1.5e-3;  // at time 1
+    std::vector<double> times{}, lifts{};  // in its place, where given
     std::int32_t cell = 0;  // 0: quad4, hex8
     std::string formulation = "standard";
     double delta = 1e-5;

@@ -186,6 +186,7 @@ void aspect(Study& study) {
                 c.lift = 1e-5;
                 return make_cantilever(c);
             };
+            t.may_say = true;
             t.defect_limit = 1e-8;
             study.run(t);
         }

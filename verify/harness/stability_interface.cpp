@@ -79,6 +79,10 @@ void rigid(Study& study) {
         t.defect_limit = 1e-8;
         study.run(t);
     }
+}
+
+void bonded(Study& study) {
+    if (!study.wanted("bonded")) return;
     for (const double columns : study.range({10, 40, 160}, 2)) {
         Trial t;
         t.subject = "bonded";
@@ -417,7 +421,11 @@ void brittleness(Study& study) {
         t.limit = 1e-7;
         study.run(t);
     }
-    // The mixed-mode cantilever, marched: nothing is known in closed form, every state is judged.
+}
+
+// The mixed-mode cantilever, marched: nothing is known in closed form, every state is judged.
+void brittleness_cantilever(Study& study) {
+    if (!study.wanted("brittleness-cantilever")) return;
     for (const double ratio : study.range({1, 1.01, 2, 10, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8}, 4)) {
         Cantilever c;
         c.law = {1e13, 1e13, 200.0 / ratio, 400.0 / ratio, 200.0, 400.0};
@@ -440,8 +448,10 @@ void brittleness(Study& study) {
 void stability_interface(Study& study) {
     stiffness(study);
     rigid(study);
+    bonded(study);
     oscillation(study);
     brittleness(study);
+    brittleness_cantilever(study);
     exponents(study);
     mode_change(study);
     no_jump(study);
