@@ -18,6 +18,22 @@ constexpr std::size_t short_equation = 32;
 
 using Row = SparseElimination::Row;
 
+// Modulus of a body as far as it ranks bodies; 0 where nothing is given. The diagonal of a given matrix is about E, in space E times an edge.
+double modulus(const Problem& problem, std::int32_t body) {
+    const auto b = static_cast<std::size_t>(body);
+    if (problem.stiffness[b] != nullptr) {
+        const SparseMatrix& k = problem.stiffness[b]->matrix;
+        double largest = 0.0;
+        for (const double v : k.value) largest = std::max(largest, v);
+        const double rows = static_cast<double>(std::max<std::int64_t>(1, k.rows / 3));
+        return problem.mesh->dimension() == 2 ? largest : largest * std::cbrt(rows) / problem.mesh->size();
+    }
+    if (!problem.material[b]) return 0.0;
+    if (const auto* isotropic = std::get_if<Elastic>(&*problem.material[b])) return isotropic->young;
+    const auto& constant = std::get<Orthotropic>(*problem.material[b]).constant;
+    return std::max({constant[Orthotropic::e1], constant[Orthotropic::e2], constant[Orthotropic::e3]});
+}
+
 // Variables while they are found: ids below the number of mesh DOFs are displacements, the others jump rows.
 class Builder {
 public:
@@ -68,7 +84,8 @@ void Builder::find_pairs() {
             pairs_.push_back({face.node_a[p], face.node_b[p], row, &face.frame[p * static_cast<std::size_t>(dim_ * dim_)]});
 }
 
-// Control nodes are roots first, so that what they move hangs on them.
+// Control nodes are roots first, so that what they move hangs on them; then the stiffest bodies' nodes. Where soft meets stiff the jump thus moves
+// the soft side alone: on the stiff side its condensed stiffness, that of the soft body, would be a small difference of large numbers.
 void Builder::hang_nodes() {
     std::map<std::int64_t, std::vector<std::size_t>> pairs_of;
     const auto tied = [this](std::int64_t node) { return carriers_.kind(node) == Carriers::Kind::tied; };
@@ -81,7 +98,16 @@ void Builder::hang_nodes() {
     std::vector<std::int64_t> roots;
     for (const std::int64_t node : carriers_.controls())
         if (pairs_of.contains(node)) roots.push_back(node);
+    const auto first_body = static_cast<std::ptrdiff_t>(roots.size());
     for (const auto& [node, unused] : pairs_of) roots.push_back(node);
+    std::vector<double> rank;
+    for (std::int32_t b = 0; b < problem_.mesh->body_count(); ++b) rank.push_back(modulus(problem_, b));
+    const auto rank_of = [&](std::int64_t node) {
+        const std::int32_t body = problem_.mesh->node_body(node);
+        return body < 0 ? 0.0 : rank[static_cast<std::size_t>(body)];
+    };
+    std::stable_sort(roots.begin() + first_body, roots.end(),
+                     [&](std::int64_t a, std::int64_t b) { return rank_of(a) > rank_of(b); });
     std::map<std::int64_t, bool> met;
     for (const std::int64_t root : roots) {
         if (met[root]) continue;

@@ -29,10 +29,10 @@ constexpr double most = 9007199254740992.0;  // 2^53: beyond it a double no long
 
 const std::array<Row, 28>& rows() {
     static const std::array<Row, 28> table{{
-        {{"damage_tolerance", "real", "-", "1e-5", "0 < value < 1",
-          "alternate minimisation stops when no adhesion changes by more (delta)"},
+        {{"damage_tolerance", "real", "-", "1e-5", "0 <= value < 1",
+          "alternate minimisation stops when no adhesion changes by more (delta); 0: none at all, or the limit"},
          &Options::damage_tolerance,
-         0.0,
+         -below,
          1.0},
         {{"minimisation_limit", "integer", "-", "5000", "1 <= value <= 2^53",
           "largest number of alternate minimisation steps in a load step"},

@@ -22,6 +22,8 @@ int main(int argc, char** argv) {
             options.scene = argv[++i];
         } else if (std::strcmp(argv[i], "--set") == 0 && i + 1 < argc) {
             options.settings.emplace_back(argv[++i]);
+        } else if (std::strcmp(argv[i], "--subject") == 0 && i + 1 < argc) {
+            options.subject = argv[++i];
         } else if (name == nullptr && argv[i][0] != '-') {
             name = argv[i];
         } else {
@@ -42,6 +44,7 @@ int main(int argc, char** argv) {
 #ifdef DELAM_SCENE_FILES
                   {"scene-direct", harness::scene_direct},
 #endif
+                  {"stability", harness::stability},
                   {"sets", harness::sets}};
     for (const auto& table : tables) {
         if (!understood || name == nullptr || std::strcmp(name, table.name) != 0) continue;
@@ -55,8 +58,9 @@ int main(int argc, char** argv) {
         }
     }
     std::fprintf(stderr,
-                 "usage: delam_harness [--json] [--quick] [--finest MM] [--scene FILE [--set KEY=VALUE ...]] TABLE\n"
-                 "tables: pcg, contact, balance, feti-direct, energetic, jump-instant, estimate, convergence, sets, "
-                 "scene-direct (of --scene)\n");
+                 "usage: delam_harness [--json] [--quick] [--finest MM] [--scene FILE [--set KEY=VALUE ...]] "
+                 "[--subject NAME] TABLE\n"
+                 "tables: pcg, contact, balance, feti-direct, energetic, jump-instant, estimate, convergence, stability "
+                 "(--subject), sets, scene-direct (of --scene)\n");
     return 1;
 }

@@ -34,6 +34,7 @@ struct Options {
     double finest = 0.0;  // m: finer meshes are left out
     std::string scene;    // a scene file
     std::vector<std::string> settings;  // KEY=VALUE for it
+    std::string subject;                // of stability: this one alone
 };
 
 Table pcg(const Options& options);
@@ -45,6 +46,7 @@ Table jump_instant(const Options& options);
 Table estimate(const Options& options);
 Table convergence(const Options& options);
 Table sets(const Options& options);
+Table stability(const Options& options);
 #ifdef DELAM_SCENE_FILES
 Table scene_direct(const Options& options);
 #endif

@@ -39,32 +39,37 @@ std::string Acceptance::text() const {
 }
 
 Acceptance accept(const Solver& solver, const Exported& exported) {
+    Fields fields{solver.value("time"),    solver.field("displacement"), solver.field("jump"), solver.field("traction"),
+                  solver.field("adhesion"), solver.field("reaction"),     {}};
+    for (const double flag : solver.field("contact")) fields.contact.push_back(flag != 0.0);
+    return accept(solver.scene(), fields, exported);
+}
+
+Acceptance accept(const Scene& scene, const Fields& fields, const Exported& exported, const Least& least) {
     const auto d = static_cast<std::size_t>(exported.dimension);
-    const auto u = solver.field("displacement");
-    const auto jump = solver.field("jump");
-    const auto traction = solver.field("traction");
-    const auto adhesion = solver.field("adhesion");
-    const auto contact = solver.field("contact");
-    const auto reaction = solver.field("reaction");
+    const auto& [time, u, jump, traction, adhesion, reaction, contact] = fields;
     std::vector<double> prescribed;
     std::vector<double> force;
-    exported.load(solver.scene(), solver.value("time"), prescribed, force);
+    exported.load(scene, time, prescribed, force);
 
     Acceptance result;
     const double u_size = largest(u);
-    const double jump_size = largest(jump);
-    const double traction_size = largest(traction);
+    const double jump_size = std::max(largest(jump), least.jump);
+    const double traction_size = std::max(largest(traction), least.traction);
+    const double between_size = std::max(jump_size, least.between_displacements);
     // u_b - u_a of stiff interfaces cancels: nothing smaller than some ulps of u can be asked of doubles.
     const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * u_size;
 
     // Out-of-balance force, summed in extended precision so that the check adds no rounding of its own.
     std::vector<long double> unbalance(exported.dofs);
+    std::vector<double> size(exported.dofs);  // of the summands
     for (std::size_t i = 0; i < exported.dofs; ++i) {
         unbalance[i] = -static_cast<long double>(force[i]);
         for (auto e = exported.stiffness.start[i]; e < exported.stiffness.start[i + 1]; ++e) {
             const auto s = static_cast<std::size_t>(e);
             unbalance[i] += static_cast<long double>(exported.stiffness.value[s]) *
                             static_cast<long double>(u[static_cast<std::size_t>(exported.stiffness.column[s])]);
+            size[i] += std::abs(exported.stiffness.value[s] * u[static_cast<std::size_t>(exported.stiffness.column[s])]);
         }
     }
     for (std::size_t c = 0; c < exported.constraints.rows(); ++c) {
@@ -84,9 +89,9 @@ Acceptance accept(const Solver& solver, const Exported& exported) {
     std::size_t pair = 0;
     for (std::size_t i = 0; i < exported.interfaces.size(); ++i) {
         const Pairs& pairs = exported.interfaces[i];
-        const InterfaceStiffness& stiffness = solver.scene().stiffness()[i];
+        const InterfaceStiffness& stiffness = scene.stiffness()[i];
         for (std::size_t k = 0; k < pairs.count(); ++k, ++pair) {
-            const bool closed = contact[pair] != 0.0;
+            const bool closed = contact[pair];
             const double zeta = adhesion[pair];
             result.adhesion = std::max({result.adhesion, -zeta, zeta - 1.0});
             for (std::size_t c = 0; c < d; ++c) {
@@ -106,11 +111,11 @@ Acceptance accept(const Solver& solver, const Exported& exported) {
                 }
                 const auto opening = static_cast<double>(from_displacement);
                 const double mismatch = std::abs(opening - jump[at]) - rounding;
-                result.jump_mismatch = std::max(result.jump_mismatch, relative(mismatch, jump_size));
+                result.jump_mismatch = std::max(result.jump_mismatch, relative(mismatch, between_size));
                 if (!stiffness.bonded && c == 0) {
                     result.gap = std::max(result.gap, relative(-jump[at], jump_size));
                     result.gap_displacement =
-                        std::max(result.gap_displacement, relative(-opening - rounding, jump_size));
+                        std::max(result.gap_displacement, relative(-opening - rounding, between_size));
                 }
                 if (stiffness.bonded || (closed && c == 0)) continue;
                 const double spring = zeta * (c == 0 ? stiffness.normal : stiffness.tangential);
@@ -127,14 +132,23 @@ Acceptance accept(const Solver& solver, const Exported& exported) {
     for (const Exported::Tie& tie : exported.ties)
         for (std::size_t k = 0; k < d; ++k) {
             long double& own = unbalance[static_cast<std::size_t>(tie.node) * d + k];
-            for (const auto& [node, weight] : tie.of) unbalance[static_cast<std::size_t>(node) * d + k] += static_cast<long double>(weight) * own;
+            for (const auto& [node, weight] : tie.of) {
+                unbalance[static_cast<std::size_t>(node) * d + k] += static_cast<long double>(weight) * own;
+                size[static_cast<std::size_t>(node) * d + k] += std::abs(weight) * size[static_cast<std::size_t>(tie.node) * d + k];
+            }
             own = 0.0L;
         }
 
-    double worst = 0.0;
-    for (const long double r : unbalance) worst = std::max(worst, std::abs(static_cast<double>(r)));
-    const double scale = largest(reaction) > 0.0 ? largest(reaction) : std::max(largest_force, largest(force));
+    double worst = 0.0, beyond_rounding = 0.0;
+    for (std::size_t i = 0; i < unbalance.size(); ++i) {
+        const double rest = std::abs(static_cast<double>(unbalance[i]));
+        worst = std::isnan(rest) ? rest : std::max(worst, rest);
+        beyond_rounding = std::max(beyond_rounding, rest - 8.0 * std::numeric_limits<double>::epsilon() * size[i]);
+    }
+    const double own = largest(reaction) > 0.0 ? largest(reaction) : std::max(largest_force, largest(force));
+    const double scale = std::max(own, least.force);
     result.equilibrium = relative(worst, scale);
+    result.balance = std::isnan(worst) ? result.equilibrium : relative(beyond_rounding, scale);
     return result;
 }
 

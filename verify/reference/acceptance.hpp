@@ -19,10 +19,25 @@ struct Acceptance {
     double supports = 0.0;          // prescribed values, over the largest displacement
     double law = 0.0;               // t - zeta k [u] of open components, over the largest traction
     double adhesion = 0.0;          // adhesion outside [0,1]
+    // Not part of worst(): equilibrium less what the rounding of the displacements alone can leave, |K| |u| ulps.
+    double balance = 0.0;
 
     double worst() const;
     std::string text() const;
 };
+
+// A state as fields, of whatever has made it.
+struct Fields {
+    double time = 0.0;
+    std::vector<double> displacement, jump, traction, adhesion, reaction;
+    std::vector<bool> contact;
+};
+// What violations are measured by is at least this: a state without stress has no size of its own.
+struct Least {
+    double jump = 0.0, traction = 0.0, force = 0.0;
+    double between_displacements = 0.0;  // jumps that are u_b - u_a
+};
+Acceptance accept(const Scene& scene, const Fields& fields, const Exported& exported, const Least& least = {});
 
 // The pending, else the committed state of the solver; `exported` belongs to the solver's scene.
 Acceptance accept(const Solver& solver, const Exported& exported);

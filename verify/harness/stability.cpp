@@ -1,0 +1,541 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stability.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace harness {
+namespace {
+
+using reference::DirectReference;
+using reference::Exported;
+using reference::Scene;
+using reference::Solver;
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+const char* name_of(Realisation r) {
+    return r == Realisation::condensed ? "condensed" : r == Realisation::feti ? "FETI" : "direct";
+}
+
+double worse(double a, double b) { return std::isnan(a) || std::isnan(b) ? infinite : std::max(a, b); }
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+// One realisation's march with what it cost and how it ended.
+struct March {
+    std::vector<Result> states;
+    std::string status = "converged", message;
+    bool ended = false;  // by an error or an outcome without a state
+    double active_set = 0.0, krylov = 0.0, alternations = 0.0;
+    double kkt = 0.0, ledger = 0.0, defect = 0.0, damage = 0.0, error = 0.0;
+};
+
+std::vector<bool> flags(const std::vector<double>& values) {
+    std::vector<bool> result;
+    for (const double v : values) result.push_back(v != 0.0);
+    return result;
+}
+
+// Conjugates of the patterns from the reactions, apart from what the library reports.
+std::vector<double> conjugates(const Exported& e, const std::vector<double>& reaction, const std::vector<double>& u) {
+    std::vector<double> all;
+    for (std::size_t p = 0; p < e.patterns; ++p) {
+        long double sum = 0.0L;
+        for (std::size_t c = 0; c < reaction.size(); ++c)
+            sum += static_cast<long double>(reaction[c]) * e.prescribed[c * e.patterns + p];
+        for (std::size_t i = 0; i < e.dofs; ++i) sum -= static_cast<long double>(e.forces[p][i]) * u[i];
+        all.push_back(static_cast<double>(sum));
+    }
+    return all;
+}
+
+Result read(const Solver& solver, const Exported& e, Realisation realisation, std::size_t step) {
+    Result r;
+    r.realisation = realisation;
+    r.step = step;
+    r.time = solver.value("time");
+    r.displacement = solver.field("displacement");
+    r.jump = solver.field("jump");
+    r.traction = solver.field("traction");
+    r.adhesion = solver.field("adhesion");
+    r.mixity = solver.field("mixity");
+    r.reaction = solver.field("reaction");
+    r.contact = flags(solver.field("contact"));
+    r.factor = e.factors(solver.scene(), r.time);
+    r.pattern = conjugates(e, r.reaction, r.displacement);
+    r.stored_bulk = solver.value("stored_bulk");
+    r.stored_interface = solver.value("stored_interface");
+    r.load_potential = solver.value("load_potential");
+    r.dissipated = solver.value("dissipated");
+    r.work = solver.value("work");
+    return r;
+}
+
+Result from(const reference::State& s, const Exported& e, const Scene& scene, const Result& at) {
+    Result r = at;
+    r.realisation = Realisation::direct;
+    r.displacement = s.displacement;
+    r.jump = s.jump;
+    r.traction = s.traction;
+    r.reaction = s.reaction;
+    r.contact = s.contact;
+    r.pattern = s.pattern;
+    r.factor = e.factors(scene, at.time);
+    r.stored_bulk = s.stored_bulk;
+    r.stored_interface = s.stored_interface;
+    r.load_potential = 0.0;
+    for (std::size_t p = 0; p < e.patterns; ++p)
+        for (std::size_t i = 0; i < e.dofs; ++i) r.load_potential -= r.factor[p] * e.forces[p][i] * s.displacement[i];
+    r.dissipated = r.work = unknown;
+    return r;
+}
+
+// Worst violation of all states, measured by the largest jump, traction and force of the march. Displacements need agree
+// with jumps to a thousandth of the same limit: iterative solutions have no more where k [u] is all that is known of [u].
+double kkt_of(const Trial& trial, const Scene& scene, const Exported& e, const std::vector<Result>& states) {
+    constexpr double compatible = 1e-3;
+    reference::Least least;
+    least.traction = trial.least_traction;
+    least.force = trial.least_force;
+    double u = 0.0;
+    for (const Result& r : states) {
+        least.jump = std::max(least.jump, largest(r.jump));
+        least.traction = std::max(least.traction, largest(r.traction));
+        least.force = std::max(least.force, largest(r.reaction));
+        u = std::max(u, largest(r.displacement));
+    }
+    least.between_displacements = compatible * u;
+    double worst = 0.0;
+    for (const Result& r : states) {
+        const reference::Acceptance a = reference::accept(
+            scene, {r.time, r.displacement, r.jump, r.traction, r.adhesion, r.reaction, r.contact}, e, least);
+        for (const double v : {a.gap, a.gap_displacement, a.jump_mismatch, a.pressure, a.complementarity, a.balance,
+                               a.supports, a.law, a.adhesion})
+            worst = worse(worst, v);
+    }
+    return worst;
+}
+
+// Energies of a state from its fields: of the bodies by Clapeyron (half the work of all forces on them), of the
+// interfaces by their springs.
+struct Energies {
+    double bulk = 0.0, interface = 0.0, potential = 0.0;
+};
+Energies energies_of(const Scene& scene, const Exported& e, const Result& r) {
+    const auto d = static_cast<std::size_t>(e.dimension);
+    long double twice_bulk = 0.0L, interface = 0.0L, potential = 0.0L;
+    for (std::size_t p = 0; p < e.patterns; ++p) {
+        twice_bulk += static_cast<long double>(r.factor[p]) * r.pattern[p];
+        for (std::size_t i = 0; i < e.dofs; ++i) {
+            const long double done = static_cast<long double>(r.factor[p]) * e.forces[p][i] * r.displacement[i];
+            potential -= done;
+            // The pattern's conjugate has it with the other sign.
+            twice_bulk += 2.0L * done;
+        }
+    }
+    std::size_t pair = 0;
+    for (std::size_t i = 0; i < e.interfaces.size(); ++i) {
+        const reference::InterfaceStiffness& k = scene.stiffness()[i];
+        for (std::size_t n = 0; n < e.interfaces[i].count(); ++n, ++pair)
+            for (std::size_t c = 0; c < d; ++c) {
+                const long double j = r.jump[pair * d + c], w = e.interfaces[i].weight[n];
+                twice_bulk -= w * static_cast<long double>(r.traction[pair * d + c]) * j;
+                if (k.bonded || (c == 0 && r.contact[pair])) continue;
+                interface += 0.5L * w * r.adhesion[pair] * (c == 0 ? k.normal : k.tangential) * j * j;
+            }
+    }
+    return {static_cast<double>(0.5L * twice_bulk), static_cast<double>(interface), static_cast<double>(potential)};
+}
+
+// Energy spent between two states at the mixity that the later one used.
+double spent_between(const OwnLaw& law, const Scene& scene, const Exported& e, const Result& before,
+                     const Result& after) {
+    long double sum = 0.0L;
+    std::size_t pair = 0;
+    for (std::size_t i = 0; i < e.interfaces.size(); ++i)
+        for (std::size_t n = 0; n < e.interfaces[i].count(); ++n, ++pair) {
+            if (scene.stiffness()[i].bonded || after.adhesion[pair] == before.adhesion[pair]) continue;
+            sum += static_cast<long double>(e.interfaces[i].weight[n]) *
+                   (law.spent(after.mixity[pair], after.adhesion[pair]) -
+                    law.spent(after.mixity[pair], before.adhesion[pair]));
+        }
+    return static_cast<double>(sum);
+}
+
+// How far the adhesions are from the pointwise minimisers at the jumps that they are given with.
+double damage_residual(const OwnLaw& law, const Scene& scene, const Exported& e, const Result& before,
+                       const Result& now) {
+    const auto d = static_cast<std::size_t>(e.dimension);
+    double worst = 0.0;
+    std::size_t pair = 0;
+    for (std::size_t i = 0; i < e.interfaces.size(); ++i)
+        for (std::size_t n = 0; n < e.interfaces[i].count(); ++n, ++pair) {
+            if (scene.stiffness()[i].bonded || scene.stiffness()[i].normal == 0.0) continue;
+            const long double y = law.driving(&now.jump[pair * d], e.dimension), mixity = now.mixity[pair];
+            const long double gc = law.toughness(mixity);
+            // Without softening the minimiser jumps at Y = Gc: there either side is right.
+            if (gc - law.onset(mixity) <= 1e-9L * gc && std::abs(y - gc) < 1e-6L * gc) continue;
+            const long double best = law.adhesion(mixity, y, before.adhesion[pair]);
+            worst = worse(worst, static_cast<double>(std::abs(best - now.adhesion[pair])));
+        }
+    return worst;
+}
+
+double difference(const Result& a, const Result& b, const Compared& what) {
+    double worst = 0.0;
+    if (what.displacement) worst = worse(worst, relative_difference(a.displacement, b.displacement));
+    if (what.jump) worst = worse(worst, relative_difference(a.jump, b.jump));
+    if (what.traction) worst = worse(worst, relative_difference(a.traction, b.traction));
+    if (what.pattern) worst = worse(worst, relative_difference(a.pattern, b.pattern));
+    if (what.energy)
+        worst = worse(worst, relative_difference({a.stored_bulk, a.stored_interface},
+                                                 {b.stored_bulk, b.stored_interface}));
+    return worst;
+}
+
+// The march, its energies booked again from fields, and the primal KKT conditions of every state.
+March march(const Trial& trial, Realisation realisation) {
+    March m;
+    std::optional<Scene> kept;
+    try {
+        kept.emplace(trial.scene());
+        Scene& scene = *kept;
+        scene.text("reduction", realisation == Realisation::feti ? "feti" : "condensed");
+        if (realisation == Realisation::feti) scene.number("subdomains", trial.subdomains);
+        const Exported exported(scene);
+        Solver solver(scene, 0.0);
+        Result before = read(solver, exported, realisation, 0);
+        const double start = before.stored_bulk + before.stored_interface + before.load_potential;
+        double work = 0.0, dissipated = 0.0, scale = trial.least_energy;
+        std::vector<double> booked_less_own;
+        std::optional<OwnLaw> law;
+        if (trial.law) law.emplace(*trial.law);
+        for (std::size_t k = 0; k < trial.times.size(); ++k) {
+            const std::int32_t status = solver.advance(trial.times[k]);
+            if (status != DELAM_OK) {
+                m.message = first_line(delam_context_message(scene.context()));
+                m.status = delam_status_name(status);
+                m.ended = status != DELAM_NOT_CONVERGED;
+            }
+            if (m.ended) break;
+            m.active_set += solver.value("contact_iterations");
+            m.krylov += solver.value("linear_iterations");
+            m.alternations += solver.value("am_iterations");
+            Result now = read(solver, exported, realisation, k);
+            for (std::size_t p = 0; p < exported.patterns; ++p)
+                work += 0.5 * (now.factor[p] - before.factor[p]) * (now.pattern[p] + before.pattern[p]);
+            if (law) dissipated += spent_between(*law, scene, exported, before, now);
+            const Energies own = energies_of(scene, exported, now);
+            scale = std::max({scale, std::abs(own.bulk) + std::abs(own.interface), std::abs(work), dissipated});
+            for (const double miss : {now.stored_bulk - own.bulk, now.stored_interface - own.interface,
+                                      now.load_potential - own.potential,
+                                      trial.device_jumps ? 0.0 : now.work - work,
+                                      law ? now.dissipated - dissipated : 0.0})
+                booked_less_own.push_back(std::abs(miss));
+            m.defect = std::abs(own.bulk + own.interface + own.potential + now.dissipated - work - start);
+            if (law && k + 1 == trial.times.size())
+                m.damage = damage_residual(*law, scene, exported, before, now);
+            m.states.push_back(now);
+            before = std::move(now);
+            solver.commit();
+        }
+        m.kkt = kkt_of(trial, scene, exported, m.states);
+        for (const double miss : booked_less_own)
+            m.ledger = worse(m.ledger, miss == 0.0 ? 0.0 : scale > 0.0 ? miss / scale : infinite);
+        m.defect = m.defect == 0.0 ? 0.0 : scale > 0.0 ? m.defect / scale : infinite;
+    } catch (const reference::Failure& failure) {
+        m.ended = true;
+        m.status = failure.status() != 0 ? delam_status_name(failure.status()) : "failed";
+        m.message = first_line(failure.what());
+    }
+    return m;
+}
+
+// The reference's displacement steps at the adhesions of a march.
+March direct_march(const Trial& trial, const std::vector<Result>& states) {
+    March m;
+    try {
+        const Scene scene = trial.held ? trial.held() : trial.scene();
+        DirectReference direct(scene);
+        double scale = trial.least_energy, miss = 0.0;
+        for (const Result& at : states) {
+            const reference::State s = direct.solve(at.time, at.adhesion);
+            Result r = from(s, direct.exported(), scene, at);
+            m.active_set += s.contact_iterations;
+            const Energies own = energies_of(scene, direct.exported(), r);
+            scale = std::max(scale, std::abs(own.bulk) + std::abs(own.interface));
+            miss = std::max({miss, std::abs(r.stored_bulk - own.bulk),
+                             std::abs(r.stored_interface - own.interface)});
+            m.states.push_back(std::move(r));
+        }
+        m.kkt = kkt_of(trial, scene, direct.exported(), m.states);
+        m.ledger = miss == 0.0 ? 0.0 : miss / scale;
+    } catch (const reference::Failure& failure) {
+        m.ended = true;
+        m.status = failure.status() != 0 ? delam_status_name(failure.status()) : "failed";
+        m.message = first_line(failure.what());
+    }
+    return m;
+}
+
+std::string format(const char* text, double value) {
+    char line[80];
+    std::snprintf(line, sizeof line, text, value);
+    return line;
+}
+
+}  // namespace
+
+std::vector<Result> states_of(const Trial& trial, Realisation realisation) {
+    March m = march(trial, realisation);
+    if (m.states.size() != trial.times.size()) throw reference::Failure(0, m.message);
+    return std::move(m.states);
+}
+
+double largest(const std::vector<double>& values) {
+    double size = 0.0;
+    for (const double v : values) size = std::isnan(v) ? infinite : std::max(size, std::abs(v));
+    return size;
+}
+
+double relative_difference(const std::vector<double>& a, const std::vector<double>& b) {
+    if (a.size() != b.size()) return infinite;
+    double miss = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) miss = worse(miss, std::abs(a[i] - b[i]));
+    const double size = largest(b);
+    return miss == 0.0 ? 0.0 : size > 0.0 ? miss / size : infinite;
+}
+
+Study::Study(const Options& options) : options_(options) {
+    table_.name = "stability";
+    table_.note =
+        "Hard cases, each over a range of one parameter, by every realisation. error: against the reference named, "
+        "largest relative difference (of displacements, jumps, tractions, reactions, energies) over all steps unless "
+        "the subject says otherwise. kkt: worst violation of the primal KKT conditions of all states, from exported "
+        "fields. ledger: energies and work booked less those computed from the fields, over the largest. defect: what "
+        "the balance of energies at the end misses (it falls with the steps where something is damaged). damage: "
+        "adhesions less the minimisers at their jumps. direct: the monolithic reference at the adhesions of the "
+        "condensed march. active_set, krylov, alternations: sums over the steps.";
+    table_.columns = {"subject", "parameter", "value", "realisation", "reference", "error",
+                      "limit",   "kkt",       "ledger", "defect",     "damage",    "active_set",
+                      "krylov",  "alternations", "status", "expected", "verdict", "message"};
+}
+
+bool Study::wanted(const std::string& subject) const {
+    if (!options_.subject.empty() && options_.subject != subject) return false;
+    progress("stability: " + subject);
+    return true;
+}
+
+std::vector<double> Study::range(std::vector<double> values, std::size_t stride) const {
+    if (!options_.quick) return values;
+    std::vector<double> thin;
+    for (std::size_t i = 0; i < values.size(); i += stride) thin.push_back(values[i]);
+    if ((values.size() - 1) % stride != 0) thin.push_back(values.back());
+    return thin;
+}
+
+void Study::row(const std::string& subject, const std::string& parameter_name, double parameter,
+                const std::string& realisation, const std::string& reference, double error, double limit,
+                const std::string& status, const std::string& expected, bool good, const std::string& message) {
+    table_.rows.push_back({subject, parameter_name, parameter, realisation, reference, error, limit, 0.0, 0.0, 0.0, 0.0,
+                           0.0, 0.0, 0.0, status, expected, good ? "pass" : "fail", message});
+}
+
+void Study::run(const Trial& trial) {
+    std::vector<std::pair<Realisation, March>> all;
+    if (trial.condensed) all.emplace_back(Realisation::condensed, march(trial, Realisation::condensed));
+    if (trial.feti) all.emplace_back(Realisation::feti, march(trial, Realisation::feti));
+    // FETI on its own adhesions where the condensed march went elsewhere, so that only the solves are compared.
+    std::vector<std::optional<March>> beside(all.size());
+    for (std::size_t i = 0; i < all.size() && trial.direct; ++i) {
+        const bool first = i == 0;
+        const auto same = [&] {
+            const auto &a = all[0].second.states, &b = all[i].second.states;
+            if (a.size() != b.size()) return false;
+            for (std::size_t k = 0; k < a.size(); ++k)
+                if (a[k].adhesion != b[k].adhesion) return false;
+            return true;
+        };
+        if (first || !same()) beside[i] = direct_march(trial, all[i].second.states);
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        March& m = all[i].second;
+        const March* other = beside[i] ? &*beside[i] : beside[0] ? &*beside[0] : nullptr;
+        for (std::size_t k = 0; k < m.states.size(); ++k) {
+            if (trial.error) {
+                m.error = worse(m.error, trial.error(m.states[k]));
+            } else if (other != nullptr && k < other->states.size()) {
+                m.error = worse(m.error, difference(m.states[k], other->states[k], trial.compared));
+            } else {
+                m.error = infinite;
+            }
+        }
+        if (m.states.empty()) m.error = unknown;
+    }
+    if (!all.empty() && beside[0] && trial.refused.empty()) {
+        March& m = *beside[0];
+        for (const Result& r : m.states) m.error = trial.error ? worse(m.error, trial.error(r)) : 0.0;
+        if (m.ended) m.error = unknown;
+        all.emplace_back(Realisation::direct, std::move(m));
+    }
+    const std::string right = trial.error || trial.direct ? "right to " + format("%.0e", trial.limit) : "accepted";
+    for (const auto& [realisation, m] : all) {
+        const bool direct = realisation == Realisation::direct;
+        const double limit = direct && trial.direct_limit > 0.0 ? trial.direct_limit : trial.limit;
+        std::string expected = right;
+        if (direct && !trial.error) expected = "accepted";
+        if (direct && trial.direct_limit > 0.0) expected = "right to " + format("%.0e", limit);
+        if (trial.may_say && !direct) expected += ", or says that it is not";
+        if (!trial.refused.empty()) expected = "refused: " + trial.refused;
+        std::string why;
+        if (!trial.refused.empty()) {
+            if (m.message.find(trial.refused) == std::string::npos) why = "other words";
+        } else if (m.status != "converged") {
+            if (!(trial.may_say && m.status == "DELAM_NOT_CONVERGED")) why = "not expected";
+        } else {
+            const auto check = [&](const char* what, double value, double bound) {
+                if (!(value <= bound)) why += (why.empty() ? "" : ", ") + std::string(what);
+            };
+            check("error", m.error, limit);
+            check("kkt", m.kkt, trial.acceptance_limit);
+            check("ledger", m.ledger, trial.acceptance_limit);
+            if (trial.defect_limit > 0.0) check("defect", m.defect, trial.defect_limit);
+            check("damage", m.damage, 1.01 * trial.delta + 1e-8);
+        }
+        table_.rows.push_back({trial.subject, trial.parameter_name, trial.parameter, name_of(realisation),
+                               trial.error || !direct ? trial.reference : "is the reference", m.error, limit, m.kkt,
+                               m.ledger, m.defect, m.damage, m.active_set, m.krylov, m.alternations, m.status, expected,
+                               why.empty() ? "pass" : "fail: " + why, m.message});
+    }
+    for (const auto& [has, who] : {std::pair{trial.condensed, "condensed"}, {trial.feti, "FETI"},
+                                   {trial.direct, "direct"}}) {
+        if (has || trial.left_out.empty()) continue;
+        table_.rows.push_back({trial.subject, trial.parameter_name, trial.parameter, who, trial.reference, unknown,
+                               trial.limit, unknown, unknown, unknown, unknown, unknown, unknown, unknown, "left out",
+                               "left out", "left out", trial.left_out});
+    }
+}
+
+OwnLaw::OwnLaw(const reference::LawData& law) : data(law) {}
+
+namespace {
+
+long double criterion(long double mixity, double normal, double tangential, double exponent) {
+    const long double a = exponent, n = normal, t = tangential;
+    // Scaled by the smaller of the two, so that large exponents neither overflow nor vanish.
+    const long double unit = std::min(n, t);
+    return unit * std::pow(std::pow((1.0L - mixity) * unit / n, a) + std::pow(mixity * unit / t, a), -1.0L / a);
+}
+
+}  // namespace
+
+long double OwnLaw::onset(long double mixity) const {
+    return criterion(mixity, data.normal_onset, data.tangential_onset, data.exponent);
+}
+
+long double OwnLaw::toughness(long double mixity) const {
+    return criterion(mixity, data.normal_toughness, data.tangential_toughness, data.exponent);
+}
+
+long double OwnLaw::driving(const double* jump, int dimension) const {
+    long double y = 0.5L * data.normal_stiffness * jump[0] * jump[0];
+    for (int c = 1; c < dimension; ++c) y += 0.5L * data.tangential_stiffness * jump[c] * jump[c];
+    return y;
+}
+
+long double OwnLaw::mixity(const double* jump, int dimension) const {
+    const long double y = driving(jump, dimension);
+    return y > 0.0L ? 1.0L - 0.5L * data.normal_stiffness * jump[0] * jump[0] / y : 0.0L;
+}
+
+long double OwnLaw::adhesion(long double mixity, long double y, long double old) const {
+    const long double go = onset(mixity), gc = toughness(mixity), d = gc - go;
+    if (y <= go) return old;
+    if (d <= 1e-12L * gc) return y < gc ? old : 0.0L;
+    return std::clamp((gc * std::sqrt(go / y) - go) / d, 0.0L, old);
+}
+
+long double OwnLaw::spent(long double mixity, long double adhesion) const {
+    const long double go = onset(mixity), gc = toughness(mixity);
+    return gc * go * (1.0L - adhesion) / (go + (gc - go) * adhesion);
+}
+
+Scene make_cantilever(const Cantilever& c) {
+    const bool plane = c.dimension == 2;
+    const std::int32_t cell = c.cell != 0 ? c.cell : plane ? DELAM_QUAD4 : DELAM_HEX8;
+    Scene scene(c.dimension, plane ? std::vector<double>{c.length} : std::vector<double>{c.length, c.width},
+                plane ? std::vector<std::int64_t>{c.columns} : std::vector<std::int64_t>{c.columns, c.ranks},
+                {c.arm, c.arm}, {c.rows, c.rows}, cell);
+    scene.interface(0, 1);
+    scene.begin();
+    scene.elastic(0, c.young_lower, c.poisson);
+    scene.elastic(1, c.young_upper, c.poisson);
+    if (c.formulation != "standard")
+        scene.require(delam_problem_set_formulation(scene.problem(), -1, c.formulation.c_str()),
+                      "delam_problem_set_formulation");
+    if (c.bonded) {
+        scene.bonded(0);
+    } else {
+        scene.law(0, c.law);
+        const auto a = scene.pairs(0).node_a;
+        const double step = c.length / static_cast<double>(c.columns);
+        std::vector<std::int64_t> notch;
+        for (std::size_t i = 0; i < a.size(); ++i)
+            if (scene.coordinate(a[i], 0) < (static_cast<double>(c.notch) - 0.25) * step)
+                notch.push_back(static_cast<std::int64_t>(i));
+        scene.adhesion(0, notch, std::vector<double>(notch.size(), 0.0));
+    }
+    const double top = 2.0 * c.arm;
+    const auto at = [&](double x, double y, double z) {
+        return plane ? std::vector<double>{x, z} : std::vector<double>{x, y, z};
+    };
+    const auto right = scene.find(-1, at(c.length, 0, 0), at(c.length, c.width, top));
+    for (int k = 0; k < c.dimension; ++k) {
+        std::vector<double> axis(static_cast<std::size_t>(c.dimension), 0.0);
+        axis[static_cast<std::size_t>(k)] = 1.0;
+        scene.hold(right, axis);
+    }
+    std::vector<double> up(static_cast<std::size_t>(c.dimension), 0.0);
+    up.back() = 1.0;
+    const auto load = c.times.empty() ? scene.pattern("lift", {0.0, 1.0}, {0.0, c.lift})
+                                      : scene.pattern("lift", c.times, c.lifts);
+    const auto corner = scene.find(1, at(0, 0, top), at(0, c.width, top));
+    scene.drive(corner, up, load, std::vector<double>(corner.size(), 1.0));
+    scene.number("damage_tolerance", c.delta);
+    return scene;
+}
+
+Scene make_driven(const reference::LawData& law, const std::vector<double>& times, const std::vector<double>& open,
+                  const std::vector<double>& slide, double delta) {
+    Scene scene(2, {1e-3}, {1}, {1e-3, 1e-3}, {1, 1}, DELAM_QUAD4);
+    scene.interface(0, 1);
+    scene.begin();
+    scene.elastic(-1, 70e9, 0.3);
+    scene.law(0, law);
+    const auto lower = scene.find(0, {0.0, 0.0}, {1.0, 1.0}), upper = scene.find(1, {0.0, 0.0}, {1.0, 1.0});
+    scene.hold(lower, {1.0, 0.0});
+    scene.hold(lower, {0.0, 1.0});
+    scene.drive(upper, {0.0, 1.0}, scene.pattern("open", times, open), std::vector<double>(upper.size(), 1.0));
+    scene.drive(upper, {1.0, 0.0}, scene.pattern("slide", times, slide), std::vector<double>(upper.size(), 1.0));
+    scene.number("damage_tolerance", delta);
+    return scene;
+}
+
+Table stability(const Options& options) {
+    Study study(options);
+    stability_interface(study);
+    stability_bodies(study);
+    stability_units(study);
+    stability_contact(study);
+    stability_march(study);
+    stability_partition(study);
+    if (study.table().rows.empty())
+        throw reference::Failure(DELAM_ERROR_ARGUMENT, "no subject '" + options.subject + "'");
+    return study.table();
+}
+
+}  // namespace harness

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Hard cases over a range: a trial is one scene at one parameter, marched by the condensed operator and by FETI, with
+// the direct reference beside them. What is accepted is judged from exported fields and numbers computed here.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "acceptance.hpp"
+#include "direct.hpp"
+#include "table.hpp"
+
+namespace harness {
+
+enum class Realisation { condensed, feti, direct };
+
+// A state as a realisation hands it over. Of the direct reference: at the adhesion of the condensed march.
+struct Result {
+    Realisation realisation = Realisation::condensed;
+    std::size_t step = 0;  // index into the trial's times
+    double time = 0.0;
+    std::vector<double> displacement, jump, traction, adhesion, mixity, reaction;
+    std::vector<bool> contact;
+    std::vector<double> factor, pattern;  // [patterns], of load and its conjugate
+    double stored_bulk = 0.0, stored_interface = 0.0, load_potential = 0.0;
+    double dissipated = 0.0, work = 0.0;  // cumulative; of the direct reference: NaN
+};
+
+// What of a state is unique, and compared with the direct solution.
+struct Compared {
+    bool displacement = true, jump = true, traction = true, pattern = true, energy = true;
+};
+
+struct Trial {
+    std::string subject;
+    std::string parameter_name;
+    double parameter = 0.0;
+    std::function<reference::Scene()> scene;  // complete, but for reduction and subdomains
+    std::vector<double> times{1.0};           // steps; the march starts at 0
+    int subdomains = 4;                       // of FETI
+    // Error of each step against what is known; none: largest relative difference to the direct solution.
+    std::function<double(const Result&)> error;
+    std::string reference = "direct solver";
+    Compared compared;
+    std::optional<reference::LawData> law;  // of all interfaces that have one; none: damage is not judged
+    double delta = 1e-5;                    // damage_tolerance of the scene
+    double limit = 1e-8;                    // of the error; what is expected: right to this
+    double direct_limit = 0.0;              // of the direct reference's own error; 0: the same
+    double acceptance_limit = 1e-8;         // of the primal KKT and the energies booked
+    double defect_limit = 0.0;              // of the balance of energies; 0: not judged (it falls with the steps)
+    // Violations are measured by at least these: of a scene that has no stress of its own.
+    double least_traction = 0.0, least_force = 0.0, least_energy = 0.0;
+    bool device_jumps = false;              // jumps are prescribed: work inside a step is then no trapezoid
+    bool may_say = false;                   // not converged, said so, is as good as right
+    std::string refused;                    // expected: a refusal or outcome with these words
+    bool condensed = true, feti = true, direct = true;
+    std::string left_out;  // why, where one of these is false
+    // Of the reference alone: a scene with the same answer in which every body is held. None: the scene itself.
+    std::function<reference::Scene()> held;
+};
+
+// The states of a march of the trial; throws Failure where it ends early.
+std::vector<Result> states_of(const Trial& trial, Realisation realisation);
+
+class Study {
+public:
+    explicit Study(const Options& options);
+    const Options& options() const { return options_; }
+    // Whether the subject was asked for; says so on stderr.
+    bool wanted(const std::string& subject) const;
+    void run(const Trial& trial);
+    // For what no trial describes: a row of its own.
+    void row(const std::string& subject, const std::string& parameter_name, double parameter,
+             const std::string& realisation, const std::string& reference, double error, double limit,
+             const std::string& status, const std::string& expected, bool good, const std::string& message);
+    Table& table() { return table_; }
+
+    // The whole range, or with --quick every `stride`-th value of it and the last.
+    std::vector<double> range(std::vector<double> values, std::size_t stride = 3) const;
+
+private:
+    const Options& options_;
+    Table table_;
+};
+
+// Largest difference over the largest of b; 0 / 0 is 0.
+double relative_difference(const std::vector<double>& a, const std::vector<double>& b);
+double largest(const std::vector<double>& values);
+
+// The piecewise-linear law, written apart from the library's, in extended precision.
+struct OwnLaw {
+    explicit OwnLaw(const reference::LawData& law);
+    long double onset(long double mixity) const;
+    long double toughness(long double mixity) const;
+    long double driving(const double* jump, int dimension) const;
+    long double mixity(const double* jump, int dimension) const;  // 0 where there is no jump
+    // Minimiser below the old adhesion, and what has been spent at an adhesion.
+    long double adhesion(long double mixity, long double driving, long double old) const;
+    long double spent(long double mixity, long double adhesion) const;
+    reference::LawData data;
+};
+
+// ---- scenes of several subjects
+// Cantilever of two arms in mixed mode: notched at the left, clamped at the right, lifted at the upper left corner.
+struct Cantilever {
+    int dimension = 2;
+    double length = 0.04, arm = 2e-3, width = 0.01;
+    std::int64_t columns = 40, rows = 2, ranks = 3;
+    std::int64_t notch = 12;  // columns
+    double young_lower = 70e9, young_upper = 70e9, poisson = 0.3;
+    reference::LawData law{1e13, 2e13, 50.0, 80.0, 200.0, 400.0};
+    bool bonded = false;
+    double lift = 1.5e-3;  // at time 1
+    std::vector<double> times{}, lifts{};  // in its place, where given
+    std::int32_t cell = 0;  // 0: quad4, hex8
+    std::string formulation = "standard";
+    double delta = 1e-5;
+};
+reference::Scene make_cantilever(const Cantilever& c);
+
+// Both bodies of one cell held or driven as a whole: the jump is what the device prescribes, (normal, tangential) in
+// the two patterns "open" and "slide" over the same times. The interface has two pairs that answer alike.
+reference::Scene make_driven(const reference::LawData& law, const std::vector<double>& times,
+                             const std::vector<double>& open, const std::vector<double>& slide, double delta);
+
+void stability_interface(Study& study);
+void stability_bodies(Study& study);
+void stability_units(Study& study);
+void stability_contact(Study& study);
+void stability_march(Study& study);
+void stability_partition(Study& study);
+
+}  // namespace harness

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stability against the bodies: contrast of moduli, Poisson's ratio near 1/2, aspect ratio of cells, slenderness of
+// plies, bodies that the host hands over as matrices.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "stability.hpp"
+
+namespace harness {
+namespace {
+
+using reference::LawData;
+using reference::Scene;
+
+constexpr LawData intact{1e14, 1e14, 1e30, 1e30, 1e30, 1e30};
+
+std::vector<double> powers(int first, int last, int step) {
+    std::vector<double> all;
+    for (int e = first; e <= last; e += step) all.push_back(std::pow(10.0, e));
+    return all;
+}
+
+void contrast(Study& study) {
+    for (const int dimension : {2, 3}) {
+        const std::string subject = dimension == 2 ? "contrast" : "contrast-3d";
+        if (!study.wanted(subject)) continue;
+        for (const double ratio : study.range(powers(-8, 8, dimension == 2 ? 1 : 4), dimension == 2 ? 4 : 2)) {
+            Cantilever c;
+            c.dimension = dimension;
+            if (dimension == 3) c.columns = 16, c.notch = 5;
+            c.law = intact;
+            c.lift = 1e-5;
+            // The stiffer one has 70 GPa.
+            c.young_upper *= std::min(1.0, ratio);
+            c.young_lower *= std::min(1.0, 1.0 / ratio);
+            Trial t;
+            t.subject = subject;
+            t.parameter_name = "E upper / E lower";
+            t.parameter = ratio;
+            t.scene = [=] { return make_cantilever(c); };
+            t.defect_limit = 1e-8;
+            study.run(t);
+        }
+    }
+}
+
+// A quarter of a ring, its inner half glued to the outer one by bonds, inner face pushed outwards: the energy of the
+// closed form, (lambda + mu and mu of plane strain) with u = A r + B / r.
+constexpr double inner = 1.0, outer = 2.0, push = 1e-3;
+
+double ring_energy(double young, double nu) {
+    const double mu = young / (2.0 * (1.0 + nu)), lambda = young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    // sigma_rr(outer) = 0: 2 (lambda + mu) A = 2 mu B / outer^2; u(inner) = push.
+    const double ratio = mu / ((lambda + mu) * outer * outer);  // A / B
+    const double b = push / (ratio * inner + 1.0 / inner), a = ratio * b;
+    const double pressure = -(2.0 * (lambda + mu) * a - 2.0 * mu * b / (inner * inner));
+    return 0.5 * pressure * push * inner * 0.5 * std::acos(-1.0);
+}
+
+Scene make_ring(std::int32_t cell, std::int64_t corners, const std::string& formulation, double young, double nu) {
+    const double quarter = 0.5 * std::acos(-1.0);
+    const Scene plain(2, {quarter}, {24}, {0.5, 0.5}, {6, 6}, cell);
+    std::int64_t needed = 0, count = 0;
+    plain.require(delam_mesh_size(plain.mesh(), nullptr, nullptr, &count, nullptr, nullptr), "delam_mesh_size");
+    const auto n = static_cast<std::size_t>(count);
+    std::vector<std::int64_t> offsets(n + 1), cells(n * static_cast<std::size_t>(corners));
+    std::vector<std::int32_t> types(n), bodies(n);
+    plain.require(delam_mesh_cells(plain.mesh(), types.data(), bodies.data(), offsets.data(),
+                                   static_cast<std::int64_t>(cells.size()), cells.data(), &needed),
+                  "delam_mesh_cells");
+    std::vector<double> nodes = plain.nodes();
+    for (std::size_t i = 0; i < nodes.size(); i += 2) {
+        const double angle = nodes[i], r = inner + nodes[i + 1];
+        nodes[i] = r * std::sin(angle);
+        nodes[i + 1] = r * std::cos(angle);
+    }
+    Scene scene(2, nodes, cell, cells, bodies);
+    scene.interface(0, 1);
+    scene.begin();
+    scene.elastic(-1, young, nu);
+    scene.require(delam_problem_set_formulation(scene.problem(), -1, formulation.c_str()),
+                  "delam_problem_set_formulation");
+    scene.bonded(0);
+    const auto load = scene.pattern("push", {0.0, 1.0}, {0.0, push});
+    for (std::size_t i = 0; i < nodes.size(); i += 2) {
+        const auto node = static_cast<std::int64_t>(i / 2);
+        const bool on_x = std::abs(nodes[i]) < 1e-12, on_y = std::abs(nodes[i + 1]) < 1e-12;
+        if (std::abs(std::hypot(nodes[i], nodes[i + 1]) - inner) < 1e-9)
+            scene.drive({node}, {on_x ? 0.0 : nodes[i], on_y ? 0.0 : nodes[i + 1]}, load, {1.0});
+        if (on_x) scene.hold({node}, {1.0, 0.0});
+        if (on_y) scene.hold({node}, {0.0, 1.0});
+    }
+    return scene;
+}
+
+void poisson(Study& study) {
+    const std::vector<double> ratios{0.0, 0.3, 0.4, 0.45, 0.49, 0.495, 0.499, 0.4995, 0.4999};
+    for (const char* formulation : {"standard", "mean-dilatation"}) {
+        const std::string subject = std::string("poisson-") + formulation;
+        if (!study.wanted(subject)) continue;
+        for (const double nu : study.range(ratios, 4)) {
+            Cantilever c;
+            c.law = intact;
+            c.lift = 1e-5;
+            c.poisson = nu;
+            c.formulation = formulation;
+            Trial t;
+            t.subject = subject;
+            t.parameter_name = "Poisson's ratio";
+            t.parameter = nu;
+            t.scene = [=] { return make_cantilever(c); };
+            // The bodies' own condition grows with 1 / (1 - 2 nu).
+            t.limit = nu < 0.49 ? 1e-8 : 1e-7;
+            t.defect_limit = 1e-8;
+            study.run(t);
+        }
+    }
+    const struct {
+        const char* subject;
+        std::int32_t cell;
+        std::int64_t corners;
+        const char* formulation;
+    } rings[] = {{"ring-quad8-standard", DELAM_QUAD8, 8, "standard"},
+                 {"ring-quad4-mean-dilatation", DELAM_QUAD4, 4, "mean-dilatation"},
+                 {"ring-quad8-mean-dilatation", DELAM_QUAD8, 8, "mean-dilatation"}};
+    for (const auto& ring : rings) {
+        if (!study.wanted(ring.subject)) continue;
+        for (const double nu : study.range(ratios, 4)) {
+            constexpr double young = 1e9;
+            const double exact = ring_energy(young, nu);
+            Trial t;
+            t.subject = ring.subject;
+            t.parameter_name = "Poisson's ratio";
+            t.parameter = nu;
+            t.scene = [=] { return make_ring(ring.cell, ring.corners, ring.formulation, young, nu); };
+            t.reference = "closed form (Lame), energy";
+            t.error = [=](const Result& r) { return std::abs(r.stored_bulk / exact - 1.0); };
+            t.limit = ring.cell == DELAM_QUAD4 ? 1e-3 : 2e-3;
+            t.defect_limit = 1e-8;
+            study.run(t);
+        }
+    }
+}
+
+// Thin layers, one cell each, beside the interface of a cantilever that is not slender itself: cells `ratio` times
+// longer than thick, glued to thick arms by bonds.
+Scene make_graded(double ratio) {
+    constexpr double length = 0.04, arm = 4e-3;
+    constexpr std::int64_t columns = 40;
+    const double thin = length / columns / ratio;
+    Scene scene(2, {length}, {columns}, {arm, thin, thin, arm}, {4, 1, 1, 4}, DELAM_QUAD4);
+    for (std::int32_t b = 0; b < 3; ++b) scene.interface(b, b + 1);
+    scene.begin();
+    scene.elastic(-1, 70e9, 0.3);
+    scene.bonded(0);
+    scene.law(1, intact);
+    scene.bonded(2);
+    std::vector<std::int64_t> notch;
+    for (std::int64_t i = 0; i < 12; ++i) notch.push_back(i);
+    scene.adhesion(1, notch, std::vector<double>(notch.size(), 0.0));
+    const double top = 2.0 * (arm + thin);
+    const auto right = scene.find(-1, {length, 0.0}, {length, top});
+    scene.hold(right, {1.0, 0.0});
+    scene.hold(right, {0.0, 1.0});
+    const auto load = scene.pattern("lift", {0.0, 1.0}, {0.0, 1e-5});
+    scene.drive(scene.find(3, {0.0, top}, {0.0, top}), {0.0, 1.0}, load, {1.0});
+    return scene;
+}
+
+void aspect(Study& study) {
+    const std::vector<double> ratios{1, 3, 10, 30, 100, 300, 1e3, 3e3, 1e4};
+    for (const bool tall : {false, true}) {
+        const std::string subject = tall ? "aspect-tall" : "aspect-flat";
+        if (!study.wanted(subject)) continue;
+        for (const double ratio : study.range(ratios, 4)) {
+            Trial t;
+            t.subject = subject;
+            t.parameter_name = "aspect ratio of cells";
+            t.parameter = ratio;
+            t.scene = [=] {
+                if (!tall) return make_graded(ratio);
+                Cantilever c;
+                c.arm = 2e-3 * ratio;  // 1 mm wide, `ratio` mm high
+                c.law = intact;
+                c.lift = 1e-5;
+                return make_cantilever(c);
+            };
+            t.may_say = true;
+            t.defect_limit = 1e-8;
+            study.run(t);
+        }
+    }
+    if (!study.wanted("aspect-3d")) return;
+    for (const double ratio : study.range({1, 10, 100, 1e3, 1e4}, 2)) {
+        Trial t;
+        t.subject = "aspect-3d";
+        t.parameter_name = "aspect ratio of cells";
+        t.parameter = ratio;
+        t.scene = [=] {
+            Cantilever c;
+            c.dimension = 3;
+            c.columns = 16, c.notch = 5, c.ranks = 2;
+            c.arm = 2.0 * c.length / 16.0 / ratio;
+            c.law = intact;
+            c.lift = 1e-3 * c.arm;
+            return make_cantilever(c);
+        };
+        t.defect_limit = 1e-8;
+        study.run(t);
+    }
+}
+
+// Double cantilever, opened: beams on springs (model: both arms' ends, root length 1/lam). Arms 10 to 10,000 times
+// longer than thick; no Poisson's effect.
+void slender(Study& study) {
+    if (!study.wanted("slender")) return;
+    constexpr double length = 1.0, young = 70e9;
+    constexpr std::int64_t columns = 120;
+    for (const double ratio : study.range({10, 30, 100, 300, 1e3, 3e3, 1e4}, 3)) {
+        const double thickness = length / ratio, inertia = std::pow(thickness, 3) / 12.0;
+        const double lam = 20.0 / length, crack = 0.5 * length;
+        const double k = 2.0 * young * inertia * std::pow(lam, 4);
+        const double opening = 1e-3 * length;
+        const double compliance = 2.0 / (3.0 * young * inertia) *
+                                  (std::pow(crack, 3) + 3.0 * crack * crack / lam + 3.0 * crack / (lam * lam) +
+                                   1.5 / std::pow(lam, 3));
+        Trial t;
+        t.subject = "slender";
+        t.parameter_name = "length / thickness";
+        t.parameter = ratio;
+        t.scene = [=] {
+            Scene scene(2, {length}, {columns}, {thickness, thickness}, {1, 1}, DELAM_QUAD8);
+            scene.interface(0, 1);
+            scene.begin();
+            scene.elastic(-1, young, 0.0);
+            scene.law(0, {k, k, 1e30, 1e30, 1e30, 1e30});
+            const auto pairs = scene.pairs(0).node_a;
+            std::vector<std::int64_t> notch;
+            for (std::size_t i = 0; i < pairs.size(); ++i)
+                if (scene.coordinate(pairs[i], 0) < crack - 1e-6) notch.push_back(static_cast<std::int64_t>(i));
+            scene.adhesion(0, notch, std::vector<double>(notch.size(), 0.0));
+            const auto right = scene.find(-1, {length, 0.0}, {length, 2.0 * thickness});
+            scene.hold(right, {1.0, 0.0});
+            scene.hold(right, {0.0, 1.0});
+            const auto load = scene.pattern("open", {0.0, 1.0}, {0.0, opening});
+            scene.drive(scene.find(1, {0.0, 2.0 * thickness}, {0.0, 2.0 * thickness}), {0.0, 1.0}, load, {0.5});
+            scene.drive(scene.find(0, {0.0, 0.0}, {0.0, 0.0}), {0.0, -1.0}, load, {0.5});
+            return scene;
+        };
+        t.reference = "closed form (beams on springs)";
+        t.error = [=](const Result& r) { return std::abs(r.pattern[0] * compliance / opening - 1.0); };
+        // Shear of the arms, contact ahead of the tip.
+        t.limit = 5e-3 + 10.0 / (ratio * ratio);
+        t.defect_limit = 1e-7;
+        study.run(t);
+        t.subject = "slender-direct";
+        t.reference = "direct solver";
+        t.error = nullptr;
+        t.limit = 1e-7;
+        study.run(t);
+    }
+}
+
+// The upper arm as the matrix that the library assembles, handed over by the host, beside the arm of cells.
+void host_stiffness(Study& study) {
+    if (!study.wanted("host-stiffness")) return;
+    for (const double k : study.range(powers(6, 22, 2), 3)) {
+        Cantilever c;
+        c.law = {k, k, 1e30, 1e30, 1e30, 1e30};
+        c.lift = 1e-5;
+        Trial t;
+        t.subject = "host-stiffness";
+        t.parameter_name = "k, N/m3";
+        t.parameter = k;
+        t.held = [=] { return make_cantilever(c); };
+        t.scene = [=] {
+            Scene scene = make_cantilever(c);
+            std::int64_t rows = 0, entries = 0;
+            const auto matrix = [&](std::int64_t* start, std::int64_t* column, double* value) {
+                scene.require(delam_problem_body_matrix(scene.problem(), 1, &rows, &entries, start, column, value),
+                              "delam_problem_body_matrix");
+            };
+            matrix(nullptr, nullptr, nullptr);
+            std::vector<std::int64_t> start(static_cast<std::size_t>(rows) + 1), column(static_cast<std::size_t>(entries));
+            std::vector<double> value(column.size());
+            matrix(start.data(), column.data(), value.data());
+            const auto nodes = scene.find(1, {-1.0, -1.0}, {1.0, 1.0});
+            scene.require(delam_problem_set_stiffness(scene.problem(), static_cast<std::int64_t>(nodes.size()),
+                                                      nodes.data(), nullptr, start.data(), column.data(), value.data(),
+                                                      -1, nullptr, 0),
+                          "delam_problem_set_stiffness");
+            return scene;
+        };
+        t.reference = "direct solver, of cells";
+        t.subdomains = 3;
+        t.defect_limit = 1e-8;
+        study.run(t);
+    }
+}
+
+}  // namespace
+
+void stability_bodies(Study& study) {
+    contrast(study);
+    poisson(study);
+    aspect(study);
+    slender(study);
+    host_stiffness(study);
+}
+
+}  // namespace harness
