@@ -18,13 +18,16 @@ constexpr std::size_t short_equation = 32;
 
 using Row = SparseElimination::Row;
 
-// Modulus of a body as far as it ranks bodies; 0 where nothing is given. The diagonal of a given matrix is about E, in space E times an edge.
+// Modulus of a body as far as it ranks bodies; 0 where nothing is given. Entries of a given matrix are about E, in space E times an edge; its diagonal may hold
+// supports of the host's, of any size.
 double modulus(const Problem& problem, std::int32_t body) {
     const auto b = static_cast<std::size_t>(body);
     if (problem.stiffness[b] != nullptr) {
         const SparseMatrix& k = problem.stiffness[b]->matrix;
         double largest = 0.0;
-        for (const double v : k.value) largest = std::max(largest, v);
+        for (std::int64_t row = 0; row < k.rows; ++row)
+            for (auto e = static_cast<std::size_t>(k.start[static_cast<std::size_t>(row)]); e < static_cast<std::size_t>(k.start[static_cast<std::size_t>(row) + 1]); ++e)
+                if (k.column[e] != row) largest = std::max(largest, std::abs(k.value[e]));
         const double rows = static_cast<double>(std::max<std::int64_t>(1, k.rows / 3));
         return problem.mesh->dimension() == 2 ? largest : largest * std::cbrt(rows) / problem.mesh->size();
     }
