@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The floating point environment of a call: rounding to nearest, denormal numbers as they are, no traps. What the host has (a Fortran program
-// that traps invalid operations, a plugin host that flushes to zero) comes back at the end, with the flags it had.
+// The floating point environment of a call: rounding to nearest, denormal numbers as they are, no traps. What the host
+// has (a Fortran program that traps invalid operations, a plugin host that flushes to zero) comes back at the end, with
+// the flags it had.
 #pragma once
 
 #include <cfenv>

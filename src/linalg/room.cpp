@@ -8,7 +8,8 @@
 
 extern "C" {
 int openblas_get_num_threads() __attribute__((weak));
-void dsymv_(const char*, const int*, const double*, const double*, const int*, const double*, const int*, const double*, double*, const int*);
+void dsymv_(const char*, const int*, const double*, const double*, const int*, const double*, const int*, const double*,
+            double*, const int*);
 }
 
 namespace delam {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Room for libraries that do not come back when they get none (src/capi/CONTRACT.md, "Memory"): it is asked for beforehand, where a refusal is
-// an exception.
+// Room for libraries that do not come back when they get none (src/capi/CONTRACT.md, "Memory"): it is asked for
+// beforehand, where a refusal is an exception.
 #pragma once
 
 #include <cstddef>

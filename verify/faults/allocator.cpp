@@ -48,8 +48,8 @@ bool fails(const void* caller) {
     return true;
 }
 
-// The C library's own, through the dynamic linker, so that valgrind, which replaces them there, sees each block. Asking for
-// them may itself allocate; that is served directly.
+// The C library's own, through the dynamic linker, so that valgrind, which replaces them there, sees each block. Asking
+// for them may itself allocate; that is served directly.
 struct Real {
     void* (*malloc)(std::size_t) = __libc_malloc;
     void* (*calloc)(std::size_t, std::size_t) = __libc_calloc;
@@ -86,7 +86,9 @@ void* counted(void* p) {
 #pragma GCC visibility push(default)
 extern "C" {
 void* malloc(std::size_t n) { return fails(__builtin_return_address(0)) ? nullptr : counted(real().malloc(n)); }
-void* calloc(std::size_t n, std::size_t size) { return fails(__builtin_return_address(0)) ? nullptr : counted(real().calloc(n, size)); }
+void* calloc(std::size_t n, std::size_t size) {
+    return fails(__builtin_return_address(0)) ? nullptr : counted(real().calloc(n, size));
+}
 void* realloc(void* old, std::size_t n) {
     if (fails(__builtin_return_address(0))) return nullptr;
     void* p = real().realloc(old, n);
@@ -94,7 +96,9 @@ void* realloc(void* old, std::size_t n) {
     if (p == nullptr && n == 0) --live;
     return p;
 }
-void* memalign(std::size_t alignment, std::size_t n) { return fails(__builtin_return_address(0)) ? nullptr : counted(real().memalign(alignment, n)); }
+void* memalign(std::size_t alignment, std::size_t n) {
+    return fails(__builtin_return_address(0)) ? nullptr : counted(real().memalign(alignment, n));
+}
 void* aligned_alloc(std::size_t alignment, std::size_t n) {
     return fails(__builtin_return_address(0)) ? nullptr : counted(real().memalign(alignment, n));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fault_cancel [STRIDE [SCENE ...]]: every STRIDE-th call of the progress callback asks for the end, by its result or by
-// delam_context_cancel. Always DELAM_CANCELLED, the state before the call, and the same result when the host goes on.
+// fault_cancel [STRIDE [SCENE ...]]: every STRIDE-th call of the progress callback asks for the end, by its result or
+// by delam_context_cancel. Always DELAM_CANCELLED, the state before the call, and the same result when the host goes
+// on.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fault_environment [LOCALE]: a host with a locale, floating point environment, signal handlers and random numbers of its own gets
-// the same results, bit by bit, and finds all of it as it was.
+// fault_environment [LOCALE]: a host with a locale, floating point environment, signal handlers and random numbers of
+// its own gets the same results, bit by bit, and finds all of it as it was.
 #include <fenv.h>
 #include <pthread.h>
 #include <sys/time.h>
@@ -37,7 +37,8 @@ faults::Transcript refusals() {
     const std::int64_t one = 1, many = 1234567;
     delam_mesh* mesh = nullptr;
     delam_law* law = nullptr;
-    expect(delam_mesh_create_layers(context, 2, lengths, &one, 1, &thickness, &one, DELAM_QUAD4, &mesh) < 0, "a negative length");
+    expect(delam_mesh_create_layers(context, 2, lengths, &one, 1, &thickness, &one, DELAM_QUAD4, &mesh) < 0,
+           "a negative length");
     said.add("length", std::string(delam_context_message(context)));
     expect(delam_mesh_create(context, 2, -many, lengths, &mesh) < 0, "a negative count");
     said.add("count", std::string(delam_context_message(context)));
@@ -176,7 +177,8 @@ bool same(const sigset_t& a, const sigset_t& b) {
     return true;
 }
 
-// A host that is interrupted a thousand times a second, blocks a signal, and counts on its handlers and its random numbers.
+// A host that is interrupted a thousand times a second, blocks a signal, and counts on its handlers and its random
+// numbers.
 void with_signals() {
     struct sigaction before[NSIG] = {};
     for (const int s : {SIGABRT, SIGTERM, SIGALRM}) sigaction(s, nullptr, &before[s]);
@@ -237,16 +239,19 @@ void with_signals() {
     expect(same(after.mask, mine.mask), "the mask of signals was changed");
     expect(std::memcmp(expected, seen, sizeof seen) == 0, "the sequence of random() was changed");
     expect(ticks > 0, "the timer did not run");
-    std::printf("             interrupted %ld times; METIS's handlers were there in %ld of %ld looks\n", ticks.load(), foreign.load(),
-                looks.load());
+    std::printf("             interrupted %ld times; METIS's handlers were there in %ld of %ld looks\n", ticks.load(),
+                foreign.load(), looks.load());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::vector<std::pair<std::string, std::function<void()>>> tests{
-        {"flush to zero", with_flushing}, {"rounding up", with_rounding_up}, {"rounding to 0", with_rounding_to_zero},
-        {"traps", with_traps},            {"flags", with_flags},             {"signals", with_signals}};
+    std::vector<std::pair<std::string, std::function<void()>>> tests{{"flush to zero", with_flushing},
+                                                                     {"rounding up", with_rounding_up},
+                                                                     {"rounding to 0", with_rounding_to_zero},
+                                                                     {"traps", with_traps},
+                                                                     {"flags", with_flags},
+                                                                     {"signals", with_signals}};
     if (argc > 1) {
         locale_name = argv[1];
         tests = {{locale_name, with_locale}};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fault_gaps: for people. The longest times of the calling thread between two looks at the cancel flag, call by call: what a
-// cancel from another thread waits for, the end of the call included. Of the end-notched flexure of 0.1 mm and one in space.
+// fault_gaps: for people. The longest times of the calling thread between two looks at the cancel flag, call by call:
+// what a cancel from another thread waits for, the end of the call included. Of the end-notched flexure of 0.1 mm and
+// one in space.
 #include <time.h>
 
 #include <algorithm>
@@ -69,7 +70,8 @@ void watched(const reference::Scene& scene, const std::vector<double>& times) {
     watch.during("kkt_equilibrium", [&] { solver->value("kkt_equilibrium"); });
     watch.during("stress", [&] { solver->field("stress"); });
     std::vector<double> matrix(1);
-    watch.during("tangent", [&] { scene.require(delam_solver_tangent(solver->get(), 1, matrix.data()), "delam_solver_tangent"); });
+    watch.during("tangent",
+                 [&] { scene.require(delam_solver_tangent(solver->get(), 1, matrix.data()), "delam_solver_tangent"); });
     const std::vector<std::uint8_t> bytes = solver->save();
     watch.during("load", [&] { scene.require(solver->load(bytes), "delam_solver_load"); });
     scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "delam_context_set_progress");
@@ -98,9 +100,11 @@ reference::Scene space(std::int64_t along, const char* reduction) {
         if (scene.coordinate(pairs.node_a[p], 0) < 0.03 - 1e-6) notch.push_back(static_cast<std::int64_t>(p));
     scene.adhesion(0, notch, std::vector<double>(notch.size(), 0.0));
     const auto bottom = scene.find(0, {0.0, 0.0, 0.0}, {0.07, 0.01, 0.0});
-    for (const std::vector<double>& axis : {std::vector<double>{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) scene.hold(bottom, axis);
+    for (const std::vector<double>& axis : {std::vector<double>{1, 0, 0}, {0, 1, 0}, {0, 0, 1}})
+        scene.hold(bottom, axis);
     const auto edge = scene.find(1, {0.0, 0.0, 6e-3}, {0.0, 0.01, 6e-3});
-    scene.drive(edge, {0.0, 0.0, 1.0}, scene.pattern("peel", {0.0, 2.0}, {0.0, 2e-3}), std::vector<double>(edge.size(), 1.0));
+    scene.drive(edge, {0.0, 0.0, 1.0}, scene.pattern("peel", {0.0, 2.0}, {0.0, 2e-3}),
+                std::vector<double>(edge.size(), 1.0));
     scene.text("reduction", reduction);
     return scene;
 }

@@ -42,8 +42,9 @@ public:
     Host& operator=(const Host&) = delete;
     virtual ~Host() = default;
 
-    // One call of the library, until it has gone through; nothing but the library allocates inside. undo takes back what a
-    // call has done, so that it can be asked for again; without one, asking again is harmless, or `once` says that it is not.
+    // One call of the library, until it has gone through; nothing but the library allocates inside. undo takes back
+    // what a call has done, so that it can be asked for again; without one, asking again is harmless, or `once` says
+    // that it is not.
     enum class Repeat { harmless, once, after_undo };
     virtual void call(const std::string& name, Repeat repeat, const Call& call, const Call& undo) = 0;
     void query(const std::string& name, const Call& c) { call(name, Repeat::harmless, c, {}); }

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# locale.sh NAME PROGRAM [ARGUMENT ...]: makes the locale NAME.UTF-8 in the working directory, whether the machine has it or not, and
-# runs PROGRAM ARGUMENT ... NAME.UTF-8 with it.
+# locale.sh NAME PROGRAM [ARGUMENT ...]: makes the locale NAME.UTF-8 in the working directory, whether the machine has
+# it or not, and runs PROGRAM ARGUMENT ... NAME.UTF-8 with it.
 name=$1
 shift
 if ! command -v localedef >/dev/null || ! [ -e "/usr/share/i18n/locales/$name" ]; then

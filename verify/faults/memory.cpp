@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fault_memory [MOST [SCENE ...]]: the k-th allocation inside a call fails, for k = 1, 2, 3 ... up to MOST / 2, and from there
-// on farther and farther apart (MOST 0: every one). A status, an object that goes on as if nothing had been, no leak.
+// fault_memory [MOST [SCENE ...]]: the k-th allocation inside a call fails, for k = 1, 2, 3 ... up to MOST / 2, and
+// from there on farther and farther apart (MOST 0: every one). A status, an object that goes on as if nothing had been,
+// no leak.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -20,7 +21,9 @@ public:
     void call(const std::string& name, Repeat repeat, const Call& call, const Call& undo) override {
         ++calls;
         const bool watched = solver_ != nullptr;
-        const auto state = [&](bool words) { return watched ? faults::state_of(solver_, words) : faults::Transcript(); };
+        const auto state = [&](bool words) {
+            return watched ? faults::state_of(solver_, words) : faults::Transcript();
+        };
         faults::Transcript before = state(true);
         const faults::Transcript numbers = state(false);
         long step = 1, blocks = 0;

@@ -38,7 +38,8 @@ struct Handles {
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-// Two layers of quadrilaterals or hexahedra, cells of the lower one `coarse` times as long; nodes are shared where `shared`.
+// Two layers of quadrilaterals or hexahedra, cells of the lower one `coarse` times as long; nodes are shared where
+// `shared`.
 struct Cells {
     std::vector<double> nodes;
     std::vector<std::int64_t> connectivity;
@@ -58,7 +59,8 @@ Cells two_layers(std::int64_t along, bool shared, std::int64_t coarse) {
             }
         const std::int64_t low = skip ? first_top : first, high = skip ? first : first + row;
         for (std::int64_t i = 0; i < n; ++i) {
-            for (const std::int64_t node : {low + i, low + i + 1, high + i + 1, high + i}) c.connectivity.push_back(node);
+            for (const std::int64_t node : {low + i, low + i + 1, high + i + 1, high + i})
+                c.connectivity.push_back(node);
             c.bodies.push_back(body);
         }
         first_top = first + row;
@@ -77,8 +79,8 @@ void make_mesh(Host& host, Handles& h, const Strip& s) {
         host.create(
             "delam_mesh_create_layers",
             [&] {
-                return delam_mesh_create_layers(h.context, s.dimension, lengths.data(), divisions.data(), 2, thickness.data(),
-                                                layer_cells.data(), type, &h.mesh);
+                return delam_mesh_create_layers(h.context, s.dimension, lengths.data(), divisions.data(), 2,
+                                                thickness.data(), layer_cells.data(), type, &h.mesh);
             },
             [&] { return delam_mesh_destroy(&h.mesh), DELAM_OK; });
         host.change("delam_mesh_add_interface", [&] { return delam_mesh_add_interface(h.mesh, 0, 1, 0.0, &index); });
@@ -86,19 +88,23 @@ void make_mesh(Host& host, Handles& h, const Strip& s) {
     }
     const bool conforming = s.mesh == "conforming";
     const Cells c = two_layers(s.cells, conforming, conforming ? 1 : 2);
-    const auto nodes = static_cast<std::int64_t>(c.nodes.size()) / 2, cells = static_cast<std::int64_t>(c.bodies.size());
+    const auto nodes = static_cast<std::int64_t>(c.nodes.size()) / 2,
+               cells = static_cast<std::int64_t>(c.bodies.size());
     host.create(
         "delam_mesh_create", [&] { return delam_mesh_create(h.context, 2, nodes, c.nodes.data(), &h.mesh); },
         [&] { return delam_mesh_destroy(&h.mesh), DELAM_OK; });
     if (conforming) {
         host.change("delam_mesh_add_conforming_cells", [&] {
-            return delam_mesh_add_conforming_cells(h.mesh, DELAM_QUAD4, cells, c.connectivity.data(), c.bodies.data(), 0);
+            return delam_mesh_add_conforming_cells(h.mesh, DELAM_QUAD4, cells, c.connectivity.data(), c.bodies.data(),
+                                                   0);
         });
-        host.change("delam_mesh_add_all_interfaces", [&] { return delam_mesh_add_all_interfaces(h.mesh, 0.0, &index); });
+        host.change("delam_mesh_add_all_interfaces",
+                    [&] { return delam_mesh_add_all_interfaces(h.mesh, 0.0, &index); });
         return;
     }
-    host.change("delam_mesh_add_cells",
-                [&] { return delam_mesh_add_cells(h.mesh, DELAM_QUAD4, cells, c.connectivity.data(), c.bodies.data(), 0); });
+    host.change("delam_mesh_add_cells", [&] {
+        return delam_mesh_add_cells(h.mesh, DELAM_QUAD4, cells, c.connectivity.data(), c.bodies.data(), 0);
+    });
     host.change("delam_mesh_add_projected_interface",
                 [&] { return delam_mesh_add_projected_interface(h.mesh, 0, 1, 0.0, &index); });
 }
@@ -111,10 +117,14 @@ void make_law(Host& host, Handles& h, const Strip& s, laws::Bilinear& bilinear) 
     if (s.law == "host") {
         host.create(
             "delam_law_create_host",
-            [&] { return delam_law_create_host(h.context, "bilinear", laws::adhesion, laws::dissipation, &bilinear, &h.law); },
+            [&] {
+                return delam_law_create_host(h.context, "bilinear", laws::adhesion, laws::dissipation, &bilinear,
+                                             &h.law);
+            },
             destroy);
     } else {
-        host.create("delam_law_create", [&] { return delam_law_create(h.context, s.law.c_str(), &h.law); }, destroy);
+        host.create(
+            "delam_law_create", [&] { return delam_law_create(h.context, s.law.c_str(), &h.law); }, destroy);
         set("normal_onset", s.brittle ? 0.01 : 100.0);
         set("tangential_onset", s.brittle ? 0.01 : 160.0);
         set("normal_toughness", s.brittle ? 25.0 : 250.0);
@@ -139,8 +149,9 @@ std::vector<std::int64_t> find(Host& host, Handles& h, std::int32_t body, const 
 }
 
 void make_problem(Host& host, Handles& h, const Strip& s) {
-    host.create("delam_problem_create", [&] { return delam_problem_create(h.context, h.mesh, &h.problem); },
-                [&] { return delam_problem_destroy(&h.problem), DELAM_OK; });
+    host.create(
+        "delam_problem_create", [&] { return delam_problem_create(h.context, h.mesh, &h.problem); },
+        [&] { return delam_problem_destroy(&h.problem), DELAM_OK; });
     host.query("delam_problem_set_elastic", [&] { return delam_problem_set_elastic(h.problem, -1, 75e9, 0.3); });
     host.query("delam_problem_set_law", [&] { return delam_problem_set_law(h.problem, 0, h.law); });
 
@@ -152,7 +163,8 @@ void make_problem(Host& host, Handles& h, const Strip& s) {
     host.query("delam_mesh_interface_pairs",
                [&] { return delam_mesh_interface_pairs(h.mesh, 0, nullptr, node_b.data(), nullptr, nullptr); });
     std::int64_t node_count = 0;
-    host.query("delam_mesh_size", [&] { return delam_mesh_size(h.mesh, nullptr, &node_count, nullptr, nullptr, nullptr); });
+    host.query("delam_mesh_size",
+               [&] { return delam_mesh_size(h.mesh, nullptr, &node_count, nullptr, nullptr, nullptr); });
     std::vector<double> nodes(at(node_count) * dim);
     host.query("delam_mesh_nodes",
                [&] { return delam_mesh_nodes(h.mesh, static_cast<std::int64_t>(nodes.size()), nodes.data()); });
@@ -161,7 +173,8 @@ void make_problem(Host& host, Handles& h, const Strip& s) {
         if (nodes[at(node_b[at(p)]) * dim] < notch - 1e-4) open.push_back(p);
     const std::vector<double> zero(open.size(), 0.0);
     host.query("delam_problem_set_adhesion", [&] {
-        return delam_problem_set_adhesion(h.problem, 0, static_cast<std::int64_t>(open.size()), open.data(), zero.data(), 0);
+        return delam_problem_set_adhesion(h.problem, 0, static_cast<std::int64_t>(open.size()), open.data(),
+                                          zero.data(), 0);
     });
 
     const std::array<double, 2> times{0.0, 2.0}, peel{0.0, end};
@@ -169,14 +182,15 @@ void make_problem(Host& host, Handles& h, const Strip& s) {
     host.change("delam_problem_add_pattern",
                 [&] { return delam_problem_add_pattern(h.problem, "peel", 2, times.data(), peel.data(), &pull); });
     const std::array<double, 3> low{0.0, 0.0, 0.0};
-    const std::array<double, 3> bottom = s.dimension == 2 ? std::array{length, 0.0, 0.0} : std::array{length, width, 0.0};
+    const std::array<double, 3> bottom =
+        s.dimension == 2 ? std::array{length, 0.0, 0.0} : std::array{length, width, 0.0};
     const std::vector<std::int64_t> held = find(host, h, 0, low, bottom);
     for (std::size_t axis = 0; axis < dim; ++axis) {
         std::array<double, 3> direction{};
         direction[axis] = 1.0;
         host.change("delam_problem_prescribe_nodes", [&] {
-            return delam_problem_prescribe_nodes(h.problem, static_cast<std::int64_t>(held.size()), held.data(), direction.data(),
-                                                 0, nullptr, nullptr, 0);
+            return delam_problem_prescribe_nodes(h.problem, static_cast<std::int64_t>(held.size()), held.data(),
+                                                 direction.data(), 0, nullptr, nullptr, 0);
         });
     }
     std::array<double, 3> top_left{0.0, 2 * layer, 0.0}, top_right = top_left, up{0.0, 1.0, 0.0};
@@ -189,16 +203,16 @@ void make_problem(Host& host, Handles& h, const Strip& s) {
     const std::vector<std::int64_t> edge = find(host, h, 1, top_left, top_right);
     const std::vector<double> one(edge.size(), 1.0);
     host.change("delam_problem_prescribe_nodes", [&] {
-        return delam_problem_prescribe_nodes(h.problem, static_cast<std::int64_t>(edge.size()), edge.data(), up.data(), 1, &pull,
-                                             one.data(), 0);
+        return delam_problem_prescribe_nodes(h.problem, static_cast<std::int64_t>(edge.size()), edge.data(), up.data(),
+                                             1, &pull, one.data(), 0);
     });
     if (s.strained) {
         std::array<double, 3> right = top_left, far = top_right;
         right[0] = far[0] = length;
         const std::vector<std::int64_t> stop = find(host, h, 1, right, far);
         host.change("delam_problem_prescribe_nodes", [&] {
-            return delam_problem_prescribe_nodes(h.problem, static_cast<std::int64_t>(stop.size()), stop.data(), along.data(), 0,
-                                                 nullptr, nullptr, 0);
+            return delam_problem_prescribe_nodes(h.problem, static_cast<std::int64_t>(stop.size()), stop.data(),
+                                                 along.data(), 0, nullptr, nullptr, 0);
         });
         const std::array<double, 2> ramp{0.0, 1.0};
         std::int64_t dead = -1, heat = -1;
@@ -207,7 +221,8 @@ void make_problem(Host& host, Handles& h, const Strip& s) {
         std::vector<double> force(edge.size() * dim, 0.0);
         for (std::size_t i = 0; i < edge.size(); ++i) force[i * dim] = 1e3;
         host.change("delam_problem_add_forces", [&] {
-            return delam_problem_add_forces(h.problem, dead, static_cast<std::int64_t>(edge.size()), edge.data(), force.data(), 0);
+            return delam_problem_add_forces(h.problem, dead, static_cast<std::int64_t>(edge.size()), edge.data(),
+                                            force.data(), 0);
         });
         host.change("delam_problem_add_pattern",
                     [&] { return delam_problem_add_pattern(h.problem, "heat", 2, times.data(), ramp.data(), &heat); });
@@ -219,16 +234,17 @@ void make_problem(Host& host, Handles& h, const Strip& s) {
         host.query("delam_problem_set_text " + key,
                    [&] { return delam_problem_set_text(h.problem, key.c_str(), value.c_str()); });
     for (const auto& [key, value] : s.numbers)
-        host.query("delam_problem_set_number " + key, [&] { return delam_problem_set_number(h.problem, key.c_str(), value); });
+        host.query("delam_problem_set_number " + key,
+                   [&] { return delam_problem_set_number(h.problem, key.c_str(), value); });
     if (s.given) {  // the upper body as a host would hand it over: the stiffness that the library itself assembles
         std::int64_t rows = 0, entries = 0;
-        host.query("delam_problem_body_matrix", [&] {
-            return delam_problem_body_matrix(h.problem, 1, &rows, &entries, nullptr, nullptr, nullptr);
-        });
+        host.query("delam_problem_body_matrix",
+                   [&] { return delam_problem_body_matrix(h.problem, 1, &rows, &entries, nullptr, nullptr, nullptr); });
         std::vector<std::int64_t> starts(at(rows) + 1), columns(at(entries));
         std::vector<double> values(at(entries));
         host.query("delam_problem_body_matrix", [&] {
-            return delam_problem_body_matrix(h.problem, 1, &rows, &entries, starts.data(), columns.data(), values.data());
+            return delam_problem_body_matrix(h.problem, 1, &rows, &entries, starts.data(), columns.data(),
+                                             values.data());
         });
         const std::vector<std::int64_t> own = find(host, h, 1, {-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0});
         host.query("delam_problem_set_stiffness", [&] {
@@ -264,9 +280,11 @@ void read(Host& host, Handles& h, const Strip& s) {
         host.query(std::string("delam_solver_value ") + name, [&] { return delam_solver_value(solver, name, &value); });
         host.transcript.add(name, &value, sizeof value);
     }
-    for (const char* key : {"displacement", "stress", "rotation", "jump", "traction", "adhesion", "mixity", "contact", "reaction"}) {
+    for (const char* key :
+         {"displacement", "stress", "rotation", "jump", "traction", "adhesion", "mixity", "contact", "reaction"}) {
         std::int64_t rows = 0, columns = 0;
-        host.query("delam_solver_field_shape", [&] { return delam_solver_field_shape(solver, key, -1, &rows, &columns); });
+        host.query("delam_solver_field_shape",
+                   [&] { return delam_solver_field_shape(solver, key, -1, &rows, &columns); });
         std::vector<double> values(at(rows * columns));
         host.query(std::string("delam_solver_field ") + key,
                    [&] { return delam_solver_field(solver, key, -1, rows * columns, values.data()); });
@@ -276,8 +294,8 @@ void read(Host& host, Handles& h, const Strip& s) {
     host.query("delam_solver_front_count", [&] { return delam_solver_front_count(solver, 0, &fronts, &points); });
     std::vector<double> places(at(points) * at(s.dimension)), rates(at(points) * 3);
     host.query("delam_solver_front", [&] {
-        return delam_solver_front(solver, 0, fronts, points, nullptr, nullptr, places.data(), nullptr, nullptr, rates.data(),
-                                  nullptr, nullptr);
+        return delam_solver_front(solver, 0, fronts, points, nullptr, nullptr, places.data(), nullptr, nullptr,
+                                  rates.data(), nullptr, nullptr);
     });
     host.transcript.add("places", places);
     host.transcript.add("rates", rates);
@@ -300,25 +318,27 @@ void read(Host& host, Handles& h, const Strip& s) {
     }
     if (s.condensed()) {
         std::int64_t unknowns = 0, entries = 0;
-        host.query("delam_solver_condensed_size", [&] { return delam_solver_condensed_size(solver, &unknowns, &entries); });
+        host.query("delam_solver_condensed_size",
+                   [&] { return delam_solver_condensed_size(solver, &unknowns, &entries); });
         std::vector<double> stiffness(at(unknowns * unknowns)), load(at(unknowns) * patterns);
         host.query("delam_solver_condensed", [&] {
-            return delam_solver_condensed(solver, unknowns * unknowns, stiffness.data(), load.data(), nullptr, nullptr, nullptr,
-                                          nullptr, nullptr);
+            return delam_solver_condensed(solver, unknowns * unknowns, stiffness.data(), load.data(), nullptr, nullptr,
+                                          nullptr, nullptr, nullptr);
         });
         host.transcript.add("condensed", stiffness);
         host.transcript.add("condensed", load);
     }
     host.transcript.add("plan", words(host, "delam_solver_plan", [&] { return delam_solver_plan(solver); }));
-    host.transcript.add("option", words(host, "delam_solver_option", [&] { return delam_solver_option(solver, "damage_tolerance"); }));
+    host.transcript.add(
+        "option", words(host, "delam_solver_option", [&] { return delam_solver_option(solver, "damage_tolerance"); }));
     std::int64_t jumps = 0;
     host.query("delam_solver_jump_count", [&] { return delam_solver_jump_count(solver, &jumps); });
     host.transcript.add("jumps", &jumps, sizeof jumps);
     for (std::int64_t j = 0; j < jumps; ++j) {
         std::array<double, 2> place{};
         host.query("delam_solver_jump", [&] {
-            return delam_solver_jump(solver, j, nullptr, &place[0], &place[1], nullptr, nullptr, nullptr, nullptr, nullptr,
-                                     nullptr, nullptr);
+            return delam_solver_jump(solver, j, nullptr, &place[0], &place[1], nullptr, nullptr, nullptr, nullptr,
+                                     nullptr, nullptr, nullptr);
         });
         host.transcript.add("jump", place.data(), sizeof place);
     }
@@ -337,19 +357,22 @@ std::vector<std::uint8_t> save(Host& host, delam_solver* solver) {
 void march(Host& host, const Strip& s) {
     Handles h;
     laws::Bilinear bilinear;
-    host.create("delam_context_create", [&] { return delam_context_create(&h.context); },
-                [&] { return delam_context_destroy(&h.context), DELAM_OK; });
+    host.create(
+        "delam_context_create", [&] { return delam_context_create(&h.context); },
+        [&] { return delam_context_destroy(&h.context), DELAM_OK; });
     host.made(h.context);
     make_mesh(host, h, s);
     make_law(host, h, s, bilinear);
     make_problem(host, h, s);
-    host.create("delam_solver_create", [&] { return delam_solver_create(h.problem, 0.0, &h.solver); },
-                [&] { return delam_solver_destroy(&h.solver), DELAM_OK; });
+    host.create(
+        "delam_solver_create", [&] { return delam_solver_create(h.problem, 0.0, &h.solver); },
+        [&] { return delam_solver_destroy(&h.solver), DELAM_OK; });
     host.watch(h.solver);
 
     const auto rollback = [&] { return delam_solver_rollback(h.solver); };
     const auto advance = [&](double time) {
-        host.create("delam_solver_advance", [&] { return delam_solver_advance(h.solver, time); }, rollback);
+        host.create(
+            "delam_solver_advance", [&] { return delam_solver_advance(h.solver, time); }, rollback);
     };
     const auto commit = [&] { host.change("delam_solver_commit", [&] { return delam_solver_commit(h.solver); }); };
     const auto time = [&](int k) { return 2.0 * k / s.steps; };
@@ -358,7 +381,9 @@ void march(Host& host, const Strip& s) {
         if (k == s.steps) {  // a farther step and a displacement step, taken back
             advance(time(k + 1));
             host.change("delam_solver_rollback", rollback);
-            host.create("delam_solver_equilibrate", [&] { return delam_solver_equilibrate(h.solver, time(k), nullptr); }, rollback);
+            host.create(
+                "delam_solver_equilibrate", [&] { return delam_solver_equilibrate(h.solver, time(k), nullptr); },
+                rollback);
             host.change("delam_solver_rollback", rollback);
         }
         advance(time(k));
@@ -379,13 +404,15 @@ void march(Host& host, const Strip& s) {
     std::remove(path.c_str());
     expect(save(host, h.solver) == last, s.name + ": a file holds something else");
     const std::array<double, 1> later{3.0}, back{0.5 * end};
-    host.query("delam_solver_set_history", [&] { return delam_solver_set_history(h.solver, 0, 1, later.data(), back.data()); });
+    host.query("delam_solver_set_history",
+               [&] { return delam_solver_set_history(h.solver, 0, 1, later.data(), back.data()); });
     advance(2.5);
     commit();
     host.transcript.add("saved bytes", save(host, h.solver));
 
     // Back to the half, here and in a solver made anew, and on from there.
-    host.query("delam_solver_load", [&] { return delam_solver_load(h.solver, static_cast<std::int64_t>(half.size()), half.data()); });
+    host.query("delam_solver_load",
+               [&] { return delam_solver_load(h.solver, static_cast<std::int64_t>(half.size()), half.data()); });
     host.transcript.add("loaded bytes", save(host, h.solver));
     for (int k = (s.steps + 1) / 2 + 1; k <= s.steps; ++k) {
         advance(time(k));
@@ -393,9 +420,11 @@ void march(Host& host, const Strip& s) {
     }
     expect(save(host, h.solver) == last, s.name + ": a march that was loaded ends elsewhere");
     host.watch(nullptr);
-    host.create("delam_solver_create", [&] { return delam_solver_create(h.problem, 0.0, &h.other); },
-                [&] { return delam_solver_destroy(&h.other), DELAM_OK; });
-    host.query("delam_solver_load", [&] { return delam_solver_load(h.other, static_cast<std::int64_t>(last.size()), last.data()); });
+    host.create(
+        "delam_solver_create", [&] { return delam_solver_create(h.problem, 0.0, &h.other); },
+        [&] { return delam_solver_destroy(&h.other), DELAM_OK; });
+    host.query("delam_solver_load",
+               [&] { return delam_solver_load(h.other, static_cast<std::int64_t>(last.size()), last.data()); });
     expect(save(host, h.other) == last, s.name + ": what a new solver has loaded is something else");
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Complete small scenes, from the context to its end, each call handed to a host: mesh, law, problem, march with rolled back
-// steps, fields, fronts, tangent, save and load.
+// Complete small scenes, from the context to its end, each call handed to a host: mesh, law, problem, march with rolled
+// back steps, fields, fronts, tangent, save and load.
 #pragma once
 
 #include <string>
@@ -14,15 +14,15 @@ namespace faults {
 struct Strip {
     std::string name;
     int dimension = 2;
-    std::int64_t cells = 14;             // along
-    std::string mesh = "layers";         // layers | conforming | projected
+    std::int64_t cells = 14;               // along
+    std::string mesh = "layers";           // layers | conforming | projected
     std::string law = "piecewise-linear";  // host: callbacks
     bool brittle = false;
-    bool strained = false;               // a dead force and an eigenstrain beside the peel
-    std::vector<std::pair<std::string, std::string>> texts;   // options
+    bool strained = false;                                   // a dead force and an eigenstrain beside the peel
+    std::vector<std::pair<std::string, std::string>> texts;  // options
     std::vector<std::pair<std::string, double>> numbers;
     int steps = 4;
-    bool given = false;                  // the stiffness of the upper body handed over as CSR
+    bool given = false;  // the stiffness of the upper body handed over as CSR
     bool condensed() const;
 };
 

@@ -88,8 +88,9 @@ bool run(const faults::Strip* strip, long room, int& without) {
     const bool fine = WIFEXITED(how) && WEXITSTATUS(how) <= 1 && size == 0;
     if (fine && WEXITSTATUS(how) == 1) ++without;
     if (!fine)
-        std::printf("%s with room for %ld KiB: %s %d, and said '%s'\n", strip != nullptr ? strip->name.c_str() : "first context",
-                    room / 1024, WIFEXITED(how) ? "exit code" : "signal", WIFEXITED(how) ? WEXITSTATUS(how) : WTERMSIG(how), text);
+        std::printf("%s with room for %ld KiB: %s %d, and said '%s'\n",
+                    strip != nullptr ? strip->name.c_str() : "first context", room / 1024,
+                    WIFEXITED(how) ? "exit code" : "signal", WIFEXITED(how) ? WEXITSTATUS(how) : WTERMSIG(how), text);
     return fine;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fault_threads [ROUNDS]: eight threads march scenes of their own at once, condensed, FETI cut by METIS, energetic, saved and loaded,
-// with the library's own threads too: the bits of a march alone. Under ThreadSanitizer: no race.
+// fault_threads [ROUNDS]: eight threads march scenes of their own at once, condensed, FETI cut by METIS, energetic,
+// saved and loaded, with the library's own threads too: the bits of a march alone. Under ThreadSanitizer: no race.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -37,7 +37,8 @@ int main(int argc, char** argv) {
                 }
             });
         for (std::thread& thread : all) thread.join();
-        for (std::size_t t = 0; t < threads; ++t) faults::expect(failure[t].empty(), "thread " + std::to_string(t) + ": " + failure[t]);
+        for (std::size_t t = 0; t < threads; ++t)
+            faults::expect(failure[t].empty(), "thread " + std::to_string(t) + ": " + failure[t]);
     } catch (const std::exception& e) {
         std::printf("failed: %s\n", e.what());
         return EXIT_FAILURE;

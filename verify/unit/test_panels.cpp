@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Large dense operations are done in parts, between which the host is asked: the same matrices, the same digits each time, and an
-// exception on the way out at each part.
+// Large dense operations are done in parts, between which the host is asked: the same matrices, the same digits each
+// time, and an exception on the way out at each part.
 #include <cmath>
 #include <random>
 #include <stdexcept>
