@@ -490,8 +490,8 @@ DELAM_API int32_t delam_problem_set_formulation(delam_problem *problem, int32_t 
  *               the diagonal alone must be told
  * DELAM_ERROR_ARGUMENT names the node, row or entry.
  * FETI takes each piece whole. Later calls replace the stiffness of the bodies that they have.
- * [unit values F/L, kernel 1; null dofs; status argument; source C. Farhat, M. Geradin, Int. J. Numer. Meth.
- * Eng. 41 (1998) 675-696 (motions without energy); since 0.1] */
+ * [unit values F/L, kernel 1; null dofs; status cancelled, argument, numerical; source C. Farhat, M. Geradin, Int. J.
+ * Numer. Meth. Eng. 41 (1998) 675-696 (motions without energy); since 0.1] */
 DELAM_API int32_t delam_problem_set_stiffness(delam_problem *problem, int64_t count, const int64_t *nodes,
                                               const int64_t *dofs, const int64_t *row_starts, const int64_t *columns,
                                               const double *values, int64_t kernel_count, const double *kernel,
@@ -858,8 +858,9 @@ DELAM_API int32_t delam_solver_tangent(delam_solver *solver, int64_t capacity, d
  * the element's forces. It is the derivative of advance where no pair is at the end of a branch and no jump happens;
  * past a limit point it may be indefinite. In the very first loaded step the mixity, that of its elastic solution with
  * mixity_rule = frozen, counts as given. One displacement solve a pattern and one a damaging pair (mixity_rule =
- * variational: a component); the state does not change. DELAM_ERROR_STATE: no step is pending, or it has been replaced
- * after a return. DELAM_ERROR_NUMERICAL: singular, a jump is about to happen.
+ * variational: a component); the state does not change. DELAM_ERROR_STATE: no step is pending, it has been replaced
+ * after a return, or it was walked in parts (value substeps). DELAM_ERROR_NUMERICAL: singular, a jump is about to
+ * happen.
  * [unit matrix of factors; null none; status cancelled, argument, state, numerical; source J. Simo, R. Taylor, Comput.
  * Methods Appl. Mech. Eng. 48 (1985) 101-118; since 0.1] */
 DELAM_API int32_t delam_solver_step_tangent(delam_solver *solver, int64_t capacity, double *matrix);
@@ -937,6 +938,7 @@ DELAM_API int32_t delam_solver_jump(const delam_solver *solver, int64_t index, i
 DELAM_API int32_t delam_solver_save(const delam_solver *solver, int64_t capacity, uint8_t *bytes, int64_t *needed);
 /* Takes bytes: [size] that delam_solver_save has written as the committed state; a pending step is dropped. Damaged
  * bytes, and those of another scene or version, are refused: DELAM_ERROR_SNAPSHOT says what is wrong with them.
+ * Histories that were set (delam_solver_set_history) are replaced by those of the bytes.
  * [null none; status cancelled, argument, numerical, snapshot; since 0.1] */
 DELAM_API int32_t delam_solver_load(delam_solver *solver, int64_t size, const uint8_t *bytes);
 /* The same bytes as a file, path in the encoding of the file system: written beside it first and put in its place when

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <ctime>
 #include <system_error>
 
 #include "base/error.hpp"
@@ -47,9 +48,17 @@ std::string folder_of(const std::string& path) {
 }  // namespace
 
 void write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
-    // Another process may save to the same path at the same time: the name is this process's own.
-    const std::string part = text(path, ".", static_cast<long>(getpid()), ".part");
-    Descriptor file(::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    // Others may save to the same path at the same time, other threads too: a name that nobody else has.
+    std::string part;
+    int opened = -1;
+    for (int attempt = 0; opened < 0 && attempt < 1000; ++attempt) {
+        timespec now{};
+        clock_gettime(CLOCK_MONOTONIC, &now);
+        part = text(path, ".", static_cast<long>(getpid()), "-", static_cast<long>(now.tv_nsec), ".part");
+        opened = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (opened < 0 && errno != EEXIST) break;
+    }
+    Descriptor file(opened);
     if (file.number() < 0) refuse(part, "cannot be made", errno);
     const auto give_up = [&](const char* what) {
         const int number = errno;

@@ -107,7 +107,7 @@ void unite_held_pieces(HostStiffness& own, std::int64_t dim) {
 
 // With as many DOFs held as there are free motions, a solid has no motion without energy left. Judged with a unit diagonal: what one row is soft beside
 // another says nothing (rows that the host has emptied have whatever number it likes).
-void refuse_mechanisms(const Mesh& mesh, std::int32_t body, const HostStiffness& own) {
+void refuse_mechanisms(const Mesh& mesh, std::int32_t body, const HostStiffness& own, Monitor& monitor) {
     const std::int64_t dim = mesh.dimension();
     const std::vector<std::int64_t> nodes = mesh.body_nodes(body);
     std::vector<std::int64_t> place(index(own.matrix.rows), 0), kept;
@@ -141,8 +141,11 @@ void refuse_mechanisms(const Mesh& mesh, std::int32_t body, const HostStiffness&
         }
         held.start.push_back(held.entries());
     }
+    monitor.progress("analyse", 0, 0);
     SparseCholesky factor(held);
+    monitor.progress("factor", 0, 0);
     factor.factorise(held);
+    monitor.progress("factor", 1, 1);
     const SparseCholesky::Pivot pivot = factor.smallest_pivot();
     if (pivot.variable < 0 || pivot.ratio > mechanism) return;
     const std::int64_t dof = kept[index(pivot.variable)];
@@ -172,10 +175,10 @@ SparseMatrix with_tame_supports(SparseMatrix k, std::int64_t dim) {
     return k;
 }
 
-// Rigid motions of a piece, as combinations of the orthonormal columns of q: those that are free, then those that are held, orthogonal to them.
+// The rigid motions of a piece in another basis: those that are free, then those that are held, orthogonal to them.
 struct Split {
-    DenseMatrix combination;
-    std::int64_t free = 0;
+    DenseMatrix combination;      // [rigid motions][rigid motions], of the orthonormal columns of q
+    std::int64_t free_count = 0;
 };
 
 // From any vectors that span the free ones; those that are less than told_tolerance of the others' lengths span nothing.
@@ -190,7 +193,7 @@ Split split_by(const DenseMatrix& free) {
     }
     Eigen eigen = eigen_symmetric(std::move(span));
     Split split;
-    while (split.free < free.rows && eigen.value[index(split.free)] < -told_tolerance) ++split.free;
+    while (split.free_count < free.rows && eigen.value[index(split.free_count)] < -told_tolerance) ++split.free_count;
     split.combination = std::move(eigen.vector);
     return split;
 }
@@ -255,14 +258,15 @@ Split told_split(const SparseMatrix& k, std::span<const std::int64_t> local, std
 
 }  // namespace
 
-HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix matrix, const ToldKernel& kernel) {
+HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix matrix, const ToldKernel& kernel, Monitor& monitor) {
     const std::int64_t dim = mesh.dimension(), rigid = dim == 2 ? 3 : 6;
     const std::vector<std::int64_t> nodes = mesh.body_nodes(body);
     HostStiffness made;
     made.matrix = std::move(matrix);
     const SparseMatrix judged = with_tame_supports(made.matrix, dim);
-    std::int64_t free = 0;
+    std::int64_t free_motions = 0;
     for (const std::vector<std::int64_t>& local : components(made.matrix, dim)) {
+        monitor.progress("stiffness", 0, 0);
         HostPiece piece;
         for (const std::int64_t i : local) piece.nodes.push_back(nodes[index(i)]);
         const std::string where = text("body ", mesh.body_label(body), ", the ", local.size(), " nodes that hang together with node ", piece.nodes.front());
@@ -271,11 +275,11 @@ HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix m
         q.columns = static_cast<std::int64_t>(q.value.size()) / q.rows;
         const Split split = kernel.told ? told_split(judged, local, dim, q, kernel.motions, where) : found_split(judged, local, dim, q, where);
         // A node alone, whose rows the host has emptied for supports of its own, has translations only; its own diagonal resists them.
-        if (split.free > 0 && q.columns < rigid)
+        if (split.free_count > 0 && q.columns < rigid)
             fail(DELAM_ERROR_ARGUMENT, where, ", lie on one ", dim == 2 ? "point" : "line", ": they are no solid, whose rigid motions are ", rigid);
-        piece.free = some_columns(q, split.combination, 0, split.free);
-        piece.held = some_columns(q, split.combination, split.free, q.columns);
-        free += split.free;
+        piece.free = some_columns(q, split.combination, 0, split.free_count);
+        piece.held = some_columns(q, split.combination, split.free_count, q.columns);
+        free_motions += split.free_count;
         made.pieces.push_back(std::move(piece));
     }
     // Motions told of several bodies at once may leave this one at rest.
@@ -284,9 +288,9 @@ HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix m
         const auto motion = std::span(kernel.motions.value).subspan(index(c * kernel.motions.rows), index(kernel.motions.rows));
         moving += std::any_of(motion.begin(), motion.end(), [](double u) { return u != 0.0; }) ? 1 : 0;
     }
-    if (kernel.told && free < moving && made.pieces.size() == 1)
-        fail(DELAM_ERROR_ARGUMENT, "kernel: of ", moving, " motions of body ", mesh.body_label(body), " only ", free, " are independent");
-    refuse_mechanisms(mesh, body, made);
+    if (kernel.told && free_motions < moving && made.pieces.size() == 1)
+        fail(DELAM_ERROR_ARGUMENT, "kernel: of ", moving, " motions of body ", mesh.body_label(body), " only ", free_motions, " are independent");
+    refuse_mechanisms(mesh, body, made, monitor);
     unite_held_pieces(made, dim);
     return made;
 }

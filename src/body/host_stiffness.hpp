@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/monitor.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/sparse.hpp"
 #include "mesh/mesh.hpp"
@@ -34,6 +35,6 @@ struct ToldKernel {
 };
 
 // Of one body. matrix: symmetric, both triangles. Error(DELAM_ERROR_ARGUMENT) names the node where something is wrong.
-HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix matrix, const ToldKernel& kernel);
+HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix matrix, const ToldKernel& kernel, Monitor& monitor);
 
 }  // namespace delam

@@ -180,7 +180,7 @@ int32_t delam_problem_set_stiffness(delam_problem* problem, int64_t count, const
             given.kernel.motions = DenseMatrix(rows, kernel_count);
             std::copy(kernel, kernel + kernel_count * rows, given.kernel.motions.value.begin());
         }
-        take_stiffness(core, given);
+        take_stiffness(core, given, problem->context->monitor);
     });
 }
 

@@ -51,7 +51,7 @@ void add_reduction(std::vector<PlanItem>& items, const Solver& solver) {
     const std::string of_blas = blas > 0 ? text(blas) : std::string("an unknown number");
     items.push_back({"threads", own > 1 && !choice.condensed ? used : left_out,
                      choice.condensed ? text("the condensed operator works by BLAS, which has ", of_blas, own > 1 ? text(" (", own, " of the library asked for)") : std::string())
-                                      : text(own, " of the library, option threads; BLAS has ", of_blas, " in each"),
+                                      : text(own, " of the library (option threads), BLAS uses ", of_blas),
                      0.0, 0.0, "-"});
     const double longest = choice.condensed ? c.longest : f.longest;
     items.push_back(

@@ -114,10 +114,24 @@ void check(const State& state, const Solver& solver) {
     for (const auto* values : {&state.theta, &a.jump, &a.force, &a.conjugate, &a.multipliers, &a.rigid, &state.memory, &state.search_memory})
         for (const double v : *values)
             if (!std::isfinite(v)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a number that is not finite");
+    const Ledger& l = state.ledger;
+    for (const double v : {a.stored_bulk, a.load_potential, a.residual, l.stored_bulk, l.stored_interface, l.load_potential, l.stored_interface_slides, l.dissipated,
+                           l.dissipated_slides, l.work, l.lower, l.increment, l.upper, l.increment_lower, l.initial, l.initial_slides, l.mixity_error})
+        if (!std::isfinite(v)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds an energy or residual that is not finite");
     if (!std::isfinite(state.time)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a time of ", state.time);
     if (state.step < 0 || state.step > most_steps) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", state.step, ", allowed: 0 to 2^53");
     solver.jump_operator().require_memory(state.memory);
     solver.jump_operator().require_memory(state.search_memory);  // of its twin
+}
+
+void check(const Jump& jump, const Solver& solver) {
+    const auto& interfaces = solver.problem().mesh->interfaces();
+    const bool named = jump.interface >= 0 && jump.interface < static_cast<std::int64_t>(interfaces.size());
+    const std::int64_t pairs = named ? interfaces[static_cast<std::size_t>(jump.interface)].pair_count() : 0;
+    bool sound = named && jump.first_pair >= -1 && jump.first_pair < pairs && jump.last_pair >= -1 && jump.last_pair < pairs && jump.step >= 0 && jump.before <= jump.time;
+    for (const double v : {jump.before, jump.time, jump.stored, jump.dissipated, jump.released, jump.debonded}) sound = sound && std::isfinite(v);
+    if (!sound) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a jump at time ", jump.time, " of interface ", jump.interface, ", pairs ", jump.first_pair, " to ", jump.last_pair,
+                     ", that no march can have");
 }
 
 // Histories that the host has changed since the solver was made: pattern, times, values.
@@ -205,6 +219,10 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
         check(earlier, solver);
         if (earlier.step != step++) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", earlier.step, " instead of ", step - 1);
     }
+    for (std::size_t i = 0; i < past.size(); ++i)
+        if (const double next = i + 1 < past.size() ? past[i + 1].time : state.time; !(past[i].time < next))
+            fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", past[i].step, " at time ", past[i].time, ", the step after it at ", next);
+    for (const Jump& jump : jumps) check(jump, solver);
     solver.restore(std::move(state), std::move(past), std::move(jumps), std::move(patterns));
 }
 

@@ -155,6 +155,8 @@ std::vector<double> Solver::step_tangent() const {
     if (!pending_ || pending_->state.step == committed_.step) fail(DELAM_ERROR_STATE, "step tangent: no step is pending");
     if (!pending_->revised.empty())
         fail(DELAM_ERROR_STATE, "step tangent: a return has replaced steps from ", pending_->revised.front().step, " on");
+    if (const std::int64_t parts = pending_->state.counts.substeps; parts > 1)
+        fail(DELAM_ERROR_STATE, "step tangent: the step was walked in ", parts, " parts (step_control, jump_tolerance or mixity_step_tolerance), each from the one before");
     return stepper_.step_tangent(committed_, pending_->state);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linalg/blas_threads.hpp"
 
+#include <algorithm>
+
 // Weak: which BLAS stands behind libblas.so.3 is decided when the process starts, and the others have no such function.
 extern "C" {
 int openblas_get_num_threads() __attribute__((weak));
@@ -13,7 +15,7 @@ namespace delam {
 std::int32_t blas_threads() {
     if (openblas_get_num_threads != nullptr) return openblas_get_num_threads();
     if (MKL_Get_Max_Threads != nullptr) return MKL_Get_Max_Threads();
-    if (bli_thread_get_num_threads != nullptr) return static_cast<std::int32_t>(bli_thread_get_num_threads());
+    if (bli_thread_get_num_threads != nullptr) return static_cast<std::int32_t>(std::max(0L, bli_thread_get_num_threads()));
     return 0;
 }
 

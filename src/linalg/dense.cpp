@@ -37,9 +37,9 @@ namespace {
 
 constexpr int one = 1;
 
-// LAPACK's integers are 32 bit: a matrix beyond that has no business being dense.
+// LAPACK's integers are 32 bit: a block with more entries than they count has no business being dense.
 int narrow(std::int64_t n) {
-    if (n < 0 || n > 46340) fail(DELAM_ERROR_MEMORY, "a dense block of ", n, " rows is too large; use more subdomains");
+    if (n < 0 || n > std::numeric_limits<int>::max()) fail(DELAM_ERROR_MEMORY, "a dense block of ", n, " rows is too large");
     return static_cast<int>(n);
 }
 
@@ -52,7 +52,11 @@ std::int64_t columns_a_part(double cost, std::int64_t all) {
     return std::clamp<std::int64_t>(static_cast<std::int64_t>(part / cost) / 64 * 64, 64, std::max<std::int64_t>(all, 64));
 }
 
-int leading(std::int64_t n) { return std::max(1, narrow(n)); }
+int leading(const DenseMatrix& a) {
+    if (a.columns > 0 && a.rows > std::numeric_limits<int>::max() / a.columns)
+        fail(DELAM_ERROR_MEMORY, "a dense block of ", a.rows, " rows and ", a.columns, " columns is too large; more subdomains make smaller ones");
+    return std::max(1, narrow(a.rows));
+}
 
 }  // namespace
 
@@ -67,7 +71,7 @@ void add_scaled(double a, std::span<const double> x, std::span<double> y) {
 }
 
 void multiply_symmetric(const DenseMatrix& s, std::span<const double> x, std::span<double> y) {
-    const int n = narrow(s.rows), lda = leading(s.rows);
+    const int n = narrow(s.rows), lda = leading(s);
     const double alpha = 1.0, beta = 0.0;
     if (n > 0) dsymv_("L", &n, &alpha, s.value.data(), &lda, x.data(), &one, &beta, y.data(), &one);
 }
@@ -75,7 +79,7 @@ void multiply_symmetric(const DenseMatrix& s, std::span<const double> x, std::sp
 DenseMatrix multiply(const DenseMatrix& a, const DenseMatrix& b) {
     DenseMatrix c(a.rows, b.columns);
     const int m = narrow(a.rows), n = narrow(b.columns), k = narrow(a.columns);
-    const int lda = leading(a.rows), ldb = leading(b.rows), ldc = leading(c.rows);
+    const int lda = leading(a), ldb = leading(b), ldc = leading(c);
     const double alpha = 1.0, beta = 0.0;
     if (m > 0 && n > 0 && k > 0)
         dgemm_("N", "N", &m, &n, &k, &alpha, a.value.data(), &lda, b.value.data(), &ldb, &beta, c.value.data(), &ldc);
@@ -85,7 +89,7 @@ DenseMatrix multiply(const DenseMatrix& a, const DenseMatrix& b) {
 DenseMatrix multiply_transposed(const DenseMatrix& a, const DenseMatrix& b, std::int64_t first) {
     DenseMatrix c(a.columns, b.columns);
     const int m = narrow(a.columns), n = narrow(b.columns), k = narrow(a.rows - first);
-    const int lda = leading(a.rows), ldb = leading(b.rows), ldc = leading(c.rows);
+    const int lda = leading(a), ldb = leading(b), ldc = leading(c);
     const double alpha = 1.0, beta = 0.0;
     if (m > 0 && n > 0 && k > 0)
         dgemm_("T", "N", &m, &n, &k, &alpha, a.value.data() + first, &lda, b.value.data() + first, &ldb, &beta, c.value.data(), &ldc);
@@ -105,7 +109,7 @@ void mirror_lower(DenseMatrix& a) {
 DenseMatrix lower_times_transpose(const DenseMatrix& lower, const Look& look) {
     constexpr std::int64_t width = 128;
     DenseMatrix product(lower.rows, lower.rows);
-    const int lda = leading(lower.rows);
+    const int lda = leading(lower);
     const double unit = 1.0;
     for (std::int64_t k = 0; k < lower.rows; k += width) {
         const int n = narrow(lower.rows - k), panel = static_cast<int>(std::min(width, lower.rows - k));
@@ -118,7 +122,7 @@ DenseMatrix lower_times_transpose(const DenseMatrix& lower, const Look& look) {
 }
 
 void multiply(const DenseMatrix& a, std::span<const double> x, std::span<double> y) {
-    const int m = narrow(a.rows), n = narrow(a.columns), lda = leading(a.rows);
+    const int m = narrow(a.rows), n = narrow(a.columns), lda = leading(a);
     const double alpha = 1.0, beta = 0.0;
     if (m > 0 && n > 0)
         dgemv_("N", &m, &n, &alpha, a.value.data(), &lda, x.data(), &one, &beta, y.data(), &one);
@@ -127,7 +131,7 @@ void multiply(const DenseMatrix& a, std::span<const double> x, std::span<double>
 }
 
 void multiply_transposed(const DenseMatrix& a, std::span<const double> x, std::span<double> y) {
-    const int m = narrow(a.rows), n = narrow(a.columns), lda = leading(a.rows);
+    const int m = narrow(a.rows), n = narrow(a.columns), lda = leading(a);
     const double alpha = 1.0, beta = 0.0;
     if (m > 0 && n > 0)
         dgemv_("T", &m, &n, &alpha, a.value.data(), &lda, x.data(), &one, &beta, y.data(), &one);
@@ -138,7 +142,7 @@ void multiply_transposed(const DenseMatrix& a, std::span<const double> x, std::s
 // Beyond `small` a panel of columns after the other: its own triangle, the rows below, and what it takes from the columns behind it.
 bool factor_definite(DenseMatrix& a, const Look& look) {
     constexpr std::int64_t small = 1024, width = 256;
-    const int n = narrow(a.rows), lda = leading(a.rows);
+    const int n = narrow(a.rows), lda = leading(a);
     int info = 0;
     if (n <= small) {
         if (n > 0) dpotrf_("L", &n, a.value.data(), &lda, &info);
@@ -166,7 +170,7 @@ bool factor_definite(DenseMatrix& a, const Look& look) {
 }
 
 void solve_lower(const DenseMatrix& lower, DenseMatrix& b, std::int64_t first, const Look& look) {
-    const int m = narrow(b.rows - first), lda = leading(lower.rows), ldb = leading(b.rows);
+    const int m = narrow(b.rows - first), lda = leading(lower), ldb = leading(b);
     const double alpha = 1.0;
     if (m == 0) return;
     const std::int64_t step = columns_a_part(0.5 * m * m, b.columns);
@@ -179,19 +183,19 @@ void solve_lower(const DenseMatrix& lower, DenseMatrix& b, std::int64_t first, c
 }
 
 void solve_lower(const DenseMatrix& lower, std::span<double> x) {
-    const int n = narrow(lower.rows), lda = leading(lower.rows);
+    const int n = narrow(lower.rows), lda = leading(lower);
     if (n > 0) dtrsv_("L", "N", "N", &n, lower.value.data(), &lda, x.data(), &one);
 }
 
 void solve_lower_transposed(const DenseMatrix& lower, std::span<double> x) {
-    const int n = narrow(lower.rows), lda = leading(lower.rows);
+    const int n = narrow(lower.rows), lda = leading(lower);
     if (n > 0) dtrsv_("L", "T", "N", &n, lower.value.data(), &lda, x.data(), &one);
 }
 
 namespace {
 
 void accumulate_gram(DenseMatrix& c, const DenseMatrix& v, double sign, const Look& look) {
-    const int n = narrow(c.rows), k = narrow(v.rows), ldv = leading(v.rows), ldc = leading(c.rows);
+    const int n = narrow(c.rows), k = narrow(v.rows), ldv = leading(v), ldc = leading(c);
     const double beta = 1.0;
     if (n == 0 || k == 0) return;
     const std::int64_t step = columns_a_part(0.5 * n * k, n);
@@ -213,14 +217,14 @@ void add_gram(DenseMatrix& c, const DenseMatrix& v, const Look& look) { accumula
 
 void subtract_product(DenseMatrix& c, const DenseMatrix& v, const DenseMatrix& w) {
     const int m = narrow(c.rows), n = narrow(c.columns), k = narrow(v.rows);
-    const int ldv = leading(v.rows), ldw = leading(w.rows), ldc = leading(c.rows);
+    const int ldv = leading(v), ldw = leading(w), ldc = leading(c);
     const double alpha = -1.0, beta = 1.0;
     if (m > 0 && n > 0 && k > 0)
         dgemm_("T", "N", &m, &n, &k, &alpha, v.value.data(), &ldv, w.value.data(), &ldw, &beta, c.value.data(), &ldc);
 }
 
 DenseMatrix inverse_definite(DenseMatrix a, const Look& look) {
-    const int n = narrow(a.rows), lda = leading(a.rows);
+    const int n = narrow(a.rows), lda = leading(a);
     int info = 0;
     if (!factor_definite(a, look)) fail(DELAM_ERROR_NUMERICAL, "a dense block of ", n, " rows is not positive definite");
     ask(look);
@@ -247,7 +251,7 @@ DenseMatrix orthonormalised(DenseMatrix a) {
 
 Eigen eigen_symmetric(DenseMatrix a) {
     Eigen result{std::vector<double>(static_cast<std::size_t>(a.rows)), std::move(a)};
-    const int n = narrow(result.vector.rows), lda = leading(result.vector.rows);
+    const int n = narrow(result.vector.rows), lda = leading(result.vector);
     if (n == 0) return result;
     int info = 0, query = -1;
     double size = 0.0;
@@ -260,7 +264,7 @@ Eigen eigen_symmetric(DenseMatrix a) {
 }
 
 PivotedColumns pivoted_columns(DenseMatrix a, double tolerance) {
-    const int m = narrow(a.rows), lda = leading(a.rows);
+    const int m = narrow(a.rows), lda = leading(a);
     if (a.columns > 2000000000) fail(DELAM_ERROR_MEMORY, "too many columns in a rank-revealing factorisation: ", a.columns);
     const int n = static_cast<int>(a.columns);
     PivotedColumns result{std::vector<std::int64_t>(static_cast<std::size_t>(n)), 0};
@@ -284,7 +288,7 @@ PivotedColumns pivoted_columns(DenseMatrix a, double tolerance) {
 }
 
 std::vector<std::int64_t> independent_rows(DenseMatrix a, double tolerance) {
-    const int n = narrow(a.rows), lda = leading(a.rows);
+    const int n = narrow(a.rows), lda = leading(a);
     double largest = 0.0;
     for (int i = 0; i < n; ++i) largest = std::max(largest, a(i, i));
     if (largest <= 0.0) return {};
@@ -300,7 +304,7 @@ std::vector<std::int64_t> independent_rows(DenseMatrix a, double tolerance) {
 }
 
 bool solve_general(DenseMatrix& a, DenseMatrix& b, double tolerance) {
-    const int n = narrow(a.rows), lda = leading(a.rows), columns = narrow(b.columns);
+    const int n = narrow(a.rows), lda = leading(a), columns = narrow(b.columns);
     if (n == 0) return true;
     for (std::int64_t i = 0; i < a.rows; ++i) {
         double largest = 0.0;
@@ -326,7 +330,7 @@ SemidefiniteFactor::SemidefiniteFactor(const DenseMatrix& a, std::span<const std
     : factor_(static_cast<std::int64_t>(rows.size()), static_cast<std::int64_t>(rows.size())),
       scale_(rows.size()),
       rows_(rows.begin(), rows.end()) {
-    const int n = narrow(factor_.rows), lda = leading(factor_.rows);
+    const int n = narrow(factor_.rows), lda = leading(factor_);
     if (n == 0) return;
     for (std::size_t i = 0; i < rows_.size(); ++i) scale_[i] = 1.0 / std::sqrt(a(rows_[i], rows_[i]));
     for (std::size_t j = 0; j < rows_.size(); ++j)
@@ -338,7 +342,7 @@ SemidefiniteFactor::SemidefiniteFactor(const DenseMatrix& a, std::span<const std
 }
 
 void SemidefiniteFactor::solve(std::span<double> x) const {
-    const int n = static_cast<int>(factor_.rows), lda = leading(factor_.rows);
+    const int n = static_cast<int>(factor_.rows), lda = leading(factor_);
     std::vector<double> y(rows_.size());
     for (std::size_t i = 0; i < y.size(); ++i) y[i] = scale_[i] * x[static_cast<std::size_t>(rows_[i])];
     if (n > 0) {

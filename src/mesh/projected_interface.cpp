@@ -82,6 +82,8 @@ struct Split {
 
 std::int64_t Mesh::add_projected_interface(std::int32_t label_a, std::int32_t label_b, double gap) {
     const auto [a, b] = require_unjoined(label_a, label_b);
+    require_cells(a);
+    require_cells(b);
     if (!(gap >= 0.0 && std::isfinite(gap))) fail(DELAM_ERROR_ARGUMENT, "gap ", gap, ": must be >= 0 and finite");
     const double edge = std::min(shortest_edge(*this, body_cells(a)), shortest_edge(*this, body_cells(b)));
     const double rim = 1e-6 * edge;

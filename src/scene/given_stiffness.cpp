@@ -65,7 +65,7 @@ SparseMatrix symmetric(const Mesh& mesh, std::int32_t body, std::int64_t rows, s
 
 }  // namespace
 
-void take_stiffness(Problem& problem, const GivenMatrix& given) {
+void take_stiffness(Problem& problem, const GivenMatrix& given, Monitor& monitor) {
     const Mesh& mesh = *problem.mesh;
     const std::int64_t dim = mesh.dimension(), rows = static_cast<std::int64_t>(given.nodes.size()) * dim;
     std::map<std::int32_t, std::vector<std::int64_t>> nodes_of;  // bodies
@@ -105,14 +105,16 @@ void take_stiffness(Problem& problem, const GivenMatrix& given) {
         }
     }
     std::vector<std::shared_ptr<const HostStiffness>> taken = problem.stiffness;
+    std::int64_t done = 0;
     for (const auto& [body, nodes] : nodes_of) {
+        monitor.progress("stiffness", done++, static_cast<std::int64_t>(nodes_of.size()));
         const std::int64_t own_rows = static_cast<std::int64_t>(nodes.size()) * dim;
         ToldKernel own{given.kernel.told, DenseMatrix(own_rows, given.kernel.motions.columns)};
         for (std::int64_t r = 0; r < rows; ++r)
             for (std::int64_t c = 0; c < own.motions.columns && place[index(r)].body == body; ++c)
                 own.motions(place[index(r)].dof, c) = given.kernel.motions(r, c);
         taken[index(body)] =
-            std::make_shared<const HostStiffness>(host_stiffness(mesh, body, symmetric(mesh, body, own_rows, std::move(entries[body])), own));
+            std::make_shared<const HostStiffness>(host_stiffness(mesh, body, symmetric(mesh, body, own_rows, std::move(entries[body])), own, monitor));
     }
     problem.stiffness = std::move(taken);
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/monitor.hpp"
 #include "body/host_stiffness.hpp"
 #include "scene/problem.hpp"
 
@@ -20,6 +21,6 @@ struct GivenMatrix {
 };
 
 // Error(DELAM_ERROR_ARGUMENT) names what is wrong; the problem is then unchanged.
-void take_stiffness(Problem& problem, const GivenMatrix& given);
+void take_stiffness(Problem& problem, const GivenMatrix& given, Monitor& monitor);
 
 }  // namespace delam

@@ -149,8 +149,8 @@ const std::array<Row, 28>& rows() {
          1.0,
          most},
         {{"threads", "integer", "-", "1", "1 <= value <= 1024",
-          "threads of the library's own, within a call: subdomains of FETI side by side; no digit depends on it. BLAS has its own (delam_blas_threads), "
-          "best one where this is more"},
+          "threads of the library's own, within a call: subdomains of FETI side by side; no digit depends on it. Set BLAS's (delam_blas_threads) to one "
+          "where this is more"},
          &Options::threads,
          1.0,
          1024.0},

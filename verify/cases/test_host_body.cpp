@@ -401,6 +401,35 @@ void emptied_rows(int loop) {
 START_TEST(emptied) { cases::run_body(emptied_rows, _i); }
 END_TEST
 
+// More rows than a dense square block may have: a body is sparse.
+CASE_TEST(large_body) {
+    Scene own(2, {1.0}, {152}, {1.0, 1.0}, {152, 1}, DELAM_QUAD4);
+    own.interface(0, 1);
+    own.begin();
+    own.elastic(-1, 1e9, 0.3);
+    Scene scene = without_cells(own, {0, 1});
+    const auto nodes = nodes_of(own, 0);
+    cases::expect(2 * nodes.size() > 46340, "not large");
+    const Csr k = body_matrix(own, 0);
+    scene.require(give(scene, nodes, k), "found");
+    std::vector<double> kernel(6 * nodes.size(), 0.0);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        kernel[2 * i] = kernel[2 * nodes.size() + 2 * i + 1] = 1.0;
+        kernel[4 * nodes.size() + 2 * i] = -own.coordinate(nodes[i], 1);
+        kernel[4 * nodes.size() + 2 * i + 1] = own.coordinate(nodes[i], 0);
+    }
+    scene.require(give(scene, nodes, k, 3, kernel.data()), "told");
+    // It can be stopped, and nothing is taken then.
+    char before[17], after[17];
+    scene.require(delam_problem_hash(scene.problem(), before), "hash");
+    const auto stop = [](const char*, std::int64_t, std::int64_t, void*) -> std::int32_t { return 1; };
+    scene.require(delam_context_set_progress(scene.context(), stop, nullptr), "progress");
+    cases::expect(give(scene, nodes_of(own, 1), body_matrix(own, 1)) == DELAM_CANCELLED, "not cancelled");
+    scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "progress");
+    scene.require(delam_problem_hash(scene.problem(), after), "hash");
+    cases::expect(std::string(before) == after, "a cancelled call has changed the problem");
+}
+
 // A kernel told for two bodies in one call, three motions of each.
 CASE_TEST(kernel_of_two_bodies) {
     Scene own(2, {2.0}, {2}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
@@ -664,6 +693,7 @@ int main() {
     tcase_add_loop_test(tests, grounded, 0, 6);
     tcase_add_test(tests, partly_grounded);
     tcase_add_loop_test(tests, emptied, 0, 6);
+    tcase_add_test(tests, large_body);
     tcase_add_test(tests, kernel_of_two_bodies);
     tcase_add_test(tests, two_pieces_of_one_body);
     tcase_add_test(tests, refusals);

@@ -5,9 +5,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "small_march.hpp"
 
@@ -182,6 +184,32 @@ CASE_TEST(full_disk) {
     cases::expect(again.value("time") == 0.5, "the older state is there");
 }
 
+// Two islands save to one path at the same time: what is there is one of the two, whole.
+CASE_TEST(two_writers) {
+    const Folder folder;
+    const std::string path = (folder.path / "state").string();
+    std::atomic<int> failures{0};
+    const auto island = [&](double end) {
+        try {
+            const Scene scene = bar({0.0, 1.0}, {0.0, 9e-5});
+            Solver solver(scene, 0.0);
+            to(solver, end);
+            for (int i = 0; i < 60; ++i) {
+                if (delam_solver_save_file(solver.get(), path.c_str()) != DELAM_OK) ++failures;
+                Solver other(scene, 0.0);
+                if (delam_solver_load_file(other.get(), path.c_str()) != DELAM_OK) ++failures;
+            }
+        } catch (const std::exception&) {
+            ++failures;
+        }
+    };
+    std::thread a(island, 0.5), b(island, 1.0);
+    a.join();
+    b.join();
+    cases::expect(failures == 0, std::to_string(failures.load()) + " failures");
+    cases::expect(folder.files() == 1, "parts are left");
+}
+
 // No digit depends on the library's own threads.
 CASE_TEST(threads_change_no_digit) {
     cases::expect(delam_blas_threads() >= 0, "BLAS threads");
@@ -238,6 +266,7 @@ int main() {
     tcase_add_test(tests, history_refused);
     tcase_add_test(tests, states_as_files);
     tcase_add_test(tests, full_disk);
+    tcase_add_test(tests, two_writers);
     tcase_add_test(tests, threads_change_no_digit);
     tcase_add_test(tests, cancelled_with_threads);
     suite_add_tcase(suite, tests);

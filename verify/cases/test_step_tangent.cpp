@@ -162,6 +162,22 @@ CASE_TEST(tangent_refused) {
     cases::expect(solver.save() == before, "the state has changed");
     for (const char* key : {"stored_bulk", "dissipated", "reaction:lift", "am_iterations", "contact_pairs"})
         cases::expect(solver.value(key) == values.at(key), std::string("the pending step has changed: ") + key);
+    // A step in parts has none: each part starts from the one before.
+    {
+        Scene parts = strip(settings[0]);
+        parts.number("mixity_step_tolerance", 1e-3);
+        Solver walked(parts, 0.0);
+        bool refused = false;
+        for (int k = 1; k <= 4 && !refused; ++k) {
+            walked.step(0.25 * k);
+            if (walked.value("substeps") > 1.0) {
+                cases::expect(delam_solver_step_tangent(walked.get(), 9, matrix.data()) == DELAM_ERROR_STATE, "a step in parts");
+                refused = true;
+            }
+            walked.commit();
+        }
+        cases::expect(refused, "no step was walked in parts");
+    }
     // The next step does not notice that it was asked.
     solver.commit();
     solver.step(0.2);

@@ -129,6 +129,7 @@ START_TEST(options_follow_their_table) {
         if (type == "integer") ck_assert(set(1.5).says("whole number"));
         const bool zero = std::string(info.range).rfind("0 <=", 0) == 0;
         if (type == "real") ck_assert_int_eq(set(0.0).status, zero ? DELAM_OK : DELAM_ERROR_ARGUMENT);
+        ck_assert_int_eq(set(std::stod(info.initial)).status, 0);
     }
     const Options fresh;
     ck_assert_double_eq(options.damage_tolerance, fresh.damage_tolerance);

@@ -49,7 +49,7 @@ function add_obstacle!(mesh::Mesh, nodes, normals, control_node; weights=nothing
     towards = columns("normals", directions, d, length(touching))
     shares = weights === nothing ? C_NULL : expect("weights", floats(weights), length(touching))
     new_interface(mesh) do handle, out
-        Raw.delam_mesh_add_obstacle(handle, length(touching), touching, towards, shares, control_node, 1, out)
+        Raw.delam_mesh_add_obstacle(handle, length(touching), touching, towards, shares, control_node - 1, 1, out)
     end
 end
 

@@ -25,6 +25,7 @@ extern "C" {
 #define DELAM_ERROR_NUMERICAL -7
 #define DELAM_ERROR_SNAPSHOT -8
 #define DELAM_ERROR_INTERNAL -9
+#define DELAM_ERROR_FILE -10
 typedef struct delam_context delam_context;
 typedef struct delam_mesh delam_mesh;
 typedef struct delam_law delam_law;
@@ -34,6 +35,7 @@ DELAM_API const char *delam_version(void);
 DELAM_API const char *delam_commit(void);
 DELAM_API int32_t delam_abi(void);
 DELAM_API const char *delam_status_name(int32_t status);
+DELAM_API int32_t delam_blas_threads(void);
 typedef void (*delam_log_callback)(int32_t level, const char *text, void *user);
 typedef int32_t (*delam_progress_callback)(const char *stage, int64_t done, int64_t total, void *user);
 DELAM_API int32_t delam_context_create(delam_context **out);
@@ -69,6 +71,12 @@ DELAM_API int32_t delam_mesh_add_projected_interface(delam_mesh *mesh, int32_t b
 DELAM_API int32_t delam_mesh_add_obstacle(delam_mesh *mesh, int64_t count, const int64_t *nodes, const double *normals,
                                           const double *weights, int64_t control_node, int32_t index_base,
                                           int64_t *out_interface);
+DELAM_API int32_t delam_mesh_add_host_body(delam_mesh *mesh, int32_t body, int64_t count, const int64_t *nodes,
+                                           int32_t index_base);
+DELAM_API int32_t delam_mesh_add_pairs(delam_mesh *mesh, int32_t body_a, int32_t body_b, int64_t count,
+                                       const int64_t *nodes_a, const int64_t *nodes_b, const double *normals,
+                                       const double *weights, int64_t face_count, int32_t nodes_per_face,
+                                       const int64_t *faces, int32_t index_base, int64_t *out_interface);
 DELAM_API void delam_mesh_destroy(delam_mesh **mesh);
 DELAM_API int32_t delam_mesh_size(const delam_mesh *mesh, int32_t *dimension, int64_t *node_count, int64_t *cell_count,
                                   int64_t *body_count, int64_t *interface_count);
@@ -118,6 +126,10 @@ DELAM_API int32_t delam_problem_set_orthotropic(delam_problem *problem, int32_t 
 DELAM_API int32_t delam_problem_set_orientation(delam_problem *problem, int32_t body, int64_t count,
                                                 const int64_t *cells, const double *axes, int32_t index_base);
 DELAM_API int32_t delam_problem_set_formulation(delam_problem *problem, int32_t body, const char *formulation);
+DELAM_API int32_t delam_problem_set_stiffness(delam_problem *problem, int64_t count, const int64_t *nodes,
+                                              const int64_t *dofs, const int64_t *row_starts, const int64_t *columns,
+                                              const double *values, int64_t kernel_count, const double *kernel,
+                                              int32_t index_base);
 DELAM_API int32_t delam_problem_set_law(delam_problem *problem, int64_t interface_index, const delam_law *law);
 DELAM_API int32_t delam_problem_set_bonded(delam_problem *problem, int64_t interface_index);
 DELAM_API int32_t delam_problem_set_contact(delam_problem *problem, int64_t interface_index);
@@ -165,6 +177,9 @@ DELAM_API void delam_solver_destroy(delam_solver **solver);
 DELAM_API int32_t delam_solver_advance(delam_solver *solver, double time);
 DELAM_API int32_t delam_solver_commit(delam_solver *solver);
 DELAM_API int32_t delam_solver_rollback(delam_solver *solver);
+DELAM_API int32_t delam_solver_pending(const delam_solver *solver, int32_t *pending);
+DELAM_API int32_t delam_solver_set_history(delam_solver *solver, int64_t pattern, int64_t count, const double *times,
+                                           const double *values);
 DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, const double *adhesion);
 DELAM_API int32_t delam_solver_value(delam_solver *solver, const char *key, double *value);
 DELAM_API int32_t delam_solver_value_count(const delam_solver *solver, int64_t *count);
@@ -182,6 +197,11 @@ DELAM_API int32_t delam_solver_front(const delam_solver *solver, int64_t interfa
                                      double *directions, double *lengths, double *rates, double *zone_lengths,
                                      double *zone_pairs);
 DELAM_API int32_t delam_solver_tangent(delam_solver *solver, int64_t capacity, double *matrix);
+DELAM_API int32_t delam_solver_step_tangent(delam_solver *solver, int64_t capacity, double *matrix);
+DELAM_API int32_t delam_solver_condensed_size(const delam_solver *solver, int64_t *unknowns, int64_t *entries);
+DELAM_API int32_t delam_solver_condensed(const delam_solver *solver, int64_t capacity, double *stiffness, double *load,
+                                         double *constant, int64_t *row_starts, int64_t *columns, double *values,
+                                         double *offset);
 DELAM_API const char *delam_solver_plan(delam_solver *solver);
 DELAM_API int32_t delam_solver_plan_count(const delam_solver *solver, int64_t *count);
 DELAM_API int32_t delam_solver_plan_item(const delam_solver *solver, int64_t index, const char **subject,
@@ -197,6 +217,8 @@ DELAM_API int32_t delam_solver_jump(const delam_solver *solver, int64_t index, i
                                     int64_t *last_pair);
 DELAM_API int32_t delam_solver_save(const delam_solver *solver, int64_t capacity, uint8_t *bytes, int64_t *needed);
 DELAM_API int32_t delam_solver_load(delam_solver *solver, int64_t size, const uint8_t *bytes);
+DELAM_API int32_t delam_solver_save_file(const delam_solver *solver, const char *path);
+DELAM_API int32_t delam_solver_load_file(delam_solver *solver, const char *path);
 #ifdef __cplusplus
 }
 #endif
