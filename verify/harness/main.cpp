@@ -22,6 +22,13 @@ int main(int argc, char** argv) {
             options.scene = argv[++i];
         } else if (std::strcmp(argv[i], "--set") == 0 && i + 1 < argc) {
             options.settings.emplace_back(argv[++i]);
+        } else if (std::strcmp(argv[i], "--specimen") == 0 && i + 1 < argc) {
+            options.specimen = argv[++i];
+        } else if (std::strcmp(argv[i], "--solution") == 0 && i + 1 < argc) {
+            options.solution = argv[++i];
+        } else if (std::strcmp(argv[i], "--most-steps") == 0 && i + 1 < argc) {
+            options.most_steps = std::atoi(argv[++i]);
+            understood = understood && options.most_steps > 0;
         } else if (name == nullptr && argv[i][0] != '-') {
             name = argv[i];
         } else {
@@ -55,7 +62,8 @@ int main(int argc, char** argv) {
         }
     }
     std::fprintf(stderr,
-                 "usage: delam_harness [--json] [--quick] [--finest MM] [--scene FILE [--set KEY=VALUE ...]] TABLE\n"
+                 "usage: delam_harness [--json] [--quick] [--finest MM] [--scene FILE [--set KEY=VALUE ...]]\n"
+                 "       [--specimen NAME] [--solution NAME] [--most-steps N] TABLE\n"
                  "tables: pcg, contact, balance, feti-direct, energetic, jump-instant, estimate, convergence, sets, "
                  "scene-direct (of --scene)\n");
     return 1;
