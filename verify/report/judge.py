@@ -82,7 +82,7 @@ def against_reference(data: dict) -> dict:
     worst = max(data["checks"], key=_closeness)
     good = all(c["value"] <= c["limit"] if c["sense"] == "<=" else c["value"] >= c["limit"] for c in data["checks"])
     return {"verdict": "pass" if good else "fail", "value": worst["value"], "limit": worst["limit"], "sense": worst["sense"],
-            "why": f"{worst['what']}: {worst['why']}"}
+            "why": f"{worst['what']}: {worst['value']:.3g}, limit {worst['limit']:.3g}; {worst['why']}"}
 
 
 def numbers(data: dict) -> dict:

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import concurrent.futures
 import json
-import math
 import os
 import pathlib
 import sys
@@ -16,29 +15,11 @@ sys.path.insert(0, str(HERE))
 import jinja2  # noqa: E402
 
 import schema  # noqa: E402
+from words import show  # noqa: E402
 
 ORDER = ("failed", "refused as expected", "passed", "skipped")
 LEDGER_TEXT = {"stored_bulk": "stored in the bodies", "stored_interface": "stored in the interfaces", "dissipated": "dissipated",
                "work": "work of the loads", "defect": "defect: stored + dissipated - work", "initial": "stored at the start"}
-
-
-def show(value) -> str:
-    """A number as people read it: four digits, powers of ten where they are shorter."""
-    if value is None:
-        return "–"
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, str):
-        return value
-    if isinstance(value, int) or (value == int(value) and abs(value) < 1e6):
-        return f"{int(value):,}".replace(",", "\u202f") if abs(value) >= 10000 else str(int(value))
-    if not math.isfinite(value):
-        return str(value)
-    size = abs(value)
-    if 1e-3 <= size < 1e5:
-        return f"{value:.4g}"
-    mantissa, exponent = f"{value:.2e}".split("e")
-    return f"{mantissa}e{int(exponent)}"
 
 
 def slug(status: str) -> str:

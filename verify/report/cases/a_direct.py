@@ -11,20 +11,20 @@ KKT_WHY = ("the primal KKT conditions (gap, sign of pressure, complementarity, e
            "from exported fields, each over the largest quantity of its kind")
 QUANTITIES = [("jump", "first"), ("traction", "second"), ("displacement", "third"), ("reaction", "fourth"), ("stored_bulk", "fifth"),
               ("stored_interface", "sixth")]
-WORDS = {"stored_bulk": "energy in the bodies", "stored_interface": "energy in the interface"}
+WORDS = {"stored_bulk": "energy, bodies", "stored_interface": "energy, interface"}
 # A difference that is plotted on a logarithmic axis: what is exactly zero would vanish.
 FLOOR = 1e-17
 
 
 def difference_columns(past="rounding"):
-    return [column(name, "relative", past=past) for name, _ in QUANTITIES]
+    return [column(WORDS.get(name, name), "relative", past=past, **{"from": name}) for name, _ in QUANTITIES]
 
 
 def enf_march(context):
     rows = context.harness("feti-direct")
     columns = [column("subdomains", "", key=True), column("preconditioner", "", key=True), column("gluing", "", key=True),
-               *difference_columns(), column("contacts", "pairs"), column("linear_iterations", "", past="count"), column("stalled", "states", may=True),
-               column("kkt", "relative", past="rounding"), column("outcome")]
+               *difference_columns(), column("contacts", "pairs"), column("Krylov iterations", "", past="count", **{"from": "linear_iterations"}), column("stalled", "states", may=True),
+               column("KKT, worst", "relative", past="rounding", **{"from": "kkt"}), column("outcome")]
     refused = [o for o in rows.column("outcome") if o != "ok"]
     if refused:
         raise Failed(f"the library refused {len(refused)} of {len(rows.rows)} choices: {refused[0]}")
@@ -101,9 +101,9 @@ def scene_case(scene):
         rows = context.harness("scene-direct", "--scene", path, *settings)
         rounding = difference_columns()
         columns = [column("time", "", key=True), column("realisation", "", key=True), column("debonded", "of the pairs"), column("closed", "pairs"), *rounding,
-                   column("contacts", "pairs", past="free"), column("linear_iterations", "", past="count"),
-                   column("stalled", "", may=scene.get("stalls", False)), column("kkt", "relative", past="rounding"),
-                   *[column(n, "relative", past="rounding") for n in ("kkt_gap", "kkt_pressure", "kkt_complementarity", "kkt_equilibrium")]]
+                   column("contacts", "pairs", past="free"), column("Krylov iterations", "", past="count", **{"from": "linear_iterations"}),
+                   column("stalled", "", may=scene.get("stalls", False)), column("KKT, worst", "relative", past="rounding", **{"from": "kkt"}),
+                   *[column(n, "relative", past="rounding", **{"from": f"kkt_{n}"}) for n in ("gap", "pressure", "complementarity", "equilibrium")]]
         why = scene.get("why", "what the linear tolerances of the march leave; ten times less than any of the march's own tolerances")
         checks, curves, kkt = [], [], []
         for name, role in (("condensed", "condensed"), ("FETI", "feti")):
@@ -136,15 +136,15 @@ def scene_case(scene):
 
     return Case(id=f"a-scene-{scene['name']}", chapter="a", title=scene["title"],
                 requirement="At states of the march, condensed and FETI give the jumps, tractions, displacements, reactions and energies of the direct "
-                            f"solution within {scene['limit']:g}, and meet the primal KKT conditions.",
+                            f"solution within {scene['limit']:.0e}, and meet the primal KKT conditions.",
                 geometry=scene["geometry"], materials=scene["materials"], supports=scene["supports"], units="SI; differences are relative to the largest value",
                 run=run, quick=scene["quick"], seconds=900, expected=scene["expected"])
 
 
 def cases():
     return [Case(id="a-feti-direct", chapter="a", title="FETI by subdomains and preconditioner",
-                 requirement="On every state of the ductile end-notched flexure march, FETI with any number of subdomains, preconditioner and gluing gives the "
+                 requirement="On states of the ductile end-notched flexure march, FETI with any number of subdomains, preconditioner and gluing gives the "
                              "direct solution within 1e-8.",
                  geometry="two arms 120 mm x 3 mm, notch 30 mm, 4-node cells of 0.5 mm, plane strain", materials="E = 75 GPa, nu = 0.3; k = 125e9 N/m3, Go = 100, "
                  "Gc = 250 J/m2", supports="bottom corners on points, midspan pressed by 6 mm in 40 steps", units="SI; differences are relative to the largest value",
-                 run=enf_march, quick=True, seconds=1800, expected=400), *[scene_case(s) for s in SCENES]]
+                 run=enf_march, quick=True, seconds=1800, expected=300), *[scene_case(s) for s in SCENES]]
