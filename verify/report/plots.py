@@ -35,6 +35,15 @@ def _positive(plot: dict, name: str) -> list[float]:
     return [v for v in values if v is not None and v > 0]
 
 
+def _coincide(one: dict, other: dict, scale: str) -> bool:
+    """Curves that a reader would see as one; the lower is drawn thicker, so that both show."""
+    second = dict(zip(other["x"], other["y"]))
+    shared = [(y, second[x]) for x, y in zip(one["x"], one["y"]) if y is not None and second.get(x) is not None]
+    size = max((abs(v) for pair in shared for v in pair), default=0.0)
+    near = [abs(a - b) <= 0.02 * (max(abs(a), abs(b)) if scale == "log" else size) for a, b in shared]
+    return bool(near) and sum(near) >= 0.5 * len(near)
+
+
 def _log_ticks(ax, values: list[float], horizontal: bool, narrow: bool) -> None:
     """Few places are named themselves; within two decades 1, 2, 5; else the powers of ten."""
     if not values:
@@ -60,8 +69,7 @@ def _draw(plot: dict, size: tuple[float, float]):
     narrow = size == NARROW
     repeated: dict[str, int] = {}
     for place, s in enumerate(plot["series"]):
-        # Curves that coincide stay visible: what is drawn first is thicker.
-        below = min(len(plot["series"]) - 1 - place, 3)
+        below = min(sum(_coincide(s, other, plot["y"]["scale"]) for other in plot["series"][place + 1:]), 3)
         colour, marker, line = palette.style(s["role"])
         turn = repeated.get(s["role"], 0)
         repeated[s["role"]] = turn + 1
@@ -73,10 +81,11 @@ def _draw(plot: dict, size: tuple[float, float]):
                 values[:] = [v if v > 0 else math.nan for v in values]
         axes.plot(x, y, color=colour, linestyle=line or "none",
                   marker="" if s.get("marker") is False or (len(x) > 60 and line) else marker or ("o" if not line else ""),
-                  markerfacecolor=colour if turn % 2 == 0 else "white", label=s["name"], linewidth=1.5 + 0.7 * below,
-                  markersize=4.5 + 1.5 * below)
+                  markerfacecolor=colour if turn % 2 == 0 else "white", label=s["name"], linewidth=1.6 + 0.9 * below,
+                  markersize=5 + 2 * below)
     axes.set_xscale(plot["x"]["scale"])
     axes.set_yscale(plot["y"]["scale"])
+    slopes = 0
     for mark in plot.get("marks", []):
         if mark["kind"] == "horizontal":
             axes.axhline(mark["value"], color=palette.GREY, linestyle=":", linewidth=1.3, label=mark["label"])
@@ -87,8 +96,9 @@ def _draw(plot: dict, size: tuple[float, float]):
             if xs and ys:
                 low, high = min(xs), max(xs)
                 top = max(ys)
-                axes.plot([low, high], [top * (low / high) ** mark["order"], top], color=palette.GREY, linestyle=(0, (1, 2)),
-                          linewidth=1.3, label=mark["label"])
+                axes.plot([low, high], [top * (low / high) ** mark["order"], top], color=palette.GREY, linewidth=1.2,
+                          linestyle=((0, (1, 2)), (0, (5, 2)), "-.")[slopes % 3], label=mark["label"])
+                slopes += 1
     axes.set_xlabel(_label(plot["x"]))
     axes.set_ylabel(_label(plot["y"]))
     for name, ax in (("x", axes.xaxis), ("y", axes.yaxis)):

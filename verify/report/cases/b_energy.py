@@ -71,7 +71,7 @@ def estimate_case(specimen, solution, quick, expected):
             seen = sum(r[at["low_eta"]] for r in judged)
             checks.append(check("steps below the lower bound, frozen and converged", seen, 1, "a local brittle march jumps late and the estimate must show it", ">="))
             losses.append(f"the local march jumps late: {seen:.0f} steps below the lower bound in {len(judged)} marches, and the defect of the balance does "
-                          "not vanish with the step; `solution = energetic` is the cure")
+                          "not vanish with the step; with solution = energetic it does")
         else:
             checks.append(check("steps below the lower bound, frozen and converged", sum(r[at["low_eta"]] for r in judged), 0 if not specimen.startswith("mmf") else 2,
                                 "by more than eta = 1e-3 of max(|E|, work)" + ("; MMF at 320 steps has one genuine early jump a rule" if specimen.startswith("mmf") else "")))
@@ -108,7 +108,7 @@ def convergence_case(specimen, expected):
         for quantity, role in (("reaction", "first"), ("stored_bulk", "second"), ("dissipated", "third"), ("adhesion", "fourth"), ("work", "fifth")):
             of = rows.where(element="quad4-incompatible", mixity="frozen", quantity=quantity)
             h, change = of.column("h_mm")[1:], of.column("change")[1:]
-            curves.append(series(quantity, role, h, change))
+            curves.append(series(quantity.replace("stored_bulk", "energy, bodies"), role, h, change))
             found.append(order(f"{quantity}, incompatible cells, from changes", "h and tau", orders.fit(h, change), 1.0, 0.3, h, change, "at least"))
         for rule in rows.where(element="quad4-incompatible").values("mixity"):
             of = rows.where(element="quad4-incompatible", mixity=rule, quantity="reaction")
@@ -165,17 +165,22 @@ def energetic_case(specimen, quick, expected):
             if not method.startswith("energetic"):
                 continue
             of = rows.where(method=method)
-            same = [r for r in of.rows if r[of.index("exponent")] == 1 or specimen.startswith("enf")]
-            if not same:
-                continue
-            worst = max(r[of.index("excess")] for r in same)
-            checks.append(check(f"{method}: energy above the scan's", worst, 1e-6,
-                                "the energetic march must not end above any front of the exhaustive scan, where the toughness does not depend on the path"))
+            # Frozen mixity in mixed mode: locating the jump books other mixities than the scan's steps do; another history, listed below.
+            same = [r for r in of.rows if specimen.startswith("enf") or method == "energetic" or r[of.index("mixity")] != "frozen"]
+            worst = largest(r[of.index("excess")] for r in same)
+            limit, why = (1e-6, "no front of the exhaustive scan may be lower; in mode II both histories have the same toughness") if specimen.startswith("enf") else (
+                1e-4, "no front of the exhaustive scan may be lower; in mixed mode the two histories book mixities of their own states, which need not "
+                      "agree to the last digits")
+            checks.append(check(f"{method}: energy above the scan's", worst, limit, why))
+            checks.append(check(f"{method}: marches whose jump is in another step than the scan's",
+                                sum(r[of.index("jump_step")] != r[of.index("scan_step")] for r in same), 0, "the jump is found in the step in which it pays"))
             checks.append(check(f"{method}: steps not converged", sum(r[of.index("not_converged")] for r in same), 0, "a step at its limit is no evidence"))
         for method in methods:
-            worst = [v for v in rows.where(method=method).column("excess") if v is not None]
-            if worst and max(worst) > 1e-6:
-                losses.append(f"{method}: energy up to {100 * max(worst):.2g} % above the exhaustive scan's in some step")
+            of = rows.where(method=method)
+            for rule in of.values("mixity"):
+                worst = [v for v in of.where(mixity=rule).column("excess") if v is not None]
+                if worst and max(worst) > 1e-4:
+                    losses.append(f"{method}, mixity {rule}: energy up to {100 * max(worst):.2g} % above the exhaustive scan's in some step")
         h = min(rows.values("h_mm"))
         one = rows.where(h_mm=h)
         one = one.where(patch_mm=max(one.values("patch_mm")))
@@ -197,7 +202,7 @@ def energetic_case(specimen, quick, expected):
                                   [], "Supports and load on patches of 2 mm, 40 steps of 0.15 mm: the energetic march jumps in the step of the scan.")])
 
     return Case(id=f"b-energetic-{specimen}", chapter="b", title=f"Energetic marches beside the scan of fronts, {specimen}",
-                requirement="An energetic march is never above the lowest front that an exhaustive scan finds (1e-6 of the energy) where the toughness does not depend on the path.",
+                requirement="An energetic march is never above the lowest front that an exhaustive scan finds, and jumps in the same step.",
                 materials=BRITTLE, run=run, quick=quick, seconds=2400, expected=expected, **ENF)
 
 
