@@ -212,8 +212,12 @@ class Runner:
         child.wait()
 
     def end_all(self) -> None:
-        for child in list(self.running.values()):
-            self.end(child)
+        """The waiting threads see their children end and go."""
+        for pid in list(self.running):
+            try:
+                os.killpg(pid, signal.SIGKILL)
+            except (ProcessLookupError, PermissionError):
+                pass
 
 
 def chosen(case: case_module.Case, only: list[str]) -> bool:
@@ -270,16 +274,26 @@ def report(a, cases: list[case_module.Case], library: dict) -> int:
         why = f": {data['reason']}" if data["reason"] else ""
         say(f"[{done}/{len(wanted)}] {data['status']:<8} {data['id']} ({data['seconds']:.1f} s){why}")
 
+    def stop(*_):
+        raise KeyboardInterrupt
+
+    signal.signal(signal.SIGTERM, stop)
     runner, results = Runner(a, library, say), {}
     say(f"report: {len(wanted)} of {len(cases)} cases, {a.jobs} at once, library {library['name']}")
     try:
         # The long ones first: the last one to end decides.
         free = sorted((c for c in wanted if not c.timing), key=lambda c: -c.expected)
         with concurrent.futures.ThreadPoolExecutor(max(1, a.jobs)) as pool:
-            for future in concurrent.futures.as_completed([pool.submit(runner, c) for c in free]):
-                data = future.result()
-                results[data["id"]] = data
-                tell(data)
+            try:
+                for future in concurrent.futures.as_completed([pool.submit(runner, c) for c in free]):
+                    data = future.result()
+                    results[data["id"]] = data
+                    tell(data)
+            except KeyboardInterrupt:
+                # What waits is not begun, what runs is ended: else the pool would wait for all of them.
+                pool.shutdown(wait=False, cancel_futures=True)
+                runner.end_all()
+                raise
         for c in wanted:
             if c.timing:
                 results[c.id] = runner(c)

@@ -20,7 +20,7 @@ from words import show  # noqa: E402
 BEGIN, END = "<!-- report:begin (verify/report/readme.py) -->", "<!-- report:end -->"
 # Figures by their names in the JSON, and pictures by case and place; only of cases that passed.
 FIGURES = ["feti_direct_worst", "feti_direct_kkt", "balance_defect", "jump_mm"]
-PICTURES = [("b-balance", 0), ("b-jump-instant", 0), ("a-feti-direct", 1)]
+PICTURES = [("b-ledger", 0), ("b-jump-instant", 0), ("a-feti-direct", 1)]
 
 
 class Refused(Exception):
@@ -41,13 +41,14 @@ def gather(report: dict, figures=None, pictures=None) -> dict:
         plot = good[case]["plots"][i]
         drawn.append({"file": f"verify/report/pictures/{case}-{i + 1}.svg", "case": case, "plot": i, "title": plot["title"],
                       "caption": plot.get("caption", "")})
-    return {"date": report["date"], "command": report["command"], "commit": report["commit"], "processor": report["machine"]["processor"],
+    statuses = ("passed", "failed", "refused as expected", "skipped")
+    return {"date": report["date"], "counts": {s: sum(c["status"] == s for c in report["cases"]) for s in statuses}, "command": report["command"], "commit": report["commit"], "processor": report["machine"]["processor"],
             "cores": report["machine"]["cores"], "figures": [found[name] for name in figures], "pictures": drawn}
 
 
 def block(head: dict) -> str:
     lines = [BEGIN, "", f"Measured on {head['date']}, commit {head['commit']}, {head['processor']}, {head['cores']} cores, by", "",
-             f"    {head['command']}", "", "| | | case |", "|---|---|---|"]
+             f"    {head['command']}", "", "Cases: " + ", ".join(f"{n} {s}" for s, n in head["counts"].items()) + ".", "", "| | | case |", "|---|---|---|"]
     for f in head["figures"]:
         lines.append(f"| {f['text']} | {show(f['value'])} {f['unit']}".rstrip() + f" | {f['case']} |")
     lines.append("")

@@ -103,7 +103,7 @@ def estimate_case(specimen, solution, quick, expected):
     local_brittle = brittle and solution == "local"
 
     def run(context):
-        most = () if context.quick else ("--most-steps", "80" if solution == "energetic" else "320")
+        most = () if context.quick else ("--most-steps", "160", "--finest", "0.7") if solution == "energetic" else ("--most-steps", "320")
         rows = context.harness("estimate", "--specimen", specimen, "--solution", solution, *most)
         curves, bands, found, losses = [], [], [], []
         safe = [r for r in rows.values("mixity") if r != "variational"]

@@ -21,6 +21,7 @@ class Readme(unittest.TestCase):
     def test_the_block_is_made_of_the_figures(self):
         block = readme.block(self.head())
         self.assertIn("| Error of the bar | 0.0075 m | t-one |", block)
+        self.assertIn("1 passed, 0 failed", block)
         self.assertIn("2000-01-01 00:00 UTC", block)
         self.assertIn("bash verify/run.sh --report", block)
         self.assertEqual(readme.differences(f"text\n{block}\nmore", self.head(), readme.ROOT), [])
