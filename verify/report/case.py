@@ -204,9 +204,9 @@ def plot(title: str, x: dict, y: dict, curves: list[dict], marks: list[dict] = (
     return {"title": title, "x": x, "y": y, "series": list(curves), "marks": list(marks), "caption": caption}
 
 
-def figure(name: str, value: float, unit: str, text: str) -> dict:
-    """A headline number that the README may quote, by its name."""
-    return {"name": name, "value": value, "unit": unit, "text": text}
+def figure(name: str, value: float, unit: str, text: str, **more) -> dict:
+    """A headline number that the README may quote, by its name. more: past, as of a column."""
+    return {"name": name, "value": value, "unit": unit, "text": text, **more}
 
 
 def order(of: str, by: str, fitted: float, expected: float, tolerance: float, sizes=None, errors=None, sense: str = "about") -> dict:

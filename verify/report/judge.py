@@ -10,6 +10,7 @@ import pathlib
 import orders
 
 PAST_RELATIVE = 1e-6
+PAST_ORDER = 1e-4        # a fitted order: differences of small errors
 COUNT_BAND = 0.20       # of counts of iterations
 ROUNDING_GROWTH = 10.0  # a value of the size of rounding may move below this multiple of the past one
 REFIT = 1e-6            # an order that is handed in with its data must be the one fitted to them
@@ -104,7 +105,7 @@ def numbers(data: dict) -> dict:
             out[f"figure | {f['name']}"] = (float(f["value"]), f.get("past", PAST_RELATIVE))
     for o in data["orders"]:
         if o.get("past") != "free":
-            out[f"order | {o['of']} | {o['by']}"] = (float(o["fitted"]), o.get("past", PAST_RELATIVE))
+            out[f"order | {o['of']} | {o['by']}"] = (float(o["fitted"]), o.get("past", PAST_ORDER))
     return out
 
 

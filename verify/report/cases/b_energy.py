@@ -37,7 +37,7 @@ def balance(context):
                               [{"kind": "slope", "order": 1, "label": "order 1"}], "Largest |stored + dissipated - work| over the final work."),
                          plot("Width of the two-sided estimate", axis("step tau", "of the loading", "log"), axis("sum of upper - lower", "J/m", "log"), bands,
                               [{"kind": "slope", "order": 1, "label": "order 1"}], "Summed over the steps; it bounds what the march may have missed.")],
-                  figures=[figure("balance_defect", last, "of the work", f"Energy balance, ductile ENF, {rows.column('steps')[-1]:.0f} steps: largest defect")])
+                  figures=[figure("balance_defect", last, "of the work", f"Energy balance, ductile ENF, {rows.column('steps')[-1]:.0f} steps: largest defect", past=1e-4)])
 
 
 def ledger(context):
@@ -95,7 +95,7 @@ def ledger(context):
                     [series("upper bound", "upper", mm[1:], at["upper"][1:]), series("increment", "reference", mm[1:], at["increment"][1:]),
                      series("lower bound", "lower", mm[1:], at["lower"][1:])])],
         figures=[figure("enf_work_defect", max(abs(a - b) for a, b in zip(at["work"], again)) / size, "of the work",
-                        "Ductile ENF: booked work against the integral of the reaction, largest difference")])
+                        "Ductile ENF: booked work against the integral of the reaction, largest difference", past="rounding")])
 
 
 def estimate_case(specimen, solution, quick, expected):
