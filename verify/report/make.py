@@ -301,6 +301,7 @@ def report(a, cases: list[case_module.Case], library: dict) -> int:
     except KeyboardInterrupt:
         runner.end_all()
         raise SystemExit("make.py: interrupted; no report was written")
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
     everything = []
     for c in cases:
         path = a.out / "json" / f"{c.id}.json"

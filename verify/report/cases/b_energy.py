@@ -78,7 +78,7 @@ def ledger(context):
         tables=[{"title": "Energies over the load, every tenth of the march", "note": "",
                  "columns": [column("load", "mm", key=True), column("reaction", "N/m"), column("bodies", "J/m"), column("interface", "J/m", past=1e-5),
                              column("dissipated", "J/m", past=1e-5), column("work, booked", "J/m"), column("work, from the reaction", "J/m"),
-                             column("defect", "of the final work", past=1e-2)],
+                             column("defect", "of the final work", past="free")],
                  "rows": [[round(mm[k], 9), at["reaction:load"][k], at["stored_bulk"][k], at["stored_interface"][k], at["dissipated"][k], at["work"][k], again[k],
                            (total[k] - again[k]) / size] for k in range(0, n, every)]}],
         ledger={"stored_bulk": at["stored_bulk"][-1], "stored_interface": at["stored_interface"][-1], "dissipated": at["dissipated"][-1], "work": again[-1],
