@@ -9,6 +9,7 @@ DELAM_PACKAGES=(
     libcli11-dev libtomlplusplus-dev libfmt-dev libhdf5-dev nlohmann-json3-dev libgmsh-dev
     libgsl-dev check abigail-tools binutils locales
     python3 python3-numpy python3-scipy python3-matplotlib python3-h5py python3-venv python3-pip python3-meshio python3-tqdm
+    python3-jinja2 fonts-dejavu-core
 )
 # The parser of the Julia files, for the quick tier. A node from elsewhere has its own npm, which Debian's conflicts with.
 DELAM_PARSER_PACKAGES=()

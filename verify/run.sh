@@ -3,6 +3,8 @@
 # bash verify/run.sh [--all]: installs, builds, runs the quick tier of the tests, then the unit tests and the light
 # cases under AddressSanitizer and UBSan.
 #   --all   also the long tier, clang 14 without warnings, valgrind on the unit tests and two cases
+# bash verify/run.sh --report [--quick] [--only ID|CHAPTER ...] [--accept] [--jobs N]: builds and writes the verification report into
+# out/report (report/README.md) instead; exit code 1 if a case failed.
 # Ends with the line "N passed, N failed", after a line for each test that was skipped; exit code 0 only without failures.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -10,11 +12,16 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source verify/packages.sh
 
 all=no
+report=no
 case "${1:-}" in
     "") ;;
     --all) all=yes ;;
+    --report)
+        report=yes
+        shift
+        ;;
     *)
-        printf 'usage: bash verify/run.sh [--all]\n' >&2
+        printf 'usage: bash verify/run.sh [--all | --report [--quick] [--only ID|CHAPTER ...] [--accept] [--jobs N]]\n' >&2
         exit 2
         ;;
 esac
@@ -84,6 +91,11 @@ if [[ $all == yes ]]; then
 fi
 delam_blas
 export OPENBLAS_NUM_THREADS=1
+
+if [[ $report == yes ]]; then
+    build release
+    exec /usr/bin/python3 verify/report/make.py --build build/release --out out/report "$@"
+fi
 
 check "build release" build release
 if ((failed == 0)); then

@@ -3,10 +3,12 @@
 // exported adhesion.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "acceptance.hpp"
 #include "comparison.hpp"
 #include "direct.hpp"
 #include "enf.hpp"
@@ -50,7 +52,7 @@ struct FetiChoice {
 // may stall just above the linear tolerance and say so (DELAM_NOT_CONVERGED); what counts here is how far the state
 // they end with is from the reference's.
 template <class Each>
-void solve_all(const DirectStates& states, const FetiChoice& choice, Each&& each) {
+void solve_all(const DirectStates& states, const FetiChoice& choice, Each&& each, double* worst_kkt = nullptr) {
     Enf e;
     e.subdomains = choice.subdomains;
     e.preconditioner = choice.preconditioner;
@@ -65,6 +67,7 @@ void solve_all(const DirectStates& states, const FetiChoice& choice, Each&& each
         if (status != DELAM_NOT_CONVERGED || !may_stall) scene.require(status, "delam_solver_equilibrate");
         each(i, reference::compare(solver, entry.state, states.exported, 1e-10), status,
              solver.value("linear_iterations"));
+        if (worst_kkt != nullptr) *worst_kkt = std::max(*worst_kkt, reference::accept(solver, states.exported).worst());
         solver.commit();
     }
 }

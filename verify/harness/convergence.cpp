@@ -131,6 +131,7 @@ Table convergence(const Options& options) {
     std::vector<std::pair<double, int>> levels_asked = {
         {3e-3, 20}, {1.5e-3, 40}, {0.75e-3, 80}, {0.375e-3, 160}, {0.1875e-3, 320}};
     for (const char* specimen : {"enf-ductile", "mmf-ductile"}) {
+        if (!options.wants(specimen)) continue;
         for (const char* element : {"quad4", "quad4-incompatible"}) {
             for (const char* rule : {"frozen", "converged"}) {
                 if (options.quick && element[5] != '\0' && rule[0] == 'c') continue;

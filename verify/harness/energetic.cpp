@@ -139,6 +139,7 @@ Table energetic(const Options& options) {
         for (const double patch : {0.0, 2e-3}) {
             if ((options.quick && (h < 0.7e-3 || (h < 1e-3 && patch == 0.0))) || h < options.finest) continue;
             for (const char* family : {"enf-brittle", "mmf-brittle"}) {
+                if (!options.wants(family)) continue;
                 reference::Flexure data = reference::find_flexure(family);
                 data.h = h;
                 data.patch = patch;

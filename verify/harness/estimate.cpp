@@ -25,7 +25,7 @@ void series(Table& table, const Options& options, const std::string& name, doubl
             const std::string& rule) {
     std::vector<double> sizes, defects, slides, bands;
     for (const int steps : {20, 40, 80, 160, 320, 640}) {
-        if (options.quick && steps > 80) continue;
+        if ((options.quick && steps > 80) || (options.most_steps > 0 && steps > options.most_steps)) continue;
         progress("estimate: " + name + ", h " + std::to_string(h) + ", " + solution + ", " + rule + ", " +
                  std::to_string(steps) + " steps");
         reference::Flexure data = reference::find_flexure(name);
@@ -98,9 +98,11 @@ Table estimate(const Options& options) {
                      "band",         "order_band", "defect",     "order_defect",  "defect_slides",
                      "order_slides", "drop",       "backtracks", "not_converged", "note"};
     for (const char* name : {"enf-ductile", "enf-brittle", "mmf-ductile", "mmf-brittle"}) {
+        if (!options.wants(name)) continue;
         for (const double h : {1e-3, 0.5e-3}) {
             if ((options.quick && h < 1e-3) || h < options.finest) continue;
             for (const char* solution : {"local", "energetic"}) {
+                if (!options.solution.empty() && options.solution != solution) continue;
                 for (const char* rule : {"frozen", "converged", "variational"})
                     series(table, options, name, h, solution, rule);
             }

@@ -24,6 +24,13 @@ int main(int argc, char** argv) {
             options.settings.emplace_back(argv[++i]);
         } else if (std::strcmp(argv[i], "--subject") == 0 && i + 1 < argc) {
             options.subject = argv[++i];
+        } else if (std::strcmp(argv[i], "--specimen") == 0 && i + 1 < argc) {
+            options.specimen = argv[++i];
+        } else if (std::strcmp(argv[i], "--solution") == 0 && i + 1 < argc) {
+            options.solution = argv[++i];
+        } else if (std::strcmp(argv[i], "--most-steps") == 0 && i + 1 < argc) {
+            options.most_steps = std::atoi(argv[++i]);
+            understood = understood && options.most_steps > 0;
         } else if (name == nullptr && argv[i][0] != '-') {
             name = argv[i];
         } else {
@@ -58,8 +65,8 @@ int main(int argc, char** argv) {
         }
     }
     std::fprintf(stderr,
-                 "usage: delam_harness [--json] [--quick] [--finest MM] [--scene FILE [--set KEY=VALUE ...]] "
-                 "[--subject NAME] TABLE\n"
+                 "usage: delam_harness [--json] [--quick] [--finest MM] [--scene FILE [--set KEY=VALUE ...]]\n"
+                 "       [--specimen NAME] [--solution NAME] [--most-steps N] [--subject NAME] TABLE\n"
                  "tables: pcg, contact, balance, feti-direct, energetic, jump-instant, estimate, convergence, stability "
                  "(--subject), sets, scene-direct (of --scene)\n");
     return 1;

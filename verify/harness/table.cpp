@@ -25,6 +25,8 @@ Cell::Cell(double v) : quoted(!std::isfinite(v)) {
     char line[40];
     std::snprintf(line, sizeof line, "%.4g", v);
     text = line;
+    std::snprintf(line, sizeof line, "%.12g", v);
+    exact = line;
 }
 
 void Table::print_text() const {
@@ -53,7 +55,7 @@ void Table::print_json() const {
         std::printf("%s\n  [", r > 0 ? "," : "");
         for (std::size_t i = 0; i < rows[r].size(); ++i) {
             const Cell& cell = rows[r][i];
-            std::printf("%s%s", i > 0 ? ", " : "", cell.quoted ? quote(cell.text).c_str() : cell.text.c_str());
+            std::printf("%s%s", i > 0 ? ", " : "", cell.quoted ? quote(cell.text).c_str() : (cell.exact.empty() ? cell.text : cell.exact).c_str());
         }
         std::printf("]");
     }

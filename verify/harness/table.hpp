@@ -15,6 +15,7 @@ struct Cell {
     Cell(double v);
 
     std::string text;
+    std::string exact;  // of a number: what JSON has; text, which people read, has four digits
     bool quoted = false;
 };
 
@@ -35,6 +36,10 @@ struct Options {
     std::string scene;    // a scene file
     std::vector<std::string> settings;  // KEY=VALUE for it
     std::string subject;                // of stability: this one alone
+    std::string specimen, solution;     // of tables over several: only this one
+    int most_steps = 0;                 // > 0: marches of more steps are left out
+
+    bool wants(const std::string& of_specimen) const { return specimen.empty() || specimen == of_specimen; }
 };
 
 Table pcg(const Options& options);

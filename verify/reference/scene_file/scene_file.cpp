@@ -74,10 +74,12 @@ std::vector<Judged> judge(SceneFile& file, const std::vector<std::size_t>& steps
         // A contact whose gap or pressure is of the size of rounding may be called either way.
         condensed.equilibrate(time, adhesion[i]);
         row.condensed = compare(condensed, state, direct.exported(), 1e-9);
+        row.kkt_condensed = accept(condensed, direct.exported());
         const std::int32_t status = delam_solver_equilibrate(feti.get(), time, adhesion[i].data());
         row.stalled = status == DELAM_NOT_CONVERGED;
         if (!row.stalled) scene.require(status, "delam_solver_equilibrate");
         row.feti = compare(feti, state, direct.exported(), 1e-9);
+        row.kkt_feti = accept(feti, direct.exported());
         row.linear_iterations = feti.value("linear_iterations");
         out.push_back(row);
         condensed.commit();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "acceptance.hpp"
 #include "comparison.hpp"
 
 namespace reference {
@@ -23,6 +24,7 @@ struct Judged {
     double debonded = 0.0;  // share of the pairs
     int closed = 0;         // contacts, of the direct solution
     Comparison condensed, feti;
+    Acceptance kkt_condensed, kkt_feti;
     bool stalled = false;            // FETI did not meet its linear tolerance (DELAM_NOT_CONVERGED)
     double linear_iterations = 0.0;  // of FETI's one displacement step
 };

@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Two judgements of a case: against its reference, and against the library's own past. Both are made here from the numbers;
+what a case says about itself is not believed."""
+from __future__ import annotations
+
+import json
+import math
+import pathlib
+
+import orders
+
+PAST_RELATIVE = 1e-6
+PAST_ORDER = 1e-4        # a fitted order: differences of small errors
+COUNT_BAND = 0.20       # of counts of iterations
+ROUNDING_GROWTH = 10.0  # a value of the size of rounding may move below this multiple of the past one
+REFIT = 1e-6            # an order that is handed in with its data must be the one fitted to them
+# Counts of what did not converge: more than 0 fails, unless the column says that it may.
+UNCONVERGED = ("not_converged", "not converged", "stalled", "limit", "diverged")
+
+
+def _unconverged(data: dict) -> list[str]:
+    found = []
+    for table in data["tables"]:
+        for i, column in enumerate(table["columns"]):
+            counts = column["name"].lower() in UNCONVERGED and not column.get("may")
+            for r, row in enumerate(table["rows"]):
+                cell = row[i]
+                if counts and isinstance(cell, (int, float)) and cell != 0:
+                    found.append(f"{table['title']}, row {r + 1}: {column['name']} {cell:g}")
+                elif isinstance(cell, str) and not column.get("may"):
+                    word = cell.strip().lower()
+                    if word in ("limit", "not converged", "not_converged") or word.startswith(("failed:", "diverged")):
+                        found.append(f"{table['title']}, row {r + 1}: {cell}")
+    return found
+
+
+def _order_verdict(o: dict) -> tuple[bool, str]:
+    text = f"order of {o['of']} in {o['by']}: {o['fitted']:.3f}, expected {o['expected']:g} within {o['tolerance']:g}"
+    if "sizes" in o:
+        try:
+            again = orders.fit(o["sizes"], o["errors"])
+        except ValueError as error:
+            return False, f"order of {o['of']}: {error}"
+        if not abs(again - o["fitted"]) <= REFIT * max(1.0, abs(again)):
+            return False, f"order of {o['of']}: stated {o['fitted']:.6f}, but its data have {again:.6f}"
+    off = o["fitted"] - o["expected"]
+    good = off >= -o["tolerance"] if o.get("sense") == "at least" else abs(off) <= o["tolerance"]
+    return bool(good), text
+
+
+def _closeness(c: dict) -> float:
+    """How much of the limit is used: above 1 is a violation."""
+    value, limit = c["value"], c["limit"]
+    if not (math.isfinite(value) and math.isfinite(limit)):
+        return math.inf
+    if c["sense"] == ">=":
+        if value >= limit:
+            return limit / value if value > 0 and limit > 0 else 0.0
+        return limit / value if value > 0 else math.inf
+    if value <= limit:
+        return value / limit if limit > 0 and value > 0 else 0.0
+    return value / limit if limit > 0 else math.inf
+
+
+def against_reference(data: dict) -> dict:
+    """Every check within its limit, every order as expected, nothing that did not converge; a case without any is no evidence."""
+    lost = _unconverged(data)
+    if lost:
+        return {"verdict": "fail", "value": float(len(lost)), "limit": 0.0, "why": "not converged: " + "; ".join(lost[:4])}
+    if not data["reference"].get("kind"):
+        return {"verdict": "none", "value": None, "limit": None, "why": "the case names no reference"}
+    if not data["checks"] and not data["orders"]:
+        if data.get("refused"):
+            return {"verdict": "pass", "value": None, "limit": None, "why": "refused: " + data["refused"]}
+        return {"verdict": "none", "value": None, "limit": None, "why": "the case compares nothing with its reference"}
+    for o in data["orders"]:
+        good, text = _order_verdict(o)
+        if not good:
+            return {"verdict": "fail", "value": o["fitted"], "limit": o["expected"], "why": text}
+    if not data["checks"]:
+        worst = max(data["orders"], key=lambda o: abs(o["fitted"] - o["expected"]))
+        return {"verdict": "pass", "value": worst["fitted"], "limit": worst["expected"], "why": _order_verdict(worst)[1]}
+    worst = max(data["checks"], key=_closeness)
+    good = all(c["value"] <= c["limit"] if c["sense"] == "<=" else c["value"] >= c["limit"] for c in data["checks"])
+    return {"verdict": "pass" if good else "fail", "value": worst["value"], "limit": worst["limit"], "sense": worst["sense"],
+            "why": f"{worst['what']}: {worst['value']:.3g}, limit {worst['limit']:.3g}; {worst['why']}"}
+
+
+def numbers(data: dict) -> dict:
+    """Every number of the case by a name that survives new rows: table, keys of its row (else its place), column."""
+    out = {}
+    for table in data["tables"]:
+        keys = [i for i, c in enumerate(table["columns"]) if c.get("key")]
+        seen: dict[str, int] = {}
+        for r, row in enumerate(table["rows"]):
+            who = ", ".join(f"{row[i]:g}" if isinstance(row[i], float) else str(row[i]) for i in keys) if keys else f"row {r + 1}"
+            seen[who] = seen.get(who, 0) + 1
+            if seen[who] > 1:
+                who += f" ({seen[who]})"
+            for i, c in enumerate(table["columns"]):
+                if i not in keys and c.get("past") != "free" and isinstance(row[i], (int, float)):
+                    out[f"{table['title']} | {who} | {c['name']}"] = (float(row[i]), c.get("past", PAST_RELATIVE))
+    for f in data["figures"]:
+        if f.get("past") != "free":
+            out[f"figure | {f['name']}"] = (float(f["value"]), f.get("past", PAST_RELATIVE))
+    for o in data["orders"]:
+        if o.get("past") != "free":
+            out[f"order | {o['of']} | {o['by']}"] = (float(o["fitted"]), o.get("past", PAST_ORDER))
+    return out
+
+
+def _excess(now: float, then: float, rule) -> float:
+    """Difference over what is allowed; above 1 is a violation."""
+    if rule == "rounding":
+        return abs(now) / max(ROUNDING_GROWTH * abs(then), 1e-13)
+    allowed = (COUNT_BAND if rule == "count" else float(rule)) * abs(then)
+    if rule == "count":
+        allowed = max(allowed, 2.0)
+    if now == then:
+        return 0.0
+    return abs(now - then) / allowed if allowed > 0 else math.inf
+
+
+def past_path(folder: pathlib.Path, case_id: str) -> pathlib.Path:
+    return folder / f"{case_id}.json"
+
+
+def against_past(data: dict, folder: pathlib.Path, quick: bool) -> dict:
+    path = past_path(folder, data["id"])
+    tier = "quick" if quick else "full"
+    stored = json.loads(path.read_text(encoding="utf-8")).get(tier) if path.is_file() else None
+    if stored is None:
+        return {"verdict": "new", "worst": None, "limit": 1.0, "why": f"no accepted run of the {tier} report yet"}
+    now, then = numbers(data), stored["numbers"]
+    lost = [name for name in then if name not in now]
+    if lost:
+        return {"verdict": "fail", "worst": None, "limit": 1.0,
+                "why": f"{len(lost)} numbers of the accepted run are missing, first: {lost[0]}"}
+    worst, what = 0.0, "all equal"
+    for name, value in then.items():
+        excess = _excess(now[name][0], value, now[name][1])
+        if excess > worst:
+            worst, what = excess, f"{name}: {now[name][0]:.9g}, accepted {value:.9g}"
+    return {"verdict": "pass" if worst <= 1.0 else "fail", "worst": min(worst, 1e300), "limit": 1.0,
+            "why": f"{len(then)} numbers of {stored['date']} ({stored['commit']}); difference over tolerance at worst {worst:.2g}: {what}"}
+
+
+def accept(data: dict, folder: pathlib.Path, quick: bool, date: str) -> None:
+    path = past_path(folder, data["id"])
+    stored = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {"id": data["id"]}
+    stored["quick" if quick else "full"] = {"date": date, "commit": data["commit"],
+                                            "numbers": {name: value for name, (value, _) in numbers(data).items()}}
+    folder.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(stored, indent=1, sort_keys=True) + "\n", encoding="utf-8")
+
+
+def judge(data: dict, folder: pathlib.Path, quick: bool) -> dict:
+    """Fills judgement and status of a case that ran."""
+    with_reference = against_reference(data)
+    with_past = against_past(data, folder, quick)
+    data["judgement"] = {"reference": with_reference, "past": with_past}
+    if with_reference["verdict"] == "none":
+        data["status"], data["reason"] = "failed", "no evidence: " + with_reference["why"]
+    elif with_reference["verdict"] == "fail":
+        data["status"], data["reason"] = "failed", "against the reference: " + with_reference["why"]
+    elif with_past["verdict"] == "fail":
+        data["status"], data["reason"] = "failed", "against its own past: " + with_past["why"]
+    elif data.get("refused"):
+        data["status"], data["reason"] = "refused as expected", data["refused"]
+    else:
+        data["status"], data["reason"] = "passed", ""
+    return data

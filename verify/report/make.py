@@ -1,0 +1,340 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the cases, each in a process of its own, writes their JSON and the report: see README.md."""
+from __future__ import annotations
+
+import argparse
+import concurrent.futures
+import ctypes
+import datetime
+import hashlib
+import importlib.util
+import json
+import os
+import pathlib
+import platform
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+import traceback
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+sys.path.insert(0, str(HERE))
+
+import case as case_module  # noqa: E402
+import judge  # noqa: E402
+import schema  # noqa: E402
+
+
+def find_cases(folder: pathlib.Path) -> list[case_module.Case]:
+    found: list[case_module.Case] = []
+    for path in sorted(folder.glob("*_*.py")):
+        spec = importlib.util.spec_from_file_location(f"cases_{path.stem}", path)
+        module = importlib.util.module_from_spec(spec)
+        sys.path.insert(0, str(folder))
+        try:
+            spec.loader.exec_module(module)
+        finally:
+            sys.path.remove(str(folder))
+        if hasattr(module, "cases"):
+            found += module.cases()
+    names = [c.id for c in found]
+    twice = sorted({n for n in names if names.count(n) > 1})
+    if twice:
+        raise SystemExit(f"make.py: case ids are used twice: {', '.join(twice)}")
+    return sorted(found, key=lambda c: (c.chapter, names.index(c.id)))
+
+
+def library_of(build: pathlib.Path) -> dict:
+    """The library that is judged, by its own words and by the digest of its file."""
+    path = (build / "lib" / "libdelam.so").resolve()
+    if not path.is_file():
+        raise SystemExit(f"make.py: no {build}/lib/libdelam.so: build the library first (cmake --preset release && cmake --build --preset release)")
+    loaded = ctypes.CDLL(str(path))
+    loaded.delam_version.restype = loaded.delam_commit.restype = ctypes.c_char_p
+    digest = hashlib.sha256(path.read_bytes()).hexdigest()
+    version, commit = loaded.delam_version().decode(), loaded.delam_commit().decode()
+    return {"version": version, "commit": commit, "sha256": digest, "name": f"{version}, {commit}, sha256 {digest[:12]}"}
+
+
+def source_commit() -> str:
+    run = subprocess.run(["git", "-C", str(ROOT), "describe", "--always", "--dirty", "--abbrev=12", "--exclude=*"], text=True,
+                         capture_output=True, check=False)
+    return run.stdout.strip() or "unknown"
+
+
+def machine() -> dict:
+    processor, memory = platform.processor() or "unknown", 0.0
+    try:
+        for line in pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
+            if line.startswith("model name"):
+                processor = line.split(":", 1)[1].strip()
+                break
+        for line in pathlib.Path("/proc/meminfo").read_text(encoding="utf-8").splitlines():
+            if line.startswith("MemTotal"):
+                memory = float(line.split()[1]) / 1024**2
+    except OSError:
+        pass
+    release = platform.freedesktop_os_release() if hasattr(platform, "freedesktop_os_release") else {}
+    return {"processor": processor, "cores": os.cpu_count(), "memory_GiB": round(memory, 1),
+            "system": release.get("PRETTY_NAME", platform.platform()), "python": platform.python_version(),
+            "openblas_coretype": os.environ.get("OPENBLAS_CORETYPE", "chosen by OpenBLAS"),
+            "threads": os.environ.get("OPENBLAS_NUM_THREADS", "1")}
+
+
+def blank(case: case_module.Case, library: dict, command: str) -> dict:
+    """A record without any result yet."""
+    return {**case.head(), "reference": {"kind": "", "source": "", "uncertainty": ""}, "tables": [], "orders": [], "ledger": None,
+            "plots": [], "figures": [], "checks": [], "warnings": [], "losses": [],
+            "judgement": {"reference": {"verdict": "none", "value": None, "limit": None, "why": "not judged"},
+                          "past": {"verdict": "none", "worst": None, "limit": None, "why": "not judged"}},
+            "status": "failed", "reason": "", "command": command, "commit": library["commit"], "library": library["name"],
+            "seconds": 0.0, "timing": case.timing, "expected_seconds": case.expected, "quick": False}
+
+
+def ended(case, library, command, status: str, reason: str, seconds: float = 0.0) -> dict:
+    data = blank(case, library, command)
+    data.update(status=status, reason=reason, seconds=round(seconds, 3))
+    return data
+
+
+def run_here(case: case_module.Case, context: case_module.Context, past: pathlib.Path, library: dict) -> dict:
+    """Runs, judges and checks one case in this process; only a crash gets past this."""
+    start = time.monotonic()
+    again = shlex.join(["bash", "verify/run.sh", "--report", *(["--quick"] if context.quick else []), "--only", case.id])
+    data = {**blank(case, library, again), "quick": context.quick}
+
+    def failed(reason: str, status: str = "failed") -> dict:
+        out = ended(case, library, data["command"], status, reason, time.monotonic() - start)
+        return schema.check(out)
+
+    try:
+        answer = case.run(context)
+    except case_module.Skip as why:
+        return failed(str(why), "skipped")
+    except case_module.Failed as why:
+        return failed(str(why))
+    except BaseException as error:  # whatever a case does wrong is that case's failure
+        where = traceback.extract_tb(error.__traceback__)[-1]
+        return failed(f"{type(error).__name__}: {error} ({pathlib.Path(where.filename).name}:{where.lineno})")
+    if context.commands:
+        data["command"] = again + "\n" + "\n".join(dict.fromkeys(context.commands))
+    if not isinstance(answer, dict):
+        return failed("the case handed back no result")
+    data.update(answer)
+    data["seconds"] = round(time.monotonic() - start, 3)
+    try:
+        # Numbers first: what is not finite must not be judged.
+        schema.check({**data, "status": "failed", "reason": "not judged yet"})
+        judge.judge(data, past, context.quick)
+        schema.check(data)
+    except schema.Invalid as error:
+        return failed(f"the result is not sound: {error}")
+    except Exception as error:
+        return failed(f"the result cannot be judged: {type(error).__name__}: {error}")
+    return data
+
+
+def write_json(path: pathlib.Path, data) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(data, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+
+
+def read_case(path: pathlib.Path, case: case_module.Case, library: dict, command: str, quick: bool) -> dict:
+    """The JSON of a case as this report may use it: sound, of this case, of its tier, and of this very library."""
+    try:
+        data = schema.check(json.loads(path.read_text(encoding="utf-8")))
+    except (OSError, ValueError) as error:
+        return ended(case, library, command, "failed", f"its JSON cannot be used: {error}")
+    if data["id"] != case.id:
+        return ended(case, library, command, "failed", f"its JSON is that of {data['id']}")
+    if data["library"] != library["name"] or data["commit"] != library["commit"]:
+        return ended(case, library, command, "failed", f"stale: its JSON is of library {data['library']}, the report of {library['name']}")
+    if data["status"] != "skipped" and data.get("quick", False) != quick and data["tables"]:
+        return ended(case, library, command, "failed", f"stale: its JSON is of the {'full' if quick else 'quick'} report")
+    return data
+
+
+class Runner:
+    """Starts cases as child processes and keeps what became of them."""
+
+    def __init__(self, arguments, library: dict, say):
+        self.arguments, self.library, self.say = arguments, library, say
+        self.running: dict[int, subprocess.Popen] = {}
+        self.lock = threading.Lock()
+
+    def __call__(self, case: case_module.Case) -> dict:
+        a = self.arguments
+        path = a.out / "json" / f"{case.id}.json"
+        path.unlink(missing_ok=True)
+        command = [sys.executable, str(HERE / "make.py"), "--child", case.id, "--out", str(a.out), "--build", str(a.build),
+                   "--cases", str(a.cases), "--past", str(a.past), *(["--quick"] if a.quick else [])]
+        again = shlex.join(["bash", "verify/run.sh", "--report", *(["--quick"] if a.quick else []), "--only", case.id])
+        start = time.monotonic()
+        log = a.out / "log" / f"{case.id}.txt"
+        log.parent.mkdir(parents=True, exist_ok=True)
+        with open(log, "w", encoding="utf-8") as output:
+            child = subprocess.Popen(command, stdout=output, stderr=subprocess.STDOUT, cwd=ROOT, start_new_session=True,
+                                     env=case_module.environment(a.build / "lib"))
+            with self.lock:
+                self.running[child.pid] = child
+            try:
+                status = child.wait(timeout=case.seconds)
+            except subprocess.TimeoutExpired:
+                status = None
+            finally:
+                self.end(child)
+        seconds = time.monotonic() - start
+        if status is None:
+            data = ended(case, self.library, again, "failed", f"stopped: it took more than its limit of {case.seconds:g} s", seconds)
+        elif status != 0:
+            tail = " / ".join(log.read_text(encoding="utf-8", errors="replace").strip().splitlines()[-3:])
+            how = f"signal {signal.Signals(-status).name}" if status < 0 else f"exit status {status}"
+            data = ended(case, self.library, again, "failed", f"crashed ({how})" + (f": {tail}" if tail else ""), seconds)
+        else:
+            data = read_case(path, case, self.library, again, a.quick)
+        write_json(path, data)
+        return data
+
+    def end(self, child: subprocess.Popen) -> None:
+        """The child and whatever it started."""
+        with self.lock:
+            self.running.pop(child.pid, None)
+        try:
+            os.killpg(child.pid, signal.SIGKILL)
+        except (ProcessLookupError, PermissionError):
+            pass
+        child.wait()
+
+    def end_all(self) -> None:
+        """The waiting threads see their children end and go."""
+        for pid in list(self.running):
+            try:
+                os.killpg(pid, signal.SIGKILL)
+            except (ProcessLookupError, PermissionError):
+                pass
+
+
+def chosen(case: case_module.Case, only: list[str]) -> bool:
+    return not only or case.id in only or case.chapter in only
+
+
+def main(argv: list[str]) -> int:
+    parser = argparse.ArgumentParser(prog="make.py", description=__doc__)
+    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "out" / "report")
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "release")
+    parser.add_argument("--quick", action="store_true", help="the part that takes less than 5 minutes")
+    parser.add_argument("--only", nargs="+", default=[], metavar="ID|CHAPTER", help="run these; the others stay as they are")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="cases at once, of those that do not measure time")
+    parser.add_argument("--accept", action="store_true", help="the numbers of what passed its reference are the new past")
+    parser.add_argument("--list", action="store_true", help="names the cases")
+    parser.add_argument("--cases", type=pathlib.Path, default=HERE / "cases", help=argparse.SUPPRESS)
+    parser.add_argument("--past", type=pathlib.Path, default=HERE / "past", help=argparse.SUPPRESS)
+    parser.add_argument("--child", help=argparse.SUPPRESS)
+    a = parser.parse_args(argv)
+    a.out, a.build, a.cases, a.past = a.out.resolve(), a.build.resolve(), a.cases.resolve(), a.past.resolve()
+    cases = find_cases(a.cases)
+    if a.list:
+        for c in cases:
+            print(f"{c.chapter}  {c.id:<32} {'quick' if c.quick else '     '} {'timing' if c.timing else '      '} {c.expected:6.0f} s  {c.title}")
+        return 0
+    library = library_of(a.build)
+    if a.child:
+        case = next(c for c in cases if c.id == a.child)
+        context = case_module.Context(ROOT, a.build, a.out, a.quick, case.seconds)
+        write_json(a.out / "json" / f"{case.id}.json", run_here(case, context, a.past, library))
+        return 0
+    unknown = [o for o in a.only if o not in case_module.CHAPTERS and o not in [c.id for c in cases]]
+    if unknown:
+        raise SystemExit(f"make.py: neither a case nor a chapter: {', '.join(unknown)} (--list names them)")
+    return report(a, cases, library)
+
+
+def report(a, cases: list[case_module.Case], library: dict) -> int:
+    started, start = datetime.datetime.now(datetime.timezone.utc), time.monotonic()
+    command = shlex.join(["bash", "verify/run.sh", "--report", *(["--quick"] if a.quick else []), *(["--only", *a.only] if a.only else [])])
+    # Cached tables are of one report only.
+    shutil.rmtree(a.out / "raw", ignore_errors=True)
+    if not a.only:
+        shutil.rmtree(a.out / "json", ignore_errors=True)
+    wanted = [c for c in cases if chosen(c, a.only) and (c.quick or not a.quick)]
+    done = 0
+
+    def say(text: str) -> None:
+        print(text, file=sys.stderr, flush=True)
+
+    def tell(data: dict) -> None:
+        nonlocal done
+        done += 1
+        why = f": {data['reason']}" if data["reason"] else ""
+        say(f"[{done}/{len(wanted)}] {data['status']:<8} {data['id']} ({data['seconds']:.1f} s){why}")
+
+    def stop(*_):
+        raise KeyboardInterrupt
+
+    signal.signal(signal.SIGTERM, stop)
+    runner, results = Runner(a, library, say), {}
+    say(f"report: {len(wanted)} of {len(cases)} cases, {a.jobs} at once, library {library['name']}")
+    try:
+        # The long ones first: the last one to end decides.
+        free = sorted((c for c in wanted if not c.timing), key=lambda c: -c.expected)
+        with concurrent.futures.ThreadPoolExecutor(max(1, a.jobs)) as pool:
+            try:
+                for future in concurrent.futures.as_completed([pool.submit(runner, c) for c in free]):
+                    data = future.result()
+                    results[data["id"]] = data
+                    tell(data)
+            except KeyboardInterrupt:
+                # What waits is not begun, what runs is ended: else the pool would wait for all of them.
+                pool.shutdown(wait=False, cancel_futures=True)
+                runner.end_all()
+                raise
+        for c in wanted:
+            if c.timing:
+                results[c.id] = runner(c)
+                tell(results[c.id])
+    except KeyboardInterrupt:
+        runner.end_all()
+        raise SystemExit("make.py: interrupted; no report was written")
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    everything = []
+    for c in cases:
+        path = a.out / "json" / f"{c.id}.json"
+        if c.id in results:
+            everything.append(results[c.id])
+        elif a.only and path.is_file():
+            everything.append(read_case(path, c, library, command, a.quick))
+        else:
+            why = "not part of --quick" if a.quick and not c.quick else "left out by --only"
+            everything.append(ended(c, library, f"bash verify/run.sh --report --only {c.id}", "skipped", why))
+    if a.accept:
+        for data in everything:
+            if data["id"] in results and data["judgement"]["reference"]["verdict"] == "pass":
+                judge.accept(data, a.past, a.quick, started.strftime("%Y-%m-%d"))
+                judge.judge(data, a.past, a.quick)
+                write_json(a.out / "json" / f"{data['id']}.json", data)
+                say(f"accepted: {data['id']}")
+    import claims
+
+    source = source_commit()
+    warnings = []
+    if not source.startswith(library["commit"]):
+        warnings.append(f"The library is of commit {library['commit']}, the sources beside it are {source}.")
+    write_json(a.out / "report.json", {
+        "title": "libdelam: verification report", "date": started.strftime("%Y-%m-%d %H:%M UTC"), "command": command,
+        "quick": a.quick, "commit": library["commit"], "source": source, "library": library, "machine": machine(),
+        "seconds": round(time.monotonic() - start, 1), "chapters": case_module.CHAPTERS, "claims": claims.CLAIMS,
+        "warnings": warnings, "cases": everything})
+    drawn = subprocess.run([sys.executable, str(HERE / "render.py"), str(a.out)], check=False)
+    counts = {s: sum(d["status"] == s for d in everything) for s in schema.STATUSES}
+    say(", ".join(f"{n} {s}" for s, n in counts.items()) + f"; {a.out / 'index.html'}")
+    return 1 if counts["failed"] or drawn.returncode else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

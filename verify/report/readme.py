@@ -1,0 +1,112 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""readme.py OUT: headline figures and pictures of a report into the README, between its markers.
+
+    readme.py OUT        from OUT/report.json: headline.json, pictures/, and the block in README.md
+    readme.py --check    exit status 1 if the block is not the one that headline.json makes"""
+from __future__ import annotations
+
+import argparse
+import json
+import pathlib
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+sys.path.insert(0, str(HERE))
+
+from words import show  # noqa: E402
+
+BEGIN, END = "<!-- report:begin (verify/report/readme.py) -->", "<!-- report:end -->"
+# Figures by their names in the JSON, and pictures by case and place; only of cases that passed.
+FIGURES = ["feti_direct_worst", "feti_direct_kkt", "balance_defect", "jump_mm"]
+PICTURES = [("b-ledger", 0), ("b-jump-instant", 0), ("a-feti-direct", 1)]
+
+
+class Refused(Exception):
+    """What the README asks for and the report does not have."""
+
+
+def gather(report: dict, figures=None, pictures=None) -> dict:
+    """What the README quotes, from the report alone."""
+    figures, pictures = FIGURES if figures is None else figures, PICTURES if pictures is None else pictures
+    good = {c["id"]: c for c in report["cases"] if c["status"] == "passed"}
+    found = {f["name"]: {**{k: f[k] for k in ("name", "value", "unit", "text")}, "case": c["id"]} for c in good.values() for f in c["figures"]}
+    lost = [name for name in figures if name not in found]
+    lost += [f"picture {i} of {case}" for case, i in pictures if case not in good or i >= len(good[case]["plots"])]
+    if lost:
+        raise Refused("not in the report, or of a case that did not pass: " + ", ".join(lost))
+    drawn = []
+    for case, i in pictures:
+        plot = good[case]["plots"][i]
+        drawn.append({"file": f"verify/report/pictures/{case}-{i + 1}.svg", "case": case, "plot": i, "title": plot["title"],
+                      "caption": plot.get("caption", "")})
+    statuses = ("passed", "failed", "refused as expected", "skipped")
+    return {"date": report["date"], "counts": {s: sum(c["status"] == s for c in report["cases"]) for s in statuses}, "command": report["command"], "commit": report["commit"], "processor": report["machine"]["processor"],
+            "cores": report["machine"]["cores"], "figures": [found[name] for name in figures], "pictures": drawn}
+
+
+def block(head: dict) -> str:
+    lines = [BEGIN, "", f"Measured on {head['date']}, commit {head['commit']}, {head['processor']}, {head['cores']} cores, by", "",
+             f"    {head['command']}", "", "Cases: " + ", ".join(f"{n} {s}" for s, n in head["counts"].items()) + ".", "", "| | | case |", "|---|---|---|"]
+    for f in head["figures"]:
+        lines.append(f"| {f['text']} | {show(f['value'])} {f['unit']}".rstrip() + f" | {f['case']} |")
+    lines.append("")
+    for p in head["pictures"]:
+        lines += [f"![{p['title']}. {p['caption']}]({p['file']})", ""]
+    return "\n".join([*lines, END])
+
+
+def between(text: str) -> str:
+    if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(BEGIN) > text.index(END):
+        raise Refused(f"the README must have one \"{BEGIN}\" and one \"{END}\" after it")
+    return text[text.index(BEGIN):text.index(END) + len(END)]
+
+
+def differences(readme: str, head: dict, root: pathlib.Path) -> list[str]:
+    """Why README and headline.json do not agree; empty if they do."""
+    try:
+        written = between(readme)
+    except Refused as error:
+        return [str(error)]
+    wanted = block(head).splitlines()
+    got = written.splitlines()
+    wrong = [f"README has \"{a}\", headline.json gives \"{b}\"" for a, b in zip(got, wanted) if a != b]
+    if len(got) != len(wanted):
+        wrong.append(f"README's block has {len(got)} lines, headline.json gives {len(wanted)}")
+    return wrong + [f"{p['file']} is missing" for p in head["pictures"] if not (root / p["file"]).is_file()]
+
+
+def main(argv: list[str]) -> int:
+    parser = argparse.ArgumentParser(prog="readme.py", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("out", nargs="?", type=pathlib.Path)
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--readme", type=pathlib.Path, default=ROOT / "README.md")
+    a = parser.parse_args(argv)
+    if a.check == (a.out is not None):
+        parser.error("either OUT or --check")
+    text = a.readme.read_text(encoding="utf-8")
+    if a.check:
+        wrong = differences(text, json.loads((HERE / "headline.json").read_text(encoding="utf-8")), ROOT)
+        for line in wrong:
+            print(f"readme.py: {line}", file=sys.stderr)
+        return 1 if wrong else 0
+    report = json.loads((a.out / "report.json").read_text(encoding="utf-8"))
+    try:
+        head, old = gather(report), between(text)
+    except Refused as error:
+        print(f"readme.py: {error}", file=sys.stderr)
+        return 1
+    import plots
+
+    (HERE / "pictures").mkdir(exist_ok=True)
+    cases = {c["id"]: c for c in report["cases"]}
+    for p in head["pictures"]:
+        (ROOT / p["file"]).write_text(plots.svg(cases[p["case"]]["plots"][p["plot"]], plots.WIDE) + "\n", encoding="utf-8")
+    (HERE / "headline.json").write_text(json.dumps(head, indent=1) + "\n", encoding="utf-8")
+    a.readme.write_text(text.replace(old, block(head)), encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The README quotes what the report measured, digit by digit."""
+import json
+import unittest
+
+import planted
+import readme
+import schema  # noqa: F401  (the path)
+
+
+def report():
+    good = planted.sound(status="passed")
+    return {"date": "2000-01-01 00:00 UTC", "command": "bash verify/run.sh --report", "commit": "abc", "machine": {"processor": "P", "cores": 2},
+            "cases": [good]}
+
+
+class Readme(unittest.TestCase):
+    def head(self):
+        return readme.gather(report(), ["bar_error"], [])
+
+    def test_the_block_is_made_of_the_figures(self):
+        block = readme.block(self.head())
+        self.assertIn("| Error of the bar | 0.0075 m | t-one |", block)
+        self.assertIn("1 passed, 0 failed", block)
+        self.assertIn("2000-01-01 00:00 UTC", block)
+        self.assertIn("bash verify/run.sh --report", block)
+        self.assertEqual(readme.differences(f"text\n{block}\nmore", self.head(), readme.ROOT), [])
+
+    def test_a_changed_figure_is_seen(self):
+        text = readme.block(self.head()).replace("0.0075", "0.0057")
+        self.assertTrue(any("0.0057" in line for line in readme.differences(text, self.head(), readme.ROOT)))
+
+    def test_an_added_figure_is_seen(self):
+        text = readme.block(self.head()).replace(readme.END, "| Speed | 1000 | t-two |\n" + readme.END)
+        self.assertTrue(readme.differences(text, self.head(), readme.ROOT))
+
+    def test_a_missing_picture_is_seen(self):
+        head = {**self.head(), "pictures": [{"file": "verify/report/pictures/none.svg", "title": "t", "caption": "c", "case": "t-one", "plot": 0}]}
+        self.assertTrue(any("none.svg is missing" in line for line in readme.differences(readme.block(head), head, readme.ROOT)))
+
+    def test_figures_of_failed_cases_are_refused(self):
+        bad = report()
+        bad["cases"][0]["status"] = "failed"
+        with self.assertRaises(readme.Refused):
+            readme.gather(bad, ["bar_error"], [])
+        with self.assertRaises(readme.Refused):
+            readme.gather(report(), ["no_such_figure"], [])
+        with self.assertRaises(readme.Refused):
+            readme.gather(report(), ["bar_error"], [("t-one", 4)])
+
+    def test_readme_without_markers(self):
+        self.assertTrue(readme.differences("nothing", self.head(), readme.ROOT))
+
+    def test_the_top_readme_agrees(self):
+        head = json.loads((planted.REPORT / "headline.json").read_text(encoding="utf-8"))
+        text = (readme.ROOT / "README.md").read_text(encoding="utf-8")
+        self.assertEqual(readme.differences(text, head, readme.ROOT), [])
+        self.assertEqual([f["name"] for f in head["figures"]], readme.FIGURES)
+        self.assertEqual([(p["case"], p["plot"]) for p in head["pictures"]], readme.PICTURES)
+
+
+if __name__ == "__main__":
+    unittest.main()
