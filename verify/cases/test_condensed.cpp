@@ -393,6 +393,28 @@ CASE_TEST(rollback_of_the_first_step) {
     cases::expect(solver.save() == fresh.save(), "bytes of the snapshot");
 }
 
+// A soft arm below or above one 1e8 times stiffer: its tractions come out of its own stiffness, whichever side it is on.
+CASE_TEST(soft_on_stiff) {
+    const double ratio = loop == 0 ? 1e8 : 1e-8;
+    Scene scene(2, {0.04}, {40}, {2e-3, 2e-3}, {2, 2}, DELAM_QUAD4);
+    scene.interface(0, 1);
+    scene.begin();
+    scene.elastic(0, 70e9 * std::min(1.0, 1.0 / ratio), 0.3);
+    scene.elastic(1, 70e9 * std::min(1.0, ratio), 0.3);
+    scene.law(0, {1e14, 1e14, 1e30, 1e30, 1e30, 1e30});
+    const auto right = scene.find(-1, {0.04, 0.0}, {0.04, 4e-3});
+    scene.hold(right, {1.0, 0.0});
+    scene.hold(right, {0.0, 1.0});
+    scene.drive(scene.find(1, {0.0, 4e-3}, {0.0, 4e-3}), {0.0, 1.0}, scene.pattern("lift", {0.0, 1.0}, {0.0, 1e-5}), {1.0});
+    scene.text("reduction", "condensed");
+    Solver solver(scene, 0.0);
+    solver.step(1.0);
+    DirectReference direct(scene);
+    const auto comparison =
+        reference::compare(solver, direct.solve(1.0, solver.field("adhesion")), direct.exported(), 1e-10);
+    cases::expect_below(comparison.traction, 1e-7, "E upper / E lower " + std::to_string(ratio) + ": " + comparison.text());
+}
+
 }  // namespace
 
 int main() {
@@ -405,6 +427,7 @@ int main() {
     tcase_add_loop_test(tests, bound_jumps_of_a_bond, 0, 2);
     tcase_add_loop_test(tests, long_walk, 0, walk_count);
     tcase_add_test(tests, rollback_of_the_first_step);
+    tcase_add_loop_test(tests, soft_on_stiff, 0, 2);
     suite_add_tcase(suite, tests);
     return cases::run_suite(suite);
 }

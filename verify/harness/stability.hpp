@@ -58,6 +58,9 @@ struct Trial {
     std::string refused;                    // expected: a refusal or outcome with these words
     bool condensed = true, feti = true, direct = true;
     std::string left_out;  // why, where one of these is false
+    // The scene with lengths in units of `unit`: what its direct solution has another energy by is what rounding of the
+    // matrices leaves. The error may be a hundred times that, up to 1e-2.
+    std::function<reference::Scene(double unit)> twin;
     // Of the reference alone: a scene with the same answer in which every body is held. None: the scene itself.
     std::function<reference::Scene()> held;
 };

@@ -3,7 +3,7 @@
 // plies, bodies that the host hands over as matrices.
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <utility>
 
 #include "stability.hpp"
 
@@ -14,6 +14,8 @@ using reference::LawData;
 using reference::Scene;
 
 constexpr LawData intact{1e14, 1e14, 1e30, 1e30, 1e30, 1e30};
+// The same with lengths in other units; stresses keep theirs.
+LawData in_units(double unit) { return {1e14 / unit, 1e14 / unit, 1e30, 1e30, 1e30, 1e30}; }
 
 std::vector<double> powers(int first, int last, int step) {
     std::vector<double> all;
@@ -145,26 +147,40 @@ void poisson(Study& study) {
 
 // Thin layers, one cell each, beside the interface of a cantilever that is not slender itself: cells `ratio` times
 // longer than thick, glued to thick arms by bonds.
-Scene make_graded(double ratio) {
-    constexpr double length = 0.04, arm = 4e-3;
-    constexpr std::int64_t columns = 40;
-    const double thin = length / columns / ratio;
-    Scene scene(2, {length}, {columns}, {arm, thin, thin, arm}, {4, 1, 1, 4}, DELAM_QUAD4);
+Scene make_graded(int dimension, double ratio, double unit) {
+    const bool plane = dimension == 2;
+    const double length = 0.04 * unit, arm = 4e-3 * unit, width = 0.01 * unit;
+    const std::int64_t columns = plane ? 40 : 16, notch = plane ? 12 : 5, rows = plane ? 4 : 2;
+    const double thin = length / static_cast<double>(columns) / ratio, top = 2.0 * (arm + thin);
+    Scene scene(dimension, plane ? std::vector<double>{length} : std::vector<double>{length, width},
+                plane ? std::vector<std::int64_t>{columns} : std::vector<std::int64_t>{columns, 3},
+                {arm, thin, thin, arm}, {rows, 1, 1, rows}, plane ? DELAM_QUAD4 : DELAM_HEX8);
     for (std::int32_t b = 0; b < 3; ++b) scene.interface(b, b + 1);
     scene.begin();
     scene.elastic(-1, 70e9, 0.3);
     scene.bonded(0);
-    scene.law(1, intact);
+    scene.law(1, in_units(unit));
     scene.bonded(2);
-    std::vector<std::int64_t> notch;
-    for (std::int64_t i = 0; i < 12; ++i) notch.push_back(i);
-    scene.adhesion(1, notch, std::vector<double>(notch.size(), 0.0));
-    const double top = 2.0 * (arm + thin);
-    const auto right = scene.find(-1, {length, 0.0}, {length, top});
-    scene.hold(right, {1.0, 0.0});
-    scene.hold(right, {0.0, 1.0});
-    const auto load = scene.pattern("lift", {0.0, 1.0}, {0.0, 1e-5});
-    scene.drive(scene.find(3, {0.0, top}, {0.0, top}), {0.0, 1.0}, load, {1.0});
+    std::vector<std::int64_t> open;
+    const auto a = scene.pairs(1).node_a;
+    const double edge = (static_cast<double>(notch) - 0.25) * length / static_cast<double>(columns);
+    for (std::size_t i = 0; i < a.size(); ++i)
+        if (scene.coordinate(a[i], 0) < edge) open.push_back(static_cast<std::int64_t>(i));
+    scene.adhesion(1, open, std::vector<double>(open.size(), 0.0));
+    const auto at = [&](double x, double y, double z) {
+        return plane ? std::vector<double>{x, z} : std::vector<double>{x, y, z};
+    };
+    const auto right = scene.find(-1, at(length, 0, 0), at(length, width, top));
+    for (int k = 0; k < dimension; ++k) {
+        std::vector<double> axis(static_cast<std::size_t>(dimension), 0.0);
+        axis[static_cast<std::size_t>(k)] = 1.0;
+        scene.hold(right, axis);
+    }
+    std::vector<double> up(static_cast<std::size_t>(dimension), 0.0);
+    up.back() = 1.0;
+    const auto load = scene.pattern("lift", {0.0, 1.0}, {0.0, 1e-5 * unit});
+    const auto corner = scene.find(3, at(0, 0, top), at(0, width, top));
+    scene.drive(corner, up, load, std::vector<double>(corner.size(), 1.0));
     return scene;
 }
 
@@ -178,34 +194,52 @@ void aspect(Study& study) {
             t.subject = subject;
             t.parameter_name = "aspect ratio of cells";
             t.parameter = ratio;
-            t.scene = [=] {
-                if (!tall) return make_graded(ratio);
+            t.twin = [=](double unit) {
+                if (!tall) return make_graded(2, ratio, unit);
                 Cantilever c;
-                c.arm = 2e-3 * ratio;  // 1 mm wide, `ratio` mm high
-                c.law = intact;
-                c.lift = 1e-5;
+                c.length *= unit;
+                c.arm = 2e-3 * ratio * unit;  // 1 mm wide, `ratio` mm high
+                c.law = in_units(unit);
+                c.lift = 1e-5 * unit;
                 return make_cantilever(c);
             };
+            t.scene = [twin = t.twin] { return twin(1.0); };
             t.may_say = true;
             t.defect_limit = 1e-8;
             study.run(t);
         }
     }
-    if (!study.wanted("aspect-3d")) return;
-    for (const double ratio : study.range({1, 10, 100, 1e3, 1e4}, 2)) {
+    if (study.wanted("aspect-3d"))
+        for (const double ratio : study.range({1, 10, 100, 1e3, 1e4}, 2)) {
+            Trial t;
+            t.subject = "aspect-3d";
+            t.parameter_name = "aspect ratio of cells";
+            t.parameter = ratio;
+            t.twin = [=](double unit) { return make_graded(3, ratio, unit); };
+            t.scene = [twin = t.twin] { return twin(1.0); };
+            t.may_say = true;
+            t.defect_limit = 1e-8;
+            study.run(t);
+        }
+    if (!study.wanted("slender-3d")) return;
+    for (const double ratio : study.range({1, 10, 100, 1e3}, 3)) {
         Trial t;
-        t.subject = "aspect-3d";
-        t.parameter_name = "aspect ratio of cells";
-        t.parameter = ratio;
-        t.scene = [=] {
+        t.subject = "slender-3d";
+        t.parameter_name = "length / thickness";
+        t.parameter = 8.0 * ratio;
+        t.twin = [=](double unit) {
             Cantilever c;
             c.dimension = 3;
             c.columns = 16, c.notch = 5, c.ranks = 2;
+            c.length *= unit;
+            c.width *= unit;
             c.arm = 2.0 * c.length / 16.0 / ratio;
-            c.law = intact;
+            c.law = in_units(unit);
             c.lift = 1e-3 * c.arm;
             return make_cantilever(c);
         };
+        t.scene = [twin = t.twin] { return twin(1.0); };
+        t.may_say = true;
         t.defect_limit = 1e-8;
         study.run(t);
     }
@@ -215,13 +249,12 @@ void aspect(Study& study) {
 // longer than thick; no Poisson's effect.
 void slender(Study& study) {
     if (!study.wanted("slender")) return;
-    constexpr double length = 1.0, young = 70e9;
+    constexpr double span = 1.0, young = 70e9;
     constexpr std::int64_t columns = 120;
-    for (const double ratio : study.range({10, 30, 100, 300, 1e3, 3e3, 1e4}, 3)) {
-        const double thickness = length / ratio, inertia = std::pow(thickness, 3) / 12.0;
-        const double lam = 20.0 / length, crack = 0.5 * length;
+    for (const double ratio : study.range({10, 30, 100, 300, 1e3, 3e3}, 4)) {
+        const double inertia = std::pow(span / ratio, 3) / 12.0;
+        const double lam = 20.0 / span, crack = 0.5 * span, opening = 1e-3 * span;
         const double k = 2.0 * young * inertia * std::pow(lam, 4);
-        const double opening = 1e-3 * length;
         const double compliance = 2.0 / (3.0 * young * inertia) *
                                   (std::pow(crack, 3) + 3.0 * crack * crack / lam + 3.0 * crack / (lam * lam) +
                                    1.5 / std::pow(lam, 3));
@@ -229,35 +262,44 @@ void slender(Study& study) {
         t.subject = "slender";
         t.parameter_name = "length / thickness";
         t.parameter = ratio;
-        t.scene = [=] {
+        t.twin = [=](double unit) {
+            const double length = span * unit, thickness = length / ratio;
             Scene scene(2, {length}, {columns}, {thickness, thickness}, {1, 1}, DELAM_QUAD8);
             scene.interface(0, 1);
             scene.begin();
             scene.elastic(-1, young, 0.0);
-            scene.law(0, {k, k, 1e30, 1e30, 1e30, 1e30});
+            scene.law(0, {k / unit, k / unit, 1e30, 1e30, 1e30, 1e30});
             const auto pairs = scene.pairs(0).node_a;
             std::vector<std::int64_t> notch;
             for (std::size_t i = 0; i < pairs.size(); ++i)
-                if (scene.coordinate(pairs[i], 0) < crack - 1e-6) notch.push_back(static_cast<std::int64_t>(i));
+                if (scene.coordinate(pairs[i], 0) < (crack - 1e-6) * unit) notch.push_back(static_cast<std::int64_t>(i));
             scene.adhesion(0, notch, std::vector<double>(notch.size(), 0.0));
             const auto right = scene.find(-1, {length, 0.0}, {length, 2.0 * thickness});
             scene.hold(right, {1.0, 0.0});
             scene.hold(right, {0.0, 1.0});
-            const auto load = scene.pattern("open", {0.0, 1.0}, {0.0, opening});
+            const auto load = scene.pattern("open", {0.0, 1.0}, {0.0, opening * unit});
             scene.drive(scene.find(1, {0.0, 2.0 * thickness}, {0.0, 2.0 * thickness}), {0.0, 1.0}, load, {0.5});
             scene.drive(scene.find(0, {0.0, 0.0}, {0.0, 0.0}), {0.0, -1.0}, load, {0.5});
             return scene;
         };
+        t.scene = [twin = t.twin] { return twin(1.0); };
+        const auto twin = std::exchange(t.twin, nullptr);
         t.reference = "closed form (beams on springs)";
         t.error = [=](const Result& r) { return std::abs(r.pattern[0] * compliance / opening - 1.0); };
-        // Shear of the arms, contact ahead of the tip.
-        t.limit = 5e-3 + 10.0 / (ratio * ratio);
-        t.defect_limit = 1e-7;
-        study.run(t);
+        // Contact ahead of the tip, which the beams do not know; shear of the arms.
+        t.limit = 0.03 + 10.0 / (ratio * ratio);
+        t.may_say = true;
+        // Beyond it the matrices' rounding is seen in the closed form, too.
+        if (ratio <= 1e3) {
+            t.acceptance_limit = 1e-4;
+            study.run(t);
+        }
         t.subject = "slender-direct";
         t.reference = "direct solver";
         t.error = nullptr;
-        t.limit = 1e-7;
+        t.twin = twin;
+        t.limit = 1e-8;
+        t.acceptance_limit = 1e-8;
         study.run(t);
     }
 }

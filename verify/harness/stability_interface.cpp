@@ -257,18 +257,19 @@ struct PairState {
     double adhesion = 1.0, normal = 0.0, tangential = 0.0, spent = 0.0, work = 0.0;  // per area
 };
 
-// Mixity of a step: that of the jump before, in the first loaded step that of its own.
+// Mixity of a step: that of the last jump before that was one, in the first loaded step that of its own.
 std::vector<PairState> own_scheme(const LawData& data, const std::vector<double>& open,
                                   const std::vector<double>& slide) {
     const OwnLaw law(data);
     std::vector<PairState> all;
     PairState s;
     double before[2] = {0.0, 0.0};
+    long double last = 0.0L;
     bool loaded = false;
     for (std::size_t k = 0; k < open.size(); ++k) {
         const double now[2] = {open[k], slide[k]};
         const long double y = law.driving(now, 2);
-        const long double mixity = law.mixity(loaded ? before : now, 2);
+        const long double mixity = loaded ? last : law.mixity(now, 2);
         const long double old = s.adhesion, adhesion = law.adhesion(mixity, y, old);
         // The mean of what the load does at the adhesion before and at that after.
         s.work += static_cast<double>(0.5L * (old + adhesion) * (y - law.driving(before, 2)));
@@ -278,6 +279,7 @@ std::vector<PairState> own_scheme(const LawData& data, const std::vector<double>
         s.tangential = static_cast<double>(adhesion * data.tangential_stiffness * now[1]);
         all.push_back(s);
         loaded = loaded || now[0] != 0.0 || now[1] != 0.0;
+        if (law.driving(now, 2) > 0.0L) last = law.mixity(now, 2);
         std::copy(now, now + 2, before);
     }
     return all;
@@ -354,14 +356,19 @@ void mode_change(Study& study) {
     }
 }
 
-// First a jump so small that its energy may underflow (psi = 0/0), in mode II, then loads that break the pair: the
-// toughness must be that of mode II all the same. 0: no jump at all.
+// A jump so small that its energy may underflow (psi = 0/0), in mode II, at first or between steps that load, then
+// loads that break the pair: the toughness must be that of mode II all the same. 0: no jump at all.
 void no_jump(Study& study) {
-    if (!study.wanted("psi-0/0")) return;
-    for (const double tiny : study.range({0.0, 5e-324, 1e-300, 1e-250, 1e-200, 1e-170, 1e-160, 1e-150, 1e-100, 1e-50, 1e-20}, 4)) {
-        const LawData law{125e9, 125e9, 100.0, 200.0, 250.0, 900.0};
-        std::vector<double> open(4, 0.0), slide{tiny, 8e-5, 1.2e-4, 4e-4};
-        study.run(driven("psi-0/0", "first jump, m", tiny, law, open, slide));
+    const std::vector<double> jumps{0.0, 5e-324, 1e-300, 1e-250, 1e-200, 1e-170, 1e-160, 1e-150, 1e-100, 1e-50, 1e-20};
+    for (const bool between : {false, true}) {
+        const std::string subject = between ? "psi-0/0-between" : "psi-0/0";
+        if (!study.wanted(subject)) continue;
+        for (const double tiny : study.range(jumps, 4)) {
+            const LawData law{125e9, 125e9, 100.0, 200.0, 250.0, 900.0};
+            std::vector<double> slide{tiny, 8e-5, 1.2e-4, 4e-4};
+            if (between) slide.insert(slide.begin(), 2e-5);
+            study.run(driven(subject, "jump, m", tiny, law, std::vector<double>(slide.size(), 0.0), slide));
+        }
     }
 }
 

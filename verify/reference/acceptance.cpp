@@ -143,7 +143,7 @@ Acceptance accept(const Scene& scene, const Fields& fields, const Exported& expo
     for (std::size_t i = 0; i < unbalance.size(); ++i) {
         const double rest = std::abs(static_cast<double>(unbalance[i]));
         worst = std::isnan(rest) ? rest : std::max(worst, rest);
-        beyond_rounding = std::max(beyond_rounding, rest - 8.0 * std::numeric_limits<double>::epsilon() * size[i]);
+        beyond_rounding = std::max(beyond_rounding, rest - least.ulps * std::numeric_limits<double>::epsilon() * size[i]);
     }
     const double own = largest(reaction) > 0.0 ? largest(reaction) : std::max(largest_force, largest(force));
     const double scale = std::max(own, least.force);

@@ -19,7 +19,7 @@ struct Acceptance {
     double supports = 0.0;          // prescribed values, over the largest displacement
     double law = 0.0;               // t - zeta k [u] of open components, over the largest traction
     double adhesion = 0.0;          // adhesion outside [0,1]
-    // Not part of worst(): equilibrium less what the rounding of the displacements alone can leave, |K| |u| ulps.
+    // Not part of worst(): equilibrium less what rounding of the displacements can leave, some ulps of |K| |u|.
     double balance = 0.0;
 
     double worst() const;
@@ -36,6 +36,7 @@ struct Fields {
 struct Least {
     double jump = 0.0, traction = 0.0, force = 0.0;
     double between_displacements = 0.0;  // jumps that are u_b - u_a
+    double ulps = 8.0;                   // of |K| |u| that the balance leaves out
 };
 Acceptance accept(const Scene& scene, const Fields& fields, const Exported& exported, const Least& least = {});
 
