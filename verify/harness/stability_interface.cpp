@@ -75,7 +75,7 @@ void rigid(Study& study) {
                              relative_difference(r.traction, limit.traction),
                              relative_difference(r.pattern, limit.pattern)});
         };
-        t.limit = 0.1 * 70e9 / (k * 1e-3) + 1e-9;
+        t.limit = 0.3 * 70e9 / (k * 1e-3) + 1e-9;
         t.defect_limit = 1e-8;
         study.run(t);
     }

@@ -197,6 +197,7 @@ void poor_cuts(Study& study) {
         const std::string subject = bonded ? "combs-glued" : "combs-on-springs";
         if (!study.wanted(subject)) continue;
         for (const double teeth : study.range({1, 2, 4, 8, 16, 32}, 3)) {
+            if (study.options().quick && teeth > 8) continue;
             Trial t;
             t.subject = subject;
             t.parameter_name = "teeth";
