@@ -272,7 +272,8 @@ void slender(Study& study) {
             const auto pairs = scene.pairs(0).node_a;
             std::vector<std::int64_t> notch;
             for (std::size_t i = 0; i < pairs.size(); ++i)
-                if (scene.coordinate(pairs[i], 0) < (crack - 1e-6) * unit) notch.push_back(static_cast<std::int64_t>(i));
+                if (scene.coordinate(pairs[i], 0) < (crack - 1e-6) * unit)
+                    notch.push_back(static_cast<std::int64_t>(i));
             scene.adhesion(0, notch, std::vector<double>(notch.size(), 0.0));
             const auto right = scene.find(-1, {length, 0.0}, {length, 2.0 * thickness});
             scene.hold(right, {1.0, 0.0});
@@ -321,7 +322,8 @@ void host_stiffness(Study& study) {
                               "delam_problem_body_matrix");
             };
             matrix(nullptr, nullptr, nullptr);
-            std::vector<std::int64_t> start(static_cast<std::size_t>(rows) + 1), column(static_cast<std::size_t>(entries));
+            std::vector<std::int64_t> start(static_cast<std::size_t>(rows) + 1);
+            std::vector<std::int64_t> column(static_cast<std::size_t>(entries));
             std::vector<double> value(column.size());
             matrix(start.data(), column.data(), value.data());
             const auto nodes = scene.find(1, {-1.0, -1.0}, {1.0, 1.0});

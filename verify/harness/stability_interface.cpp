@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stability against the interface: its stiffness up to the rigid bond, oscillation of its tractions, softening from none
-// to eight decades, exponents of the criterion, mode change, mixity of no jump at all.
+// Stability against the interface: its stiffness up to the rigid bond, oscillation of its tractions, softening from
+// none to eight decades, exponents of the criterion, mode change, mixity of no jump at all.
 #include <algorithm>
 #include <array>
 #include <cmath>

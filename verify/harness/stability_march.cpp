@@ -170,10 +170,12 @@ void no_load(Study& study) {
         t.scene = [=] { return make_cantilever(c); };
         t.reference = "closed form (nothing moves)";
         t.error = [](const Result& r) {
-            double worst = std::max({largest(r.displacement), largest(r.jump), largest(r.traction), largest(r.reaction)});
+            double worst =
+                std::max({largest(r.displacement), largest(r.jump), largest(r.traction), largest(r.reaction)});
             for (const double v : {r.stored_bulk, r.stored_interface, r.load_potential})
                 worst = std::max(worst, std::abs(v));
-            if (r.realisation != Realisation::direct) worst = std::max({worst, std::abs(r.dissipated), std::abs(r.work)});
+            if (r.realisation != Realisation::direct)
+                worst = std::max({worst, std::abs(r.dissipated), std::abs(r.work)});
             return worst;
         };
         t.limit = 0.0;

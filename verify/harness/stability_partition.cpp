@@ -76,7 +76,7 @@ void pairs(Study& study) {
                 return worst;
             };
         }
-        // 1001 pairs in one row of cells take 600 iterations already, and more than a hundred times the tolerance is left.
+        // 1001 pairs in one row of cells take 600 iterations already, and a hundred times the tolerance is left.
         t.may_say = count > 200;
         if (count > 2e3) {
             t.condensed = t.feti = t.direct = false;
