@@ -245,13 +245,13 @@ void aspect(Study& study) {
     }
 }
 
-// Double cantilever, opened: beams on springs (model: both arms' ends, root length 1/lam). Arms 10 to 10,000 times
+// Double cantilever, opened: beams on springs (model: both arms' ends, root length 1/lam). Arms 10 to 1000 times
 // longer than thick; no Poisson's effect.
 void slender(Study& study) {
     if (!study.wanted("slender")) return;
     constexpr double span = 1.0, young = 70e9;
     constexpr std::int64_t columns = 120;
-    for (const double ratio : study.range({10, 30, 100, 300, 1e3, 3e3}, 4)) {
+    for (const double ratio : study.range({10, 30, 100, 300, 1e3}, 4)) {
         const double inertia = std::pow(span / ratio, 3) / 12.0;
         const double lam = 20.0 / span, crack = 0.5 * span, opening = 1e-3 * span;
         const double k = 2.0 * young * inertia * std::pow(lam, 4);
@@ -272,7 +272,8 @@ void slender(Study& study) {
             const auto pairs = scene.pairs(0).node_a;
             std::vector<std::int64_t> notch;
             for (std::size_t i = 0; i < pairs.size(); ++i)
-                if (scene.coordinate(pairs[i], 0) < (crack - 1e-6) * unit) notch.push_back(static_cast<std::int64_t>(i));
+                if (scene.coordinate(pairs[i], 0) < (crack - 1e-6) * unit)
+                    notch.push_back(static_cast<std::int64_t>(i));
             scene.adhesion(0, notch, std::vector<double>(notch.size(), 0.0));
             const auto right = scene.find(-1, {length, 0.0}, {length, 2.0 * thickness});
             scene.hold(right, {1.0, 0.0});
@@ -289,11 +290,8 @@ void slender(Study& study) {
         // Contact ahead of the tip, which the beams do not know; shear of the arms.
         t.limit = 0.03 + 10.0 / (ratio * ratio);
         t.may_say = true;
-        // Beyond it the matrices' rounding is seen in the closed form, too.
-        if (ratio <= 1e3) {
-            t.acceptance_limit = 1e-4;
-            study.run(t);
-        }
+        t.acceptance_limit = 1e-4;
+        study.run(t);
         t.subject = "slender-direct";
         t.reference = "direct solver";
         t.error = nullptr;
@@ -324,7 +322,8 @@ void host_stiffness(Study& study) {
                               "delam_problem_body_matrix");
             };
             matrix(nullptr, nullptr, nullptr);
-            std::vector<std::int64_t> start(static_cast<std::size_t>(rows) + 1), column(static_cast<std::size_t>(entries));
+            std::vector<std::int64_t> start(static_cast<std::size_t>(rows) + 1);
+            std::vector<std::int64_t> column(static_cast<std::size_t>(entries));
             std::vector<double> value(column.size());
             matrix(start.data(), column.data(), value.data());
             const auto nodes = scene.find(1, {-1.0, -1.0}, {1.0, 1.0});

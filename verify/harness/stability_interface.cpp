@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stability against the interface: its stiffness up to the rigid bond, oscillation of its tractions, softening from none
-// to eight decades, exponents of the criterion, mode change, mixity of no jump at all.
+// Stability against the interface: its stiffness up to the rigid bond, oscillation of its tractions, softening from
+// none to eight decades, exponents of the criterion, mode change, mixity of no jump at all.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -75,7 +75,7 @@ void rigid(Study& study) {
                              relative_difference(r.traction, limit.traction),
                              relative_difference(r.pattern, limit.pattern)});
         };
-        t.limit = 0.1 * 70e9 / (k * 1e-3) + 1e-9;
+        t.limit = 0.3 * 70e9 / (k * 1e-3) + 1e-9;
         t.defect_limit = 1e-8;
         study.run(t);
     }
