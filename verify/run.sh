@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # bash verify/run.sh [--all]: installs, builds, runs the quick tier of the tests, then the unit tests and the light
 # cases under AddressSanitizer and UBSan.
-#   --all   also the long tier, clang 14 without warnings, valgrind on the unit tests and two cases
+#   --all   also the long tier, the thread sanitizer, clang 14 without warnings, valgrind on the unit tests and two cases
 # bash verify/run.sh --report [--quick] [--only ID|CHAPTER ...] [--accept] [--jobs N]: builds and writes the verification report into
 # out/report (report/README.md) instead; exit code 1 if a case failed.
 # Ends with the line "N passed, N failed", after a line for each test that was skipped; exit code 0 only without failures.
@@ -85,6 +85,11 @@ memory_checked() {
         --errors-for-leak-kinds=definite "$1"
 }
 
+# BLAS with threads of its own is not instrumented: one thread each.
+threads_checked() {
+    OMP_THREAD_LIMIT=1 CK_FORK=no CK_DEFAULT_TIMEOUT=0 TSAN_OPTIONS="suppressions=$PWD/verify/faults/tsan.supp" "$@"
+}
+
 delam_install "${DELAM_PACKAGES[@]}" "${DELAM_PARSER_PACKAGES[@]}"
 if [[ $all == yes ]]; then
     delam_install "${DELAM_LONG_PACKAGES[@]}"
@@ -110,6 +115,9 @@ if [[ -f build/asan/verify/CTestTestfile.cmake ]]; then
     CK_FORK=no tests asan -j2 --label-exclude long --tests-regex "^(unit/.*|case/test_($light_cases))\$"
 fi
 if [[ $all == yes ]]; then
+    check "build with the thread sanitizer" build tsan -DDELAM_BUILD_CLI=OFF -DDELAM_BUILD_EXAMPLES=OFF
+    check "thread sanitizer, 8 islands" threads_checked build/tsan/verify/fault_threads 4
+    check "thread sanitizer, the library's own threads" threads_checked build/tsan/verify/case_test_host_march
     check "clang without warnings" build clang
     for program in build/release/verify/unit_test_* build/release/verify/case_test_{capi,single_pair}; do
         if [[ -x $program && -f $program && $program != *test_long_* ]]; then
