@@ -97,7 +97,7 @@ def spring_scene(delam, spring, end, **options):
 
 def spring(context):
     delam = context.python()
-    rows, checks, curves, steps = [], [], [], 60
+    rows, checks, curves, steps, known_w, known_t = [], [], [], 60, [], []
     for ratio, role in ((1.5, "first"), (3.0, "second"), (10.0, "third")):
         stiff, worst, w_mm, t_found, t_exact = ratio * SLOPE, 0.0, [0.0], [0.0], [0.0]
         with delam.Solver(spring_scene(delam, stiff, 1.1 * DC), not_converged="raise") as solver:
@@ -115,8 +115,11 @@ def spring(context):
                 t_found.append(float(solver.field("traction")[0, 0]) * 1e-6)
                 t_exact.append(traction * 1e-6)
         rows.append([ratio, worst])
-        checks.append(check(f"K = {ratio:g} of the slope: jump and traction, off", worst, 1e-6, "delta = 1e-12; alternation leaves 1/(1 - slope/K) times what it changed last"))
-        curves += [series(f"closed form, {ratio:g}", "reference", w_mm, t_exact, marker=False), series(f"libdelam, {ratio:g}", role, w_mm, t_found, marker=False)]
+        checks.append(check(f"K = {ratio:g} of the slope: jump and traction, off", worst, 1e-11, "delta = 1e-12; alternation leaves 1/(K/slope - 1) times what it changed last, at most twice"))
+        # One curve with gaps: the reader needs its name once.
+        known_w, known_t = known_w + w_mm + [w_mm[-1]], known_t + t_exact + [None]
+        curves.append(series(f"libdelam, K = {ratio:g}", role, w_mm[::3], t_found[::3], line="none"))
+    curves.insert(0, series("closed form", "reference", known_w, known_t, marker=False))
     loads, x = [], []
     for solution, energetic in (("local", False), ("energetic", True)):
         for ratio in (0.5, 0.1, 0.02):
@@ -135,8 +138,8 @@ def spring(context):
             load, from_work = jumps[0].time * 1.37 * exact, math.sqrt(2 * work * flexible)
             release = 0.0 if energetic else 0.5 * exact ** 2 / flexible - TOUGHNESS
             loads.append([solution, ratio, exact * 1e3, load * 1e3, load / exact - 1, from_work / exact - 1, jumps[0].released / 0.05, release])
-            checks += [check(f"{solution}, K = {ratio:g} of the slope: load of the jump, off", max(abs(load / exact - 1), abs(from_work / exact - 1)), 1e-3, "jump_tolerance = 1e-5 of the loading, search_tolerance of the energetic one"),
-                       check(f"{solution}, K = {ratio:g} of the slope: energy released, off", abs(jumps[0].released / 0.05 - release) / TOUGHNESS, 1e-3, "over the toughness; nothing is released where the energies cross")]
+            checks += [check(f"{solution}, K = {ratio:g} of the slope: load of the jump, off", max(abs(load / exact - 1), abs(from_work / exact - 1)), 1e-5, "jump_tolerance = 1e-5 of the loading, 5 steps"),
+                       check(f"{solution}, K = {ratio:g} of the slope: energy released, off", abs(jumps[0].released / 0.05 - release) / TOUGHNESS, 1e-4, "over the toughness, which the release exceeds 30 times for the softest spring; nothing is released where the energies cross")]
     for solution, role in (("local", "local"), ("energetic", "energetic")):
         of = [r for r in loads if r[0] == solution]
         x += [series(f"{solution}", role, [r[1] for r in of], [r[3] for r in of], line="none"), series(f"closed form, {solution}", "reference", [r[1] for r in of], [r[2] for r in of], marker=False)]
@@ -516,7 +519,7 @@ def user_element(context):
                             "delta = 1e-12 on both sides; residual of the host 1e-10"),
                   tables=[{"title": "Every fifth step", "note": "", "columns": [column("time", key=True), column("Newton iterations", "", past="count"), column("residual", "relative", past="free"), column("force, element", "N/m", past=1e-5), column("force, whole", "N/m", past=1e-5),
                            column("dissipated, element", "J/m", past=1e-5), column("dissipated, whole", "J/m", past=1e-5)], "rows": rows}],
-                  checks=[check("force of the element off the whole structure", worst_force, 1e-6, "delta and the residual of Newton's method, through softening"), check("dissipated energy, off", worst_spent, 1e-6, "as of the force"),
+                  checks=[check("force of the element off the whole structure", worst_force, 1e-8, "delta and the residual of Newton's method, through softening"), check("dissipated energy, off", worst_spent, 1e-8, "as of the force"),
                           check("steps with quadratic convergence", quadratic, 15, "the last residual is at most 100 times the square of the one before; steps without damage are linear and need two", ">="),
                           check("Newton iterations of a step", max(iterations), 7, "more would not be Newton's method"), check("energy dissipated", spent, 0.1, "J/m: the arms part, it is no elastic element", ">=")],
                   plots=[plot("Force of the machine", axis("time"), axis("force", "N/m"), [series("whole structure", "reference", [f[0] for f in forces], [f[2] for f in forces], marker=False), series("element in the host", "condensed", [f[0] for f in forces], [f[1] for f in forces], line="none")]),
