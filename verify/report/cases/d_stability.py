@@ -108,7 +108,7 @@ def judged(subject, rows):
 
 def told(subject, rows):
     """What the reader must know first: ends without an answer, as sentences."""
-    out, name = [], parameter(rows)[0]
+    out, missing, name = [], {}, parameter(rows)[0]
     for who, _ in REALISATIONS:
         picked = [r for r in rows.rows if r[rows.index("realisation")] == who]
         said = [r[rows.index("value")] for r in picked if r[rows.index("status")] == SAID]
@@ -116,8 +116,9 @@ def told(subject, rows):
             out.append(f"{subject.title}: {who} does not converge, and says so, at {name} = " + ", ".join(f"{v:g}" for v in said))
         left = [(r[rows.index("value")], r[rows.index("message")]) for r in picked if r[rows.index("status")] == "left out"]
         if left:
-            out.append(f"{subject.title}: {who} left out at {name} = " + ", ".join(f"{v:g}" for v, _ in left) + f": {left[0][1]}")
-    return list(dict.fromkeys(out))
+            why = f"left out at {name} = " + ", ".join(f"{v:g}" for v, _ in left) + f": {left[0][1]}"
+            missing.setdefault(why, []).append(who)
+    return out + [f"{subject.title}: {', '.join(of)} {why}" for why, of in missing.items()]
 
 
 def pictures(subject, rows):
