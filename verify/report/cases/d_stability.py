@@ -1,0 +1,318 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Chapter (d): hard cases, each over a range of one parameter, by the condensed operator, FETI and the direct reference. The scenes
+are those of verify/harness/stability_*.cpp; what a row may be is decided here again, from its numbers."""
+import dataclasses
+import math
+
+from case import Case, Failed, axis, check, column, figure, plot, reference, result, series
+
+REALISATIONS = (("condensed", "condensed"), ("FETI", "feti"), ("direct", "direct"))
+SAID = "DELAM_NOT_CONVERGED"
+BY_ROUNDING = "its matrices' rounding"
+DIRECT = reference("direct solver", "verify/reference/direct: SuiteSparse's CHOLMOD on the whole system of bodies, springs and supports, its own active set, "
+                   "at the adhesions of the condensed march; no solver code is shared", "its own KKT violation is drawn and tabled beside those of the others")
+KKT_WHY = ("gap, pressure, complementarity, equilibrium, supports and law from exported fields, outside the library, each over the largest of "
+           "its kind; iterations stop at 1e-12 of the residual, four decades are left for the condition of the scene")
+LEDGER_WHY = "energies booked against Clapeyron's theorem, springs and work computed from fields, over the largest; only rounding may differ"
+
+
+@dataclasses.dataclass(frozen=True)
+class Subject:
+    """One range of the harness and how it is drawn."""
+
+    name: str
+    title: str
+    x: str                          # label of the parameter
+    unit: str = ""
+    scale: str = "log"
+    place: object = float           # of a value on the axis
+    acceptance: float = 1e-8        # of KKT and ledger
+    defect: float = 0.0             # of the balance; 0: it falls with the steps, so that it is not judged here
+    refused: str = ""               # words with which rows of it are to be refused, or ""
+    past: object = "rounding"
+    error: str = "relative"
+    call: str = ""                  # subject to ask the harness for, where it answers with several
+    quick: bool = True              # also part of --quick
+
+
+def parameter(rows):
+    """Name and unit of the parameter, as the harness has them; the axis may show a function of it."""
+    name, _, unit = rows.column("parameter")[0].partition(", ")
+    return name, unit
+
+
+def finite(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def bound_of(subject, limit, expected):
+    """Of KKT and ledger: where rounding of the matrices decides, as much as it leaves."""
+    return max(subject.acceptance, limit) if BY_ROUNDING in expected else subject.acceptance
+
+
+def judged(subject, rows):
+    """Checks of one range. A row that says `converged` must be right; one that does not must have been expected to say so."""
+    at = {name: rows.index(name) for name in rows.columns}
+    acceptance = {}
+    silent, unexpected, refused, worst, kkt, ledger, defect, damage, missing = [], [], 0, 0.0, 0.0, 0.0, 0.0, 0.0, []
+    for row in rows.rows:
+        def get(name):
+            return row[at[name]]
+
+        who = f"{get('realisation')} at {get('value'):g}"
+        expected, status = get("expected"), get("status")
+        if status == "left out":
+            if not get("message"):
+                unexpected.append(who)
+            continue
+        if expected.startswith("refused"):
+            words = expected.split(": ", 1)[1]
+            refused += words in get("message")
+            if words not in get("message") or status == "converged":
+                unexpected.append(who)
+            continue
+        if status != "converged":
+            if not (status == SAID and "or says that it is not" in expected):
+                unexpected.append(f"{who} ({status})")
+            continue
+        values = {name: get(name) for name in ("error", "limit", "kkt", "ledger", "defect", "damage")}
+        holes = [name for name, v in values.items() if not finite(v)]
+        if holes:
+            missing.append(f"{who}: {holes[0]}")
+            continue
+        bound = bound_of(subject, values["limit"], expected)
+        used = values["error"] / values["limit"] if values["limit"] > 0 else (0.0 if values["error"] == 0.0 else 2.0)
+        acceptance[who] = bound
+        worst, kkt, ledger = max(worst, used), max(kkt, values["kkt"] / bound), max(ledger, values["ledger"] / bound)
+        if get("realisation") != "direct":
+            defect, damage = max(defect, values["defect"]), max(damage, values["damage"])
+        if used > 1 or values["kkt"] > bound or values["ledger"] > bound or get("verdict") != "pass":
+            silent.append(who)
+    if missing:
+        raise Failed(f"{subject.name}: no number where one is needed: {missing[0]}")
+    name = subject.title
+    checks = [check(f"{name}: silent wrong answers", len(silent), 0, "rows with status converged whose error, KKT, ledger, balance or damage is beyond its limit"
+                    + (": " + ", ".join(silent[:3]) if silent else "")),
+              check(f"{name}: rows that end otherwise than expected", len(unexpected), 0, "an answer where a refusal is expected, the reverse, or other words"
+                    + (": " + ", ".join(unexpected[:3]) if unexpected else ""))]
+    if acceptance:
+        checks += [check(f"{name}: error over its limit", worst, 1, "the limit of every row is in the table, with what it is compared with"),
+                   check(f"{name}: primal KKT over its limit", kkt, 1, f"limit {subject.acceptance:g}, or the rounding of the matrices where the row says so; {KKT_WHY}"),
+                   check(f"{name}: ledger over its limit", ledger, 1, f"limit {subject.acceptance:g}, or the rounding of the matrices where the row says so; {LEDGER_WHY}")]
+        if subject.defect:
+            checks.append(check(f"{name}: defect of the balance", defect, subject.defect, "nothing is damaged or slides with loss: stored energy is work, to rounding"))
+    if refused:
+        checks.append(check(f"{name}: rows refused in the expected words", refused, sum(r[at["expected"]].startswith("refused") for r in rows.rows), "every one of them", ">="))
+    return checks, bool(acceptance)
+
+
+def told(subject, rows):
+    """What the reader must know first: ends without an answer, as sentences."""
+    out, missing, name = [], {}, parameter(rows)[0]
+    for who, _ in REALISATIONS:
+        picked = [r for r in rows.rows if r[rows.index("realisation")] == who]
+        said = [r[rows.index("value")] for r in picked if r[rows.index("status")] == SAID]
+        if said:
+            out.append(f"{subject.title}: {who} does not converge, and says so, at {name} = " + ", ".join(f"{v:g}" for v in said))
+        left = [(r[rows.index("value")], r[rows.index("message")]) for r in picked if r[rows.index("status")] == "left out"]
+        if left:
+            why = f"left out at {name} = " + ", ".join(f"{v:g}" for v, _ in left) + f": {left[0][1]}"
+            missing.setdefault(why, []).append(who)
+    return out + [f"{subject.title}: {', '.join(of)} {why}" for why, of in missing.items()]
+
+
+def pictures(subject, rows):
+    """Error, KKT violation and iterations over the parameter, a series a realisation."""
+    x_axis = axis(subject.x, subject.unit, subject.scale)
+    errors, violations, counts, refused = [], [], [], []
+    limits, bounds, zeros = {}, {}, False
+    for who, role in REALISATIONS:
+        picked = [r for r in rows.rows if r[rows.index("realisation")] == who and r[rows.index("status")] in ("converged", SAID)]
+        if not picked:
+            continue
+        x = [subject.place(r[rows.index("value")]) for r in picked]
+
+        def y(name):
+            return [r[rows.index(name)] if finite(r[rows.index(name)]) else None for r in picked]
+
+        def some(values):
+            return any(v is not None and v > 0 for v in values)
+
+        # What is exactly zero has no place on a logarithmic axis.
+        if some(y("error")):
+            errors.append(series(who, role, x, [None if v is None else max(v, 1e-18) for v in y("error")]))
+            zeros = zeros or 0.0 in y("error")
+        violations.append(series(who, role, x, [None if v is None else max(v, 1e-18) for v in y("kkt")]))
+        bounds.update((a, bound_of(subject, limit, r[rows.index("expected")])) for a, limit, r in zip(x, y("limit"), picked))
+        counts.append(series(f"{who}: Krylov" if who == "FETI" else f"{who}: active set", role, x, y("krylov" if who == "FETI" else "active_set")))
+        if who != "direct":
+            limits.update(zip(x, y("limit")))
+    for r in rows.rows:
+        if r[rows.index("expected")].startswith("refused"):
+            refused.append(r[rows.index("value")])
+    note = f" Refused, as expected: {parameter(rows)[0]} = " + ", ".join(f"{v:g}" for v in sorted(set(refused))) + "." if refused else ""
+    out = []
+    if errors:
+        places = sorted(limits)
+        drawn = [series("limit", "limit", places, [limits[p] if limits[p] and limits[p] > 0 else None for p in places])] if places else []
+        compared = next((s for s in dict.fromkeys(rows.column("reference")) if s != "is the reference"), "")
+        out.append(plot(f"Error: {subject.title}", x_axis, axis("error", subject.error, "log"), [*drawn, *errors], (), f"Beside: {compared}." + (" Zero is drawn at 1e-18." if zeros else "") + note))
+    if violations:
+        out.append(plot(f"Violation of the KKT conditions: {subject.title}", x_axis, axis("worst violation", "relative", "log"),
+                        [series("limit", "limit", list(bounds), list(bounds.values())), *violations], (),
+                        "From exported fields." + (" Zero is drawn at 1e-18." if any(1e-18 in s["y"] for s in violations) else "") + note))
+        out.append(plot(f"Iterations: {subject.title}", x_axis, axis("iterations, all steps", "", "log" if max(
+            (v or 0 for s in counts for v in s["y"]), default=0) > 60 and all(v is None or v > 0 for s in counts for v in s["y"]) else "linear"), counts, (),
+            "Krylov iterations of FETI, active-set steps of the others." + note))
+    return out
+
+
+def shown(subject, rows):
+    name, unit = parameter(rows)
+    counted = dict(optional=True, past="count")
+    past = dict(optional=True, past=subject.past)
+    return rows.table(f"{subject.title}", [
+        column(name, unit, key=True, **{"from": "value"}), column("realisation", "", key=True), column("beside", "", **{"from": "reference"}),
+        column("error", subject.error, **past), column("error limit", "", optional=True, past="free", **{"from": "limit"}), column("KKT", "relative", optional=True, past="rounding", **{"from": "kkt"}),
+        column("ledger", "relative", optional=True, past="rounding"), column("defect", "of the work", optional=True, past="rounding"), column("damage", "", optional=True, past="rounding"),
+        column("active set", "", **counted, **{"from": "active_set"}), column("Krylov", "", **counted, **{"from": "krylov"}), column("alternations", "", **counted),
+        column("status"), column("expected outcome", "", **{"from": "expected"}), column("verdict"), column("in its own words", "", **{"from": "message"})])
+
+
+def stability(id, title, requirement, subjects, ref=DIRECT, quick=True, expected=30, seconds=1200, figures=(), **scene):
+    def run(context):
+        tables, checks, plots, losses, answered, numbers, words = [], [], [], [], False, [], ""
+        for subject in (s for s in subjects if s.quick or not context.quick):
+            rows = context.harness("stability", "--subject", subject.call or subject.name).where(subject=subject.name)
+            more, any_answer = judged(subject, rows)
+            answered = answered or any_answer
+            checks += more
+            losses += told(subject, rows)
+            tables.append(shown(subject, rows))
+            plots += pictures(subject, rows)
+            words = words or next((m for m in rows.column("message") if m), "")
+        for name, text in figures:
+            used = [c["value"] for c in checks if c["what"].endswith("error over its limit")]
+            numbers.append(figure(name, max(used), "of the limit", text, past="free"))
+        return result(ref, tables=tables, checks=checks, plots=plots, losses=losses, figures=numbers, refused="" if answered else words)
+
+    scene.setdefault("units", "SI; errors relative to the largest value of their kind over the march")
+    return Case(id=f"d-{id}", chapter="d", title=title, requirement=requirement, run=run, quick=quick, expected=expected, seconds=seconds, **scene)
+
+
+CANTILEVER = dict(geometry="two arms 40 mm x 2 mm (in space 10 mm wide), 40 x 2 cells an arm (16 x 3 x 2 in space), notch of 12 mm at the loaded end, plane strain",
+                  supports="right end clamped; upper left corner (edge) lifted, so that the crack tip is in mixed mode; FETI with 4 subdomains")
+STEEL = "arms E = 70 GPa, nu = 0.3"
+DRIVEN = dict(geometry="two cells of 1 mm, one interface of two pairs that answer alike", supports="every node is held or driven: the jump is what the device prescribes")
+SERIES = dict(geometry="bar of two halves of 1 m, 50 mm wide, the interface across", supports="one end held, the other pulled; sideways held or nu = 0")
+OWN = reference("closed form", "the piecewise-linear law written apart from the library's, in extended precision, marched with the jumps that the device prescribes",
+                "extended precision; below 1e-15")
+BAR = reference("closed form", "an elastic spring three times stiffer than the softening slope in series with the law: one continuous solution, linear in each branch",
+                "double precision of the formula; exact for uniform stress")
+
+
+def decades(value):
+    return math.log10(value) if value > 0 else -330.0
+
+
+def cases():
+    none = " (none at -330)"
+    k = dict(x="k", unit="N/m3")
+    return [
+        stability("stiffness", "Interface stiffness from 1e6 to 1e22 N/m3", "Sixteen decades of interface stiffness leave the elastic solution right to 1e-8, by either realisation, in the plane and in space.",
+                  [Subject("stiffness", "plane", defect=1e-8, **k), Subject("stiffness-3d", "space", defect=1e-8, quick=False, **k)], materials=f"{STEEL}; kn = kt = k, unbreakable",
+                  figures=[("stability_stiffness", "k from 1e6 to 1e22 N/m3: largest error over its limit of 1e-8")], expected=10, **CANTILEVER),
+        stability("rigid", "The rigid limit, and bonds", "As k grows the difference to the bonded arms falls as E/(k h), to nothing; bonds themselves are right to 1e-8 over meshes.",
+                  [Subject("rigid", "towards the bond", past=1e-3, defect=1e-8, **k), Subject("bonded", "bonded", "columns", defect=1e-8)],
+                  ref=reference("direct solver", "the bonded arms, eliminated by CHOLMOD; the difference that springs make is at most 0.3 E/(k h)", "1e-10, its rounding"),
+                  materials=f"{STEEL}; kn = kt = k, or bonded", expected=2, **{**CANTILEVER, "geometry": CANTILEVER["geometry"].replace("notch of 12 mm at the loaded end", "no notch, or one of 12 mm (bonded)")}),
+        stability("tractions", "Interface tractions do not oscillate", "Up to the rigid bond tractions follow the closed form, and their total variation is that of the smooth solution to 1 %.",
+                  [Subject("tractions", "tractions", past=1e-4, defect=1e-8, **k), Subject("oscillation", "total variation", past=1e-4, defect=1e-8, error="of the smooth one", quick=False, **k)],
+                  ref=reference("closed form", "Airy function of a layer of two halves with springs between, under the tension q (2 + cos(pi x/L))", "solved in extended precision, 1e-12; the mesh of 64 columns leaves "
+                                "up to 2e-3 of the traction, 1e-2 of its variation"), geometry="layer 1 m x 0.5 m of two halves, 64 x 16 cells each, plane strain",
+                  supports="frictionless base and ends; top under the tension q (2 + cos(pi x/L))", materials=f"{STEEL}; kn = kt = k, unbreakable", expected=8),
+        stability("brittleness", "Gc/Go from 1 to 1e8", "From no softening at all to eight decades of it, the bar follows its closed form to 1e-7; on the cantilever every state meets KKT, ledger and law, or says that it does not.",
+                  [Subject("brittleness", "bar", "Gc/Go"), Subject("brittleness-cantilever", "cantilever", "Gc/Go")],
+                  ref=reference("closed form", BAR["source"] + "; of the cantilever the direct solver at its adhesions", "double precision of the formula; 1e-10 of the solver"),
+                  geometry=SERIES["geometry"] + "; or " + CANTILEVER["geometry"], supports=SERIES["supports"] + "; or " + CANTILEVER["supports"], materials="Gc = 250 J/m2 (bar), 200 and 400 J/m2 by mode (cantilever), Go = Gc over the ratio", expected=5),
+        stability("contrast", "Moduli of neighbours up to 1e8 apart", "A contrast of 1e-8 to 1e8 between the arms leaves the solution right to 1e-8.",
+                  [Subject("contrast", "plane", "E upper / E lower", defect=1e-8), Subject("contrast-3d", "space", "E upper / E lower", defect=1e-8, quick=False)],
+                  materials="the stiffer arm 70 GPa, nu = 0.3; k = 1e14 N/m3", expected=3, **CANTILEVER),
+        stability("poisson", "Poisson's ratio up to 0.4999", "Solves stay right up to nu = 0.4999, and mean dilatation keeps 4-node cells from locking: the energy of a ring is that of Lame to 1e-3.",
+                  [Subject(name, text, "1 - 2 nu", "", "log", lambda v: 1 - 2 * v, defect=1e-8, past="rounding" if "poisson" in name else 1e-4) for name, text in
+                   (("poisson-standard", "cantilever, standard"), ("poisson-mean-dilatation", "cantilever, mean dilatation"), ("ring-quad8-standard", "ring, quad8"),
+                    ("ring-quad4-mean-dilatation", "ring, quad4, mean dilatation"), ("ring-quad8-mean-dilatation", "ring, quad8, mean dilatation"))],
+                  ref=reference("closed form", "Lame's ring, its energy; of the cantilever the direct solver", "exact; the mesh of 24 x 12 cells leaves up to 1e-3 (quad4), 2e-3 (quad8: edges bent by parabolas)"),
+                  geometry="quarter of a ring, radii 1 and 2 m, two bonded halves; or " + CANTILEVER["geometry"], supports="planes of symmetry, inner face pushed by 1 mm; or " + CANTILEVER["supports"],
+                  materials="E = 1 GPa (ring), 70 GPa (cantilever), nu from 0 to 0.4999", expected=6),
+        stability("aspect", "Cells up to 1e4 times longer than thick", "Flat and tall cells, in the plane and in space: right to 1e-8, or to a hundred times what rounding of the matrices leaves, which the direct solver shows.",
+                  [Subject(f"aspect-{n}", t, "aspect ratio of cells", quick=n != "3d") for n, t in (("flat", "flat, plane"), ("tall", "tall, plane"), ("3d", "flat, space"))],
+                  ref=reference("direct solver", DIRECT["source"], "its energy in two units of length differs by the rounding of the assembled matrices: the row 'direct'"),
+                  materials=f"{STEEL}; k = 1e14 N/m3", **{**CANTILEVER, "geometry": "thin layers of one cell beside the interface, glued to arms of 40 mm x 4 mm; or arms of tall cells"}, expected=30),
+        stability("slender", "Plies 1000 times longer than thick", "Bending follows beams on springs; beside the direct solver solves are right to 1e-8, or to a hundred times what rounding leaves, or say that they did not converge.",
+                  [Subject("slender", "beam theory", "length / thickness", acceptance=1e-4, past=1e-2), Subject("slender-direct", "plane", "length / thickness", call="slender"), Subject("slender-3d", "space", "length / thickness", quick=False)],
+                  ref=reference("closed form", "double cantilever of beams on springs (compliance of both arms, root length 1/lambda); and the direct solver",
+                                "3 % for contact ahead of the tip, 10 (t/l)^2 for shear; rounding of the matrices, 2e-17 (l/t)^4 for a chain of cells"),
+                  geometry="arms of 1 m, 120 cells of 8 nodes, 10 to 1000 times longer than thick; in space 16 x 2 x 2 cells", supports="right end clamped, left end opened", materials="E = 70 GPa, nu = 0 (0.3 in space)", expected=25),
+        stability("size", "From nanometres to kilometres", "The same specimen of 40 nm to 40 km gives the same numbers to 1e-9: there is no hidden absolute tolerance.",
+                  [Subject("size", "sizes", "length / 40 mm")], ref=reference("physics", "the same march at 40 mm, scaled", "none: an identity of the model; data of other sizes are rounded, 1e-16"),
+                  materials=f"{STEEL}; law 50/80 and 200/400 J/m2, scaled with the size; delta = 1e-12", expected=4, **CANTILEVER),
+        stability("units", "Units of length and force", "Powers of four leave all digits, other factors 1e-9: metres or micrometres, Pa or GPa, it is the same march.",
+                  [Subject("unit-length-binary", "length, powers of four", "unit of length"), Subject("unit-force-binary", "force, powers of four", "unit of force"), Subject("unit-length", "length", "unit of length"),
+                   Subject("unit-force", "force", "unit of force"), Subject("unit-length-3d", "length, in space", "unit of length", quick=False)],
+                  ref=reference("physics", "the same march in SI units, scaled", "none: an identity of arithmetic for powers of four; 1e-16 of the data else"),
+                  materials=f"{STEEL}; law 50/80 and 200/400 J/m2; delta = 1e-12", expected=35, **CANTILEVER),
+        stability("floating", "Bodies that nothing holds", "Loose plies that are pressed are held by contact; lifted, they float, at no stress; a bond that a dead load exceeds ends with the refusal `no equilibrium`.",
+                  [Subject("floating-pressed", "pressed", "loose plies", scale="linear", defect=1e-8), Subject("floating-lifted", "lifted", "loose plies", scale="linear"),
+                   Subject("dead-load-lifts", "dead load on a bond", "load / strength", defect=1e-8)],
+                  ref=reference("closed form", "no stress (lifted), uniform tension (dead load); pressed: the direct solver with one node of each ply held sideways", "exact; 1e-10 of the solver"),
+                  geometry="plies 40 mm x 3 mm, 20 x 2 cells, on a held one", supports="bottom held; top ply pressed or lifted in its middle third, or under a dead load",
+                  materials="E = 70 GPa, nu = 0.3; no adhesion, or a bond of 50/200 J/m2", expected=4),
+        stability("loose-load", "A dead load on a loose ply", "A dead load along a motion that nothing but contact could hold is refused before the march, in words, whatever its size.",
+                  [Subject("dead-load-on-loose-ply", "dead load", "force", "N/m")], ref=reference("physics", "no equilibrium exists: a body without supports under a force that pushes it sideways or up", "none"),
+                  geometry="two loose plies 40 mm x 3 mm on a held one", supports="bottom held; a dead load on the top ply", materials="E = 70 GPa, nu = 0.3; no adhesion", expected=1),
+        stability("held-by-contact", "A block held by contact alone", "Pushed into the corner of two rigid walls under any angle the block is held by contact, and its solution is that of the direct solver.",
+                  [Subject("held-by-contact", "block in a corner", "direction", "degrees", "linear", defect=1e-8)], geometry="block of 10 mm, 10 x 10 cells, two rigid obstacles",
+                  supports="a dead load at the far corner, 1 to 89 degrees from the wall; no supports but contact", materials="E = 70 GPa, nu = 0.3; frictionless walls", expected=2),
+        stability("open-close", "Contact that opens and closes in one step", "What was open closes and what was closed opens in one step, by up to a million times as much: right to 1e-8.",
+                  [Subject("open-and-close", "reversal", "reverse / first load", defect=1e-8)], geometry="two arms 40 mm x 3 mm, 40 x 3 cells, glued at the last 5 mm", supports="right end clamped; end lifted and middle pressed, "
+                  "then the reverse, then back", materials=f"{STEEL}; k = 1e14 N/m3", expected=2),
+        stability("cross-points", "Cross points and redundant constraints", "Blocks that meet at crossings, glued with redundant or orthonormal constraints, bonded or on springs, are right to 1e-8.",
+                  [Subject("cross-points", "on springs", "blocks a side", scale="linear", defect=1e-8), Subject("cross-points-redundant", "on springs, redundant gluing", "blocks a side", scale="linear", defect=1e-8),
+                   Subject("cross-points-bonded", "bonded", "blocks a side", scale="linear", defect=1e-8)],
+                  geometry="2 x 2 to 8 x 8 square blocks of 3 x 3 cells, FETI with n^2 + 4 subdomains", supports="bottom held, top pulled and turned", materials=f"{STEEL}; k = 1e14 N/m3 or bonded", expected=6),
+        stability("supports-twice", "Supports given twice", "A support that was given already is refused, in words.", [Subject("supports-twice", "given twice", "blocks a side", scale="linear")],
+                  ref=reference("physics", "the same row twice makes the reactions undetermined", "none"), geometry="blocks of 3 x 3 cells", supports="the bottom, held twice", materials=STEEL, expected=1),
+        stability("pairs", "From one pair to 1e5", "One pair, a row of cells under uniform tension: exact by either realisation; what is left out says why.",
+                  [Subject("pairs", "strip", "pairs", defect=1e-8)], ref=reference("closed form", "uniform tension of two cells and a spring in series; one pair: the direct solver", "exact"),
+                  geometry="two rows of cells of 1 mm, as long as there are pairs; one pair: corners of two triangles", supports="bottom held, top pulled by 1 micrometre", materials="E = 70 GPa, nu = 0; k = 1e14 N/m3", expected=5),
+        stability("no-load", "No load at all", "Steps without any load give zeros, exactly.", [Subject("no-load", "no load", "steps")],
+                  ref=reference("closed form", "nothing moves", "none: zeros"), materials=f"{STEEL}; law 50/80 and 200/400 J/m2", expected=1, **CANTILEVER),
+        stability("cycles", "Load reversal and cycles", "Only the first pull damages: a hundred cycles of pull, release and pressure stay on the secant, and on the cantilever every state meets KKT and ledger.",
+                  [Subject("cycles", "bar", "cycles"), Subject("cycles-cantilever", "cantilever", "cycles")], ref=reference("closed form", BAR["source"] + "; unloading on the secant, pressure closed; of the cantilever the direct solver", BAR["uncertainty"]),
+                  geometry=SERIES["geometry"] + "; or " + CANTILEVER["geometry"], supports=SERIES["supports"] + "; or " + CANTILEVER["supports"], materials="k = 125e9 N/m3, Go = 100, Gc = 250 J/m2 (bar)", expected=25),
+        stability("mode-change", "Change of mode during softening", "Opened into softening, then slid until it breaks: traction, adhesion, energy and work are those of the law to 1e-9.",
+                  [Subject("mode-change", "open, then slide", "steps a leg")], ref=OWN, materials="k = 125e9 N/m3; Go 100/200, Gc 250/900 J/m2 by mode", expected=2, **DRIVEN),
+        stability("no-jump", "Mixity of no jump (0/0)", "A jump so small that its energy underflows does not decide the mode, at first or between steps: toughness is that of the jumps that load.",
+                  [Subject(name, text, "log10 of the jump in m" + none, "", "linear", decades) for name, text in (("psi-0/0", "first step"), ("psi-0/0-between", "between steps"))],
+                  ref=OWN, materials="k = 125e9 N/m3; Go 100/200, Gc 250/900 J/m2 by mode", expected=2, **DRIVEN),
+        stability("exponent", "Exponents of the criterion from 0.5 to 20", "The mixed-mode criterion with exponents from 0.5 to 20 is right to 1e-9.", [Subject("exponent", "mixed mode", "exponent")],
+                  ref=OWN, materials="kn = 1e12, kt = 2e12 N/m3; Go 100/200, Gc 300/900 J/m2 by mode", expected=2, **DRIVEN),
+        stability("one-step", "Everything breaks in one step", "One step of up to a million times the load of full debond: the bar as its closed form, the cantilever with KKT and ledger.",
+                  [Subject("one-step", "bar", "load / load of full debond"), Subject("one-step-cantilever", "cantilever", "lift / 1.5 mm")], ref=reference("closed form", BAR["source"] + "; of the cantilever the direct solver", BAR["uncertainty"]),
+                  geometry=SERIES["geometry"] + "; or " + CANTILEVER["geometry"], supports=SERIES["supports"] + "; or " + CANTILEVER["supports"], materials="k = 125e9 N/m3, Go = 100, Gc = 250 J/m2 (bar)", expected=3),
+        stability("damage-tolerance", "Tolerance of the minimisation, down to nothing", "The error falls with delta down to rounding; with delta = 0 the march ends, converged or with the limit status.",
+                  [Subject(name, text, "log10 of delta" + none, "", "linear", decades) for name, text in (("damage-tolerance", "bar"), ("damage-tolerance-cantilever", "cantilever"), ("damage-tolerance-0", "delta = 0"))],
+                  ref=reference("closed form", BAR["source"] + "; limit 10 delta + 1e-11; of the cantilever the direct solver", BAR["uncertainty"]),
+                  geometry=SERIES["geometry"] + "; or " + CANTILEVER["geometry"], supports=SERIES["supports"] + "; or " + CANTILEVER["supports"], materials="k = 125e9 N/m3, Go = 100, Gc = 250 J/m2 (bar)", expected=8),
+        stability("linear-tolerance", "Tolerance of FETI from 1e-2 to 1e-16", "The error follows the tolerance within a thousand times; below 1e-13 FETI may say that it did not converge.",
+                  [Subject("linear-tolerance", "elastic cantilever", "linear_tolerance", acceptance=10.0)], materials=f"{STEEL}; k = 1e14 N/m3", expected=2, **CANTILEVER),
+        stability("subdomains", "1 to 512 subdomains", "The default preconditioner is right to 1e-8 with any number of subdomains; the textbook's are not made for springs, and say so where they stop short.",
+                  [Subject(f"subdomains-{n}", t, "subdomains", defect=1e-8) for n, t in (("series", "default (series)"), ("dirichlet", "Dirichlet"), ("lumped", "lumped"), ("1", "body on an obstacle"))],
+                  materials=f"{STEEL}; k = 1e14 N/m3", expected=40, **{**CANTILEVER, "geometry": "the cantilever with 160 x 4 cells an arm; a body of 20 x 4 cells on a rigid obstacle, uncut to 8 parts"}),
+        stability("combs", "Partitions that are all surface", "Combs pushed into each other, and cuts along them: right to 1e-8, or a status that says it is not.",
+                  [Subject("combs-glued", "glued", "teeth", defect=1e-8), Subject("combs-on-springs", "on springs", "teeth", defect=1e-8), Subject("combs-cut", "glued, cut further", "subdomains", defect=1e-8)],
+                  geometry="two combs with teeth one cell wide that fill each other's gaps, 16 rows of cells", supports="bottom held, top driven under 45 degrees", materials=f"{STEEL}; bonded, or k = 1e14 N/m3", expected=75),
+        stability("host-stiffness", "Bodies that the host hands over", "An arm given as a matrix by the host gives what the arm of cells gives, over sixteen decades of k.",
+                  [Subject("host-stiffness", "matrix beside cells", defect=1e-8, **k)], materials=f"{STEEL}; kn = kt = k, unbreakable", expected=2, **CANTILEVER),
+    ]

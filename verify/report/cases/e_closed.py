@@ -1,0 +1,585 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Chapter (e): closed forms, by the Python package: one pair, a spring, a bar that peels, beams, a circular inclusion, bodies and
+elements of a host."""
+import cmath
+import importlib.util
+import math
+import sys
+
+import numpy as np
+
+import orders
+from case import Case, Failed, Skip, axis, check, column, figure, largest, order, plot, reference, result, series
+
+K, ONSET, TOUGHNESS = 125e9, 100.0, 250.0
+PEAK = math.sqrt(2 * K * ONSET)
+D0, DC = PEAK / K, PEAK / K * TOUGHNESS / ONSET
+SLOPE = PEAK ** 2 / (2 * (TOUGHNESS - ONSET))
+FLOOR = 1e-18
+
+
+def law_of(delam, stiffness, onset, toughness, **more):
+    """Two numbers each: of opening and of shear."""
+    return delam.Law("piecewise-linear", normal_stiffness=stiffness[0], tangential_stiffness=stiffness[1], normal_onset=onset[0], tangential_onset=onset[1],
+                     normal_toughness=toughness[0], tangential_toughness=toughness[1], **more)
+
+
+def box(mesh, lower, upper, body=None):
+    return mesh.find_nodes(lower, upper, body=body)
+
+
+# ---- one pair under a prescribed jump
+
+def pair(context):
+    delam = context.python()
+    turns, per_leg = [0.0, 0.3, 0.6, 0.1, 0.75, 0.2, 1.2, 0.4], 16 if context.quick else 64
+    rows, checks, plots = [], [], []
+    for mode, name, along in ((0, "mode I", "y"), (1, "mode II", "x")):
+        stiffness, onset, toughness = ((125e9, 100.0, 250.0), (80e9, 160.0, 480.0))[mode]
+        first = math.sqrt(2 * onset / stiffness)
+        last, top = first * toughness / onset, stiffness * first
+        mesh = delam.Mesh.layers(1.0, 1, [1.0, 1.0], [1, 1], "quad4")
+        interface = mesh.add_interface(0, 1)
+        problem = delam.Problem(mesh, plane="plane-strain")
+        problem.set_elastic(1e9, 0.2)
+        problem.set_law(interface, law_of(delam, (125e9, 80e9), (100.0, 160.0), (250.0, 480.0)))
+        load = problem.add_pattern("load", list(range(len(turns))), [t * last for t in turns])
+        lower, upper = box(mesh, (0, 0), (1, 2), 0), box(mesh, (0, 0), (1, 2), 1)
+        for axis_ in ("x", "y"):
+            problem.prescribe(lower, axis_)
+            problem.prescribe(upper, axis_, **({"drive": load} if axis_ == along else {}))
+        off = dict.fromkeys(("adhesion", "traction", "stored", "dissipated"), 0.0)
+        jumps, found, exact, furthest = [0.0], [0.0], [0.0], 0.0
+        with delam.Solver(problem, not_converged="raise") as solver:
+            for k in range(1, per_leg * (len(turns) - 1) + 1):
+                time = k / per_leg
+                solver.advance(time)
+                solver.commit()
+                w = float(np.interp(time, range(len(turns)), turns)) * last
+                furthest = max(furthest, w)
+                zeta = 1.0 if furthest <= first else 0.0 if furthest >= last else first * (last - furthest) / (furthest * (last - first))
+                traction = zeta * stiffness * w
+                spent = toughness * onset * (1 - zeta) / (onset + (toughness - onset) * zeta)
+                values = solver.values
+                off["adhesion"] = max(off["adhesion"], float(np.abs(solver.field("adhesion") - zeta).max()))
+                off["traction"] = max(off["traction"], float(np.abs(np.abs(solver.field("traction")[:, mode]) - traction).max()) / top)
+                off["stored"] = max(off["stored"], abs(values["stored_interface"] - 0.5 * traction * w) / toughness)
+                off["dissipated"] = max(off["dissipated"], abs(values["dissipated"] - spent) / toughness)
+                jumps.append(w * 1e3)
+                found.append(float(abs(solver.field("traction")[0, mode])) * 1e-6)
+                exact.append(traction * 1e-6)
+        for what, value in off.items():
+            rows.append([name, what, value])
+            checks.append(check(f"{name}: {what}", value, 1e-12, "the law is evaluated at jumps that are prescribed: rounding alone"))
+        plots.append(plot(f"Traction over jump, {name}", axis("jump", "mm"), axis("traction", "MPa"), [series("closed form", "reference", jumps, exact, marker=False), series("libdelam", "condensed", jumps, found, marker=False)], (),
+                          "Loading, unloading on the secant, reloading, past the final jump."))
+    return result(reference("closed form", "the bilinear law of traction and jump with its secant after the largest jump, modes of different strength", "exact; 1e-16"),
+                  tables=[{"title": "Largest difference over the path", "note": "", "columns": [column("mode", key=True), column("quantity", key=True), column("difference", "relative", past="rounding")], "rows": rows}],
+                  checks=checks, plots=plots, figures=[figure("pair_law", max(r[2] for r in rows), "relative", "One pair through loading, unloading and reloading: largest difference to the closed form", past="rounding")])
+
+
+# ---- a spring in series
+
+def spring_scene(delam, spring, end, **options):
+    mesh = delam.Mesh.layers(0.05, 1, [1.0, 1.0], [1, 1], "quad4")
+    interface = mesh.add_interface(0, 1)
+    problem = delam.Problem(mesh, plane="plane-strain")
+    problem.set_elastic(2.0 * spring, 0.0)
+    problem.set_law(interface, law_of(delam, (K, K), (ONSET, ONSET), (TOUGHNESS, TOUGHNESS)))
+    problem.prescribe(box(mesh, (0, 0), (0.05, 2)), "x")
+    problem.prescribe(box(mesh, (0, 0), (0.05, 0), 0), "y")
+    pull = problem.add_pattern("pull", [0.0, 1.0], [0.0, end])
+    problem.prescribe(box(mesh, (0, 2), (0.05, 2), 1), "y", drive=pull)
+    for key, value in {"damage_tolerance": 1e-12, **options}.items():
+        problem.options[key] = value
+    return problem
+
+
+def spring(context):
+    delam = context.python()
+    rows, checks, curves, steps, known_w, known_t = [], [], [], 60, [], []
+    for ratio, role in ((1.5, "first"), (3.0, "second"), (10.0, "third")):
+        stiff, worst, w_mm, t_found, t_exact = ratio * SLOPE, 0.0, [0.0], [0.0], [0.0]
+        with delam.Solver(spring_scene(delam, stiff, 1.1 * DC), not_converged="raise") as solver:
+            for i in range(1, steps + 1):
+                solver.advance(i / steps)
+                solver.commit()
+                w = 1.1 * DC * i / steps
+                start = PEAK * (1 / stiff + 1 / K)
+                jump, traction = (w / (1 + K / stiff), w / (1 / stiff + 1 / K)) if w <= start else (w, 0.0)
+                if start < w < DC:
+                    jump = (w - SLOPE * DC / stiff) / (1 - SLOPE / stiff)
+                    traction = SLOPE * (DC - jump)
+                worst = max(worst, float(np.abs(solver.field("jump")[:, 0] - jump).max()) / DC, float(np.abs(solver.field("traction")[:, 0] - traction).max()) / PEAK)
+                w_mm.append(w * 1e3)
+                t_found.append(float(solver.field("traction")[0, 0]) * 1e-6)
+                t_exact.append(traction * 1e-6)
+        rows.append([ratio, worst])
+        checks.append(check(f"K = {ratio:g} of the slope: jump and traction, off", worst, 1e-11, "delta = 1e-12; alternation leaves 1/(K/slope - 1) times what it changed last, at most twice"))
+        # One curve with gaps: the reader needs its name once.
+        known_w, known_t = known_w + w_mm + [w_mm[-1]], known_t + t_exact + [None]
+        curves.append(series(f"libdelam, K = {ratio:g}", role, w_mm[::3], t_found[::3], line="none"))
+    curves.insert(0, series("closed form", "reference", known_w, known_t, marker=False))
+    loads, x = [], []
+    for solution, energetic in (("local", False), ("energetic", True)):
+        for ratio in (0.5, 0.1, 0.02):
+            soft = ratio * SLOPE
+            flexible = 1 / soft + 1 / K
+            exact = math.sqrt(2 * TOUGHNESS * flexible) if energetic else PEAK * flexible
+            problem = spring_scene(delam, soft, 1.37 * exact, jump_tolerance=1e-5, **({"solution": "energetic"} if energetic else {}))
+            with delam.Solver(problem, not_converged="raise") as solver:
+                for i in range(1, 6):
+                    solver.advance(i / 5)
+                    solver.commit()
+                jumps = solver.jumps
+                work = solver.values["work"] / 0.05
+            if len(jumps) != 1:
+                raise Failed(f"{solution}, K = {ratio:g} of the slope: {len(jumps)} jumps located, expected one")
+            load, from_work = jumps[0].time * 1.37 * exact, math.sqrt(2 * work * flexible)
+            release = 0.0 if energetic else 0.5 * exact ** 2 / flexible - TOUGHNESS
+            loads.append([solution, ratio, exact * 1e3, load * 1e3, load / exact - 1, from_work / exact - 1, jumps[0].released / 0.05, release])
+            checks += [check(f"{solution}, K = {ratio:g} of the slope: load of the jump, off", max(abs(load / exact - 1), abs(from_work / exact - 1)), 1e-5, "jump_tolerance = 1e-5 of the loading, 5 steps"),
+                       check(f"{solution}, K = {ratio:g} of the slope: energy released, off", abs(jumps[0].released / 0.05 - release) / TOUGHNESS, 1e-4, "over the toughness, which the release exceeds 30 times for the softest spring; nothing is released where the energies cross")]
+    for solution, role in (("local", "local"), ("energetic", "energetic")):
+        of = [r for r in loads if r[0] == solution]
+        x += [series(f"{solution}", role, [r[1] for r in of], [r[3] for r in of], line="none"), series(f"closed form, {solution}", "reference", [r[1] for r in of], [r[2] for r in of], marker=False)]
+    return result(reference("closed form", "a spring K in series with the bilinear law: one branch above the softening slope; below it the local solution jumps at the strength, sigma0 (1/K + 1/k), the energetic one "
+                            "where the energies cross, sqrt(2 Gc (1/K + 1/k))", "exact for uniform stress"),
+                  tables=[{"title": "Stiff springs: one continuous solution", "note": "", "columns": [column("K over the slope", key=True), column("largest difference", "of final jump, strength", past="rounding")], "rows": rows},
+                          {"title": "Soft springs: load of the jump", "note": "", "columns": [column("solution", key=True), column("K over the slope", key=True), column("closed form", "mm"), column("located", "mm", past=1e-4), column("difference", "relative", past="free"),
+                           column("difference, from the work", "relative", past="free"), column("released", "J/m2", past="rounding"), column("released, closed form", "J/m2", past=1e-4)], "rows": loads}],
+                  checks=checks, plots=[plot("Stiff springs (K over the softening slope)", axis("end displacement", "mm"), axis("traction", "MPa"), curves), plot("Load of the jump, soft springs", axis("K over the softening slope", "", "log"), axis("load", "mm", "log"), x)],
+                  figures=[figure("spring_jump_load", largest(max(abs(r[4]), abs(r[5])) for r in loads), "relative", "Spring in series: load of the jump against the closed form, local and energetic, largest difference", past="free")])
+
+
+# ---- a bar bonded to a rigid base
+
+BAR = dict(length=1.0, start=0.2, membrane=1e6, toughness=50.0, bond=0.04)
+PLATEAU = math.sqrt(2 * BAR["toughness"] * BAR["membrane"])
+
+
+def bar_scene(delam, cells, held, end, **options):
+    h = BAR["length"] / cells
+    thin = 0.01 * h
+    mesh = delam.Mesh.layers(BAR["length"], cells, [thin, thin], [1, 1], "quad4")
+    interface = mesh.add_interface(0, 1)
+    problem = delam.Problem(mesh, plane="plane-stress")
+    problem.set_elastic(BAR["membrane"] / thin, 0.0)
+    k, g = BAR["membrane"] / BAR["bond"] ** 2, BAR["toughness"]
+    problem.set_law(interface, law_of(delam, (k, k), (g, g), (g, g)))
+    problem.set_adhesion(interface, interface.places[:, 0] < BAR["start"] - 0.25 * h, 0.0)
+    base, upper = box(mesh, (0, 0), (1, thin), 0), box(mesh, (0, thin), (1, 2 * thin), 1)
+    problem.prescribe(base, "x")
+    problem.prescribe(base, "y")
+    problem.prescribe(upper, "y")
+    if held:
+        problem.prescribe(box(mesh, (1, thin), (1, 2 * thin), 1), "x")
+    pull = problem.add_pattern("pull", [0.0, 1.0], [0.0, end])
+    problem.prescribe(box(mesh, (0, thin), (0, 2 * thin), 1), "-x", drive=pull)
+    for key, value in options.items():
+        problem.options[key] = value
+    return problem
+
+
+def bar(context):
+    delam = context.python()
+    meshes = (50, 100) if context.quick else (50, 100, 200)
+    rows, curves, checks, found, loads = [], [], [], [], []
+
+    def load_of(front):
+        return (front + BAR["bond"]) * PLATEAU / BAR["membrane"]
+
+    for solution, role in (("local", "local"), ("energetic", "energetic")):
+        errors, sizes = [], []
+        for cells in meshes:
+            # The local march passes the tip late by h over the length of the bond: it takes twice the cells.
+            n = 2 * cells if solution == "local" else cells
+            h, end = 1.0 / n, load_of(0.6)
+            steps = 4 * n if solution == "local" else 60
+            off = front = 0.0
+            w_mm, force = [0.0], [0.0]
+            with delam.Solver(bar_scene(delam, n, True, end, **({"solution": "energetic"} if solution == "energetic" else {})), not_converged="raise") as solver:
+                for i in range(1, steps + 1):
+                    solver.advance(i / steps)
+                    solver.commit()
+                    w = end * i / steps
+                    a = max(BAR["start"], w * BAR["membrane"] / PLATEAU - BAR["bond"])
+                    off = max(off, abs(solver.values["reaction:pull"] - BAR["membrane"] * w / (a + BAR["bond"])) / PLATEAU)
+                    front = max(front, abs(BAR["start"] + solver.values["front"] - a))
+                    w_mm.append(w * 1e3)
+                    force.append(solver.values["reaction:pull"])
+            limit = 0.7 * h / BAR["bond"] if solution == "local" else 2.2 * h
+            rows.append([solution, n, h * 1e3, off, front * 1e3])
+            checks += [check(f"{solution}, {n} cells: force off the plateau", off, limit, "0.7 h over the length of the bond, as the tip has to reach its strength" if solution == "local" else "2.2 h/L: the saw blade of a front that hops from pair to pair"),
+                       check(f"{solution}, {n} cells: front off, cells", front / h, 10.0 if solution == "local" else 1.02, "late by a few cells" if solution == "local" else "never further off than the cell it hops over")]
+            sizes.append(h)
+            errors.append(off)
+        if len(meshes) > 2:
+            found.append(order(f"force, {solution}", "h", orders.fit(sizes, errors), 1.0, 0.25, sizes, errors))
+        curves.append(series(f"{solution}, {n} cells", role, w_mm, force, marker=False))
+    exact_w = [0.0, load_of(BAR["start"]) * 1e3, load_of(0.6) * 1e3]
+    curves.append(series("closed form", "reference", exact_w, [0.0, PLATEAU, PLATEAU], marker=False))
+    # Free far end: full debonding costs as little as the front halfway, and the energetic solution jumps to it.
+    exact = 0.5 * (BAR["length"] + BAR["bond"]) * PLATEAU / BAR["membrane"]
+    for cells in (100,) if context.quick else (50, 100, 200):
+        end = load_of(0.7)
+        with delam.Solver(bar_scene(delam, cells, False, end, solution="energetic", jump_tolerance=1e-5), not_converged="raise") as solver:
+            for i in range(1, 21):
+                solver.advance(i / 20)
+                solver.commit()
+                if solver.field("adhesion").max() == 0.0:
+                    break
+            if solver.field("adhesion").max() != 0.0:
+                raise Failed(f"the free bar of {cells} cells never comes off")
+            from_work = solver.values["work"] / PLATEAU + 0.5 * load_of(BAR["start"])
+            spent = solver.values["dissipated"]
+        all_of_it = BAR["toughness"] * (BAR["length"] - BAR["start"] + 0.5 / cells)
+        loads.append([cells, exact * 1e3, from_work * 1e3, from_work / exact - 1, spent / all_of_it - 1])
+        checks += [check(f"free bar, {cells} cells: load of the jump, off", abs(from_work / exact - 1), 5e-3 if cells == 200 else 1.0 / cells, "from the work that is booked; h/L, half of it with 200 cells"),
+                   check(f"free bar, {cells} cells: dissipated, off", abs(spent / all_of_it - 1), 1e-9, "all of the bond, the pair at the tip with its whole cell")]
+    return result(reference("closed form", "a bar on a bond of membrane stiffness Et and length lam = sqrt(Et/k): F = Et w/(a + lam), plateau sqrt(2 G Et); with a free far end it comes off at once at (a + lam) = (L + lam)/2", "the far end many lam away: exp(-7) of the force at the ends of the range"),
+                  tables=[{"title": "Peeling of the held bar", "note": "", "columns": [column("solution", key=True), column("cells", key=True), column("h", "mm"), column("force, off", "of the plateau", past=1e-4), column("front, off", "mm", past=1e-4)], "rows": rows},
+                          {"title": "Free bar: load at which it comes off, energetic", "note": "", "columns": [column("cells", key=True), column("closed form", "mm"), column("found", "mm", past=1e-4), column("difference", "relative", past="free"), column("dissipated, off", "relative", past="rounding")], "rows": loads}],
+                  orders=found, checks=checks, plots=[plot("Force over end displacement", axis("end displacement", "mm"), axis("force", "N/m"), curves)],
+                  figures=[figure("bar_jump_load", abs(loads[-1][3]), "relative", "Bar on a bond: load at which it comes off, against the closed form", past="free")])
+
+
+# ---- beam theory of the ENF
+
+def enf(context):
+    delam = context.python()
+    young, nu, length, arm = 75e9, 0.3, 120e-3, 3e-3
+    modulus, shear = young / (1 - nu ** 2), young / (2 * (1 + nu))
+    half, press, h = 0.5 * length, 0.1e-3, 1e-3 if context.quick else 0.5e-3
+    rows, checks = [], []
+    for a in (30e-3, 36e-3, 45e-3, 54e-3):
+        mesh = delam.Mesh.layers(length, round(length / h), [arm, arm], [round(arm / h)] * 2, "quad4")
+        interface = mesh.add_interface(0, 1)
+        problem = delam.Problem(mesh, plane="plane-strain")
+        problem.set_elastic(young, nu)
+        problem.set_formulation("incompatible")
+        problem.set_law(interface, law_of(delam, (125e12, 125e12), (1e6, 1e6), (2e6, 2e6)))
+        problem.set_adhesion(interface, interface.places[:, 0] < a - 1e-3 * h, 0.0)
+        load = problem.add_pattern("press", [0.0, 1.0], [0.0, press])
+        patch = 2e-3
+        for end in (0.0, length):
+            nodes, weights = mesh.find_patch(0, (max(end - patch, 0.0), 0.0), (min(end + patch, length), 0.0), "-y")
+            problem.prescribe_mean(nodes, weights, "y")
+        problem.prescribe(mesh.find_node((length, 0.0), body=0), "x")
+        nodes, weights = mesh.find_patch(1, (half - 0.5 * patch, 2 * arm), (half + 0.5 * patch, 2 * arm), "y")
+        problem.prescribe_mean(nodes, weights, "-y", drive=load)
+        with delam.Solver(problem, not_converged="raise") as solver:
+            solver.advance(1.0)
+            force, rates, contacts = solver.values["reaction:press"], solver.fronts(interface).rates[0], solver.values["contact_pairs"]
+        # Patches lie inside the ends: half a patch of span less on either side.
+        span, crack = half - 0.5 * patch, a - 0.5 * patch
+        compliance = (2 * span ** 3 + 3 * crack ** 3) / (8 * modulus * arm ** 3) + 0.3 * span / (shear * arm)
+        g = 9 * force ** 2 * crack ** 2 / (16 * modulus * arm ** 3)
+        rows.append([a * 1e3, press / force, compliance, press / force / compliance - 1, float(rates.sum()), g, float(rates.sum()) / g - 1, float(abs(rates[0]) / rates.sum()), contacts])
+    checks = [check("compliance off beam theory", largest(abs(r[3]) for r in rows), 0.05, "bending of both arms and shear; elastic root of the crack and indentation of the supports are not in it: the arm thickness over the crack length, 3 mm over 30 to 54 mm"),
+              check("energy release rate off beam theory", largest(abs(r[6]) for r in rows), 0.05, "beam theory knows no shear at the crack tip: about 0.1 of the arm over the crack"),
+              check("part of mode I", largest(r[7] for r in rows), 1e-3, "closed contact behind the tip: mode II alone"), check("pairs in contact", min(r[8] for r in rows), 1, "the arms press on each other", ">=")]
+    x = [r[0] for r in rows]
+    return result(reference("closed form", "Bernoulli's beams of plane strain with shear: C = (2 L^3 + 3 a^3)/(8 E' h^3) + 0.3 L/(G h), G_II = 9 P^2 a^2/(16 E' h^3) per width", "a few percent: no shear deformation at the crack tip, no indentation"),
+                  tables=[{"title": "ENF below onset, by crack length", "note": "", "columns": [column("crack", "mm", key=True), column("compliance", "m2/N"), column("beams", "m2/N"), column("difference", "relative", past="free"), column("G", "J/m2", past=1e-5), column("G, beams", "J/m2"),
+                           column("difference of G", "relative", past="free"), column("part of mode I", "of G", past="rounding"), column("contact", "pairs", past="count")], "rows": rows}],
+                  checks=checks, plots=[plot("Compliance", axis("crack length", "mm"), axis("compliance", "m2/N"), [series("libdelam", "condensed", x, [r[1] for r in rows]), series("beam theory", "reference", x, [r[2] for r in rows], marker=False)]),
+                                        plot("Energy release rate", axis("crack length", "mm"), axis("G", "J/m2"), [series("libdelam", "condensed", x, [r[4] for r in rows]), series("beam theory", "reference", x, [r[5] for r in rows], marker=False)])],
+                  figures=[figure("enf_beam_rate", largest(abs(r[6]) for r in rows), "relative", "ENF: energy release rate against beam theory, largest difference", past="free")])
+
+
+# ---- a circular fibre in a matrix
+
+RADIUS, OUTER = 5e-6, 15e-6
+FIBRE, MATRIX = (74e9, 0.2), (3.5e9, 0.35)
+KN, KT = 2e15, 5e14
+
+
+class Inclusion:
+    """Muskhelishvili's potentials of a fibre in an infinite matrix, real by symmetry: matrix phi = G z + A/z, psi = H z + B/z + C/z^3; fibre phi = a z + c z^3,
+    psi = b z; conditions at the fibre's surface at 0, 90 and 45 degrees determine A B C a b c."""
+
+    def __init__(self, remote, normal, tangential, free=False):
+        known = np.zeros(8)
+        known[6:] = 0.25 * (remote[0] + remote[1]), 0.5 * (remote[1] - remote[0])
+        right = -self._conditions(known, normal, tangential, free)
+        system = np.column_stack([self._conditions(np.eye(8)[j], normal, tangential, free) for j in range(6)])
+        scale = np.abs(system).max(axis=1)
+        self.c = known
+        self.c[:6] = np.linalg.solve(system / scale[:, None], right / scale)
+
+    @staticmethod
+    def _potentials(inside, z, c):
+        A, B, C, a, b, k, G, H = c
+        if inside:
+            return a * z + k * z ** 3, a + 3 * k * z ** 2, 6 * k * z, b * z, b
+        return G * z + A / z, G - A / z ** 2, 2 * A / z ** 3, H * z + B / z + C / z ** 3, H - B / z ** 2 - 3 * C / z ** 4
+
+    def _u(self, inside, z, c):
+        young, nu = FIBRE if inside else MATRIX
+        phi, phi1, _, psi, _ = self._potentials(inside, z, c)
+        return ((3 - 4 * nu) * phi - z * np.conj(phi1) - np.conj(psi)) * RADIUS / (young / (1 + nu))
+
+    def _s(self, inside, z, c):
+        _, phi1, phi2, _, psi1 = self._potentials(inside, z, c)
+        total, rest = 4 * np.real(phi1), 2 * (np.conj(z) * phi2 + psi1)
+        return 0.5 * (total - rest.real), 0.5 * (total + rest.real), 0.5 * rest.imag
+
+    def _conditions(self, c, normal, tangential, free):
+        out = []
+        for angle, part in ((0.0, 0), (0.5 * math.pi, 0), (0.25 * math.pi, 1)):
+            z = cmath.exp(1j * angle)
+
+            def polar(value):
+                turned = value * np.conj(z)
+                return (turned.real, turned.imag)[part]
+
+            def traction(inside):
+                s = self._s(inside, z, c)
+                n, m = math.cos(angle), math.sin(angle)
+                return polar(complex(s[0] * n + s[2] * m, s[2] * n + s[1] * m))
+
+            outer, inner = traction(False), traction(True)
+            jump = polar(self._u(False, z, c)) - polar(self._u(True, z, c))
+            out += [outer, inner] if free else [outer - inner, (jump - (normal, tangential)[part] * inner) * MATRIX[0] / RADIUS]
+        return np.array(out)
+
+    def displacement(self, inside, x, y):
+        u = self._u(inside, (x + 1j * y) / RADIUS, self.c)
+        return np.column_stack((np.real(u), np.imag(u)))
+
+    def stress(self, inside, x, y):
+        return np.column_stack(np.broadcast_arrays(*self._s(inside, (x + 1j * y) / RADIUS, self.c)))
+
+
+def fibre_mesh(n):
+    """A disc (a square inside four patches that become round) and a ring around it, n 4-node cells on a quarter of the circle."""
+    nodes, index, cells, bodies = [], {}, [], []
+
+    def node(body, place):
+        key = (body, round(place[0] / RADIUS * 1e7), round(place[1] / RADIUS * 1e7))
+        if key not in index:
+            index[key] = len(nodes)
+            nodes.append(place)
+        return index[key]
+
+    def patch(across, along, body, of):
+        for i in range(across):
+            for j in range(along):
+                cells.append([node(body, of((i + s) / across, (j + t) / along)) for s, t in ((0, 0), (1, 0), (1, 1), (0, 1))])
+                bodies.append(body)
+
+    core = 0.5 * RADIUS
+    patch(n, n, 0, lambda s, t: (core * (2 * s - 1), core * (2 * t - 1)))
+    for quarter in range(4):
+        c, d = round(math.cos(0.5 * math.pi * quarter)), round(math.sin(0.5 * math.pi * quarter))
+
+        def ray(r, t, rounded, c=c, d=d):
+            angle = 0.25 * math.pi * (2 * t - 1)
+            x, y = (1 - rounded) * core + rounded * r * math.cos(angle), (1 - rounded) * core * (2 * t - 1) + rounded * r * math.sin(angle)
+            return c * x - d * y, d * x + c * y
+
+        patch(max(1, n // 2), n, 0, lambda s, t, ray=ray: ray(RADIUS, t, s))
+        patch(n, n, 1, lambda s, t, ray=ray: ray(RADIUS * (OUTER / RADIUS) ** s, t, 1.0))
+    return np.array(nodes), np.array(cells), np.array(bodies, np.int32)
+
+
+SETTINGS = (("glued, uniaxial tension", "bonded", (50e6, 0.0)), ("springs, tension", "springs", (50e6, 25e6)), ("loose, tension", "loose", (50e6, 40e6)), ("loose, pressed", "loose", (-50e6, -40e6)),
+            ("springs, pressed", "springs", (-50e6, -40e6)))
+
+
+def fibre(context):
+    delam = context.python()
+    rows, found, checks, by_u, by_s = [], [], [], [], []
+    levels = (4, 8, 16) if context.quick else (4, 8, 16, 32)
+    for (name, bond, remote), role in zip(SETTINGS, ("first", "second", "third", "fourth", "fifth")):
+        pressed = remote[0] < 0
+        # Closed contact is rigid along the normal; what does not adhere slides.
+        exact = Inclusion(remote, 1 / KN if bond == "springs" and not pressed else 0.0, 1 / KT if bond == "springs" else 0.0 if bond == "bonded" else 1e6 * OUTER / MATRIX[0], bond == "loose" and not pressed)
+        sizes, errors_u, errors_s = [], [], []
+        for n in levels:
+            nodes, cells, bodies = fibre_mesh(n)
+            mesh = delam.Mesh(nodes)
+            mesh.add_cells("quad4", cells, bodies)
+            interface = mesh.add_interface(0, 1)
+            problem = delam.Problem(mesh, plane="plane-strain")
+            problem.set_elastic(*FIBRE, body=0)
+            problem.set_elastic(*MATRIX, body=1)
+            if bond == "bonded":
+                problem.set_bonded(interface)
+            else:
+                problem.set_law(interface, law_of(delam, (KN, KT), (1e3, 1e3), (2e3, 2e3)))
+                if bond == "loose":
+                    problem.set_adhesion(interface, np.arange(interface.pair_count), 0.0)
+            rim = np.flatnonzero(np.hypot(*nodes.T) > OUTER * (1 - 1e-9))
+            load = problem.add_pattern("load", [0.0, 1.0], [0.0, 1.0])
+            moved = exact.displacement(False, *nodes[rim].T)
+            for axis_, values in (("x", moved[:, 0]), ("y", moved[:, 1])):
+                problem.prescribe(rim, axis_, drive={load: values})
+            with delam.Solver(problem, not_converged="raise") as solver:
+                solver.advance(1.0)
+                u, s = solver.field("displacement"), solver.field("stress")
+            off = size = wrong = pull = 0.0
+            middles = nodes[cells].mean(axis=1)
+            for inside in (True, False):
+                of = bodies == (0 if inside else 1)
+                if bond != "loose" or not inside:  # a loose fibre may lie anywhere within its gap
+                    at = cells[of].ravel()
+                    e = exact.displacement(inside, *nodes[at].T)
+                    off, size = off + ((u[at] - e) ** 2).sum(), size + (e ** 2).sum()
+                e = exact.stress(inside, *middles[of].T)
+                wrong, pull = wrong + ((s[of][:, [0, 1, 3]] - e) ** 2).sum(), pull + (e ** 2).sum()
+            sizes.append(1.0 / n)
+            errors_u.append(float(math.sqrt(off / size)))
+            errors_s.append(float(math.sqrt(wrong / pull)))
+            rows.append([name, n, problem.dofs[0], errors_u[-1], errors_s[-1]])
+        found += [order(f"displacement, {name}", "h", orders.fit(sizes, errors_u), 2.0, 0.3, sizes, errors_u, "at least"), order(f"stress, {name}", "h", orders.fit(sizes, errors_s), 1.5, 0.1, sizes, errors_s, "at least")]
+        checks += [check(f"{name}: displacement", errors_u[-1], 5e-3, "16 cells a quarter of the circle leave less; the exact field moves the rim"), check(f"{name}: stress at the middles of cells", errors_s[-1], 1e-2, "as of the displacement")]
+        by_u.append(series(name, role, sizes, errors_u))
+        by_s.append(series(name, role, sizes, errors_s))
+    return result(reference("closed form", "Muskhelishvili's potentials of a circular inclusion, perfect, on linear springs (Hashin, J. Mech. Phys. Solids 39, 1991), free, or sliding", "a system of six equations in double precision: 1e-12"),
+                  tables=[{"title": "Errors against the exact field, by cells a quarter of the circle", "note": "", "columns": [column("interface and load", key=True), column("cells", key=True), column("displacements", "DOFs"), column("error of displacement", "relative", past=1e-5),
+                           column("error of stress", "relative", past=1e-5)], "rows": rows}], orders=found, checks=checks,
+                  plots=[plot("Displacement", axis("cell size over a quarter of the circle", "", "log"), axis("error, root of squares", "relative", "log"), by_u, [{"kind": "slope", "order": 2, "label": "order 2"}]),
+                         plot("Stress at the middles of cells", axis("cell size over a quarter of the circle", "", "log"), axis("error, root of squares", "relative", "log"), by_s, [{"kind": "slope", "order": 2, "label": "order 2"}])],
+                  figures=[figure("inclusion_displacement", max(c["value"] for c in checks if "displacement" in c["what"]), "relative", "Circular inclusion, five interfaces and loads: error of the displacement, finest mesh", past=1e-5)])
+
+
+# ---- a sub-laminate as one element of a host
+
+MACHINE, TRAVEL, NAMES = np.array([3e7, 5e8, 2e7]), np.array([1.5e-3, -4e-5, -1.2e-3]), ("up", "side", "low")
+
+
+def arms(delam, with_machine):
+    """Two arms glued behind a notch. The element has its tips prescribed by three patterns; with the machine its springs are pairs of the tips with nodes that travel."""
+    layers = delam.Mesh.layers(0.04, 40, [1e-3, 1e-3], [1, 1], "quad4")
+    nodes, cells = layers.nodes, layers.cells
+    mesh = delam.Mesh(np.vstack((nodes, [[0.0, 4e-3], [0.0, -2e-3]])))
+    mesh.add_cells("quad4", cells.of("quad4"), cells.bodies)
+    glue = mesh.add_interface(0, 1)
+    upper, lower, above, below = mesh.find_node((0.0, 2e-3), 1), mesh.find_node((0.0, 0.0), 0), len(nodes), len(nodes) + 1
+    if with_machine:
+        top, bottom = mesh.add_obstacle([upper], (0.0, -1.0), above, [1.0]), mesh.add_obstacle([lower], (0.0, 1.0), below, [1.0])
+    problem = delam.Problem(mesh, plane="plane-strain")
+    problem.set_elastic(70e9, 0.3)
+    problem.set_law(glue, law_of(delam, (1e12, 1e12), (20.0, 40.0), (600.0, 1500.0)))
+    problem.set_adhesion(glue, glue.places[:, 0] < 0.0075, 0.0)
+    problem.options["damage_tolerance"] = 1e-12
+    for axis_ in ("x", "y"):
+        problem.prescribe(box(mesh, (0.04, 0), (0.04, 2e-3)), axis_)
+    patterns = [problem.add_pattern(name, [0.0, 1.0], [0.0, TRAVEL[p] if with_machine else 0.0]) for p, name in enumerate(NAMES)]
+    problem.prescribe([above if with_machine else upper], "y", drive=patterns[0])
+    problem.prescribe([above if with_machine else upper], "x", drive=patterns[1])
+    problem.prescribe([below if with_machine else lower], "y", drive=patterns[2])
+    if with_machine:
+        problem.set_law(top, law_of(delam, (MACHINE[0], MACHINE[1]), (1e30, 1e30), (2e30, 2e30)))
+        problem.set_law(bottom, law_of(delam, (MACHINE[2], 1e-4), (1e30, 1e30), (2e30, 2e30)))  # sideways as good as free
+        problem.prescribe([below], "x")
+    return problem
+
+
+def user_element(context):
+    delam = context.python()
+    steps, rows, histories, iterations = 40, [], [], []
+    u = np.zeros(3)
+    with delam.Solver(arms(delam, False), not_converged="raise") as element, delam.Solver(arms(delam, True), not_converged="raise") as whole:
+        quadratic, worst_force, worst_spent, forces = 0, 0.0, 0.0, []
+        for k in range(1, steps + 1):
+            time, residuals = k / steps, []
+            while True:
+                if len(residuals) >= 8:
+                    raise Failed(f"step {k}: Newton's method of the host does not converge: {residuals}")
+                for p in range(3):
+                    element.set_history(p, [time], [u[p]])
+                element.advance(time)
+                reaction = np.array([element.values[f"reaction:{name}"] for name in NAMES])
+                residual = reaction + MACHINE * (u - TRAVEL * time)
+                residuals.append(float(np.abs(residual).max() / np.abs(MACHINE * TRAVEL * time).max()))
+                if residuals[-1] <= 1e-10:
+                    break
+                tangent = element.step_tangent()
+                element.rollback()
+                u = u - np.linalg.solve(tangent + np.diag(MACHINE), residual)
+            element.commit()
+            whole.advance(time)
+            whole.commit()
+            if len(residuals) >= 3 and residuals[-2] < 1e-3 and residuals[-1] <= 100 * residuals[-2] ** 2 + 1e-11:
+                quadratic += 1
+            same = np.array([whole.values[f"reaction:{name}"] for name in NAMES])
+            worst_force = max(worst_force, float((np.abs(reaction - same) / (0.05 * np.abs(MACHINE * TRAVEL) + np.abs(same))).max()))
+            worst_spent = max(worst_spent, abs(element.values["dissipated"] - whole.values["dissipated"]) / (0.1 + whole.values["dissipated"]))
+            iterations.append(len(residuals))
+            forces.append((time, -float(reaction[0]), -float(same[0])))
+            histories.append(residuals)
+            if k % 5 == 0:
+                rows.append([time, len(residuals), residuals[-1], -float(reaction[0]), -float(same[0]), float(element.values["dissipated"]), float(whole.values["dissipated"])])
+        spent = float(element.values["dissipated"])
+    longest = max(histories, key=len)
+    return result(reference("other code", "the same structure with the machine's springs as part of the library's scene; and Newton's method of the host, which converges quadratically only with the consistent tangent",
+                            "delta = 1e-12 on both sides; residual of the host 1e-10"),
+                  tables=[{"title": "Every fifth step", "note": "", "columns": [column("time", key=True), column("Newton iterations", "", past="count"), column("residual", "relative", past="free"), column("force, element", "N/m", past=1e-5), column("force, whole", "N/m", past=1e-5),
+                           column("dissipated, element", "J/m", past=1e-5), column("dissipated, whole", "J/m", past=1e-5)], "rows": rows}],
+                  checks=[check("force of the element off the whole structure", worst_force, 1e-8, "delta and the residual of Newton's method, through softening"), check("dissipated energy, off", worst_spent, 1e-8, "as of the force"),
+                          check("steps with quadratic convergence", quadratic, 15, "the last residual is at most 100 times the square of the one before; steps without damage are linear and need two", ">="),
+                          check("Newton iterations of a step", max(iterations), 7, "more would not be Newton's method"), check("energy dissipated", spent, 0.1, "J/m: the arms part, it is no elastic element", ">=")],
+                  plots=[plot("Force of the machine", axis("time"), axis("force", "N/m"), [series("whole structure", "reference", [f[0] for f in forces], [f[2] for f in forces], marker=False), series("element in the host", "condensed", [f[0] for f in forces], [f[1] for f in forces], line="none")]),
+                         plot("Newton's method of the host, longest step", axis("iteration"), axis("residual", "relative", "log"), [series("residual", "condensed", list(range(1, len(longest) + 1)), [max(v, FLOOR) for v in longest])])],
+                  figures=[figure("user_element_force", worst_force, "relative", "Sub-laminate as one element of a host: force against the whole structure in one scene, largest difference", past="rounding")])
+
+
+# ---- GetFEM as the host
+
+def getfem(context):
+    if importlib.util.find_spec("getfem") is None:
+        raise Skip("GetFEM is not there (Debian's python3-getfem)")
+    context.python()
+    sys.path.insert(0, str(context.root / "examples" / "host-getfem"))
+    import host_getfem
+
+    folder = context.out / "marches" / "getfem"
+    folder.mkdir(parents=True, exist_ok=True)
+    context.commands.append("python3 examples/host-getfem/host_getfem.py " + ("enf" if context.quick else ""))
+    rows, checks, plots, tables = [], [], [], []
+    scenes = (host_getfem.enf,) if context.quick else (host_getfem.enf, host_getfem.dcb_3d)
+    for scene in scenes:
+        hosted, found = scene(folder, host_getfem.Clock())
+        for name, difference in found.items():
+            rows.append([scene.__name__, name, float(difference)])
+        checks.append(check(f"{scene.__name__}: largest difference", largest(float(v) for v in found.values()), 1e-8, "two assemblies of one body differ in rounding alone; slender arms and softening amplify it"))
+        reaction = "reaction:press" if scene is host_getfem.enf else "reaction:open"
+        load = reaction.replace("reaction", "load")
+        x = [1e3 * float(v[load]) for v, _ in hosted.steps]
+        plots.append(plot(f"{scene.__name__}: force with GetFEM's bodies", axis("load", "mm"), axis("force", "N/m" if scene is host_getfem.enf else "N"), [series("bodies by GetFEM", "condensed", x, [float(v[reaction]) for v, _ in hosted.steps])]))
+    tables.append({"title": "Largest relative difference to the library's own bodies, and to what GetFEM computes from the displacements", "note": "", "columns": [column("scene", key=True), column("quantity", key=True), column("difference", "relative", past="rounding")], "rows": rows})
+    if not context.quick:
+        graded = []
+        for cell, hosted, curvatures, growth in host_getfem.graded(folder, host_getfem.Clock()):
+            plateau = curvatures[-5:]
+            graded.append([cell * 1e3, float(plateau.min()), float(plateau.max()), float(growth[-5:].min()), float(growth[-5:].max())])
+            limit = 8e-3 if cell > 0.75e-3 else 2e-3
+            checks.append(check(f"graded arms, cells of {cell * 1e3:g} mm: curvature of growth, off", float(np.abs(plateau - 1).max()), limit, "sqrt(toughness/EI) is exact; the softening zone against the cell leaves this"))
+        tables.append({"title": "Arms of graded modulus, cubic triangles: curvature and growth over the exact ones", "note": "", "columns": [column("cells", "mm", key=True), column("curvature, least", past=1e-4), column("curvature, largest", past=1e-4), column("growth, least", past=1e-3),
+                       column("growth, largest", past=1e-3)], "rows": graded})
+    return result(reference("other code", "GetFEM (Debian's python3-getfem) meshes, assembles and integrates; energy, reaction and stresses by it from the library's displacements; graded arms: Rice's integral, sqrt(toughness/EI)", "rounding of two assemblies, 1e-10; exact for graded arms"),
+                  tables=tables, checks=checks, plots=plots, figures=[figure("getfem_difference", max(r[2] for r in rows), "relative", "Bodies assembled by GetFEM against the library's own: largest difference", past="rounding")])
+
+
+def cases():
+    blocks = dict(supports="lower block held, upper block moved as a whole", units="SI")
+    series_ = dict(geometry="bar of two blocks, 1 m each and 50 mm wide, the interface across", supports="one end held, the other pulled; no lateral motion", units="mm, J/m2",
+                   materials="k = 125e9 N/m3, Go = 100, Gc = 250 J/m2; K by the modulus")
+    return [
+        Case(id="e-pair", chapter="e", title="One pair under a prescribed jump", requirement="Loading, unloading and reloading in modes I and II follow the bilinear law, energies included, to rounding.", run=pair, quick=True, expected=3, seconds=300,
+             geometry="two cells of 1 m, an interface of two pairs", materials="kn = 125e9, kt = 80e9 N/m3; Go 100/160, Gc 250/480 J/m2 by mode", **blocks),
+        Case(id="e-spring", chapter="e", title="A spring in series with the interface", requirement="Stiff springs follow the one solution; soft ones jump at the local load, or in energetic marches where the energies cross.", run=spring, quick=True, expected=3, seconds=300, **series_),
+        Case(id="e-bar", chapter="e", title="A bar peels off a rigid base", requirement="Force and front follow the plateau to first order in h, local and energetic; a bar with a free end comes off at once at the load where the energies cross.", run=bar, quick=True, expected=10, seconds=900,
+             geometry="bar of 1 m, free over the first 0.2 m, bonded beyond with a take-up length of 40 mm", materials="Et = 1e6 N/m, Griffith's law with G = 50 J/m2", supports="pulled at the free end; far end held, or free", units="mm, N/m"),
+        Case(id="e-enf-beams", chapter="e", title="Beam theory of the ENF", requirement="Compliance and energy release rate follow beam theory within 5 % over the crack length, in mode II alone.", run=enf, quick=True, expected=3, seconds=300,
+             geometry="two arms 120 mm x 3 mm, cracks of 30 to 54 mm, incompatible 4-node cells of 0.5 mm (quick: 1 mm)", materials="E = 75 GPa, nu = 0.3; k = 125e12 N/m3, below onset", supports="ends and mid-span as means over 2 mm, pressed by 0.1 mm", units="mm, J/m2, per metre of width"),
+        Case(id="e-inclusion", chapter="e", title="A circular fibre: the exact field", requirement="Glued, on springs, loose under tension and pressed without friction: displacements and stresses converge to the exact field.", run=fibre, quick=True, expected=3, seconds=600,
+             geometry="fibre of 5 micrometres in a matrix out to 15, quadrilaterals of 4 nodes, 4 to 32 (quick: 16) on a quarter of the circle", materials="fibre 74 GPa, 0.2; matrix 3.5 GPa, 0.35; kn = 2e15, kt = 5e14 N/m3", supports="the rim moves as in the exact field", units="relative errors"),
+        Case(id="e-user-element", chapter="e", title="A sub-laminate as one element of a host", requirement="The host's Newton method converges quadratically with the step's tangent, to what the library finds with the whole structure in its own scene.", run=user_element, quick=True, expected=4, seconds=300,
+             geometry="two arms 40 mm x 1 mm, notch of 7.5 mm", materials="E = 70 GPa, nu = 0.3; k = 1e12 N/m3; Go 20/40, Gc 600/1500 J/m2 by mode", supports="root clamped; tips on three springs of a machine that travels", units="N/m, J/m"),
+        Case(id="e-getfem", chapter="e", title="GetFEM as the host", requirement="Bodies that GetFEM has assembled give what the library's own give, and graded arms of cubic triangles give the exact curvature.", run=getfem, quick=False, expected=15, seconds=1200,
+             geometry="ENF 120 mm x 2 x 3 mm; double cantilever in space 45 x 12.5 x 2 x 1.5 mm; graded arms 80 mm x 1.5 mm", materials="E = 75, 60 and 70 to 210 GPa, nu = 0.3", supports="as in examples/host-getfem", units="SI; relative differences"),
+    ]
