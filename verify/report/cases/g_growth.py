@@ -33,7 +33,8 @@ def growth(context, scenes, time_limit, memory_limit, cap, space):
             if m is None or "skipped" in m:
                 continue
             stopped = m["label"].startswith("stopped")
-            rows.append([name, label, n, *(middle(m[p]) / lse for p in ("setup_s", "factor_s", "iterate_s")), m["lse"], m["counts"]["am_iterations"], m["label"]])
+            rows.append([name, label, n, *(middle(m[p]) / lse for p in ("setup_s", "factor_s", "iterate_s")), m["lse"],
+                         None if stopped else m["counts"]["am_iterations"], m["label"]])
             if stopped:
                 losses.append(f"{name}: {label} was stopped after {cap} s, where condensed takes {middle(part['methods']['condensed']['total_s']):.2g} s")
                 continue
