@@ -48,7 +48,8 @@ def tests(context, pattern):
     base = ["ctest", "--test-dir", str(folder), "-R", pattern]
     context.commands.append(shlex.join(["ctest", "--test-dir", "BUILD", "-R", pattern, "-LE", "long", "--output-junit", "FILE"]))
     env = environment(context.library)
-    run = subprocess.run([*base, "-LE", "long", "--output-junit", str(result)], text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False, env=env)
+    run = subprocess.run([*base, "-LE", "long", "--test-output-size-passed", "200000", "--test-output-size-failed", "200000",
+                          "--output-junit", str(result)], text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False, env=env)
     print(run.stdout, flush=True)
     if not result.is_file():
         raise Failed(f"ctest left no results for {pattern}: " + " / ".join(run.stdout.strip().splitlines()[-2:]))
@@ -56,7 +57,8 @@ def tests(context, pattern):
     for entry in xml.etree.ElementTree.parse(result).getroot().iter("testcase"):
         output = (entry.findtext("system-out") or "").strip().splitlines()
         status, skipped = entry.get("status"), entry.find("skipped")
-        last = clean(output[-1]) if output else ""
+        # The last line that names no file: those are progress.
+        last = clean(next((line for line in reversed(output) if line.strip() and "/" not in line), output[-1])) if output else ""
         if skipped is not None or status in ("notrun", "disabled"):
             said = next((clean(line) for line in output if "skip" in line.lower()), last)
             outcome, says = "skipped", said or clean(skipped.get("message") if skipped is not None else "") or "no reason given"

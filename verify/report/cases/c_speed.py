@@ -33,7 +33,8 @@ def march_case(scene, *, quick, expected, asked, cap, shipped=False):
     brittle = "brittle" in scene
 
     def run(context):
-        data = bench(context, "march", "--repeat", "3", "--cap", str(cap), "--threads", "1", "--scene", scene, **({"DELAM_BENCH_AS_SHIPPED": "1"} if shipped else {}))
+        limit = 2 if context.quick else cap
+        data = bench(context, "march", "--repeat", "3", "--cap", str(limit), "--threads", "1", "--scene", scene, **({"DELAM_BENCH_AS_SHIPPED": "1"} if shipped else {}))
         found = data["scenes"][scene]
         part, memory = found["threads"]["1"], found["memory"]
         if "error" in part:
@@ -54,7 +55,7 @@ def march_case(scene, *, quick, expected, asked, cap, shipped=False):
             if ratio is not None and ratio < 1.0:
                 losses.append(f"{label} takes {1.0 / ratio:.3g} times as long as the baseline")
             if m["label"].startswith("stopped"):
-                losses.append(f"{label} was stopped after {cap} s without an end ({m['lse']:.3g} linear solves up to there)")
+                losses.append(f"{label} was stopped after {limit} s without an end ({m['lse']:.3g} linear solves up to there)")
         best = part["methods"]["accelerated"]
         if "skipped" in best or best["label"].startswith("stopped"):
             raise Failed("the accelerated march did not end: " + best.get("skipped", best["label"]))
