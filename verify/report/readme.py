@@ -25,6 +25,8 @@ PICTURES = [("b-ledger", 0), ("b-jump-instant", 0), ("a-feti-direct", 1)]
 # The table of speed: a row is what it is called, and the middle of the names of its figures. Only a report that has all of them renews it.
 SPEED = [("0.5 mm", "ductile_0.5"), ("0.1 mm, one thread", "ductile_0.1"), ("0.1 mm, OpenMP as Debian's CHOLMOD sets it", "ductile_0.1_shipped")]
 SPEED_COLUMNS = [("unknowns", "unknowns"), ("whole march", "seconds"), ("in linear solves", "lse"), ("baseline over this", "ratio"), ("memory, factorisations", "memory")]
+# Beyond it two series of the same solve differ by more than the digits that are quoted.
+NOISE = 0.1
 
 
 class Refused(Exception):
@@ -62,12 +64,13 @@ def block(head: dict) -> str:
 
 
 def speed(report: dict) -> dict | None:
-    """The table of speed, or None where the report has not all of it: timings are of one report, never of two."""
+    """The table of speed, or None where the report has not all of it, or the machine was too busy: timings are of one report, never of two."""
     found = {f["name"]: f for c in report["cases"] if c["status"] == "passed" for f in c["figures"]}
     rows = []
     for title, scene in SPEED:
         figures = [found.get(f"speed_{scene}_{key}") for _, key in SPEED_COLUMNS]
-        if None in figures:
+        noise = found.get(f"speed_{scene}_noise")
+        if None in figures or noise is None or noise["value"] > NOISE:
             return None
         rows.append([title, *(f["value"] for f in figures)])
     return {**{k: report[k] for k in ("date", "commit", "command")}, "processor": report["machine"]["processor"], "rows": rows}

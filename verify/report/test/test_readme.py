@@ -52,14 +52,19 @@ class Readme(unittest.TestCase):
         data = report()
         data["cases"][0]["figures"] = [{"name": f"speed_{scene}_{key}", "value": 7.321, "unit": "", "text": "t"} for _, scene in readme.SPEED
                                        for _, key in readme.SPEED_COLUMNS]
+        data["cases"][0]["figures"] += [{"name": f"speed_{scene}_noise", "value": 0.03, "unit": "", "text": "t"} for _, scene in readme.SPEED]
         return data
 
     def test_the_table_of_speed_is_of_one_report(self):
         table = readme.speed(self.timed())
         self.assertIn("| 0.5 mm | 7.3 | 7.3 s | 7.3 | 7.3 | 7.3 |", readme.speed_block(table))
-        short = self.timed()
-        short["cases"][0]["figures"].pop()
-        self.assertIsNone(readme.speed(short))
+        for lost in (0, -1):
+            short = self.timed()
+            short["cases"][0]["figures"].pop(lost)
+            self.assertIsNone(readme.speed(short))
+        busy = self.timed()
+        busy["cases"][0]["figures"][-1]["value"] = 0.5
+        self.assertIsNone(readme.speed(busy))
         failed = self.timed()
         failed["cases"][0]["status"] = "failed"
         self.assertIsNone(readme.speed(failed))
