@@ -61,7 +61,7 @@ def tests(context, pattern):
         last = clean(next((line for line in reversed(output) if line.strip() and "/" not in line), output[-1])) if output else ""
         if skipped is not None or status in ("notrun", "disabled"):
             said = next((clean(line) for line in output if "skip" in line.lower()), last)
-            outcome, says = "skipped", said or clean(skipped.get("message") if skipped is not None else "") or "no reason given"
+            outcome, says = "skipped", said.removeprefix("skipped: ") or clean(skipped.get("message") if skipped is not None else "") or "no reason given"
         else:
             outcome, says = ("passed", last) if status == "run" else ("failed", last)
         rows.append({"name": entry.get("name"), "outcome": outcome, "seconds": float(entry.get("time") or 0.0), "says": says, "output": output})

@@ -27,7 +27,10 @@ def judged(rows, least=1):
     failed = [r["name"] for r in here if r["outcome"] == "failed"]
     checks = [check("tests that failed" + (f": {', '.join(failed)}" if failed else ""), len(failed), 0, "each states its own limits"),
               check("tests that ran", len(here), least, "fewer would be no evidence", ">=")]
-    return checks, [f"Skipped: {r['name']}: {r['says']}" for r in skipped]
+    reasons = {}
+    for r in skipped:
+        reasons.setdefault(r["says"], []).append(r["name"])
+    return checks, [f"Skipped, {why}: {', '.join(names)}." for why, names in reasons.items()]
 
 
 def said(rows, name, pattern):
