@@ -50,7 +50,7 @@ def _log_ticks(ax, values: list[float], horizontal: bool, narrow: bool) -> None:
         return
     places = sorted(set(values))
     apart = all(b / a > (places[-1] / places[0]) ** (0.16 if narrow else 0.09) for a, b in zip(places, places[1:]))
-    plain = matplotlib.ticker.FuncFormatter(lambda v, _: f"{v:.3g}")
+    plain = matplotlib.ticker.FuncFormatter(lambda v, _: f"{v:.0f}" if v >= 1000 else f"{v:.3g}")
     if horizontal and len(places) <= (5 if narrow else 8) and apart and 1e-4 <= places[0] and places[-1] < 1e5:
         ax.set_major_locator(matplotlib.ticker.FixedLocator(places))
     elif max(values) / min(values) < 50 and 1e-4 <= min(values) and max(values) < 1e6:

@@ -129,7 +129,7 @@ def languages(context):
             if any(r["outcome"] == "failed" for r in known):
                 cells.append("no: a test failed")
             elif good:
-                cells.append(f"yes, {len(good)} of {len(names)} tests" if len(good) < len(names) else f"yes, {len(good)} tests")
+                cells.append("yes, " + (f"{len(good)} of " if len(good) < len(names) else "") + (f"{len(names)} tests" if len(names) > 1 else "1 test"))
             else:
                 why = known[0]["says"] if known else "not in this build"
                 cells.append(f"not here: {why}")
@@ -232,6 +232,6 @@ def cases():
                        [(f"fuzz/replay_{n}", r"(\d+) inputs", "inputs replayed", "fuzz_inputs") for n in ("api_sequence", "saved_state", "mesh_arrays", "scene")]),
             group_case("f-faults", "Faults injected", "^fault/[^t]", "Cancelled at a look, out of memory at an allocation, under other rounding modes, traps and locales: the promised status and "
                        "the state before, bit by bit.", "the undisturbed run of the same scene, bit by bit (verify/faults)", False, 90,
-                       [("fault/cancel", r"(\d+) cancel", "calls cancelled", "fault_cancelled"), ("fault/memory", r"(\d+) (?:failed )?allocations", "allocations failed", "fault_allocations")]),
+                       [("fault/cancel", r"(\d+) calls cancelled", "calls cancelled", "fault_cancelled"), ("fault/memory", r"(\d+) (?:failed )?allocations", "allocations failed", "fault_allocations")]),
             group_case("f-threads", "Threads", "^(fault/threads|case/test_threads_host|python/threads)$", "Solvers in eight threads at once give the bits that each gives alone; handles are guarded as the "
                        "contract says.", "each march alone, bit by bit", True, 15)]
