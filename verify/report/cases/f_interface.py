@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 from bench import clean, tests
-from case import Case, Failed, Skip, axis, check, column, environment, figure, plot, reference, result, series, table
+from case import Case, Failed, Skip, check, column, environment, figure, reference, result, table
 
 WHERE = dict(geometry="small scenes, see the tests", materials="as the tests say", supports="as the tests say", units="counts; SI")
 SKIPPED = 77
@@ -71,8 +71,8 @@ def symbols(context):
         if len(words) == 2:
             since[words[0]] = words[1]
     families = {}
-    for name in since:
-        families.setdefault(name.split("_")[1], []).append(name)
+    for name, version in since.items():
+        families.setdefault((name.split("_")[1], version), []).append(name.removeprefix("delam_"))
     checks = [check("breaks of the promise", wrong, 0, "exported = declared = listed, one version node, SONAME of DELAM_ABI, of CHOLMOD the LGPL modules alone; declarations and "
                     "debug information as in the baseline"),
               check("checks that ran", sum(r[1] != "skipped" for r in rows), 2, "abidiff may be missing, the others need binutils alone", ">="),
@@ -81,10 +81,8 @@ def symbols(context):
         reference("own past", "verify/abi/baseline: header and debug information of the last accepted interface; verify/abi/symbols.txt", "none: names and types are compared as they are"),
         checks=checks, warnings=warnings,
         tables=[table("The gate", [column("check", key=True), column("outcome", may=True), column("what it said", may=True)], rows),
-                table("Promised functions, by what they are about", [column("about", key=True), column("functions", past="free"), column("names")],
-                      [[f, len(names), ", ".join(names)] for f, names in sorted(families.items())]),
-                table("Promised functions, by the version that brought them", [column("since", key=True), column("functions", past="free")],
-                      [[v, sum(s == v for s in since.values())] for v in sorted(set(since.values()))])],
+                table("Promised functions and the version that brought them", [column("about", key=True), column("since", key=True), column("functions", past="free"), column("names")],
+                      [[family, version, len(names), ", ".join(names)] for (family, version), names in sorted(families.items())], "Names without delam_.")],
         figures=[figure("abi_functions", len(since), "", "Functions of the binary interface, exported = declared = listed", past="free")])
 
 
@@ -204,17 +202,13 @@ def calls(context):
             losses.append(f"a step through {TITLES[language]} takes {n[4] / step_c:.2g} times as long as in C, on a step of {1e-3 * step_c:.2g} us")
         if n[0] > 1.5 * key_c:
             losses.append(f"a value by its key through {TITLES[language]} takes {n[0] / key_c:.2g} times as long as in C")
-    names = list(at)
     return result(
         reference("other code", "the same calls in C, in the same round; the languages must give the same value", "the quartiles of the rounds; ns of processor time (Julia: of the wall clock)"),
         checks=checks, losses=losses, warnings=warnings,
         tables=[table("What a call costs", [column("language", key=True), column("value by key", "ns", past="free"), column("over C", "ns", past="free"), column("to C", "", past="free"),
                       column("step", "ns", past="free"), column("step over C", "ns", past="free"), column("step to C", "", past="free")], rows,
                       "Medians over the rounds; a step is advance and commit, on a scene of 84 nodes that nothing damages.")],
-        plots=[plot("Cost through each language", axis("language: " + ", ".join(f"{i + 1} {TITLES[n]}" for i, n in enumerate(names))), axis("to C", "", "log"),
-                    [series("value by its key", "first", [i + 1 for i in range(len(names))], [at[n][0] / key_c for n in names], line="none"),
-                     series("step", "second", [i + 1 for i in range(len(names))], [at[n][4] / step_c for n in names], line="none")])],
-        figures=[figure(f"call_{n}", at[n][7] * 1e-3, "us", f"A step through {TITLES[n]} over one in C", past="free") for n in names if n == "python"])
+        figures=[figure(f"call_{n}", at[n][7] * 1e-3, "us", f"A step through {TITLES[n]} over one in C", past="free") for n in at if n == "python"])
 
 
 def cases():
