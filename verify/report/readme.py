@@ -18,9 +18,15 @@ sys.path.insert(0, str(HERE))
 from words import show  # noqa: E402
 
 BEGIN, END = "<!-- report:begin (verify/report/readme.py) -->", "<!-- report:end -->"
+SPEED_BEGIN, SPEED_END = "<!-- speed:begin (verify/report/readme.py) -->", "<!-- speed:end -->"
 # Figures by their names in the JSON, and pictures by case and place; only of cases that passed.
 FIGURES = ["feti_direct_worst", "feti_direct_kkt", "balance_defect", "jump_mm"]
 PICTURES = [("b-ledger", 0), ("b-jump-instant", 0), ("a-feti-direct", 1)]
+# The table of speed: a row is what it is called, and the middle of the names of its figures. Only a report that has all of them renews it.
+SPEED = [("0.5 mm", "ductile_0.5"), ("0.1 mm, one thread", "ductile_0.1"), ("0.1 mm, OpenMP as Debian's CHOLMOD sets it", "ductile_0.1_shipped")]
+SPEED_COLUMNS = [("unknowns", "unknowns"), ("whole march", "seconds"), ("in linear solves", "lse"), ("baseline over this", "ratio"), ("memory, factorisations", "memory")]
+# Beyond it two series of the same solve differ by more than the digits that are quoted.
+NOISE = 0.1
 
 
 class Refused(Exception):
@@ -57,10 +63,37 @@ def block(head: dict) -> str:
     return "\n".join([*lines, END])
 
 
-def between(text: str) -> str:
-    if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(BEGIN) > text.index(END):
-        raise Refused(f"the README must have one \"{BEGIN}\" and one \"{END}\" after it")
-    return text[text.index(BEGIN):text.index(END) + len(END)]
+def speed(report: dict) -> dict | None:
+    """The table of speed, or None where the report has not all of it, or the machine was too busy: timings are of one report, never of two."""
+    found = {f["name"]: f for c in report["cases"] if c["status"] == "passed" for f in c["figures"]}
+    rows = []
+    for title, scene in SPEED:
+        figures = [found.get(f"speed_{scene}_{key}") for _, key in SPEED_COLUMNS]
+        noise = found.get(f"speed_{scene}_noise")
+        if None in figures or noise is None or noise["value"] > NOISE:
+            return None
+        rows.append([title, *(f["value"] for f in figures)])
+    return {**{k: report[k] for k in ("date", "commit", "command")}, "processor": report["machine"]["processor"], "rows": rows}
+
+
+def two_digits(value) -> str:
+    """Timings have no more."""
+    return show(value) if isinstance(value, str) or value >= 1000 else show(float(f"{value:.2g}"))
+
+
+def speed_block(table: dict) -> str:
+    lines = [SPEED_BEGIN, "", f"{table['processor']}, {table['date']}, commit {table['commit']}:", "", "| cells | " + " | ".join(name for name, _ in SPEED_COLUMNS) + " |",
+             "|---" * (len(SPEED_COLUMNS) + 1) + "|"]
+    for title, *values in table["rows"]:
+        cells = [two_digits(v) + (" s" if key == "seconds" else "") for v, (_, key) in zip(values, SPEED_COLUMNS)]
+        lines.append("| " + " | ".join([title, *cells]) + " |")
+    return "\n".join([*lines, "", SPEED_END])
+
+
+def between(text: str, begin: str = BEGIN, end: str = END) -> str:
+    if text.count(begin) != 1 or text.count(end) != 1 or text.index(begin) > text.index(end):
+        raise Refused(f"the README must have one \"{begin}\" and one \"{end}\" after it")
+    return text[text.index(begin):text.index(end) + len(end)]
 
 
 def differences(readme: str, head: dict, root: pathlib.Path) -> list[str]:
@@ -74,6 +107,12 @@ def differences(readme: str, head: dict, root: pathlib.Path) -> list[str]:
     wrong = [f"README has \"{a}\", headline.json gives \"{b}\"" for a, b in zip(got, wanted) if a != b]
     if len(got) != len(wanted):
         wrong.append(f"README's block has {len(got)} lines, headline.json gives {len(wanted)}")
+    if head.get("speed"):
+        try:
+            if between(readme, SPEED_BEGIN, SPEED_END) != speed_block(head["speed"]):
+                wrong.append("README's table of speed is not the one that headline.json gives")
+        except Refused as error:
+            wrong.append(str(error))
     return wrong + [f"{p['file']} is missing" for p in head["pictures"] if not (root / p["file"]).is_file()]
 
 
@@ -94,6 +133,12 @@ def main(argv: list[str]) -> int:
     report = json.loads((a.out / "report.json").read_text(encoding="utf-8"))
     try:
         head, old = gather(report), between(text)
+        before = json.loads((HERE / "headline.json").read_text(encoding="utf-8"))
+        # A report without all of the timing cases leaves the table of the last one that had them, with its date.
+        timed = speed(report) or before.get("speed")
+        if timed:
+            head["speed"] = timed
+            text = text.replace(between(text, SPEED_BEGIN, SPEED_END), speed_block(timed))
     except Refused as error:
         print(f"readme.py: {error}", file=sys.stderr)
         return 1

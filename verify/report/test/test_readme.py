@@ -48,6 +48,34 @@ class Readme(unittest.TestCase):
         with self.assertRaises(readme.Refused):
             readme.gather(report(), ["bar_error"], [("t-one", 4)])
 
+    def timed(self):
+        data = report()
+        data["cases"][0]["figures"] = [{"name": f"speed_{scene}_{key}", "value": 7.321, "unit": "", "text": "t"} for _, scene in readme.SPEED
+                                       for _, key in readme.SPEED_COLUMNS]
+        data["cases"][0]["figures"] += [{"name": f"speed_{scene}_noise", "value": 0.03, "unit": "", "text": "t"} for _, scene in readme.SPEED]
+        return data
+
+    def test_the_table_of_speed_is_of_one_report(self):
+        table = readme.speed(self.timed())
+        self.assertIn("| 0.5 mm | 7.3 | 7.3 s | 7.3 | 7.3 | 7.3 |", readme.speed_block(table))
+        for lost in (0, -1):
+            short = self.timed()
+            short["cases"][0]["figures"].pop(lost)
+            self.assertIsNone(readme.speed(short))
+        busy = self.timed()
+        busy["cases"][0]["figures"][-1]["value"] = 0.5
+        self.assertIsNone(readme.speed(busy))
+        failed = self.timed()
+        failed["cases"][0]["status"] = "failed"
+        self.assertIsNone(readme.speed(failed))
+
+    def test_a_changed_speed_is_seen(self):
+        head = {**self.head(), "speed": readme.speed(self.timed())}
+        text = readme.block(head) + "\n" + readme.speed_block(head["speed"])
+        self.assertEqual(readme.differences(text, head, readme.ROOT), [])
+        self.assertTrue(readme.differences(text.replace("7.3 s", "3.7 s"), head, readme.ROOT))
+        self.assertTrue(readme.differences(readme.block(head), head, readme.ROOT))
+
     def test_readme_without_markers(self):
         self.assertTrue(readme.differences("nothing", self.head(), readme.ROOT))
 

@@ -1,0 +1,231 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Chapter (f): does the binary interface stand still, what was run in which language, what a call costs through each, and what became of the
+library when things around it went wrong. Outcomes of the build's own tests; what was skipped stays in the tables with its reason."""
+import re
+import shutil
+import subprocess
+import sys
+
+from bench import clean, tests
+from case import Case, Failed, Skip, check, column, environment, figure, reference, result, table
+
+WHERE = dict(geometry="small scenes, see the tests", materials="as the tests say", supports="as the tests say", units="counts; SI")
+SKIPPED = 77
+
+
+def outcome_table(title, rows, note=""):
+    return table(title, [column("test", key=True), column("outcome", may=True), column("time", "s", past="free"), column("what it said last", may=True)],
+                 [[r["name"], r["outcome"], r["seconds"], r["says"]] for r in rows], note)
+
+
+def judged(rows, least=1):
+    """Checks and warnings of a group of tests. Skipped ones are neither passed nor failed, and a group that only skips is skipped."""
+    here = [r for r in rows if r["outcome"] != "skipped"]
+    skipped = [r for r in rows if r["outcome"] == "skipped"]
+    if not here:
+        raise Skip("; ".join(f"{r['name']}: {r['says']}" for r in skipped)[:400])
+    failed = [r["name"] for r in here if r["outcome"] == "failed"]
+    checks = [check("tests that failed" + (f": {', '.join(failed)}" if failed else ""), len(failed), 0, "each states its own limits"),
+              check("tests that ran", len(here), least, "fewer would be no evidence", ">=")]
+    reasons = {}
+    for r in skipped:
+        reasons.setdefault(r["says"], []).append(r["name"])
+    return checks, [f"Skipped, {why}: {', '.join(names)}." for why, names in reasons.items()]
+
+
+def said(rows, name, pattern):
+    """Numbers that a test printed: every match of `pattern` in what it said, as integers."""
+    for r in rows:
+        if r["name"] == name and r["outcome"] == "passed":
+            return [tuple(int(v) for v in m.groups()) for line in r["output"] for m in [re.search(pattern, line)] if m]
+    return []
+
+
+def gate(context, what, *arguments):
+    """One check of verify/abi/gate.py: (outcome, what it said)."""
+    command = [sys.executable, str(context.root / "verify" / "abi" / "gate.py"), "--header", str(context.root / "include" / "delam" / "delam.h"),
+               "--list", str(context.root / "verify" / "abi" / "symbols.txt"), what, *arguments]
+    context.commands.append(f"verify/abi/gate.py --header include/delam/delam.h --list verify/abi/symbols.txt {what}" + (" --library LIBRARY" if "--library" in arguments else ""))
+    run = subprocess.run(command, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False, env=environment(context.library))
+    lines = [clean(line) for line in run.stdout.strip().splitlines()]
+    print(run.stdout, flush=True)
+    return "passed" if run.returncode == 0 else "skipped" if run.returncode == SKIPPED else "failed", lines
+
+
+def symbols(context):
+    library = str(context.library / "libdelam.so")
+    asked = {"symbols": ("--library", library, "--experimental", str(context.root / "include" / "delam" / "experimental.h"), "--cholmod"),
+             "baseline": (), "abidiff": ("--library", library)}
+    rows, warnings, wrong = [], [], 0
+    for what, arguments in asked.items():
+        outcome, lines = gate(context, what, *arguments)
+        rows.append([what, outcome, lines[-1] if lines else ""])
+        if outcome == "skipped":
+            warnings.append(f"Skipped: {what}: {lines[-1] if lines else 'no reason given'}")
+        if outcome == "failed":
+            wrong += max(len(lines), 1)
+            warnings += [f"{what}: {line}" for line in lines[:8]]
+    since = {}
+    for line in (context.root / "verify" / "abi" / "symbols.txt").read_text(encoding="utf-8").splitlines():
+        words = line.split("#")[0].split()
+        if len(words) == 2:
+            since[words[0]] = words[1]
+    families = {}
+    for name, version in since.items():
+        families.setdefault((name.split("_")[1], version), []).append(name.removeprefix("delam_"))
+    checks = [check("breaks of the promise", wrong, 0, "exported = declared = listed, one version node, SONAME of DELAM_ABI, of CHOLMOD the LGPL modules alone; declarations and "
+                    "debug information as in the baseline"),
+              check("checks that ran", sum(r[1] != "skipped" for r in rows), 2, "abidiff may be missing, the others need binutils alone", ">="),
+              check("functions that are promised", len(since), 1, "an empty list promises nothing", ">=")]
+    return result(
+        reference("own past", "verify/abi/baseline: header and debug information of the last accepted interface; verify/abi/symbols.txt", "none: names and types are compared as they are"),
+        checks=checks, warnings=warnings,
+        tables=[table("The gate", [column("check", key=True), column("outcome", may=True), column("what it said", may=True)], rows),
+                table("Promised functions and the version that brought them", [column("about", key=True), column("since", key=True), column("functions", past="free"), column("names")],
+                      [[family, version, len(names), ", ".join(names)] for (family, version), names in sorted(families.items())], "Names without delam_.")],
+        figures=[figure("abi_functions", len(since), "", "Functions of the binary interface, exported = declared = listed", past="free")])
+
+
+def abi(context):
+    rows = tests(context, "^abi/")
+    checks, warnings = judged(rows, 6)
+    planted = said(rows, "abi/planted", r"(\d+) planted checks, (\d+) failures")
+    figures = []
+    if planted:
+        made, missed = planted[-1]
+        checks += [check("planted breaks that passed the gate", missed, 0, "a gate that lets nothing through is only seen at a break"),
+                   check("planted breaks that were tried", made, 60, "of symbols, types, header, contract, reference", ">=")]
+        figures.append(figure("abi_planted", made, "", "Planted breaks of the binary interface and its contract, all refused by name", past="free"))
+    return result(reference("own past", "verify/abi: baseline, contract of every function (unit, null, owns, status, thread), and breaks planted in copies of it",
+                            "none: a planted break is found or not"),
+                  tables=[outcome_table("Tests of the interface", rows)], checks=checks, warnings=warnings, figures=figures)
+
+
+# What stands for each word. Parsed: its own compiler or parser reads it. Checked: compared with the public header. Run: over this library.
+LANGUAGES = {
+    "C": {"parsed": ["abi/headers_gcc", "abi/headers_clang"], "checked": ["abi/contract", "abi/baseline"], "run": ["abi/host", "example/enf_c", "example/dcb-host-law_c"]},
+    "C++": {"parsed": ["abi/headers_gcc", "abi/headers_clang", "cpp/clang"], "checked": ["cpp/delam_17", "cpp/delam_20"],
+            "run": ["cpp/delam_17", "cpp/host_17", "cpp/delam_20", "cpp/host_20", "example/enf_cpp", "example/dcb-host-law_cpp"]},
+    "Fortran": {"parsed": ["fortran/module"], "checked": ["fortran/raw"], "run": ["fortran/module", "fortran/host", "fortran/stop", "example/enf_fortran", "example/dcb-host-law_fortran"]},
+    "Python": {"parsed": ["python/raw"], "checked": ["python/raw", "python/clang"],
+               "run": ["python/mesh", "python/law", "python/problem", "python/solver", "python/host", "python/interrupt", "python/lifetime", "python/threads", "example/enf_python",
+                       "example/dcb-host-law_python"]},
+    "Julia": {"parsed": ["julia/check"], "checked": ["julia/check"], "run": ["julia/package", "example/enf_julia", "example/dcb-host-law_julia"]},
+}
+
+
+def languages(context):
+    rows = tests(context, "^(fortran|cpp|python|julia|example)/|^abi/(headers_gcc|headers_clang|contract|baseline|host)$")
+    checks, warnings = judged(rows, 10)
+    at = {r["name"]: r for r in rows}
+    listed, losses, ran = [], [], 0
+    for language, words in LANGUAGES.items():
+        cells = []
+        for word, names in words.items():
+            known = [at[n] for n in names if n in at]
+            good = [r for r in known if r["outcome"] == "passed"]
+            if any(r["outcome"] == "failed" for r in known):
+                cells.append("no: a test failed")
+            elif good:
+                cells.append("yes, " + (f"{len(good)} of " if len(good) < len(names) else "") + (f"{len(names)} tests" if len(names) > 1 else "1 test"))
+            else:
+                why = known[0]["says"] if known else "not in this build"
+                cells.append(f"not here: {why}")
+                losses.append(f"{language} was not {word}: {why}")
+            ran += word == "run" and bool(good) and cells[-1].startswith("yes")
+        listed.append([language, *cells])
+    groups = []
+    for group in ("cpp", "fortran", "python", "julia", "example"):
+        of = [r for r in rows if r["name"].startswith(group + "/")]
+        if of:
+            groups.append(outcome_table(f"Tests: {group}", of))
+    checks.append(check("languages that ran over this library", ran, 1, "C at least; the others where their tools are", ">="))
+    return result(
+        reference("other code", "the example scenes in C, Fortran, C++, Python and Julia against one table of reference values; raw layers against the public header, read by another parser",
+                  "the reference values of the examples are met to the digits that are written"),
+        tables=[table("What was done in which language", [column("language", key=True), *(column(w, may=True) for w in ("parsed", "checked", "run"))], listed,
+                      "Parsed: its own compiler or parser reads it. Checked: compared with the public header. Run: over this library."), *groups],
+        checks=checks, warnings=warnings, losses=losses, figures=[figure("languages_run", ran, "of 5", "Languages that ran over this library", past="free")])
+
+
+def group_case(case_id, title, pattern, requirement, source, quick, expected, counted=()):
+    def run(context):
+        rows = tests(context, pattern)
+        checks, warnings = judged(rows)
+        figures, numbers = [], []
+        for name, expression, what, key in counted:
+            found = said(rows, name, expression)
+            if found:
+                numbers.append([name, what, sum(v[0] for v in found)])
+        for key, text in dict.fromkeys((c[3], c[2]) for c in counted):
+            total = sum(n[2] for n in numbers if n[1] == text)
+            if total:
+                figures.append(figure(key, total, "", f"{title}: {text}", past="free"))
+        counts = [table("Counts that the tests give", [column("test", key=True), column("what", key=True), column("number", past="free")], numbers)] if numbers else []
+        return result(reference("physics", source, "none: bits, statuses and texts are compared"), tables=[*counts, outcome_table("Tests", rows)], checks=checks,
+                      warnings=warnings, figures=figures)
+
+    return Case(id=case_id, chapter="f", title=title, requirement=requirement, **WHERE, run=run, quick=quick, seconds=1200, expected=expected)
+
+
+LINE = re.compile(r"^(c|cpp|fortran|python|julia)\s+(\d+) \((\d+) to (\d+)\)\s+(-?\d+)\s+(\d+) \((\d+) to (\d+)\)\s+(-?\d+)\s*$")
+TITLES = {"c": "C", "cpp": "C++", "fortran": "Fortran", "python": "Python", "julia": "Julia"}
+# Nanoseconds over C that a step may cost: a hundredth of the shortest steps that are worth a march, 10 ms, for Python; scatter for the others.
+STEP_LIMIT = {"cpp": 5e3, "fortran": 5e3, "python": 1e5, "julia": 1e5}
+
+
+def calls(context):
+    rounds, steps = ("5", "500") if context.quick else ("15", "2000")
+    words = ["--rounds", rounds, "--calls", "50000" if context.quick else "200000", "--steps", steps]
+    context.commands.append("verify/bench/calls/calls.py --build BUILD " + " ".join(words))
+    run = subprocess.run([sys.executable, str(context.root / "verify" / "bench" / "calls" / "calls.py"), "--build", str(context.build), *words], text=True, stdout=subprocess.PIPE,
+                         stderr=subprocess.PIPE, check=False, env=environment(context.library))
+    print(run.stdout, run.stderr, flush=True)
+    if run.returncode != 0:
+        raise Failed("calls.py: " + " / ".join(run.stderr.strip().splitlines()[-2:]))
+    warnings = [clean(line).capitalize() for line in run.stdout.splitlines() if line.startswith("left out")]
+    rows, checks, losses, at = [], [], [], {}
+    for line in run.stdout.splitlines():
+        m = LINE.match(line)
+        if m:
+            n = [float(v) for v in m.groups()[1:]]
+            at[m.group(1)] = n
+    if "c" not in at or len(at) < 2:
+        raise Failed("calls.py printed no table")
+    key_c, step_c = at["c"][0], at["c"][4]
+    for language, n in at.items():
+        rows.append([TITLES[language], n[0], n[3], n[0] / key_c, n[4], n[7], n[4] / step_c])
+        if language == "c":
+            continue
+        checks.append(check(f"{TITLES[language]}: a step over that in C", n[7], STEP_LIMIT[language], "ns; the wrapper must be nothing beside a step of milliseconds, whatever else the machine does"))
+        if n[4] > 1.1 * step_c:
+            losses.append(f"a step through {TITLES[language]} takes {n[4] / step_c:.2g} times as long as in C, on a step of {1e-3 * step_c:.2g} us")
+        if n[0] > 1.5 * key_c:
+            losses.append(f"a value by its key through {TITLES[language]} takes {n[0] / key_c:.2g} times as long as in C")
+    return result(
+        reference("other code", "the same calls in C, in the same round; the languages must give the same value", "the quartiles of the rounds; ns of processor time (Julia: of the wall clock)"),
+        checks=checks, losses=losses, warnings=warnings,
+        tables=[table("What a call costs", [column("language", key=True), column("value by key", "ns", past="free"), column("over C", "ns", past="free"), column("to C", "", past="free"),
+                      column("step", "ns", past="free"), column("step over C", "ns", past="free"), column("step to C", "", past="free")], rows,
+                      "Medians over the rounds; a step is advance and commit, on a scene of 84 nodes that nothing damages.")],
+        figures=[figure(f"call_{n}", at[n][7] * 1e-3, "us", f"A step through {TITLES[n]} over one in C", past="free") for n in at if n == "python"])
+
+
+def cases():
+    return [Case(id="f-symbols", chapter="f", title="Promised symbols", requirement="Exported functions are the declared ones are the listed ones; nothing promised has changed since the "
+                 "baseline.", geometry="none", materials="none", supports="none", units="names", run=symbols, quick=True, seconds=120, expected=3),
+            Case(id="f-abi", chapter="f", title="The interface and its contract", requirement="Header, contract and library agree; a host compiled against the baseline runs; every planted "
+                 "break is found.", **WHERE, run=abi, seconds=900, expected=60),
+            Case(id="f-languages", chapter="f", title="Languages", requirement="Each language is parsed, checked against the header and run, or the table says what was not done and why; what "
+                 "ran gives the same numbers.", **WHERE, run=languages, seconds=1500, expected=90),
+            Case(id="f-calls", chapter="f", title="What a call costs", requirement="Each language gives the same value; a step through it costs at most 0.1 ms more than in C.",
+                 geometry="84 nodes, nothing is damaged", materials="as verify/bench/calls", supports="as verify/bench/calls", units="ns of processor time", run=calls, quick=True, timing=True,
+                 seconds=600, expected=25),
+            group_case("f-fuzz", "Fuzzing, replayed", "^fuzz/replay", "Every committed input, and every input that was once a defect, ends with a listed status and nothing changed after an error.",
+                       "the contract after every call (verify/fuzz): listed status, message, unchanged state", True, 20,
+                       [(f"fuzz/replay_{n}", r"(\d+) inputs", "inputs replayed", "fuzz_inputs") for n in ("api_sequence", "saved_state", "mesh_arrays", "scene")]),
+            group_case("f-faults", "Faults injected", "^fault/[^t]", "Cancelled at a look, out of memory at an allocation, under other rounding modes, traps and locales: the promised status and "
+                       "the state before, bit by bit.", "the undisturbed run of the same scene, bit by bit (verify/faults)", False, 90,
+                       [("fault/cancel", r"(\d+) calls cancelled", "calls cancelled", "fault_cancelled"), ("fault/memory", r"(\d+) (?:failed )?allocations", "allocations failed", "fault_allocations")]),
+            group_case("f-threads", "Threads", "^(fault/threads|case/test_threads_host|python/threads)$", "Solvers in eight threads at once give the bits that each gives alone; handles are guarded as the "
+                       "contract says.", "each march alone, bit by bit", True, 15)]
