@@ -367,7 +367,7 @@ int32_t delam_problem_add_eigenstrain(delam_problem* problem, int64_t pattern, i
         Problem& core = *problem->core;
         require_index(pattern, static_cast<std::int64_t>(core.patterns.size()), 0, "pattern");
         const std::int32_t index = body < 0 ? -1 : core.mesh->body_of_label(body);
-        if (body != -1 && index < 0) fail(DELAM_ERROR_ARGUMENT, "body = ", body, ": no cell carries this label");
+        if (body != -1 && index < 0) fail(DELAM_ERROR_ARGUMENT, "body = ", body, ": there is no body of this label");
         require_pointer(strain, "strain");
         require_finite(strain, 6, "strain");
         const auto list = require_patterns(core, 1, &pattern, 0, Pattern::Drives::strain);

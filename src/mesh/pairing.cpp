@@ -174,8 +174,8 @@ struct Skin {
 std::pair<std::int32_t, std::int32_t> Mesh::require_unjoined(std::int32_t label_a, std::int32_t label_b) const {
     const std::int32_t a = body_of_label(label_a);
     const std::int32_t b = body_of_label(label_b);
-    if (a < 0) fail(DELAM_ERROR_ARGUMENT, "body_a ", label_a, ": no cell has this label");
-    if (b < 0) fail(DELAM_ERROR_ARGUMENT, "body_b ", label_b, ": no cell has this label");
+    if (a < 0) fail(DELAM_ERROR_ARGUMENT, "body_a ", label_a, ": there is no body of this label");
+    if (b < 0) fail(DELAM_ERROR_ARGUMENT, "body_b ", label_b, ": there is no body of this label");
     if (a == b) fail(DELAM_ERROR_ARGUMENT, "body_a and body_b are both ", label_a, ": an interface joins two bodies");
     for (std::size_t i = 0; i < interfaces_.size(); ++i)
         if (std::minmax(interfaces_[i].body_a, interfaces_[i].body_b) == std::minmax(a, b))

@@ -19,7 +19,7 @@ namespace {
 
 void check_bodies(const Problem& problem) {
     const Mesh& mesh = *problem.mesh;
-    if (mesh.body_count() == 0) fail(DELAM_ERROR_PROBLEM, "mesh: no cells");
+    if (mesh.body_count() == 0) fail(DELAM_ERROR_PROBLEM, "mesh: no bodies");
     for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
         if (problem.stiffness[static_cast<std::size_t>(body)] != nullptr) {
             for (const Eigenstrain& e : problem.eigenstrains)
