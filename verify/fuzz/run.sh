@@ -40,6 +40,8 @@ python3 "$here/scene_dictionary.py" "$root/bindings/cli/SCENE.md" >"$folder/scen
 export ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=1024:detect_leaks=1
 export UBSAN_OPTIONS=print_stacktrace=1
 export OPENBLAS_NUM_THREADS=1
+# What a machine that is shared gave: seconds on the clock, and of the processor.
+TIMEFORMAT='%R s, of the processor %U s and %S s for the system'
 failed=()
 for target in "${targets[@]}"; do
     program=$(find "$folder" -name "fuzz_$target" -type f -perm -u+x | head -n 1)
@@ -67,7 +69,7 @@ for target in "${targets[@]}"; do
     # All of the committed inputs run first, also those that add nothing.
     if ! { mapfile -d '' -t inputs < <(find "${committed[@]}" -type f -print0) &&
         "$program" -timeout=10 -rss_limit_mb=3000 "${inputs[@]}" >"$folder/$target.replay" 2>&1 &&
-        "$program" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=3000 -malloc_limit_mb=1500 -len_control=0 \
+        time "$program" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=3000 -malloc_limit_mb=1500 -len_control=0 \
             -max_len=$longest -artifact_prefix="$found/" -print_final_stats=1 "${options[@]}" \
             "$grown" "${committed[@]}" >"$folder/$target.log" 2>&1; }; then
         failed+=("$target")
