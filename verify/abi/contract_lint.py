@@ -93,6 +93,12 @@ def own_statuses(folder):
     return found
 
 
+def fuzzed_statuses(path):
+    """function -> statuses that its row in the table of the fuzz target (verify/fuzz/api_sequence.cpp) lets pass."""
+    rows = re.findall(r'\{"(delam_\w+)", Subject::\w+,\s*(may::[^,]*),', open(path).read())
+    return {name: set(re.findall(r"may::(\w+)", terms)) - {"usual"} for name, terms in rows}
+
+
 def named(name, prose):
     return re.search(rf"(?<![\w]){re.escape(name)}(?![\w])", prose) is not None
 
@@ -102,7 +108,7 @@ def has_shape(name, prose):
     return re.search(rf"(?<!\w){re.escape(name)}(?:,?\s+(?:and )?\*?\w+(?=[\s,:\[]))*:?\s*\[", prose) is not None
 
 
-def check(function, header, listed, implemented):
+def check(function, header, listed, implemented, fuzzed=None):
     gaps = []
     callback = function.callback
     fields, prose = fields_of(function.comment)
@@ -178,6 +184,10 @@ def check(function, header, listed, implemented):
         elif function.result != "int32_t" and "NULL" not in everything and "never NULL" not in everything:
             gaps.append(f"status: the function returns {function.result}, not a status")
         complete = words if only else words | USUAL
+        own = words - USUAL
+        if fuzzed is not None and not callback and function.name in fuzzed and fuzzed[function.name] != own:
+            gaps.append(f"status: {', '.join(sorted(own)) or 'usual'} here, "
+                        f"{', '.join(sorted(fuzzed[function.name])) or 'usual'} in the fuzz target")
         if implemented is not None:
             for word in sorted(implemented.get(function.name, set()) - complete):
                 gaps.append(f"status: its lines in src/capi give {word}, which is not listed")
@@ -205,6 +215,7 @@ def main():
     parser.add_argument("symbols", nargs="?")
     parser.add_argument("--promised", help="delam.h, where HEADER is the experimental one")
     parser.add_argument("--sources", help="src/capi: the statuses that its lines give are compared with those listed")
+    parser.add_argument("--fuzzed", help="verify/fuzz/api_sequence.cpp: so are those that its table lets pass")
     options = parser.parse_args()
     try:
         promised = headers.read(options.promised) if options.promised else None
@@ -218,9 +229,10 @@ def main():
         header.callbacks.update(promised.callbacks)
     listed = gate.read_list(options.symbols) if options.symbols else None
     implemented = own_statuses(options.sources) if options.sources else None
+    fuzzed = fuzzed_statuses(options.fuzzed) if options.fuzzed else None
     gaps = 0
     for function in [*header.functions.values(), *own_callbacks.values()]:
-        for gap in check(function, header, listed, implemented):
+        for gap in check(function, header, listed, implemented, fuzzed):
             print(f"{options.header}:{function.line}: {function.name}: {gap}")
             gaps += 1
     print(f"{len(header.functions)} functions, {len(own_callbacks)} callbacks, {gaps} gaps")

@@ -774,7 +774,7 @@ const Call calls[] = {
          static const char* const words[] = {"standard", "incompatible", "mean-dilatation"};
          return in_order{delam_problem_set_formulation, a.problem, a.in.body(), a.in.word(words)}.status;
      }},
-    {"delam_problem_set_stiffness", Subject::problem, may::argument,
+    {"delam_problem_set_stiffness", Subject::problem, may::argument | may::numerical | may::cancelled,
      [](const Asked& a) { return set_stiffness(a.world.mesh.pick(a.in), a.in, a.problem); }},
     {"delam_problem_set_law", Subject::problem, may::argument | may::problem,
      [](const Asked& a) {
