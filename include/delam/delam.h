@@ -64,7 +64,7 @@ extern "C" {
 /* ---- statuses ---------------------------------------------------------------------------------------------------- */
 
 #define DELAM_OK 0
-#define DELAM_NOT_CONVERGED 1    /* an iteration limit was met; the best state found is kept and can be read */
+#define DELAM_NOT_CONVERGED 1    /* a limit was met, or forces do not balance; the best state found can be read */
 #define DELAM_CANCELLED 2        /* stopped on request; the state before the call is restored */
 #define DELAM_LIMIT 3            /* no equilibrium: a dead load acts on a part that nothing holds any more */
 #define DELAM_ERROR_ARGUMENT -1  /* a value outside its range, a NULL, an index past the end */
@@ -668,10 +668,11 @@ DELAM_API void delam_solver_destroy(delam_solver **solver);
  * backtracking earlier steps may be replaced (value revised_from; delam_solver_look reads them); with jump_tolerance,
  * step_control or mixity_step_tolerance the step is walked in parts (steps that a return replaces are not: their jumps
  * are not located). The result is pending: it can be read, then committed or rolled back (bit for bit the state
- * before). DELAM_NOT_CONVERGED leaves a pending step too; DELAM_LIMIT, DELAM_CANCELLED and errors leave none. A warning
- * (level 1) says once when a front grew with fewer than 3 pairs in its process zone (laws that soften, solution =
- * local). A process that has used the library and then forks should use it in one of the two only (threads of the
- * linear algebra).
+ * before). DELAM_NOT_CONVERGED leaves a pending step too: a limit of iterations was met, or rounding leaves
+ * nodal forces out of balance by more than 1e-3 of the largest reaction (plies thousands of times longer than thick);
+ * DELAM_LIMIT, DELAM_CANCELLED and errors leave none. Warnings (level 1) say once when that balance is worse than 1e-6,
+ * and when a front grew with fewer than 3 pairs in its process zone (laws that soften, solution = local). A process
+ * that has used the library and then forks should use it in one of the two only (threads of the linear algebra).
  * [unit time t > committed; status not_converged, cancelled, limit, argument, problem, state, numerical; source A.
  * Mielke, T. Roubicek, J. Zeman, Comput. Methods Appl. Mech. Eng. 199 (2010) 1242-1253, and src/evolution/README.md;
  * since 0.1] */

@@ -9,6 +9,7 @@
 #include "body/assembly.hpp"
 #include "body/rotation.hpp"
 #include "evolution/backtrack.hpp"
+#include "evolution/balance.hpp"
 #include "evolution/fronts.hpp"
 #include "evolution/step_control.hpp"
 #include "scene/strain_loads.hpp"
@@ -28,12 +29,27 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time)
     Stepper::Result first = stepper_.initial(time);
     committed_ = std::move(first.state);
     if (!first.converged) initial_outcome_ = unconverged_displacement(committed_);
+    judge_balance(committed_, initial_outcome_);
 }
 
 Outcome Solver::unconverged_displacement(const State& state) const {
     return {DELAM_NOT_CONVERGED,
             text("displacement step at time ", state.time, ": worst linear residual ", state.counts.linear_residual, ", tolerance ",
                  problem_.options.linear_tolerance, "; ", state.counts.contact_iterations, " active-set steps")};
+}
+
+void Solver::judge_balance(const State& state, Outcome& outcome) {
+    const double off = out_of_balance(problem_, stepper_.op(), state, stepper_.contact().force_floor(state.theta));
+    if (!(off > poor_balance)) return;
+    const std::string what = text("step ", state.step, " at time ", state.time, ": forces at nodes are out of balance by ", off,
+                                  " of the largest reaction: stiffnesses cancel to rounding (plies very much longer than thick, or moduli "
+                                  "that differ very much)");
+    if (off > no_balance) {
+        outcome = {DELAM_NOT_CONVERGED, text(outcome.text, outcome.text.empty() ? "" : "; ", what, "; allowed is ", no_balance)};
+    } else if (!warned_of_balance_) {
+        monitor_.log(1, text(what, " (said once)"));
+        warned_of_balance_ = true;
+    }
 }
 
 void Solver::require_nothing_pending(double time) const {
@@ -75,6 +91,7 @@ Outcome Solver::advance(double time) {
         if (next.counts.mixity_held > 0)
             outcome.text += text("; the mixity of ", next.counts.mixity_held, " pairs would not settle and was held");
     }
+    judge_balance(pending.state, outcome);
     std::string searched = stepper_.searched();
     forget();
     looked_ = nullptr;
@@ -88,6 +105,7 @@ Outcome Solver::equilibrate(double time, std::span<const double> adhesion) {
     Stepper::Result result = stepper_.equilibrate(committed_, time, adhesion);
     Outcome outcome;
     if (!result.converged) outcome = unconverged_displacement(result.state);
+    judge_balance(result.state, outcome);
     forget();
     looked_ = nullptr;
     pending_ = Pending{std::move(result.state), {}, {}};

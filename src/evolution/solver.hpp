@@ -113,6 +113,7 @@ private:
     void warn_of_unresolved_front(const State& before, const State& after);
     std::optional<CrackedInterface> cracked(const State& state, std::int64_t interface) const;
     Outcome unconverged_displacement(const State& state) const;
+    void judge_balance(const State& state, Outcome& outcome);
 
     Problem problem_;
     std::vector<Pattern> first_patterns_;  // before any history was changed
@@ -130,6 +131,7 @@ private:
     mutable std::vector<double> displacement_;  // of state(), empty: not recovered
     mutable std::vector<std::optional<std::vector<CrackFront>>> fronts_;  // likewise, [interfaces]
     bool warned_of_front_ = false;
+    bool warned_of_balance_ = false;
     mutable bool warned_of_rotation_ = false;
 };
 

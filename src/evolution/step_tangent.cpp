@@ -19,7 +19,7 @@ constexpr double mixity_difference = 1e-6;
 }  // namespace
 
 Linearised::Linearised(JumpOperator& op, const PairLaws& pairs, const ContactScene& contact, const State& state)
-    : op_(op), pairs_(pairs), contact_(contact), state_(state), dim_(static_cast<std::size_t>(contact.dimension)),
+    : op_(op), pairs_(pairs), state_(state), dim_(static_cast<std::size_t>(contact.dimension)),
       springs_{spring_stiffness(pairs, state.adhesion), {}, {}} {
     op.recall(state.memory);
     springs_.held.assign(springs_.stiffness.size(), 0);

@@ -50,7 +50,6 @@ private:
 
     JumpOperator& op_;
     const PairLaws& pairs_;
-    const ContactScene& contact_;
     const State& state_;
     std::size_t dim_;
     Springs springs_;

@@ -4,6 +4,7 @@
 #include <suitesparse/cholmod.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <new>
 #include <numeric>
@@ -141,6 +142,24 @@ cholmod_dense view(std::span<const double> b) {
     return d;
 }
 
+// Few large dense blocks that overlap: an order by minimum degree takes longer to find, entry by entry, than the factor itself. What only
+// one block has comes first, as its rows are the shortest; rows with the same columns stay together (by a checksum).
+constexpr double well_filled = 0.1;
+constexpr std::int64_t few_rows = 500;
+
+std::vector<SuiteSparse_long> shortest_first(const SparseMatrix& m) {
+    std::vector<std::array<std::uint64_t, 3>> rows;  // length, checksum, number
+    for (std::size_t r = 0; r < static_cast<std::size_t>(m.rows); ++r) {
+        std::uint64_t sum = 0;
+        for (std::int64_t e = m.start[r]; e < m.start[r + 1]; ++e) sum = sum * 1099511628211u + static_cast<std::uint64_t>(m.column[static_cast<std::size_t>(e)]);
+        rows.push_back({static_cast<std::uint64_t>(m.start[r + 1] - m.start[r]), sum, r});
+    }
+    std::sort(rows.begin(), rows.end());
+    std::vector<SuiteSparse_long> order;
+    for (const auto& row : rows) order.push_back(static_cast<SuiteSparse_long>(row[2]));
+    return order;
+}
+
 }  // namespace
 
 SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing, const Look& look) : impl_(std::make_unique<Impl>()) {
@@ -151,11 +170,16 @@ SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing
     cholmod_sparse a = view(matrix);
     std::vector<SuiteSparse_long> order(static_cast<std::size_t>(matrix.rows));
     const auto interior = static_cast<std::size_t>(matrix.rows - trailing);
-    std::vector<SuiteSparse_long> group(static_cast<std::size_t>(matrix.rows), 0);
-    std::fill(group.begin() + static_cast<std::ptrdiff_t>(interior), group.end(), 1);
-    if (cholmod_l_camd(&a, nullptr, 0, group.data(), order.data(), &impl.common) == 0) impl.check("ordering");
+    const double all = static_cast<double>(matrix.rows) * static_cast<double>(matrix.rows);
+    if (trailing == 0 && matrix.rows > few_rows && static_cast<double>(matrix.entries()) > well_filled * all) {
+        order = shortest_first(matrix);
+    } else {
+        std::vector<SuiteSparse_long> group(static_cast<std::size_t>(matrix.rows), 0);
+        std::fill(group.begin() + static_cast<std::ptrdiff_t>(interior), group.end(), 1);
+        if (cholmod_l_camd(&a, nullptr, 0, group.data(), order.data(), &impl.common) == 0) impl.check("ordering");
+        std::iota(order.begin() + static_cast<std::ptrdiff_t>(interior), order.end(), static_cast<SuiteSparse_long>(interior));
+    }
     ask(look);
-    std::iota(order.begin() + static_cast<std::ptrdiff_t>(interior), order.end(), static_cast<SuiteSparse_long>(interior));
     impl.common.nmethods = 1;
     impl.common.method[0].ordering = CHOLMOD_GIVEN;
     impl.common.postorder = trailing == 0 ? 1 : 0;  // a postorder may move trailing variables that are not connected

@@ -24,6 +24,10 @@ void dgemv_(const char*, const int*, const int*, const double*, const double*, c
             const double*, double*, const int*);
 void dpotrf_(const char*, const int*, double*, const int*, int*);
 void dpotri_(const char*, const int*, double*, const int*, int*);
+void dtrmm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*, const double*,
+            const int*, double*, const int*);
+void dtrtri_(const char*, const char*, const int*, double*, const int*, int*);
+void dlauum_(const char*, const int*, double*, const int*, int*);
 void dgetrf_(const int*, const int*, double*, const int*, int*, int*);
 void dgetrs_(const char*, const int*, const int*, const double*, const int*, const int*, double*, const int*, int*);
 void dsyev_(const char*, const char*, const int*, double*, const int*, double*, double*, const int*, int*);
@@ -42,6 +46,9 @@ int narrow(std::int64_t n) {
     if (n < 0 || n > std::numeric_limits<int>::max()) fail(DELAM_ERROR_MEMORY, "a dense block of ", n, " rows is too large");
     return static_cast<int>(n);
 }
+
+// Up to `small` rows LAPACK works without a look between; beyond, in panels of `width` columns.
+constexpr std::int64_t small = 1024, width = 256;
 
 // Multiplications of a part of an operation: about a twentieth of a second.
 constexpr double part = 5e8;
@@ -107,12 +114,12 @@ void mirror_lower(DenseMatrix& a) {
 
 // Column panel after column panel: panel k touches only the square below and to the right of its first row.
 DenseMatrix lower_times_transpose(const DenseMatrix& lower, const Look& look) {
-    constexpr std::int64_t width = 128;
+    constexpr std::int64_t narrower = 128;
     DenseMatrix product(lower.rows, lower.rows);
     const int lda = leading(lower);
     const double unit = 1.0;
-    for (std::int64_t k = 0; k < lower.rows; k += width) {
-        const int n = narrow(lower.rows - k), panel = static_cast<int>(std::min(width, lower.rows - k));
+    for (std::int64_t k = 0; k < lower.rows; k += narrower) {
+        const int n = narrow(lower.rows - k), panel = static_cast<int>(std::min(narrower, lower.rows - k));
         dsyrk_("L", "N", &n, &panel, &unit, &lower.value[static_cast<std::size_t>(k + k * lower.rows)], &lda, &unit,
                &product.value[static_cast<std::size_t>(k + k * lower.rows)], &lda);
         ask(look);
@@ -141,7 +148,6 @@ void multiply_transposed(const DenseMatrix& a, std::span<const double> x, std::s
 
 // Beyond `small` a panel of columns after the other: its own triangle, the rows below, and what it takes from the columns behind it.
 bool factor_definite(DenseMatrix& a, const Look& look) {
-    constexpr std::int64_t small = 1024, width = 256;
     const int n = narrow(a.rows), lda = leading(a);
     int info = 0;
     if (n <= small) {
@@ -223,12 +229,60 @@ void subtract_product(DenseMatrix& c, const DenseMatrix& v, const DenseMatrix& w
         dgemm_("T", "N", &m, &n, &k, &alpha, v.value.data(), &ldv, w.value.data(), &ldw, &beta, c.value.data(), &ldc);
 }
 
+namespace {
+
+// The lower triangle's L becomes L^-1, panels from right to left: below the diagonal block  -L_22^-1 L_21 L_11^-1.
+int invert_lower(DenseMatrix& a, const Look& look) {
+    const std::int64_t n = a.rows;
+    const int lda = leading(a);
+    const double unit = 1.0, minus = -1.0;
+    const auto at = [&a](std::int64_t i, std::int64_t j) { return a.value.data() + i + j * a.rows; };
+    for (std::int64_t k = (n - 1) / width * width; k >= 0; k -= width) {
+        const int panel = static_cast<int>(std::min(width, n - k)), below = static_cast<int>(n - k - panel);
+        if (below > 0) {
+            dtrmm_("L", "L", "N", "N", &below, &panel, &unit, at(k + panel, k + panel), &lda, at(k + panel, k), &lda);
+            dtrsm_("R", "L", "N", "N", &below, &panel, &minus, at(k, k), &lda, at(k + panel, k), &lda);
+        }
+        int info = 0;
+        dtrtri_("L", "N", &panel, at(k, k), &lda, &info);
+        if (info != 0) return info;
+        ask(look);
+    }
+    return 0;
+}
+
+// The lower triangle's M becomes M^T M, rows of blocks from the top.
+void lower_transpose_times_lower(DenseMatrix& a, const Look& look) {
+    const std::int64_t n = a.rows;
+    const int lda = leading(a);
+    const double unit = 1.0;
+    const auto at = [&a](std::int64_t i, std::int64_t j) { return a.value.data() + i + j * a.rows; };
+    for (std::int64_t k = 0; k < n; k += width) {
+        const int panel = static_cast<int>(std::min(width, n - k)), below = static_cast<int>(n - k - panel), before = static_cast<int>(k);
+        int info = 0;
+        if (before > 0) dtrmm_("L", "L", "T", "N", &panel, &before, &unit, at(k, k), &lda, at(k, 0), &lda);
+        dlauum_("L", &panel, at(k, k), &lda, &info);
+        if (below > 0) {
+            if (before > 0) dgemm_("T", "N", &panel, &before, &below, &unit, at(k + panel, k), &lda, at(k + panel, 0), &lda, &unit, at(k, 0), &lda);
+            dsyrk_("L", "T", &panel, &below, &unit, at(k + panel, k), &lda, &unit, at(k, k), &lda);
+        }
+        ask(look);
+    }
+}
+
+}  // namespace
+
 DenseMatrix inverse_definite(DenseMatrix a, const Look& look) {
     const int n = narrow(a.rows), lda = leading(a);
     int info = 0;
     if (!factor_definite(a, look)) fail(DELAM_ERROR_NUMERICAL, "a dense block of ", n, " rows is not positive definite");
     ask(look);
-    if (n > 0) dpotri_("L", &n, a.value.data(), &lda, &info);
+    if (n > small) {
+        info = invert_lower(a, look);
+        if (info == 0) lower_transpose_times_lower(a, look);
+    } else if (n > 0) {
+        dpotri_("L", &n, a.value.data(), &lda, &info);
+    }
     if (info != 0) fail(DELAM_ERROR_NUMERICAL, "a dense block of ", n, " rows is not positive definite (row ", info, ")");
     ask(look);
     mirror_lower(a);

@@ -51,7 +51,7 @@ void subtract_gram(DenseMatrix& c, const DenseMatrix& v, const Look& look = {});
 void add_gram(DenseMatrix& c, const DenseMatrix& v, const Look& look = {});
 // C -= V^T W (BLAS dgemm)
 void subtract_product(DenseMatrix& c, const DenseMatrix& v, const DenseMatrix& w);
-// A^-1, full symmetric, of a positive definite A (LAPACK dpotrf, dpotri).
+// A^-1, full symmetric, of a positive definite A (LAPACK dpotrf, dpotri; beyond 1024 rows the same in panels).
 DenseMatrix inverse_definite(DenseMatrix a, const Look& look = {});
 // A X = B in place of B, A spoilt, by LU with its rows scaled to 1 (LAPACK dgetrf, dgetrs). False: singular, no pivot larger than `tolerance` of the
 // largest; B is then not set.

@@ -51,6 +51,9 @@ public:
     virtual std::vector<double> displacement(std::span<const double> theta, const Response& response) const = 0;
     // Largest out-of-balance force at a node of the displacements above, with the response's interface forces and reactions, F.
     virtual double equilibrium_defect(std::span<const double> theta, const Response& response) const = 0;
+    // Energy, F L, that rounding may add or take where the stiffness of the response is a small difference of large ones; an estimate
+    // from what is at hand. 0: none, or one that the solver's own residual shows.
+    virtual double rounding_energy(std::span<const double> /*theta*/, const Response& /*response*/) const { return 0.0; }
     // Rows whose jump the prescribed displacements alone determine, [rows].
     virtual std::span<const std::uint8_t> prescribed_rows() const = 0;
     // What of the past the last digits of the next solve depend on (empty: nothing); a recalled memory gives them again.

@@ -68,8 +68,8 @@ for target in "${targets[@]}"; do
     printf '\n== %s, %s s\n' "$target" "$seconds"
     # All of the committed inputs run first, also those that add nothing.
     if ! { mapfile -d '' -t inputs < <(find "${committed[@]}" -type f -print0) &&
-        "$program" -timeout=10 -rss_limit_mb=3000 "${inputs[@]}" >"$folder/$target.replay" 2>&1 &&
-        time "$program" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=3000 -malloc_limit_mb=1500 -len_control=0 \
+        "$program" -timeout=60 -rss_limit_mb=3000 "${inputs[@]}" >"$folder/$target.replay" 2>&1 &&
+        time "$program" -max_total_time="$seconds" -timeout=60 -rss_limit_mb=3000 -malloc_limit_mb=1500 -len_control=0 \
             -max_len=$longest -artifact_prefix="$found/" -print_final_stats=1 "${options[@]}" \
             "$grown" "${committed[@]}" >"$folder/$target.log" 2>&1; }; then
         failed+=("$target")
@@ -82,7 +82,7 @@ for target in "${targets[@]}"; do
         control=$folder/$target.control
         rm -rf "$merged" "$control"
         mkdir -p "$merged"
-        "$program" -merge=1 -merge_control_file="$control" -timeout=10 -rss_limit_mb=3000 "$merged" "$grown" \
+        "$program" -merge=1 -merge_control_file="$control" -timeout=60 -rss_limit_mb=3000 "$merged" "$grown" \
             "${committed[@]}" >"$folder/$target.merge" 2>&1
         python3 "$here/choose.py" "$control" "$kept" >"$folder/$target.chosen"
         rm -rf "$merged"

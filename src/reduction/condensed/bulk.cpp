@@ -216,6 +216,9 @@ void Bulk::condense(Monitor& monitor) {
         multiply(stiffness_, u, nodal);
         for (std::size_t i = 0; i < nodal.size(); ++i) nodal[i] = (force_[p].empty() ? 0.0 : force_[p][i]) - nodal[i];
         multiply_transposed(variables_.transform, nodal, carried);
+        double squares = 0.0;
+        for (std::size_t i = 0; i < index(leading); ++i) squares += carried[i] * carried[i] * v[i] * v[i];
+        left_over_.push_back(std::sqrt(squares));
         std::copy(carried.begin() + leading, carried.end(), energy_.load.value.begin() + static_cast<std::int64_t>(p) * trailing);
         bonded.push_back(std::move(u));
         ask(condensing);
@@ -251,6 +254,12 @@ void Bulk::condense(Monitor& monitor) {
         for (std::int64_t i = 0; i < rigid_.rows; ++i) rigid_(i, c) = motions(row_of_unknown_[index(i)], c);
     if (!base_) balance_strains();
     recoveries_ = 0;
+}
+
+double Bulk::rounding_energy(std::span<const double> theta) const {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < theta.size(); ++p) sum += theta[p] * theta[p] * left_over_[p];
+    return sum;
 }
 
 // Eigenstrains do no work on rigid motions. Where nothing resists them their load may be all rounding, of which this leaves nothing on

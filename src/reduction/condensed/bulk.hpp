@@ -50,6 +50,9 @@ public:
     double defect(std::span<const double> theta, std::span<const double> displacement, std::span<const double> force,
                   std::span<const double> reaction) const;
 
+    // Energy that the factor's rounding leaves in the displacements of the loads themselves, with the unknowns at rest, F L.
+    double rounding_energy(std::span<const double> theta) const;
+
     std::int64_t dofs() const { return stiffness_.rows; }
     const FactorSize& size() const { return size_; }  // of the factor with the jumps last
     // Before condense(): unknowns that are eliminated last, entries of K and T^T K T, numbers that the factor will hold.
@@ -93,6 +96,7 @@ private:
     std::vector<Row> rows_;
     std::vector<std::int64_t> row_of_unknown_;
     DenseMatrix pattern_stiffness_;
+    std::vector<double> left_over_;     // [patterns] work of the forces that leading_solve() left, of signs at random
     DenseMatrix rigid_;
 };
 

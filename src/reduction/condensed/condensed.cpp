@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
 
@@ -428,6 +429,16 @@ std::vector<double> Condensed::reaction(std::span<const double> theta, const Res
 double Condensed::equilibrium_defect(std::span<const double> theta, const Response& response) const {
     const std::vector<double> u = displacement(theta, response);
     return bulk_->defect(theta, u, response.force, bulk_->reaction(theta, u, response.force));
+}
+
+// Entries of S carry an error of the order of eps S_ii, and so does x^T S x, however little of it is left: plies bend at a stiffness that is
+// (thickness/length)^2 of that of their cells. What the factor itself has lost inside the bodies shows where it is used for the loads.
+double Condensed::rounding_energy(std::span<const double> theta, const Response& response) const {
+    const DenseMatrix& stiffness = bulk_->energy().stiffness;
+    const std::vector<double> x = unknowns_of(response);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) sum += stiffness.value[i * x.size() + i] * x[i] * x[i];
+    return std::numeric_limits<double>::epsilon() * sum + bulk_->rounding_energy(theta);
 }
 
 // What was near before any release.

@@ -22,6 +22,7 @@ public:
     std::vector<double> displacement(std::span<const double> theta, const Response& response) const override;
     std::vector<double> reaction(std::span<const double> theta, const Response& response) const override;
     double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
+    double rounding_energy(std::span<const double> theta, const Response& response) const override;
     std::span<const std::uint8_t> prescribed_rows() const override { return prescribed_; }
     const Bulk* bulk() const override { return bulk_.get(); }
     std::int64_t factorisations() const override { return bulk_->factorisations(); }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "base/error.hpp"
@@ -30,6 +31,32 @@ SparseMatrix boundary_block(const Subdomain& s) {
     return from_triplets(n, n, std::move(triplets));
 }
 
+constexpr std::int64_t rows_a_look = 256;
+
+// Zeros where rows are coupled: the diagonal, and all rows of a group (ascending) with each other.
+SparseMatrix coupled(std::int64_t count, const std::vector<std::vector<std::int64_t>>& groups, const Look& look) {
+    std::vector<std::vector<std::size_t>> groups_of(index(count));
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        for (const std::int64_t r : groups[g]) groups_of[index(r)].push_back(g);
+    SparseMatrix m;
+    m.rows = m.columns = count;
+    m.start.assign(1, 0);
+    std::vector<std::int64_t> row, both;
+    for (std::int64_t r = 0; r < count; ++r) {
+        row.assign(1, r);
+        for (const std::size_t g : groups_of[index(r)]) {
+            both.clear();
+            std::set_union(row.begin(), row.end(), groups[g].begin(), groups[g].end(), std::back_inserter(both));
+            row.swap(both);
+        }
+        m.column.insert(m.column.end(), row.begin(), row.end());
+        m.start.push_back(static_cast<std::int64_t>(m.column.size()));
+        if (r % rows_a_look == 0) ask(look);
+    }
+    m.value.assign(m.column.size(), 0.0);
+    return m;
+}
+
 }  // namespace
 
 FetiPreconditioner::FetiPreconditioner(const DualRows& rows, const std::vector<Subdomain>& subdomains,
@@ -52,39 +79,44 @@ void FetiPreconditioner::build_pattern(const Look& look) {
         double value;
     };
     std::vector<std::vector<Touch>> touched(subdomains_.size());
-    std::vector<std::vector<std::int64_t>> met(subdomains_.size());
-    std::size_t entries = 0;
+    std::vector<std::vector<std::int64_t>> groups(subdomains_.size());  // rows that couple: those that meet a subdomain, ascending
     for (std::size_t s = 0; s < subdomains_.size(); ++s) {
+        std::vector<std::int64_t>& met = groups[s];
         for (std::int64_t d = rows_.offset[s]; d < rows_.offset[s + 1]; ++d)
             for (std::int64_t e = scaled_transposed_.start[index(d)]; e < scaled_transposed_.start[index(d) + 1]; ++e)
                 if (scaled_transposed_.column[index(e)] < rows_.jump_count) {
                     touched[s].push_back({scaled_transposed_.column[index(e)], d - rows_.offset[s], scaled_transposed_.value[index(e)]});
-                    met[s].push_back(touched[s].back().row);
+                    met.push_back(touched[s].back().row);
                 }
-        std::sort(met[s].begin(), met[s].end());
-        met[s].erase(std::unique(met[s].begin(), met[s].end()), met[s].end());
-        for (Touch& t : touched[s]) t.row = std::lower_bound(met[s].begin(), met[s].end(), t.row) - met[s].begin();
-        entries += met[s].size() * met[s].size();
+        std::sort(met.begin(), met.end());
+        met.erase(std::unique(met.begin(), met.end()), met.end());
+        for (Touch& t : touched[s]) t.row = std::lower_bound(met.begin(), met.end(), t.row) - met.begin();
     }
-    std::vector<Triplet> triplets;
-    triplets.reserve(entries + index(rows_.jump_count));
+    for (const auto& dependency : scaling_.dependencies) {  // room for z z^T
+        std::vector<std::int64_t>& among = groups.emplace_back(dependency.row);
+        std::erase_if(among, [this](std::int64_t r) { return r >= rows_.jump_count; });
+        std::sort(among.begin(), among.end());
+    }
+    base_ = coupled(rows_.jump_count, groups, look);
     for (std::size_t s = 0; s < subdomains_.size(); ++s) {
-        const auto rows = static_cast<std::int64_t>(met[s].size());
-        DenseMatrix half(subdomains_[s].schur.rows, rows), block(rows, rows);  // S W^T, W S W^T
+        const std::vector<std::int64_t>& met = groups[s];
+        const auto rows = static_cast<std::int64_t>(met.size());
+        DenseMatrix half(subdomains_[s].schur.rows, rows);  // S W^T
+        std::vector<double> row(met.size());                // of W S W^T
         for (const Touch& t : touched[s])
             for (std::int64_t i = 0; i < half.rows; ++i) half(i, t.row) += t.value * subdomains_[s].schur(i, t.dof);
-        for (std::int64_t j = 0; j < rows; ++j)
-            for (const Touch& t : touched[s]) block(t.row, j) += t.value * half(t.dof, j);
-        for (std::int64_t j = 0; j < rows; ++j)
-            for (std::int64_t i = 0; i < rows; ++i) triplets.push_back({met[s][index(i)], met[s][index(j)], block(i, j)});
         ask(look);
+        for (std::int64_t j = 0; j < rows; ++j) {
+            std::fill(row.begin(), row.end(), 0.0);
+            for (const Touch& t : touched[s]) row[index(t.row)] += t.value * half(t.dof, j);
+            std::int64_t e = base_.start[index(met[index(j)])];
+            for (std::size_t i = 0; i < met.size(); ++i) {
+                while (base_.column[index(e)] < met[i]) ++e;
+                base_.value[index(e)] += row[i];
+            }
+            if (j % rows_a_look == 0) ask(look);
+        }
     }
-    for (const auto& dependency : scaling_.dependencies)  // room for z z^T
-        for (const std::int64_t i : dependency.row)
-            for (const std::int64_t j : dependency.row)
-                if (i < rows_.jump_count && j < rows_.jump_count) triplets.push_back({i, j, 0.0});
-    for (std::int64_t r = 0; r < rows_.jump_count; ++r) triplets.push_back({r, r, 0.0});
-    base_ = from_triplets(rows_.jump_count, rows_.jump_count, std::move(triplets));
     ask(look);
     t_ = base_;
     t_factor_ = std::make_unique<SparseCholesky>(t_, 0, look);

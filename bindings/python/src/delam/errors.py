@@ -3,7 +3,7 @@
 
 Errors of the library (status < 0) leave the object as it was. Outcomes (status > 0) leave it valid:
 
-NotConverged   an iteration limit was met; the step is pending all the same. A warning (NotConvergedWarning) unless
+NotConverged   a limit was met, or forces do not balance; the step is pending all the same. A warning unless
                the solver was told otherwise: Solver(..., not_converged="warn" | "raise" | "ignore").
 Cancelled      stopped on request; the state before the call is restored. Always raised.
 LimitReached   no equilibrium: a dead load acts on a part that nothing holds any more. No step is pending. Always
@@ -91,7 +91,7 @@ class Outcome(DelamError):
 
 
 class NotConverged(Outcome):
-    """An iteration limit was met; the best state found is pending and can be read, committed or rolled back."""
+    """A limit was met, or forces do not balance; the best state found is pending: read, commit or roll it back."""
 
     status = _raw.DELAM_NOT_CONVERGED
 
