@@ -24,7 +24,8 @@ const Case scenes[] = {
     // are forces on springs of 1e13 N/m3 that the direct solution sees.
     {"dcb-double", {"geometry.divisions=100", "time.steps=20"}, {5, 12, 20}, 0, 1e-7, true},
     {"enf-3d", {"geometry.divisions=[34, 4]", "time.steps=10"}, {4, 10}, 0},
-    {"fibres-30", {"mesh.fibres=6", "mesh.cells_around=16", "mesh.gap=0.3", "time.steps=10"}, {2, 5, 10}, 0, 1e-7},
+    // Fibres float; control nodes have units of their own, which cost the motions in which they do half their digits once.
+    {"fibres-30", {"mesh.fibres=6", "mesh.cells_around=16", "mesh.gap=0.3", "time.steps=10"}, {2, 5, 10}, 0, 2e-9},
 };
 
 CASE_TEST(scene_files) {

@@ -2,6 +2,7 @@
 """What a case is, what it is given, and the words it hands its results back in."""
 from __future__ import annotations
 
+import ctypes
 import dataclasses
 import fcntl
 import hashlib
@@ -120,13 +121,34 @@ class Context:
         return delam
 
 
-def environment(library: pathlib.Path) -> dict:
-    """One thread of linear algebra a process: cases share the cores, and sums keep their order."""
+def kernels() -> str:
+    """The kernels that OpenBLAS has chosen in this process; "" for another BLAS."""
+    try:
+        name = ctypes.CDLL("libopenblas.so.0").openblas_get_corename
+    except (OSError, AttributeError):
+        return ""
+    name.restype = ctypes.c_char_p
+    return name().decode()
+
+
+def common_kernels() -> str:
+    """Kernels that most machines have, "" for this one without them."""
+    try:
+        return "Haswell" if " avx2 " in pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8") else ""
+    except OSError:
+        return ""
+
+
+def environment(library: pathlib.Path, timing: bool = False) -> dict:
+    """One thread of linear algebra a process: cases share the cores, and sums keep their order. Unless time is measured, BLAS takes the same
+    kernels on every machine that has them: else the last digits, and with them counts of iterations, would be those of the machine."""
     env = dict(os.environ)
     env["LD_LIBRARY_PATH"] = os.pathsep.join(filter(None, [str(library), env.get("LD_LIBRARY_PATH")]))
     env["DELAM_LIBRARY"] = str(library)
     for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "OMP_THREAD_LIMIT"):
         env.setdefault(name, "1")
+    if not timing and common_kernels():
+        env.setdefault("OPENBLAS_CORETYPE", common_kernels())
     return env
 
 

@@ -83,7 +83,7 @@ def machine() -> dict:
     release = platform.freedesktop_os_release() if hasattr(platform, "freedesktop_os_release") else {}
     return {"processor": processor, "cores": os.cpu_count(), "memory_GiB": round(memory, 1),
             "system": release.get("PRETTY_NAME", platform.platform()), "python": platform.python_version(),
-            "openblas_coretype": os.environ.get("OPENBLAS_CORETYPE", "chosen by OpenBLAS"),
+            "openblas_coretype": os.environ.get("OPENBLAS_CORETYPE") or f"{case_module.common_kernels() or 'chosen by OpenBLAS'}, for timings chosen by OpenBLAS",
             "threads": os.environ.get("OPENBLAS_NUM_THREADS", "1")}
 
 
@@ -94,7 +94,7 @@ def blank(case: case_module.Case, library: dict, command: str) -> dict:
             "judgement": {"reference": {"verdict": "none", "value": None, "limit": None, "why": "not judged"},
                           "past": {"verdict": "none", "worst": None, "limit": None, "why": "not judged"}},
             "status": "failed", "reason": "", "command": command, "commit": library["commit"], "library": library["name"],
-            "seconds": 0.0, "timing": case.timing, "expected_seconds": case.expected, "quick": False}
+            "seconds": 0.0, "kernels": case_module.kernels(), "timing": case.timing, "expected_seconds": case.expected, "quick": False}
 
 
 def ended(case, library, command, status: str, reason: str, seconds: float = 0.0) -> dict:
@@ -180,7 +180,7 @@ class Runner:
         log.parent.mkdir(parents=True, exist_ok=True)
         with open(log, "w", encoding="utf-8") as output:
             child = subprocess.Popen(command, stdout=output, stderr=subprocess.STDOUT, cwd=ROOT, start_new_session=True,
-                                     env=case_module.environment(a.build / "lib"))
+                                     env=case_module.environment(a.build / "lib", case.timing))
             with self.lock:
                 self.running[child.pid] = child
             try:

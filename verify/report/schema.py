@@ -7,7 +7,7 @@ import math
 from case import CHAPTERS, REFERENCE_KINDS
 
 STATUSES = ("passed", "failed", "skipped", "refused as expected")
-VERDICTS = {"reference": ("pass", "fail", "none"), "past": ("pass", "fail", "new", "none")}
+VERDICTS = {"reference": ("pass", "fail", "none"), "past": ("pass", "fail", "new", "elsewhere", "none")}
 TEXTS = ("id", "chapter", "title", "requirement", "geometry", "materials", "supports", "units", "reason", "command", "commit",
          "library")
 LISTS = ("tables", "orders", "plots", "figures", "checks", "warnings", "losses")

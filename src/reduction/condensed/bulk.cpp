@@ -74,14 +74,21 @@ SparseMatrix jump_matrix(const Problem& problem) {
 // Groups of constraints up to this size are solved densely.
 constexpr std::size_t dense_reactions = 200;
 
+// On rows of unit length, whatever the units of control nodes.
 std::vector<double> direct_reactions(std::span<const Constraint* const> list, std::span<const double> left) {
     const auto n = static_cast<std::int64_t>(list.size());
     std::vector<std::map<std::int64_t, double>> row(list.size());
     DenseMatrix gram(n, n);
-    std::vector<double> right(list.size(), 0.0), rho(list.size(), 0.0);
+    std::vector<double> right(list.size(), 0.0), rho(list.size(), 0.0), length(list.size());
     for (std::size_t i = 0; i < list.size(); ++i) {
         for (std::size_t k = 0; k < list[i]->dof.size(); ++k) row[i][list[i]->dof[k]] += list[i]->coefficient[k];
-        for (const auto& [dof, c] : row[i]) right[i] += c * left[index(dof)];
+        double square = 0.0;
+        for (const auto& [dof, c] : row[i]) square += c * c;
+        length[i] = std::sqrt(square);
+        for (auto& [dof, c] : row[i]) {
+            c /= length[i];
+            right[i] += c * left[index(dof)];
+        }
         for (std::size_t j = 0; j <= i; ++j)
             for (const auto& [dof, c] : row[i])
                 if (const auto other = row[j].find(dof); other != row[j].end())
@@ -95,6 +102,7 @@ std::vector<double> direct_reactions(std::span<const Constraint* const> list, st
         for (std::int64_t i = 0; i < n; ++i) along += eigen.vector(i, e) * right[index(i)];
         for (std::int64_t i = 0; i < n; ++i) rho[index(i)] += along / eigen.value[index(e)] * eigen.vector(i, e);
     }
+    for (std::size_t i = 0; i < list.size(); ++i) rho[i] /= length[i];
     return rho;
 }
 

@@ -16,14 +16,55 @@ namespace {
 // Eigenvalues of a Gram matrix below this part of the largest one are zero: singular values below 1e-6. Lever arms of supports are longer.
 constexpr double zero = 1e-12;
 
-// Null vectors of a positive semi-definite matrix, in columns.
-DenseMatrix null_vectors(const DenseMatrix& gram) {
-    const Eigen eigen = eigen_symmetric(gram);
-    const double largest = eigen.value.empty() ? 0.0 : eigen.value.back();
+using Row = std::map<std::int64_t, double>;
+
+// Eigenvectors of A^T A, small eigenvalues (up to `limit`) first: squared, rows tell null vectors to half the digits or less, and what these
+// still do to the rows themselves, image(v) = A^T (A v), tells the rest.
+template <class Image>
+DenseMatrix null_vectors(const Eigen& eigen, double limit, const Image& image) {
+    const std::int64_t size = eigen.vector.rows;
     std::int64_t count = 0;
-    while (count < gram.rows && eigen.value[static_cast<std::size_t>(count)] <= zero * largest) ++count;
-    DenseMatrix null(gram.rows, count);
+    while (count < size && eigen.value[static_cast<std::size_t>(count)] <= limit) ++count;
+    DenseMatrix null(size, count);
     std::copy_n(eigen.vector.value.begin(), null.value.size(), null.value.begin());
+    for (int pass = 0; pass < 2; ++pass)
+        for (std::int64_t c = 0; c < count; ++c) {
+            const auto v = std::span<double>(null.value).subspan(static_cast<std::size_t>(c * size), static_cast<std::size_t>(size));
+            const std::vector<double> off = image(std::span<const double>(v));
+            for (std::int64_t h = count; h < size; ++h) {
+                const auto held = std::span<const double>(eigen.vector.value).subspan(static_cast<std::size_t>(h * size), static_cast<std::size_t>(size));
+                add_scaled(-dot(held, off) / eigen.value[static_cast<std::size_t>(h)], held, v);
+            }
+        }
+    return null;
+}
+
+// Motions that no row resists. Control nodes have units of their own: a strain, a length, by what the rows make of them.
+DenseMatrix unresisted(std::vector<Row> rows, std::int64_t count, std::int64_t first_control) {
+    std::vector<double> unit(static_cast<std::size_t>(count), 0.0);
+    for (const Row& row : rows)
+        for (const auto& [i, a] : row) unit[static_cast<std::size_t>(i)] = std::max(unit[static_cast<std::size_t>(i)], std::abs(a));
+    for (std::int64_t i = 0; i < count; ++i)
+        if (double& u = unit[static_cast<std::size_t>(i)]; i < first_control || !(u > 0.0)) u = 1.0;
+    DenseMatrix gram(count, count);
+    for (Row& row : rows) {
+        for (auto& [i, a] : row) a /= unit[static_cast<std::size_t>(i)];
+        for (const auto& [i, a] : row)
+            for (const auto& [j, b] : row) gram(i, j) += a * b;
+    }
+    const Eigen eigen = eigen_symmetric(std::move(gram));
+    const auto image = [&](std::span<const double> v) {
+        std::vector<double> off(v.size(), 0.0);
+        for (const Row& row : rows) {
+            double moved = 0.0;
+            for (const auto& [i, a] : row) moved += a * v[static_cast<std::size_t>(i)];
+            for (const auto& [i, a] : row) off[static_cast<std::size_t>(i)] += a * moved;
+        }
+        return off;
+    };
+    DenseMatrix null = null_vectors(eigen, eigen.value.empty() ? 0.0 : zero * eigen.value.back(), image);
+    for (std::int64_t c = 0; c < null.columns; ++c)
+        for (std::int64_t i = 0; i < count; ++i) null(i, c) /= unit[static_cast<std::size_t>(i)];
     return null;
 }
 
@@ -63,10 +104,11 @@ public:
     }
 
     // Of the pieces, then the translations of each control node.
-    std::int64_t count() const { return static_cast<std::int64_t>(pieces_.size()) * modes_ + static_cast<std::int64_t>(carriers_.controls().size()) * dim_; }
+    std::int64_t first_control() const { return static_cast<std::int64_t>(pieces_.size()) * modes_; }
+    std::int64_t count() const { return first_control() + static_cast<std::int64_t>(carriers_.controls().size()) * dim_; }
 
     // row += factor * (component k of all motions at a node of a piece)
-    void add(std::map<std::int64_t, double>& row, std::int64_t node, std::int64_t piece, std::int64_t k, double factor) const {
+    void add(Row& row, std::int64_t node, std::int64_t piece, std::int64_t k, double factor) const {
         const Piece& p = pieces_[static_cast<std::size_t>(piece)];
         row[piece * modes_ + k] += factor;
         for (std::int64_t m = dim_; m < modes_; ++m) {
@@ -77,7 +119,7 @@ public:
             row[piece * modes_ + m] += factor * (k == u ? -arm : arm);
         }
     }
-    void add(std::map<std::int64_t, double>& row, std::int64_t node, std::int64_t k, double factor) const {
+    void add(Row& row, std::int64_t node, std::int64_t k, double factor) const {
         for (const auto& [carrier, weight] : carriers_.of(node)) {
             const std::int64_t piece = piece_of_[static_cast<std::size_t>(carrier)];
             if (piece >= 0) {
@@ -86,19 +128,16 @@ public:
             }
             const auto& controls = carriers_.controls();
             const auto place = std::lower_bound(controls.begin(), controls.end(), carrier) - controls.begin();
-            row[static_cast<std::int64_t>(pieces_.size()) * modes_ + place * dim_ + k] += factor * weight;
+            row[first_control() + place * dim_ + k] += factor * weight;
         }
     }
 
     const std::vector<Pieces::Hinge>& hinges() const { return hinges_; }
     const std::vector<Pieces::Row>& resisted() const { return resisted_; }
     // What holds pieces that cannot move at all.
-    void hold(DenseMatrix& gram) const {
+    void hold(std::vector<Row>& rows) const {
         for (std::size_t p = 0; p < fixed_.size(); ++p)
-            for (std::int64_t m = 0; fixed_[p] != 0 && m < modes_; ++m) {
-                const std::int64_t i = static_cast<std::int64_t>(p) * modes_ + m;
-                gram(i, i) += 1.0;
-            }
+            for (std::int64_t m = 0; fixed_[p] != 0 && m < modes_; ++m) rows.push_back({{static_cast<std::int64_t>(p) * modes_ + m, 1.0}});
     }
     std::int64_t dimension() const { return dim_; }
 
@@ -114,44 +153,36 @@ private:
     std::vector<std::uint8_t> fixed_;
 };
 
-void accumulate(DenseMatrix& gram, const std::map<std::int64_t, double>& row) {
-    for (const auto& [i, a] : row)
-        for (const auto& [j, b] : row) gram(i, j) += a * b;
-}
-
 }  // namespace
 
 DenseMatrix rigid_jumps(const Problem& problem) {
     const Motions motions(problem);
     const std::int64_t dim = motions.dimension();
-    DenseMatrix gram(motions.count(), motions.count());
+    std::vector<Row> rows;
     for (const Constraint& constraint : problem.constraints) {
-        std::map<std::int64_t, double> row;
+        Row& row = rows.emplace_back();
         for (std::size_t i = 0; i < constraint.dof.size(); ++i)
             motions.add(row, constraint.dof[i] / dim, constraint.dof[i] % dim, constraint.coefficient[i]);
-        accumulate(gram, row);
     }
-    motions.hold(gram);
+    motions.hold(rows);
     for (const Pieces::Row& resisted : motions.resisted()) {
-        std::map<std::int64_t, double> row;
+        Row& row = rows.emplace_back();
         for (const auto& [dof, coefficient] : resisted) motions.add(row, dof / dim, dof % dim, coefficient);
-        accumulate(gram, row);
     }
     for (const auto& hinge : motions.hinges())
         for (std::int64_t k = 0; k < dim; ++k) {
-            std::map<std::int64_t, double> row;
+            Row& row = rows.emplace_back();
             motions.add(row, hinge.node, hinge.piece_a, k, 1.0);
             motions.add(row, hinge.node, hinge.piece_b, k, -1.0);
-            accumulate(gram, row);
         }
-    const DenseMatrix null = null_vectors(gram);
+    const DenseMatrix null = unresisted(std::move(rows), motions.count(), motions.first_control());
     DenseMatrix jumps(problem.jump_count(), null.columns);
     if (null.columns == 0) return jumps;
     std::int64_t at = 0;
     for (const InterfaceGeometry& face : problem.mesh->interfaces())
         for (std::size_t p = 0; p < face.node_a.size(); ++p)
             for (std::int64_t r = 0; r < dim; ++r, ++at) {
-                std::map<std::int64_t, double> row;
+                Row row;
                 for (std::int64_t k = 0; k < dim; ++k) {
                     const double q = face.frame[(p * static_cast<std::size_t>(dim) + static_cast<std::size_t>(r)) *
                                                     static_cast<std::size_t>(dim) + static_cast<std::size_t>(k)];
@@ -183,13 +214,20 @@ Combinations split_motions(const DenseMatrix& z, std::span<const std::uint8_t> a
     }
     // A single active row may be all that holds a motion.
     const Eigen eigen = eigen_symmetric(gram);
-    std::int64_t count = 0;
-    const double scale = 1.0 / static_cast<double>(std::max<std::int64_t>(z.rows, 1));
-    while (count < z.columns && eigen.value[static_cast<std::size_t>(count)] <= zero * scale) ++count;
-    Combinations result{DenseMatrix(z.columns, count), DenseMatrix(z.columns, z.columns - count)};
-    const auto cut = eigen.vector.value.begin() + static_cast<std::ptrdiff_t>(result.free.value.size());
-    std::copy(eigen.vector.value.begin(), cut, result.free.value.begin());
-    std::copy(cut, eigen.vector.value.end(), result.held.value.begin());
+    const auto image = [&](std::span<const double> v) {
+        std::vector<double> off(v.size(), 0.0);
+        for (std::int64_t r = 0; r < z.rows; ++r) {
+            if (active[static_cast<std::size_t>(r)] == 0) continue;
+            double moved = 0.0;
+            for (std::int64_t i = 0; i < z.columns; ++i) moved += z(r, i) * v[static_cast<std::size_t>(i)];
+            for (std::int64_t i = 0; i < z.columns; ++i) off[static_cast<std::size_t>(i)] += z(r, i) * moved;
+        }
+        return off;
+    };
+    Combinations result;
+    result.free = null_vectors(eigen, zero / static_cast<double>(std::max<std::int64_t>(z.rows, 1)), image);
+    result.held = DenseMatrix(z.columns, z.columns - result.free.columns);
+    std::copy(eigen.vector.value.begin() + static_cast<std::ptrdiff_t>(result.free.value.size()), eigen.vector.value.end(), result.held.value.begin());
     return result;
 }
 

@@ -121,6 +121,15 @@ class Judged(unittest.TestCase):
         data["figures"][0]["value"] *= -1.0
         self.fails(data, "own past", "bar_error")
 
+    def test_other_kernels_of_blas(self):
+        data = self.accepted()
+        data["kernels"] = "Other"
+        self.assertEqual(self.judge(data)["judgement"]["past"]["verdict"], "pass")
+        data["tables"][0]["rows"][1][1] *= 1.0 + 1e-5
+        self.assertEqual(self.judge(data)["judgement"]["past"]["verdict"], "elsewhere")
+        self.assertEqual(data["status"], "passed")
+        self.assertIn("Other", data["judgement"]["past"]["why"])
+
     def test_counts_have_a_band(self):
         for count, verdict in ((110, "pass"), (125, "fail"), (85, "pass"), (70, "fail")):
             data = self.accepted()
