@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # bash verify/run.sh [--all]: installs, builds, runs the quick tier of the tests, then the unit tests and the light
-# cases under AddressSanitizer and UBSan.
+# cases under AddressSanitizer and UBSan, then the quick part of the verification report (out/report-quick).
 #   --all   also the long tier, the thread sanitizer, clang 14 without warnings, valgrind on the unit tests and two cases
 # bash verify/run.sh --report [--quick] [--only ID|CHAPTER ...] [--accept] [--jobs N]: builds and writes the verification report into
 # out/report (report/README.md) instead; exit code 1 if a case failed.
@@ -113,6 +113,9 @@ fi
 check "build with sanitizers" build asan -DDELAM_BUILD_CLI=OFF -DDELAM_BUILD_EXAMPLES=OFF
 if [[ -f build/asan/verify/CTestTestfile.cmake ]]; then
     CK_FORK=no tests asan -j2 --label-exclude long --tests-regex "^(unit/.*|case/test_($light_cases))\$"
+fi
+if [[ -f build/release/lib/libdelam.so ]]; then
+    check "quick report" /usr/bin/python3 verify/report/make.py --build build/release --out out/report-quick --quick
 fi
 if [[ $all == yes ]]; then
     check "build with the thread sanitizer" build tsan -DDELAM_BUILD_CLI=OFF -DDELAM_BUILD_EXAMPLES=OFF

@@ -96,6 +96,7 @@ double Law::driving_slope(const Toughness& t, double zeta) const {
 }
 
 double Law::minimiser(const Toughness& t, double driving, double zeta_old) const {
+    if (std::isinf(driving)) return 0.0;  // of a jump whose energy is beyond all numbers
     return std::visit([&](const auto& shape) { return shape.minimiser(t, driving, zeta_old); }, softening);
 }
 

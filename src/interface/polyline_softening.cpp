@@ -71,8 +71,8 @@ double PolylineSoftening::driving_slope(const Toughness& t, double zeta) const {
 PolylineSoftening::Place PolylineSoftening::place_at(const Toughness& t, double driving) const {
     const double w = scale(t);
     const double xi = ((driving - t.onset) / t.onset) / (std::sqrt(driving / t.onset) + 1.0) / w;
+    if (!(xi < corners_.back().xi)) return {corners_.size(), 0.0, w};  // also where what drives overflows
     const auto to = std::partition_point(corners_.begin(), corners_.end(), [&](const Corner& c) { return c.xi <= xi; });
-    if (to == corners_.end()) return {corners_.size(), 0.0, w};
     const Corner& from = *(to - 1);
     return {static_cast<std::size_t>(to - corners_.begin()), (xi - from.xi) / (to->xi - from.xi), w};
 }

@@ -148,7 +148,7 @@ def environment(library: pathlib.Path, timing: bool = False) -> dict:
     for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "OMP_THREAD_LIMIT"):
         env.setdefault(name, "1")
     if not timing and common_kernels():
-        env.setdefault("OPENBLAS_CORETYPE", common_kernels())
+        env["OPENBLAS_CORETYPE"] = common_kernels()
     return env
 
 

@@ -83,7 +83,8 @@ def machine() -> dict:
     release = platform.freedesktop_os_release() if hasattr(platform, "freedesktop_os_release") else {}
     return {"processor": processor, "cores": os.cpu_count(), "memory_GiB": round(memory, 1),
             "system": release.get("PRETTY_NAME", platform.platform()), "python": platform.python_version(),
-            "openblas_coretype": os.environ.get("OPENBLAS_CORETYPE") or f"{case_module.common_kernels() or 'chosen by OpenBLAS'}, for timings chosen by OpenBLAS",
+            "openblas_coretype": case_module.common_kernels() or "chosen by OpenBLAS",
+            "openblas_of_timings": os.environ.get("OPENBLAS_CORETYPE", "chosen by OpenBLAS"),
             "threads": os.environ.get("OPENBLAS_NUM_THREADS", "1")}
 
 

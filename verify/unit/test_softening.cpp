@@ -2,6 +2,7 @@
 // Every shape of softening with every criterion, against brute force over the energy, quadrature of the traction, and
 // differences.
 #include <cmath>
+#include <limits>
 #include <cstdlib>
 #include <string>
 
@@ -265,6 +266,17 @@ START_TEST(values) {
 }
 END_TEST
 
+// Jumps whose energy is at the end of all numbers, or beyond.
+START_TEST(huge_jumps_break) {
+    for (const laws::Named& named : laws::shapes(laws::criteria[0], 2.5))
+        for (const double driving : {1e300, std::numeric_limits<double>::max(), std::numeric_limits<double>::infinity()})
+            for (const double zeta_old : {1.0, 0.4, 0.0}) {
+                const double zeta = named.law.minimiser(named.law.toughness(0.3), driving, zeta_old);
+                ck_assert_msg(zeta >= 0.0 && zeta <= 1e-140, "%s: %g at %g", named.name.c_str(), zeta, driving);
+            }
+}
+END_TEST
+
 int main() {
     Suite* suite = suite_create("softening");
     TCase* cases = tcase_create("softening");
@@ -278,6 +290,7 @@ int main() {
     tcase_add_test(cases, mixity_slopes);
     tcase_add_test(cases, units);
     tcase_add_test(cases, values);
+    tcase_add_test(cases, huge_jumps_break);
     suite_add_tcase(suite, cases);
     SRunner* runner = srunner_create(suite);
     srunner_run_all(runner, CK_ENV);
