@@ -9,7 +9,9 @@ from __future__ import annotations
 import argparse
 import json
 import pathlib
+import string
 import sys
+import textwrap
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
@@ -25,6 +27,15 @@ PICTURES = [("b-ledger", 0), ("b-jump-instant", 0), ("a-feti-direct", 1)]
 # The table of speed: a row is what it is called, and the middle of the names of its figures. Only a report that has all of them renews it.
 SPEED = [("0.5 mm", "ductile_0.5"), ("0.1 mm, one thread", "ductile_0.1"), ("0.1 mm, OpenMP as Debian's CHOLMOD sets it", "ductile_0.1_shipped")]
 SPEED_COLUMNS = [("unknowns", "unknowns"), ("whole march", "seconds"), ("in linear solves", "lse"), ("baseline over this", "ratio"), ("memory, factorisations", "memory")]
+# Sentences with figures, each between markers of its own (NAME:begin, NAME:end), by name: whether the full report alone renews it, and the words.
+SENTENCES = {
+    "jumps": (False, "Brittle end-notched flexure, 40 steps, points as supports, cells of 1 mm: the crack jumps at {jump_local_mm:.2f} mm (local), "
+                     "{jump_backtracking_mm:.2f} mm (with backtracking) and {jump_energetic_mm:.2f} mm (energetic, in the same step as an exhaustive scan); on patches as "
+                     "supports, located by bisection and on finer meshes, at {jump_mm:.3f} mm, where beam theory has 0.281."),
+    "precision": (True, "At the error in the load that 4-node cells of 0.25 mm have, 8-node cells are {equal_error_reaction_quad8:.0f} times and incompatible 4-node ones "
+                        "{equal_error_reaction_quad4-incompatible:.0f} times as fast; at their error in the dissipated energy, which the spacing of the pairs decides, "
+                        "{equal_error_dissipated_quad8:.1f} and {equal_error_dissipated_quad4-incompatible:.1f} times."),
+}
 # Beyond it two series of the same solve differ by more than the digits that are quoted.
 NOISE = 0.1
 
@@ -76,6 +87,28 @@ def speed(report: dict) -> dict | None:
     return {**{k: report[k] for k in ("date", "commit", "command")}, "processor": report["machine"]["processor"], "rows": rows}
 
 
+def sentences(report: dict) -> dict:
+    """What of SENTENCES this report has all figures for."""
+    found = {f["name"]: f["value"] for c in report["cases"] if c["status"] == "passed" for f in c["figures"]}
+    told = {}
+    for name, (full, words) in SENTENCES.items():
+        wanted = [field for _, field, _, _ in string.Formatter().parse(words) if field]
+        if not (full and report["quick"]) and all(field in found for field in wanted):
+            told[name] = {"text": words.format(**found), "figures": {field: found[field] for field in wanted}, "date": report["date"], "commit": report["commit"],
+                          "command": report["command"]}
+    return told
+
+
+def sentence_marks(name: str) -> tuple[str, str]:
+    return f"<!-- {name}:begin (verify/report/readme.py) -->", f"<!-- {name}:end -->"
+
+
+def sentence_block(name: str, told: dict) -> str:
+    begin, end = sentence_marks(name)
+    text = f"{told['text']} (`{told['command']}`, {told['date'][:10]}, commit {told['commit']}.)"
+    return "\n".join([begin, *textwrap.wrap(text, 140, break_on_hyphens=False), end])
+
+
 def two_digits(value) -> str:
     """Timings have no more."""
     return show(value) if isinstance(value, str) or value >= 1000 else show(float(f"{value:.2g}"))
@@ -113,6 +146,12 @@ def differences(readme: str, head: dict, root: pathlib.Path) -> list[str]:
                 wrong.append("README's table of speed is not the one that headline.json gives")
         except Refused as error:
             wrong.append(str(error))
+    for name, told in head.get("sentences", {}).items():
+        try:
+            if between(readme, *sentence_marks(name)) != sentence_block(name, told):
+                wrong.append(f"README's sentence \"{name}\" is not the one that headline.json gives")
+        except Refused as error:
+            wrong.append(str(error))
     return wrong + [f"{p['file']} is missing" for p in head["pictures"] if not (root / p["file"]).is_file()]
 
 
@@ -139,6 +178,9 @@ def main(argv: list[str]) -> int:
         if timed:
             head["speed"] = timed
             text = text.replace(between(text, SPEED_BEGIN, SPEED_END), speed_block(timed))
+        head["sentences"] = {**before.get("sentences", {}), **sentences(report)}
+        for name, told in head["sentences"].items():
+            text = text.replace(between(text, *sentence_marks(name)), sentence_block(name, told))
     except Refused as error:
         print(f"readme.py: {error}", file=sys.stderr)
         return 1

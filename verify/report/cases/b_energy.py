@@ -253,9 +253,14 @@ def energetic_case(specimen, quick, expected):
                                  and r[of.index("exponent")] == rows.values("exponent")[0]})
                 if points:
                     curves.append(series(method, role, [p[0] for p in points], [p[1] for p in points]))
+        figures = []
+        points = rows.where(h_mm=1.0, patch_mm=0.0)
+        for method in ("local", "backtracking", "energetic") if specimen == "enf-brittle" else ():
+            at = points.where(method=method).column("jump_mm")
+            figures.append(figure(f"jump_{method}_mm", at[0], "mm", f"Brittle ENF, 40 steps, points as supports: load of the first jump, {method}"))
         return result(reference("exhaustive scan", "verify/reference/fronts: every front position of every step, own history and mixity",
                                 "none within contiguous fronts on the same mesh; other sets of broken pairs are outside the scan"),
-                      tables=[rows.table("Marches beside the scan", columns, rows.note)], checks=checks, losses=losses,
+                      tables=[rows.table("Marches beside the scan", columns, rows.note)], checks=checks, losses=losses, figures=figures,
                       plots=[plot(f"Load of the first jump, {specimen}", axis("cell size h", "mm"), axis("load of the jump", "mm"), curves,
                                   [], "Supports and load on patches of 2 mm, 40 steps of 0.15 mm: the energetic march jumps in the step of the scan.")])
 

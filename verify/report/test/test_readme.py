@@ -48,6 +48,20 @@ class Readme(unittest.TestCase):
         with self.assertRaises(readme.Refused):
             readme.gather(report(), ["bar_error"], [("t-one", 4)])
 
+    def test_sentences_have_the_figures(self):
+        data = {**report(), "quick": False}
+        values = {f: 2.5 for _, words in readme.SENTENCES.values() for _, f, _, _ in readme.string.Formatter().parse(words) if f}
+        data["cases"][0]["figures"] += [{"name": n, "value": v, "unit": "", "text": "t"} for n, v in values.items()]
+        told = readme.sentences(data)
+        self.assertEqual(set(told), set(readme.SENTENCES))
+        self.assertEqual(set(readme.sentences({**data, "quick": True})), {n for n, (full, _) in readme.SENTENCES.items() if not full})
+        head = {**self.head(), "sentences": told}
+        text = "\n".join([readme.block(head), *(readme.sentence_block(n, t) for n, t in told.items())])
+        self.assertEqual(readme.differences(text, head, readme.ROOT), [])
+        self.assertTrue(readme.differences(text.replace("2.50 mm (local)", "2.40 mm (local)"), head, readme.ROOT))
+        data["cases"][0]["status"] = "failed"
+        self.assertEqual(readme.sentences(data), {})
+
     def timed(self):
         data = report()
         data["cases"][0]["figures"] = [{"name": f"speed_{scene}_{key}", "value": 7.321, "unit": "", "text": "t"} for _, scene in readme.SPEED
