@@ -27,7 +27,8 @@ constexpr Setting settings[] = {
     {"frozen", 2, "condensed", "frozen", 0.0, 0.0},         {"frozen, FETI", 2, "feti", "frozen", 0.0, 0.0},
     {"converged", 2, "condensed", "converged", 0.0, 1e-6},  {"variational", 2, "condensed", "variational", 0.0, 0.0},
     {"gradient", 2, "condensed", "frozen", 2e-3, 0.0},      {"frozen, space", 3, "condensed", "frozen", 0.0, 0.0},
-    {"converged, space", 3, "condensed", "converged", 0.0, 1e-6},
+    {"converged, space", 3, "condensed", "converged", 0.0, 1e-6}, {"frozen, FETI, space", 3, "feti", "frozen", 0.0, 0.0},
+    {"variational, space", 3, "condensed", "variational", 0.0, 0.0},
 };
 constexpr int setting_count = static_cast<int>(std::size(settings));
 

@@ -20,6 +20,7 @@ constexpr const char* names[unknowns] = {"up", "side", "low"};
 struct Arms {
     Scene scene;
     std::vector<std::int64_t> upper, lower;  // nodes at the tips
+    double share;                            // of the machine that the specimen's width takes
 };
 
 // The machine that drives the element: a spring for each displacement, and how far it travels at time 1.
@@ -27,24 +28,32 @@ constexpr double machine[unknowns] = {3e7, 5e8, 2e7};
 constexpr double travel[unknowns] = {1.5e-3, -4e-5, -1.2e-3};
 constexpr int steps = 40;
 
-// with_machine: its springs as pairs of the tips with two control nodes that travel; they only ever pull, as contact wants it.
-Arms arms(bool with_machine) {
-    const Scene layers(2, {0.04}, {40}, {1e-3, 1e-3}, {1, 1}, DELAM_QUAD4);
+// with_machine: its springs as pairs of the tips with two control nodes that travel; they only ever pull, as contact wants it. In space the tips are
+// the middle nodes of the ends, which stay in the plane of symmetry.
+Arms arms(int d, bool with_machine) {
+    const bool space = d == 3;
+    const Scene layers = space ? Scene(3, {0.04, 0.004}, {20, 2}, {1e-3, 1e-3}, {1, 1}, DELAM_HEX8) : Scene(2, {0.04}, {40}, {1e-3, 1e-3}, {1, 1}, DELAM_QUAD4);
+    const std::int32_t cell = space ? DELAM_HEX8 : DELAM_QUAD4;
+    const double width = space ? 0.004 : 1.0, middle = space ? 0.002 : 0.0;
     std::vector<double> nodes = layers.nodes();
     std::vector<std::int32_t> types(80), bodies(80);
-    std::vector<std::int64_t> offsets(81), cells(320);
+    std::vector<std::int64_t> offsets(81), cells(space ? 640 : 320);
     std::int64_t needed = 0;
-    layers.require(delam_mesh_cells(layers.mesh(), types.data(), bodies.data(), offsets.data(), 320, cells.data(), &needed), "delam_mesh_cells");
+    layers.require(delam_mesh_cells(layers.mesh(), types.data(), bodies.data(), offsets.data(), static_cast<std::int64_t>(cells.size()), cells.data(), &needed),
+                   "delam_mesh_cells");
+    const auto at = [&](double x, double y, double z) { return space ? std::vector<double>{x, y, z} : std::vector<double>{x, z}; };
     const auto control = static_cast<std::int64_t>(layers.node_count());
-    nodes.insert(nodes.end(), {0.0, 4e-3, 0.0, -2e-3});
-    Scene scene(2, nodes, DELAM_QUAD4, cells, bodies);
+    for (const double z : {4e-3, -2e-3})
+        for (const double x : at(0.0, middle, z)) nodes.push_back(x);
+    Scene scene(d, nodes, cell, cells, bodies);
     scene.interface(0, 1);
-    const auto upper = scene.find(1, {0.0, 2e-3}, {0.0, 2e-3}), lower = scene.find(0, {0.0, 0.0}, {0.0, 0.0});
+    const auto upper = scene.find(1, at(0.0, middle, 2e-3), at(0.0, middle, 2e-3)), lower = scene.find(0, at(0.0, middle, 0.0), at(0.0, middle, 0.0));
     if (with_machine) {
-        const double one = 1.0, down[2] = {0.0, -1.0}, up[2] = {0.0, 1.0};
+        const double one = 1.0;
+        const std::vector<double> down = at(0.0, 0.0, -1.0), up = at(0.0, 0.0, 1.0);
         std::int64_t index = -1;
-        scene.require(delam_mesh_add_obstacle(scene.mesh(), 1, upper.data(), down, &one, control, 0, &index), "machine above");
-        scene.require(delam_mesh_add_obstacle(scene.mesh(), 1, lower.data(), up, &one, control + 1, 0, &index), "machine below");
+        scene.require(delam_mesh_add_obstacle(scene.mesh(), 1, upper.data(), down.data(), &one, control, 0, &index), "machine above");
+        scene.require(delam_mesh_add_obstacle(scene.mesh(), 1, lower.data(), up.data(), &one, control + 1, 0, &index), "machine below");
     }
     scene.begin();
     scene.elastic(-1, 70e9, 0.3);
@@ -55,20 +64,26 @@ Arms arms(bool with_machine) {
         if (scene.coordinate(pairs.node_a[p], 0) < 0.0075) notch.push_back(static_cast<std::int64_t>(p));
     scene.adhesion(0, notch, std::vector<double>(notch.size(), 0.0));
     scene.number("damage_tolerance", 1e-12);
-    const auto root = scene.find(-1, {0.04, 0.0}, {0.04, 2e-3});
-    scene.hold(root, {1.0, 0.0});
-    scene.hold(root, {0.0, 1.0});
-    const std::vector<double> along_y{0.0, 1.0}, along_x{1.0, 0.0};
+    const auto root = scene.find(-1, at(0.04, 0.0, 0.0), at(0.04, width, 2e-3));
+    const std::vector<double> across = at(0.0, 0.0, 1.0), along = at(1.0, 0.0, 0.0);
+    scene.hold(root, along);
+    scene.hold(root, across);
+    if (space) scene.hold(root, {0.0, 1.0, 0.0});
+    const double share = width;  // of forces per metre
     const auto history = [&](std::size_t p) { return scene.pattern(names[p], {0.0, 1.0}, {0.0, with_machine ? travel[p] : 0.0}); };
-    scene.drive(with_machine ? std::vector{control} : upper, along_y, history(0), {1.0});
-    scene.drive(with_machine ? std::vector{control} : upper, along_x, history(1), {1.0});
-    scene.drive(with_machine ? std::vector{control + 1} : lower, along_y, history(2), {1.0});
+    scene.drive(with_machine ? std::vector{control} : upper, across, history(0), {1.0});
+    scene.drive(with_machine ? std::vector{control} : upper, along, history(1), {1.0});
+    scene.drive(with_machine ? std::vector{control + 1} : lower, across, history(2), {1.0});
     if (with_machine) {
-        scene.law(1, {machine[0], machine[1], 1e30, 1e30, 2e30, 2e30});
-        scene.law(2, {machine[2], 1e-4, 1e30, 1e30, 2e30, 2e30});  // sideways as good as free
-        scene.hold({control + 1}, along_x);
+        scene.law(1, {share * machine[0], share * machine[1], 1e30, 1e30, 2e30, 2e30});
+        scene.law(2, {share * machine[2], 1e-4, 1e30, 1e30, 2e30, 2e30});  // sideways as good as free
+        scene.hold({control + 1}, along);
+        if (space) {
+            scene.hold({control}, {0.0, 1.0, 0.0});
+            scene.hold({control + 1}, {0.0, 1.0, 0.0});
+        }
     }
-    return {std::move(scene), upper, lower};
+    return {std::move(scene), upper, lower, share};
 }
 
 // Gauss, in place; small and plain, as a host has its own.
@@ -93,7 +108,10 @@ std::array<double, unknowns> solved(std::array<std::array<double, unknowns>, unk
 }
 
 CASE_TEST(newton_of_a_host) {
-    const Arms element = arms(false), structure = arms(true);
+    const int d = loop == 0 ? 2 : 3;
+    const Arms element = arms(d, false), structure = arms(d, true);
+    std::array<double, unknowns> spring{};
+    for (std::size_t p = 0; p < unknowns; ++p) spring[p] = element.share * machine[p];
     Solver solver(element.scene, 0.0), whole(structure.scene, 0.0);
     std::array<double, unknowns> u{};
     int quadratic = 0;
@@ -109,8 +127,8 @@ CASE_TEST(newton_of_a_host) {
             std::array<double, unknowns> residual{};
             double norm = 0.0, scale = 0.0;
             for (std::size_t p = 0; p < unknowns; ++p) {
-                residual[p] = solver.value(std::string("reaction:") + names[p]) + machine[p] * (u[p] - travel[p] * time);
-                scale = std::max(scale, std::abs(machine[p] * travel[p] * time));
+                residual[p] = solver.value(std::string("reaction:") + names[p]) + spring[p] * (u[p] - travel[p] * time);
+                scale = std::max(scale, std::abs(spring[p] * travel[p] * time));
                 norm = std::max(norm, std::abs(residual[p]));
             }
             history.push_back(norm / scale);
@@ -120,9 +138,9 @@ CASE_TEST(newton_of_a_host) {
             solver.rollback();
             std::array<std::array<double, unknowns>, unknowns> matrix{};
             for (std::size_t p = 0; p < unknowns; ++p)
-                for (std::size_t q = 0; q < unknowns; ++q) matrix[p][q] = tangent[p * unknowns + q] + (p == q ? machine[p] : 0.0);
+                for (std::size_t q = 0; q < unknowns; ++q) matrix[p][q] = tangent[p * unknowns + q] + (p == q ? spring[p] : 0.0);
             const auto change = solved(matrix, residual);
-                for (std::size_t p = 0; p < unknowns; ++p) u[p] -= change[p];
+            for (std::size_t p = 0; p < unknowns; ++p) u[p] -= change[p];
         }
         solver.commit();
         // The last error is the square of the one before, times a constant that has no reason to be large.
@@ -134,13 +152,13 @@ CASE_TEST(newton_of_a_host) {
         whole.commit();
         for (std::size_t p = 0; p < unknowns; ++p) {
             const double force = whole.value(std::string("reaction:") + names[p]);
-            cases::expect_near(-solver.value(std::string("reaction:") + names[p]), -force, 1e-6, std::abs(machine[p] * travel[p]) * 0.05 + std::abs(force),
+            cases::expect_near(-solver.value(std::string("reaction:") + names[p]), -force, 1e-6, std::abs(spring[p] * travel[p]) * 0.05 + std::abs(force),
                                where + ": force " + names[p]);
         }
-        cases::expect_near(solver.value("dissipated"), whole.value("dissipated"), 1e-6, 0.1 + whole.value("dissipated"), where + ": dissipated");
+        cases::expect_near(solver.value("dissipated"), whole.value("dissipated"), 1e-6, 0.1 * element.share + whole.value("dissipated"), where + ": dissipated");
         cases::expect_near(solver.value("debonded_length"), whole.value("debonded_length"), 1e-9, 1.0, where + ": debonded length");
     }
-    cases::expect(solver.value("dissipated") > 0.1, "nothing was damaged");
+    cases::expect(solver.value("dissipated") > 0.1 * element.share, "nothing was damaged");
     cases::expect(quadratic >= 15, "quadratic in " + std::to_string(quadratic) + " steps only");
 }
 
@@ -149,7 +167,7 @@ CASE_TEST(newton_of_a_host) {
 int main() {
     Suite* suite = suite_create("user_element");
     TCase* tests = tcase_create("user_element");
-    tcase_add_test(tests, newton_of_a_host);
+    tcase_add_loop_test(tests, newton_of_a_host, 0, 2);
     suite_add_tcase(suite, tests);
     return cases::run_suite(suite);
 }
