@@ -148,6 +148,8 @@ SparseMatrix empty_matrix(const NodeGraph& graph, std::size_t dim) {
     return k;
 }
 
+constexpr std::size_t cells_a_look = 256;
+
 // The matrix of a cell and where its nodes and pairs of nodes stand.
 struct Block {
     std::span<const std::int32_t> node;
@@ -176,18 +178,21 @@ void add(const Block& block, SparseMatrix& k) {
 // places, cell after cell, and no list of all their entries ever exists. Both triangles receive the same numbers in
 // the same order.
 SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> cells,
-                                std::span<const std::int64_t> nodes, const BodyModel& model) {
+                                std::span<const std::int64_t> nodes, const BodyModel& model, const Look& look) {
     if (std::max(nodes.size(), cells.size()) > at(std::numeric_limits<std::int32_t>::max()))
         fail(DELAM_ERROR_ARGUMENT, nodes.size(), " nodes, ", cells.size(),
              " cells in one part of a body: at most 2^31 - 1");
     const std::size_t dim = at(mesh.dimension());
     const LocalCells local = local_cells(mesh, cells, nodes);
+    ask(look);
     const NodeGraph graph = node_graph(local, nodes.size());
+    ask(look);
     SparseMatrix k = empty_matrix(graph, dim);
 
     CellElasticity elasticity(model, mesh.dimension());
     std::vector<double> matrix(9 * most_cell_nodes * most_cell_nodes);
     for (std::size_t c = 0; c < cells.size(); ++c) {
+        if (c % cells_a_look == 0) ask(look);
         const Coordinates x = cell_coordinates(mesh, cells[c]);
         const std::span<const double> own = elasticity.matrix(cells[c]);
         if (model.formulation == Formulation::mean_dilatation)

@@ -23,7 +23,8 @@ double scale_of(const Ledger& ledger) { return std::max(std::abs(ledger.energy()
 }  // namespace
 
 Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), monitor_(monitor) {
-    validate(problem_);
+    const Look checking = [this] { monitor_.progress("check", 0, 0); };
+    validate(problem_, checking);
     const Mesh& mesh = *problem_.mesh;
     pairs_.dimension = contact_.dimension = mesh.dimension();
     contact_.limit = problem_.options.contact_limit;
@@ -52,6 +53,7 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
         contact_.strain_force = std::move(sizes.force);
     }
     rule_ = mixity_rule(pairs_, problem_.options.mixity_rule);
+    ask(checking);
     ChosenOperator chosen = choose_operator(problem_, monitor_);
     operator_ = std::move(chosen.op);
     reduction_ = std::move(chosen.choice);

@@ -45,9 +45,9 @@ BodyModel Problem::model(std::int32_t body) const {
     return {*material[i], plane, formulation[i], orientation};
 }
 
-SparseMatrix Problem::body_stiffness(std::int32_t body) const {
+SparseMatrix Problem::body_stiffness(std::int32_t body, const Look& look) const {
     if (const auto& own = stiffness[static_cast<std::size_t>(body)]) return own->matrix;
-    return assemble_stiffness(*mesh, mesh->body_cells(body), mesh->body_nodes(body), model(body));
+    return assemble_stiffness(*mesh, mesh->body_cells(body), mesh->body_nodes(body), model(body), look);
 }
 
 std::vector<double> Problem::factors(double time) const {

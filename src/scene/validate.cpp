@@ -133,12 +133,12 @@ void check_supports(const Problem& problem) {
 
 }  // namespace
 
-void validate(const Problem& problem) {
-    check_bodies(problem);
-    check_interfaces(problem);
-    check_loads(problem);
-    check_constraints(problem);
-    check_supports(problem);
+void validate(const Problem& problem, const Look& look) {
+    for (const auto& check : {check_bodies, check_interfaces, check_loads, check_constraints, check_supports}) {
+        ask(look);
+        check(problem);
+    }
+    ask(look);
 }
 
 }  // namespace delam

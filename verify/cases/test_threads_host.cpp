@@ -94,6 +94,42 @@ CASE_TEST(cancel_through_progress) {
     solver.step(cases::small_time(few + 2));
 }
 
+// Large meshes are looked up from while they are assembled, every few hundred cells: what a cancel waits for does not grow with the mesh.
+struct Assembly {
+    std::int64_t looks = 0;
+    static std::int32_t count(const char* stage, std::int64_t done, std::int64_t, void* user) {
+        auto& a = *static_cast<Assembly*>(user);
+        ++a.looks;
+        const std::string now = stage;
+        return now == "analyse" || (now == "condense" && done > 0) ? 1 : 0;  // assembled, of FETI the first subdomain
+    }
+};
+
+CASE_TEST(looks_while_assembling) {
+    constexpr std::int64_t columns = 48, rows = 24, layers = 4;
+    Scene scene(3, {0.48, 0.24}, {columns, rows}, {0.04, 0.04}, {layers, layers}, DELAM_HEX8);
+    scene.interface(0, 1);
+    scene.begin();
+    scene.elastic(-1, 70e9, 0.3);
+    scene.law(0, {1e12, 1e12, 100.0, 100.0, 200.0, 200.0});
+    const auto base = scene.find(0, {0.0, 0.0, 0.0}, {0.48, 0.24, 0.0});
+    for (const auto& axis : {std::vector<double>{1, 0, 0}, std::vector<double>{0, 1, 0}, std::vector<double>{0, 0, 1}}) scene.hold(base, axis);
+    scene.text("reduction", loop == 0 ? "condensed" : "feti");
+    std::int64_t subdomains = 1;
+    if (loop == 1) {
+        subdomains = 4;
+        scene.number("subdomains", static_cast<double>(subdomains));
+    }
+    Assembly assembly;
+    scene.require(delam_context_set_progress(scene.context(), Assembly::count, &assembly), "delam_context_set_progress");
+    delam_solver* solver = nullptr;
+    const std::int32_t status = delam_solver_create(scene.problem(), 0.0, &solver);
+    cases::expect(status == DELAM_CANCELLED && solver == nullptr, std::string("status ") + delam_status_name(status));
+    const std::int64_t cells = 2 * columns * rows * layers / subdomains;
+    cases::expect(assembly.looks >= cells / 256, std::to_string(assembly.looks) + " looks while " + std::to_string(cells) + " cells were assembled");
+    scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "delam_context_set_progress");
+}
+
 struct Handshake {
     std::atomic<bool> inside{false};
     std::atomic<bool> cancelled{false};
@@ -239,6 +275,7 @@ int main() {
     TCase* tests = tcase_create("guest");
     tcase_add_test(tests, two_threads_same_bits);
     tcase_add_test(tests, cancel_through_progress);
+    tcase_add_loop_test(tests, looks_while_assembling, 0, 2);
     tcase_add_test(tests, cancel_from_another_thread);
     tcase_add_test(tests, nothing_is_printed);
     tcase_add_test(tests, signals_are_untouched);

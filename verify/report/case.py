@@ -82,7 +82,7 @@ class Context:
         program = self.program(name)
         self.commands.append(shlex.join([name, *arguments]))
         run = subprocess.run([str(program), *arguments], cwd=self.root, text=True, capture_output=True, check=False,
-                             env=environment(self.library))
+                             env=environment(self.library, timing=True))  # kernels: those of the case's own process
         if check and run.returncode != 0:
             tail = " / ".join(run.stderr.strip().splitlines()[-3:])
             raise Failed(f"{name} {shlex.join(arguments)} ended with status {run.returncode}: {tail}")

@@ -28,7 +28,7 @@ SparseMatrix assemble(const Problem& problem, const Look& look) {
     std::vector<std::vector<std::int64_t>> nodes;
     for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
         nodes.push_back(mesh.body_nodes(body));
-        part.push_back(problem.body_stiffness(body));
+        part.push_back(problem.body_stiffness(body, look));
         ask(look);
     }
     SparseMatrix k;
@@ -166,9 +166,9 @@ Bulk::Bulk(const Problem& problem, Monitor& monitor) : problem_(problem) {
     ask(assembling);
     jump_rows_ = jump_matrix(problem_);
     ask(assembling);
-    variables_ = make_jump_variables(problem_);
+    variables_ = make_jump_variables(problem_, assembling);
     ask(assembling);
-    transformed_ = with_diagonal(congruence(stiffness_, variables_.transform), variables_.leading);
+    transformed_ = with_diagonal(congruence(stiffness_, variables_.transform, assembling), variables_.leading);
     ask(analysing);
     factor_ = std::make_unique<SparseCholesky>(transformed_, variables_.trailing(), analysing);
     size_ = factor_->size();

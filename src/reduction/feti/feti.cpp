@@ -64,8 +64,12 @@ std::int64_t feti_subdomains(const Problem& problem) {
 }
 
 Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monitor_(monitor) {
+    const auto parting = [this] { monitor_.progress("partition", 0, 0); };
+    parting();
     const std::vector<std::vector<std::int64_t>> cells = cut();
+    parting();
     DualRowBuilder builder(problem_, subdomains_, problem_.options.gluing);
+    parting();
     const auto touched = builder.touched(subdomains_.size());
     const bool with_schur = problem_.options.preconditioner == "dirichlet" || problem_.options.preconditioner == "series";
     const auto parts = static_cast<std::int64_t>(subdomains_.size());
@@ -79,7 +83,7 @@ Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monito
         }
         subdomain.boundary = touched[s];
         if (const auto& own = problem_.stiffness[index(subdomain.body)]; own == nullptr) {
-            subdomain.stiffness = assemble_stiffness(*problem_.mesh, cells[s], subdomain.nodes, problem_.model(subdomain.body));
+            subdomain.stiffness = assemble_stiffness(*problem_.mesh, cells[s], subdomain.nodes, problem_.model(subdomain.body), look);
             subdomain.rigid = DenseMatrix(subdomain.stiffness.rows, problem_.mesh->dimension() == 2 ? 3 : 6);
             subdomain.rigid.value = rigid_modes(*problem_.mesh, subdomain.nodes);
         } else {
