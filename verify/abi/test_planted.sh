@@ -350,6 +350,40 @@ printf '    {"delam_law_respond", Subject::law, may::state,\n' >"$work/contract/
 refused 'delam_law_respond: status: argument' \
     "$python" "$here/contract_lint.py" "$work/contract/delam/delam.h" --fuzzed "$work/contract/table.cpp"
 
+# ---- the lines in brackets against the baseline's ----
+# broken SED MESSAGE, kept SED: the header after SED against the lines of the sound one.
+"$python" "$here/promise.py" "$work/sound/delam/delam.h" --write >"$work/sound/contract.txt"
+promise() { "$python" "$here/promise.py" "$work/$1/delam/delam.h" --baseline "$work/sound/contract.txt"; }
+broken() {
+    planted line
+    edit line delam/delam.h "$1"
+    refused "$2" promise line
+}
+kept() {
+    planted line
+    edit line delam/delam.h "$1"
+    accepted promise line
+}
+accepted promise sound
+broken '/delam_law_watch\(/d; /Calls back for each/,/status usual; since/d' \
+    '^delam_law_watch: in the baseline, gone from the header'
+broken 's/null traction; /null none; /' '^delam_law_respond: null: traction may be NULL in the baseline, and no longer'
+kept 's/null none; owns out/null kind; owns out/'
+broken 's/null user; owns name/null name, user; owns name/' \
+    '^delam_watch_callback: null: the host may be given name as NULL'
+broken 's/status argument; /status argument, memory, state; /' '^delam_law_respond: status: state is listed'
+broken 's/status only argument, memory; /status argument; /' '^delam_law_create: status: handle is listed'
+kept 's/status argument; /status usual; /'
+broken 's/jump L, /jump 1, /' '^delam_law_respond: unit: jump in 1, in the baseline L'
+broken 's/unit jump L, traction/unit traction/' '^delam_law_respond: unit: none for jump'
+broken 's/jump L, /jump L >= 0, /' "^delam_law_respond: unit: the range of jump is '>= 0', narrower than 'finite'"
+kept 's/traction F\/L2/traction F\/L2 >= 0/'
+broken 's/owns out caller; /owns out the context; /' "^delam_law_create: owns: 'out the context', in the baseline 'out caller'"
+broken 's/thread any; //' "^delam_law_create: thread: 'nothing', in the baseline 'any'"
+broken 's/since 0.2/since 0.1/' "^delam_law_watch: since: '0.1', in the baseline '0.2'"
+kept 's/NOBODY 1900/SOMEBODY 1901/'
+kept 's|^/\* Calls back|/* A sum.\n * [status -; thread any; since 0.3] */\nDELAM_API int64_t delam_sum(void);\n&|'
+
 # ---- the contract against the library: lines of the header that are not true ----
 untrue() {
     rm -rf "$work/untrue"
