@@ -701,10 +701,12 @@ DELAM_API int32_t delam_solver_set_history(delam_solver *solver, int64_t pattern
  * state, numerical; source M. Hintermueller, K. Ito, K. Kunisch, SIAM J. Optim. 13 (2002) 865-888; since 0.1] */
 DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, const double *adhesion);
 
-/* A scalar of the pending state, else of the committed one, into *value. Keys (delam_solver_value_name lists them):
- *   step, time             of the state; steps are counted from 0, the initial one
+/* A scalar of the pending state, else of the committed one, into *value. Keys (delam_solver_value_name lists them),
+ * with the unit where it is not 1:
+ *   step                   of the state, counted from 0, the initial one
+ *   time                   t: of the state
  *   stored_bulk, stored_interface, dissipated, stored_interface_slides, dissipated_slides, load_potential, work, lower,
- *   increment, upper, increment_lower   energies, F L (2D: F): cumulative but for the last four, which are of the step;
+ *   increment, upper, increment_lower   F L: energies, cumulative but for the last four, which are of the step;
  *                          stored_interface holds the gradient term, if there is one. mixity_rule = variational:
  *                          increment, its bounds and increment_lower are those of the slides' split
  *   defect, defect_slides  F L: what does not close since the start, stored + load_potential + dissipated - work -
@@ -720,7 +722,7 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   contact_iterations_first, contact_iterations_max   of the first displacement solve and of the worst
  *   contact_fallbacks      displacement solves that had to exchange one pair at a time because active sets came back
  *   contact_pairs          pairs in contact
- *   debonded_length        L (2D) or L2 (3D): weight of the pairs that adhered at first and now have zeta <= 1e-3
+ *   debonded_length        L or L2: weight of the pairs that adhered at first and now have zeta <= 1e-3
  *   front                  L or L2: advance of the front, sum of weight (1 - zeta) over the pairs that adhered at first
  *   process_zone           L or L2: weight of the pairs in the process zone (see delam_solver_front)
  *   backtracks             returns to an earlier step that this step has made (option backtracking)
@@ -757,11 +759,14 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  * of the fronts of all interfaces with a law, and with :I behind it (crack_length:0) of interface I:
  *   crack_length           L or L2: initially open part, in 2D up to the pair at the tip, in 3D the faces that touch an
  *                          open pair, and sum of weight (1 - zeta) over the pairs that adhered at first
- *   energy_release_rate, front_mixity   G in F/L and (G_II + G_III)/G at the front point with the largest G; 0: there
- *                          is no front
- *   process_zone_length, process_zone_pairs   L, and number of pairs, there (see delam_solver_front for all of these)
- * and per pattern load:NAME (its factor) and reaction:NAME (its conjugate: positive when the device does work; of a
- * force pattern, minus the conjugate displacement; of an eigenstrain, minus the integral of stress times strain).
+ *   energy_release_rate    F/L: G at the front point with the largest G; 0: there is no front
+ *   front_mixity           (G_II + G_III)/G there
+ *   process_zone_length    L: there
+ *   process_zone_pairs     there (see delam_solver_front for all of these)
+ * and per pattern
+ *   load:NAME              its factor
+ *   reaction:NAME          F L: its conjugate, positive when the device does work; of a force pattern minus the
+ *                          conjugate displacement, of an eigenstrain minus the integral of stress times strain
  * delam_solver_value_count counts all of them.
  * [unit value of key; null none; status argument, problem; source of what is computed: at delam_solver_advance and
  * delam_solver_front; since 0.1] */

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""promise.py HEADER [--baseline FILE] [--write]: do the lines in brackets of HEADER still hold what those of the baseline
-promised? Prints what does not, by function; exit code 1 then. --write: prints what a new baseline would be.
+"""promise.py HEADER [--baseline FILE] [--write]: do the lines in brackets of HEADER still hold what those of the
+baseline promised? Prints what does not, by function; exit code 1 then. --write: prints what a new baseline would be.
 
-A line of the baseline is the name of a function or callback and its line in brackets, without `source` and `deprecated`,
-which may change. Compared are
+A line of the baseline is the name of a function or callback and its line in brackets, without `source` and
+`deprecated`, which may change. Compared are
 
     unit     equal for each parameter; the range of an input may widen, that of an output may narrow
     null     names may come; `result`, which the library gives, may only go
@@ -132,11 +132,11 @@ def compare(function, old, new):
         goes_in = types.get(name) != "double*"
         if goes_in != function.callback:
             if not within(allowed, range_now):
-                wrong.append(f"unit: the range of {name} is '{range_now}', narrower than '{allowed or 'finite'}' of the "
-                             "baseline")
+                wrong.append(f"unit: the range of {name} is '{range_now}', narrower than "
+                             f"'{allowed or 'finite'}' of the baseline")
         elif not within(range_now, allowed):
-            wrong.append(f"unit: {name} that is given has the range '{range_now or 'finite'}', wider than '{allowed}' of "
-                         "the baseline")
+            wrong.append(f"unit: {name} that is given has the range '{range_now or 'finite'}', wider than "
+                         f"'{allowed}' of the baseline")
 
     was, now = entries(old.get("null", "")), entries(new.get("null", ""))
     for name in was:

@@ -378,7 +378,8 @@ broken 's/jump L, /jump 1, /' '^delam_law_respond: unit: jump in 1, in the basel
 broken 's/unit jump L, traction/unit traction/' '^delam_law_respond: unit: none for jump'
 broken 's/jump L, /jump L >= 0, /' "^delam_law_respond: unit: the range of jump is '>= 0', narrower than 'finite'"
 kept 's/traction F\/L2/traction F\/L2 >= 0/'
-broken 's/owns out caller; /owns out the context; /' "^delam_law_create: owns: 'out the context', in the baseline 'out caller'"
+broken 's/owns out caller; /owns out the context; /' \
+    "^delam_law_create: owns: 'out the context', in the baseline 'out caller'"
 broken 's/thread any; //' "^delam_law_create: thread: 'nothing', in the baseline 'any'"
 broken 's/since 0.2/since 0.1/' "^delam_law_watch: since: '0.1', in the baseline '0.2'"
 kept 's/NOBODY 1900/SOMEBODY 1901/'
@@ -400,6 +401,102 @@ untrue 's/^ \* \[unit young F.*status argument/ * [unit young F\/L2, poisson 1; 
     'delam_problem_set_elastic: young nan: status -1 is not listed'
 untrue 's/^DELAM_API int64_t delam_option_count/DELAM_API int32_t delam_version_number(void);\n&/' \
     "undefined symbol: delam_version_number"
+
+# ---- keys ----
+# A library in front of the real one that says something else of its keys. lying NAME: compiled with -DNAME.
+mkdir "$work/keys"
+cat >"$work/keys/lying.c" <<'CODE'
+#define _GNU_SOURCE
+#include <delam/delam.h>
+#include <dlfcn.h>
+#include <string.h>
+#define BEHIND(name) __typeof__(&name) behind = (__typeof__(&name))dlsym(RTLD_NEXT, #name)
+#ifdef FEWER_OPTIONS
+int64_t delam_option_count(void) { BEHIND(delam_option_count); return behind() - 1; }
+#endif
+#ifdef OPTION
+int32_t delam_option_info(int64_t index, const char **key, const char **type, const char **unit, const char **initial,
+                          const char **range, const char **meaning) {
+    BEHIND(delam_option_info);
+    const int32_t status = behind(index, key, type, unit, initial, range, meaning);
+    if (strcmp(*key, OPTION) == 0) *PLACE = TEXT;
+    return status;
+}
+#endif
+#ifdef PARAMETER
+int32_t delam_law_parameter_info(const char *kind, int64_t index, const char **key, const char **type,
+                                 const char **unit, const char **initial, const char **range, const char **meaning) {
+    BEHIND(delam_law_parameter_info);
+    const int32_t status = behind(kind, index, key, type, unit, initial, range, meaning);
+    if (strcmp(*key, PARAMETER) == 0) *PLACE = TEXT;
+    return status;
+}
+#endif
+#ifdef FEWER_VALUES
+int32_t delam_solver_value_count(const delam_solver *solver, int64_t *count) {
+    BEHIND(delam_solver_value_count);
+    const int32_t status = behind(solver, count);
+    --*count;
+    return status;
+}
+#endif
+#ifdef FLAT
+int32_t delam_solver_field_shape(const delam_solver *solver, const char *key, int64_t part, int64_t *rows,
+                                 int64_t *columns) {
+    BEHIND(delam_solver_field_shape);
+    return strcmp(key, "stress") == 0 ? DELAM_ERROR_ARGUMENT : behind(solver, key, part, rows, columns);
+}
+#endif
+CODE
+keys() { "$python" "$here/keys.py" "$@"; }
+lying() {
+    gcc -std=gnu99 -fPIC -shared -I"$root/include" "$@" "$work/keys/lying.c" -o "$work/keys/liblying.so" \
+        -Wl,--no-as-needed "$library" -Wl,-rpath,"$(dirname "$library")" -ldl
+    keys "$work/keys/liblying.so" "$root/include/delam/delam.h" "${more[@]}"
+}
+more=()
+accepted lying -DNONE
+refused '^option threads: in the baseline, gone' lying -DFEWER_OPTIONS
+refused '^option contact_limit: type real, in the baseline integer' \
+    lying '-DOPTION="contact_limit"' -DPLACE=type '-DTEXT="real"'
+refused "^option damage_tolerance: range '0 <= value < 0.1' does not allow all of '0 <= value < 1'" \
+    lying '-DOPTION="damage_tolerance"' -DPLACE=range '-DTEXT="0 <= value < 0.1"'
+accepted lying '-DOPTION="damage_tolerance"' -DPLACE=range '-DTEXT="0 <= value <= 1"'
+refused "^option contact: range 'auto' does not allow" lying '-DOPTION="contact"' -DPLACE=range '-DTEXT="auto"'
+accepted lying '-DOPTION="contact"' -DPLACE=range '-DTEXT="auto | always | never"'
+refused "^option threads: default '2', in the baseline '1': run .*update.sh, and name it" \
+    lying '-DOPTION="threads"' -DPLACE=initial '-DTEXT="2"'
+more=(--new-defaults)
+accepted lying '-DOPTION="threads"' -DPLACE=initial '-DTEXT="2"'
+refused "^law griffith gradient: default '', .*: it must be given now" \
+    lying '-DPARAMETER="gradient"' -DPLACE=initial '-DTEXT=""'
+more=()
+refused '^law trapezoidal normal_stiffness: unit F/L2, in the baseline F/L3' \
+    lying '-DPARAMETER="normal_stiffness"' -DPLACE=unit '-DTEXT="F/L2"'
+refused "^law trapezoidal plateau: in the baseline, gone" lying '-DPARAMETER="plateau"' -DPLACE=key '-DTEXT="level"'
+refused '^value reaction:NAME: in the header, delam_solver_value_name does not give it' lying -DFEWER_VALUES
+refused '^field stress: shape None, by the header' lying -DFLAT
+
+# table SED MESSAGE: another table in the header.
+table() {
+    rm -rf "$work/table"
+    mkdir "$work/table"
+    cp "$root/include/delam/delam.h" "$here/baseline/keys.txt" "$work/table"
+    edit table delam.h "$1"
+    refused "$2" keys "$library" "$work/table/delam.h"
+}
+table '/^ \*   released  /d' '^value released: in the baseline, gone'
+table '/^ \*   released  /d' '^value released: delam_solver_value_name gives it, the table'
+table 's/^( \*   rotation_max +)rad:/\1the/' '^value rotation_max: unit 1, in the baseline rad'
+table 's/^( \*   stress +)\[cells\]\[4 or 6\]/\1[cells][6]/' '^field stress: shape \[cells\]\[6\], in the baseline'
+table '/^ \*   traction +\[pairs\]/d' '^field traction: in the baseline, gone'
+table 's/^( \*   energy_release_rate +)F\/L:/\1F:/' \
+    "^value energy_release_rate:I: is .*: not the unit 'F' of the header"
+table 's/^( \*   jump +\[pairs\]\[dimension\] +)L,/\1F,/' "^field jump: is .*: not the unit 'F' of the header"
+# New keys are free.
+sed -i '/^option contact;/d; /^value released;/d' "$work/table/keys.txt"
+more=(--baseline "$work/table/keys.txt")
+accepted lying -DNONE
 
 # ---- a host of another interface ----
 mkdir -p "$work/host/delam"
