@@ -96,8 +96,7 @@ def units_of(fields):
     for entry in lint.split(fields.get("unit", "")):
         match = lint.UNIT.fullmatch(entry)
         if match:
-            whole = f"{match.group(1)} {match.group(2)}"
-            found[match.group(1)] = (match.group(2), entry[len(whole):].strip())
+            found[match.group(1)] = (match.group(2), match.group(3) or "")
     return found
 
 

@@ -57,13 +57,13 @@ extern "C" {
 #define DELAM_ERROR_ARGUMENT -1 /* a NULL */
 typedef struct delam_law delam_law; /* how an interface holds together */
 /* Told of each value, with its name.
- * [unit value L; null user; owns name static; status cancelled; thread call's; since 0.2] */
+ * [unit value L finite; null user; owns name static; status cancelled; thread call's; since 0.2] */
 typedef int32_t (*delam_watch_callback)(double value, const char *name, void *user);
 /* Makes a law of a kind.
  * [null none; owns out caller; status only argument, memory; thread any; since 0.1] */
 DELAM_API int32_t delam_law_create(const char *kind, delam_law **out);
 /* Tractions at count jumps: jump, traction [count][2].
- * [unit jump L, traction F/L2; null traction; status argument; source NOBODY 1900; since 0.1] */
+ * [unit jump L finite, traction F/L2; null traction; status argument; source NOBODY 1900; since 0.1] */
 DELAM_API int32_t delam_law_respond(const delam_law *law, int64_t count, const double *jump, double *traction);
 /* Calls back for each value that is computed from now on.
  * [null watch, user; owns watch and user: the host; status usual; since 0.2] */
@@ -319,7 +319,9 @@ gap 's/ \* \[null none; owns out caller.*\] \*\//  *\//' 'delam_law_create: no l
 gap 's/Makes a law of a kind\./kind:/' 'delam_law_create: what: the comment does not say'
 gap 's/a law of a kind/a law/' 'delam_law_create: what: parameter kind is not named'
 gap 's/jump, traction \[count\]\[2\]/jump, traction/' 'delam_law_respond: shape: jump has no'
-gap 's/unit jump L, traction/unit traction/' 'delam_law_respond: unit: none for jump'
+gap 's/unit jump L finite, traction/unit traction/' 'delam_law_respond: unit: none for jump'
+gap 's/jump L finite,/jump L,/' 'delam_law_respond: unit: jump has no range'
+gap 's/value L finite;/value L;/' 'delam_watch_callback: unit: value has no range'
 gap 's/traction F\/L2/traction Pa/' "delam_law_respond: unit: 'traction Pa' is not"
 gap 's/null traction; //' 'delam_law_respond: null: missing; which of jump, traction'
 gap 's/null traction; /null count; /' 'delam_law_respond: null: count is not a pointer'
@@ -335,10 +337,10 @@ gap 's/since 0.2/since 0.1/' 'delam_law_watch: since: 0.1, but 0.2 in the list'
 gap 's/since 0.2/since then/' "delam_law_watch: since: 'then' is not a version"
 gap 's/status usual; since/sometimes maybe; since/' "delam_law_watch: 'sometimes' is not a field"
 gap '/Told of each value/{N;s/.*//}' 'delam_watch_callback: no comment directly above'
-gap 's/ \* \[unit value L; .*\] \*\//  *\//' 'delam_watch_callback: no line in brackets'
+gap 's/ \* \[unit value L finite; .*\] \*\//  *\//' 'delam_watch_callback: no line in brackets'
 gap 's/Told of each value, with its name/value, name/' 'delam_watch_callback: what: the comment does not say'
 gap 's/, with its name//; s/owns name static/owns it static/' 'delam_watch_callback: what: parameter name is not named'
-gap 's/unit value L; //' 'delam_watch_callback: unit: none for value'
+gap 's/unit value L finite; //' 'delam_watch_callback: unit: none for value'
 gap 's/null user; owns name/owns name/' 'delam_watch_callback: null: missing; which of name, user'
 gap 's/owns name static; //' 'delam_watch_callback: owns: missing'
 gap 's/status cancelled; //' 'delam_watch_callback: status: missing'
@@ -385,9 +387,9 @@ broken 's/null user; owns name/null name, user; owns name/' \
 broken 's/status argument; /status argument, memory, state; /' '^delam_law_respond: status: state is listed'
 broken 's/status only argument, memory; /status argument; /' '^delam_law_create: status: handle is listed'
 kept 's/status argument; /status usual; /'
-broken 's/jump L, /jump 1, /' '^delam_law_respond: unit: jump in 1, in the baseline L'
-broken 's/unit jump L, traction/unit traction/' '^delam_law_respond: unit: none for jump'
-broken 's/jump L, /jump L >= 0, /' "^delam_law_respond: unit: the range of jump is '>= 0', narrower than 'finite'"
+broken 's/jump L finite, /jump 1 finite, /' '^delam_law_respond: unit: jump in 1, in the baseline L'
+broken 's/unit jump L finite, traction/unit traction/' '^delam_law_respond: unit: none for jump'
+broken 's/jump L finite, /jump L >= 0, /' "^delam_law_respond: unit: the range of jump is '>= 0', narrower than 'finite'"
 kept 's/traction F\/L2/traction F\/L2 >= 0/'
 broken 's/owns out caller; /owns out the context; /' \
     "^delam_law_create: owns: 'out the context', in the baseline 'out caller'"
@@ -406,7 +408,7 @@ untrue() {
 }
 untrue 's/^ \* \[null bodies; status argument, mesh, state/ * [null none; status argument, mesh, state/' \
     'delam_mesh_add_cells: bodies NULL: status 0, expected -1'
-untrue 's/^ \* \[unit nodes L; null none; owns out/ * [unit nodes L; null nodes; owns out/' \
+untrue 's/^ \* \[unit nodes L finite; null none; owns out/ * [unit nodes L finite; null nodes; owns out/' \
     'delam_mesh_create: nodes NULL, as it may be: status -1, expected 0'
 untrue 's/^ \* \[unit young F.*status argument/ * [unit young F\/L2, poisson 1; status usual/' \
     'delam_problem_set_elastic: young nan: status -1 is not listed'
