@@ -8,6 +8,7 @@ A line of the baseline is one of
     law KIND NAME; TYPE; unit UNIT; initial TEXT; range TEXT     as delam_law_parameter_info does; kinds of the header
     value NAME; unit UNIT                        delam_solver_value_name; units by the table at delam_solver_value
     field NAME; shape [ROWS][COLUMNS]; unit UNIT     the table at delam_solver_field_shape
+    text FUNCTION; range TEXT | TEXT             those in quotation marks in the comment of a function of CHOOSING
 
 None may go or change its type, unit or shape. Ranges may widen and texts to choose from may come. Another default is
 named, and passes once the baseline has it (update.sh). New keys are free; those that the baseline does not have yet are
@@ -15,7 +16,7 @@ listed.
 
 The tables of the header are held to the library by two small marches, in the plane and in space, each once more with
 other units of length, force and time: values and fields are there, have their shape, and scale as their unit says
-(zeros aside).
+(zeros aside). Each text is taken.
 """
 import argparse
 import ctypes
@@ -36,6 +37,7 @@ UNIT = r"F/L2|F/L3|F/L|F L|F|L or L2|L|rad|t|-"
 # Nothing but rounding: their digits are no measure of a unit.
 ROUNDING = {"mixity_error", "damage_change", "linear_residual", "kkt_gap", "kkt_pressure", "kkt_complementarity",
             "kkt_equilibrium"}
+CHOOSING = ("delam_problem_set_plane", "delam_problem_set_formulation")
 SMALL, LARGE = (1.0, 1.0, 1.0), (4.0, 32.0, 2.0)  # units of length, force, time
 
 
@@ -78,6 +80,8 @@ def keys_of(library, header):
         found[f"value {name}"] = {"unit": unit}
     for name, (shape, unit) in fields_of(header).items():
         found[f"field {name}"] = {"shape": shape, "unit": unit}
+    for name in CHOOSING:
+        found[f"text {name}"] = {"range": " | ".join(texts_of(header, name))}
     return found
 
 
@@ -119,11 +123,15 @@ def fields_of(header):
     return found
 
 
+def texts_of(header, name):
+    return re.findall(r'"([a-z-]+)"', header.functions[name].comment)
+
+
 # ---- two beams that are peeled apart ----
 class March:
     def __init__(self, library, header, dimension, units):
         length, force, time = units
-        self.library, self.made, self.dimension = library, [], dimension
+        self.library, self.made = library, []
         constants = header.constants
         cell = int(constants["DELAM_QUAD4" if dimension == 2 else "DELAM_HEX8"])
         across = dimension - 2
@@ -137,7 +145,7 @@ class March:
             for name, value in (("stiffness", 1e4 * force / length**3), ("onset", 0.1 * force / length),
                                 ("toughness", 1.0 * force / length)):
                 self.call("law_set", law, f"{direction}_{name}".encode(), value)
-        problem = self.make("problem", "_create", self.context, mesh)
+        problem = self.problem = self.make("problem", "_create", self.context, mesh)
         self.call("problem_set_elastic", problem, -1, 1e5 * force / length**2, 0.3)
         self.call("problem_set_law", problem, 0, law)
         self.call("problem_add_pattern", problem, b"open", 2, self.real([0, time]), self.real([0, 1]), self.whole([0]))
@@ -270,6 +278,12 @@ def measured(library, header):
                 wrong.append(f"field {name}: shape {found}, by the header {shape} = ({one.counts[rows]}, {column})")
             else:
                 compare(f"field {name}", unit, small, other.field(name)[1], dimension)
+        for name in CHOOSING:
+            body = (-1,) if "formulation" in name else ()
+            for text in texts_of(header, name) if dimension == 2 or body else ():
+                if getattr(library, name)(one.problem, *body, text.encode()) != 0:
+                    wrong.append(f"text {name}: '{text}' of the header is refused in {dimension}D: "
+                                 + library.delam_context_message(one.context).decode())
         one.end()
         other.end()
     return list(dict.fromkeys(wrong)), seen

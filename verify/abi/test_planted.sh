@@ -389,7 +389,8 @@ broken 's/status only argument, memory; /status argument; /' '^delam_law_create:
 kept 's/status argument; /status usual; /'
 broken 's/jump L finite, /jump 1 finite, /' '^delam_law_respond: unit: jump in 1, in the baseline L'
 broken 's/unit jump L finite, traction/unit traction/' '^delam_law_respond: unit: none for jump'
-broken 's/jump L finite, /jump L >= 0, /' "^delam_law_respond: unit: the range of jump is '>= 0', narrower than 'finite'"
+broken 's/jump L finite, /jump L >= 0, /' \
+    "^delam_law_respond: unit: the range of jump is '>= 0', narrower than 'finite'"
 kept 's/traction F\/L2/traction F\/L2 >= 0/'
 broken 's/owns out caller; /owns out the context; /' \
     "^delam_law_create: owns: 'out the context', in the baseline 'out caller'"
@@ -506,6 +507,9 @@ table '/^ \*   traction +\[pairs\]/d' '^field traction: in the baseline, gone'
 table 's/^( \*   energy_release_rate +)F\/L:/\1F:/' \
     "^value energy_release_rate:I: is .*: not the unit 'F' of the header"
 table 's/^( \*   jump +\[pairs\]\[dimension\] +)L,/\1F,/' "^field jump: is .*: not the unit 'F' of the header"
+table 's/"mean-dilatation"/"mean-pressure"/' "^text delam_problem_set_formulation: range .* does not allow all of"
+table 's/"mean-dilatation"/"mean-pressure"/' \
+    "^text delam_problem_set_formulation: 'mean-pressure' of the header is refused"
 # New keys are free.
 sed -i '/^option contact;/d; /^value released;/d' "$work/table/keys.txt"
 more=(--baseline "$work/table/keys.txt")
