@@ -2,12 +2,12 @@
 # shellcheck shell=bash disable=SC2034
 # To be sourced: what a bare Debian 12 needs, and how the scripts set it up.
 
-# The library, the command line, the plots and the tests.
+# The library, the command line, the plots and the quick tier of the tests.
 DELAM_PACKAGES=(
     g++ gcc gfortran make cmake ninja-build pkg-config git ca-certificates
     libsuitesparse-dev libmetis-dev libopenblas-dev liblapack-dev
     libcli11-dev libtomlplusplus-dev libfmt-dev libhdf5-dev nlohmann-json3-dev libgmsh-dev
-    libgsl-dev check abigail-tools binutils locales
+    libgsl-dev check abigail-tools binutils locales clang doxygen
     python3 python3-numpy python3-scipy python3-matplotlib python3-h5py python3-venv python3-pip python3-meshio python3-tqdm
     python3-jinja2 fonts-dejavu-core
 )
@@ -17,7 +17,7 @@ if ! command -v npm >/dev/null; then
     DELAM_PARSER_PACKAGES=(nodejs npm)
 fi
 # The long tier of the tests.
-DELAM_LONG_PACKAGES=(clang libclang-rt-dev doxygen dpkg-dev valgrind paraview python3-paraview python3-getfem)
+DELAM_LONG_PACKAGES=(libclang-rt-dev dpkg-dev valgrind paraview python3-paraview python3-getfem)
 
 # delam_install PACKAGE...: installs what is missing, as root or through sudo; else prints the command and fails.
 delam_install() {

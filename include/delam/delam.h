@@ -30,8 +30,9 @@
  * The line in brackets
  *   ends the comment of each function and callback: the rest of its contract in fixed words, complete, so that what is
  *   missing there is as above. In the order
- *   unit       of each double: its name, unit, range if there is one. 1: none; t: time of the load histories; of key:
- *              as that key says
+ *   unit       of each double: its name, unit, range; that of what goes in always, finite where any number will do, and
+ *              in parentheses what is asked of an array as a whole or of each of its vectors. 1: no unit; t: time of
+ *              the load histories; of key: as that key says
  *   null       pointers that may be NULL
  *   owns       pointers that outlive the call, and who frees or keeps them. out caller: the caller frees *out by the
  *              object's destroy function. static: valid as long as the library is loaded
@@ -154,7 +155,7 @@ DELAM_API int32_t delam_context_cancel(delam_context *context);
 #define DELAM_HEX20 9
 
 /* A mesh of nodes: [node_count][dimension], dimension 2 or 3, node_count >= 1.
- * [unit nodes L; null none; owns out caller; status argument; since 0.1] */
+ * [unit nodes L finite; null none; owns out caller; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_create(delam_context *context, int32_t dimension, int64_t node_count,
                                     const double *nodes, delam_mesh **out);
 
@@ -243,7 +244,7 @@ DELAM_API int32_t delam_mesh_add_projected_interface(delam_mesh *mesh, int32_t b
  *   weights  [count] > 0, length (2D) or area (3D) that a pair stands for; NULL: the nodal weights
  *            (delam_mesh_add_interface) of the body's boundary faces of which all nodes are listed and face the
  *            obstacle; a node on none is refused
- * [unit normals 1, weights L or L2 > 0; null weights; status argument, mesh; since 0.1] */
+ * [unit normals 1 finite (not 0), weights L or L2 > 0; null weights; status argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_obstacle(delam_mesh *mesh, int64_t count, const int64_t *nodes, const double *normals,
                                           const double *weights, int64_t control_node, int32_t index_base,
                                           int64_t *out_interface);
@@ -263,7 +264,7 @@ DELAM_API int32_t delam_mesh_add_host_body(delam_mesh *mesh, int32_t body, int64
  *             in 2D; 3, 4, 6 or 8 in space, seen from b counter-clockwise; triangles among quadrilaterals repeat their
  *             last corner. face_count 0: none. Fronts, the gradient term and the neighbours that an energetic search
  *             advances to are known from faces alone
- * [unit normals 1, weights L or L2 > 0; null none; status argument, mesh; since 0.1] */
+ * [unit normals 1 finite (not 0), weights L or L2 > 0; null none; status argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_pairs(delam_mesh *mesh, int32_t body_a, int32_t body_b, int64_t count,
                                        const int64_t *nodes_a, const int64_t *nodes_b, const double *normals,
                                        const double *weights, int64_t face_count, int32_t nodes_per_face,
@@ -316,7 +317,7 @@ DELAM_API int32_t delam_mesh_interface_faces(const delam_mesh *mesh, int64_t int
 /* Nodes of a body (-1: of all, and those without cells that are not tied) inside the closed box from lower [dimension]
  * to upper [dimension] (widened by 1e-9 of the mesh's size). *count receives how many there are; the first `capacity`
  * are written to nodes [capacity], ascending.
- * [unit lower L, upper L >= lower; null none; status argument; since 0.1] */
+ * [unit lower L finite, upper L >= lower; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_find_nodes(const delam_mesh *mesh, int32_t body, const double *lower, const double *upper,
                                         int64_t capacity, int64_t *nodes, int64_t *count);
 /* Integrals of the nodal shape functions over the part of a body's boundary faces (-1: of each body's, those at
@@ -326,8 +327,8 @@ DELAM_API int32_t delam_mesh_find_nodes(const delam_mesh *mesh, int32_t body, co
  * count. nodes, weights: [capacity], of which the first *count are written; *count receives how many there are. Weights
  * in L (2D) or L2 (3D), with a sum > 0. Those of linear cells are all > 0; quadratic cells also have negative ones (a
  * corner of an 8-node face: -1/12 of its area). DELAM_ERROR_MESH: two cells lie on the same side of a face they share.
- * [unit lower L, upper L >= lower, direction 1, weights L or L2 sum > 0; null none; status argument, mesh; source none;
- * since 0.1] */
+ * [unit lower L finite, upper L >= lower, direction 1 finite (not 0), weights L or L2 sum > 0; null none; status
+ * argument, mesh; source none; since 0.1] */
 DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, const double *lower, const double *upper,
                                         const double *direction, int64_t capacity, int64_t *nodes, double *weights,
                                         int64_t *count);
@@ -366,7 +367,7 @@ DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, co
  * [null none; owns out caller; status argument; source in the table above; since 0.1] */
 DELAM_API int32_t delam_law_create(delam_context *context, const char *kind, delam_law **out);
 /* Sets a number of a law by its key, in that key's range (see delam_law_create).
- * [unit value of key; null none; status argument; since 0.1] */
+ * [unit value of key in its range; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_law_set(delam_law *law, const char *key, double value);
 /* Sets a text of a law by its key: the criterion, to a value of those above.
  * [null none; status argument; since 0.1] */
@@ -393,7 +394,7 @@ DELAM_API int32_t delam_law_parameter_info(const char *kind, int64_t index, cons
  * the library, and must always give the same answers. */
 /* Gives *adhesion on a first loading at fixed mixity: the minimiser zeta*(B, Y) of zeta Y + g(B, zeta) in [0,1],
  * nonincreasing in driving = Y; *slope: d zeta* / dY, finite (0 where it is not inside).
- * [unit mixity 1 in [0, 1], driving F/L, adhesion 1 in [0, 1], slope L/F <= 0; null user; status problem; thread
+ * [unit mixity 1 in [0, 1], driving F/L >= 0, adhesion 1 in [0, 1], slope L/F <= 0; null user; status problem; thread
  * call's; since 0.1] */
 typedef int32_t (*delam_adhesion_callback)(double mixity, double driving, double *adhesion, double *slope, void *user);
 /* Gives *dissipated = g(B, zeta) at an adhesion; *slope: dg/dzeta, may be -INFINITY at adhesion 0; *mixity_slope:
@@ -422,8 +423,8 @@ DELAM_API int32_t delam_law_toughness(const delam_law *law, int64_t count, const
 /* One damage step at given jumps, without the gradient term: pointwise minimiser over 0 <= zeta <= old adhesion, at the
  * given (frozen) mixity, and the traction zeta k [u]. jump, traction: [count][dimension], local (normal first; a
  * negative normal jump is an error); mixity, adhesion_old, adhesion: [count].
- * [unit jump L, mixity 1 in [0, 1], adhesion_old 1 in [0, 1], adhesion 1 in [0, 1], traction F/L2; null traction;
- * status argument, problem; source of delam_law_create; since 0.1] */
+ * [unit jump L finite (normal >= 0), mixity 1 in [0, 1], adhesion_old 1 in [0, 1], adhesion 1 in [0, 1], traction
+ * F/L2; null traction; status argument, problem; source of delam_law_create; since 0.1] */
 DELAM_API int32_t delam_law_respond(const delam_law *law, int32_t dimension, int64_t count, const double *jump,
                                     const double *mixity, const double *adhesion_old, double *adhesion,
                                     double *traction);
@@ -453,14 +454,14 @@ DELAM_API int32_t delam_problem_set_elastic(delam_problem *problem, int32_t body
  * delam_problem_set_orientation says otherwise. In 2D: plane strain takes the rows xx, yy, xy of the elasticity in
  * space; plane stress sets the stresses zz, yz, zx free. Replaces what delam_problem_set_elastic has set, and the other
  * way round.
- * [unit constants F/L2 or 1; null none; status argument; source S. W. Tsai, H. T. Hahn, Introduction to Composite
- * Materials (1980); since 0.1] */
+ * [unit constants F/L2 or 1 finite (definite); null none; status argument; source S. W. Tsai, H. T. Hahn,
+ * Introduction to Composite Materials (1980); since 0.1] */
 DELAM_API int32_t delam_problem_set_orthotropic(delam_problem *problem, int32_t body, const double *constants);
 /* Material axes of some cells, for orthotropic materials and eigenstrains. axes: [count][2][3], directions of axes 1
  * and 2 in space, also in 2D (z is out of the plane there), any lengths > 0, not parallel; 2 is made normal to 1, 3 = 1
  * x 2. cells: [count] mesh cells, of `body` (-1: of any); NULL with count 1: all cells of the body. Later calls
  * overwrite earlier ones. Cells of equal axes share them.
- * [unit axes 1; null cells; status argument; since 0.1] */
+ * [unit axes 1 finite (not parallel); null cells; status argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_orientation(delam_problem *problem, int32_t body, int64_t count,
                                                 const int64_t *cells, const double *axes, int32_t index_base);
 /* How the cells of a body (-1: of all) are computed, formulation: "standard" (default), or "incompatible" for bodies of
@@ -490,8 +491,8 @@ DELAM_API int32_t delam_problem_set_formulation(delam_problem *problem, int32_t 
  *               the diagonal alone must be told
  * DELAM_ERROR_ARGUMENT names the node, row or entry.
  * FETI takes each piece whole. Later calls replace the stiffness of the bodies that they have.
- * [unit values F/L, kernel 1; null dofs; status cancelled, argument, numerical; source C. Farhat, M. Geradin, Int. J.
- * Numer. Meth. Eng. 41 (1998) 675-696 (motions without energy); since 0.1] */
+ * [unit values F/L finite, kernel 1 finite; null dofs; status cancelled, argument, numerical; source C. Farhat, M.
+ * Geradin, Int. J. Numer. Meth. Eng. 41 (1998) 675-696 (motions without energy); since 0.1] */
 DELAM_API int32_t delam_problem_set_stiffness(delam_problem *problem, int64_t count, const int64_t *nodes,
                                               const int64_t *dofs, const int64_t *row_starts, const int64_t *columns,
                                               const double *values, int64_t kernel_count, const double *kernel,
@@ -515,7 +516,7 @@ DELAM_API int32_t delam_problem_set_adhesion(delam_problem *problem, int64_t int
 /* A load pattern: a named factor that follows a piecewise-linear history, constant beyond its ends. times: [count]
  * strictly increasing; values: [count]; count >= 1. name: unique, letters, digits, '_' and '-'. *out_pattern: its
  * index, from 0.
- * [unit times t, values 1; null none; status argument; since 0.1] */
+ * [unit times t finite (increasing), values 1 finite; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_problem_add_pattern(delam_problem *problem, const char *name, int64_t count,
                                             const double *times, const double *values, int64_t *out_pattern);
 /* Control nodes: nodes of the mesh without cells. Prescriptions, means, equations, periods, forces and pairs may refer
@@ -525,7 +526,7 @@ DELAM_API int32_t delam_problem_add_pattern(delam_problem *problem, const char *
 /* Prescribes, for each of nodes [count], direction . u = sum over patterns of coefficients[i][p] * factor_p(t).
  * direction: [dimension], any length > 0 (normalised). patterns: [pattern_count]; coefficients: [count][pattern_count],
  * L per factor. pattern_count 0: held at zero.
- * [unit direction 1, coefficients L; null none; status argument, problem; since 0.1] */
+ * [unit direction 1 finite (not 0), coefficients L finite; null none; status argument, problem; since 0.1] */
 DELAM_API int32_t delam_problem_prescribe_nodes(delam_problem *problem, int64_t count, const int64_t *nodes,
                                                 const double *direction, int64_t pattern_count, const int64_t *patterns,
                                                 const double *coefficients, int32_t index_base);
@@ -533,7 +534,8 @@ DELAM_API int32_t delam_problem_prescribe_nodes(delam_problem *problem, int64_t 
  * * factor_p(t). With the weights of delam_mesh_find_patch: a support or load spread as a uniform traction over a patch
  * of fixed size, which has a limit as the mesh is refined (a point support has none). nodes: [count], each once;
  * weights: [count], sum > 0; direction: [dimension], any length > 0; patterns, coefficients: [pattern_count].
- * [unit weights 1 sum > 0, direction 1, coefficients L; null none; status argument, problem; since 0.1] */
+ * [unit weights 1 sum > 0, direction 1 finite (not 0), coefficients L finite; null none; status argument, problem;
+ * since 0.1] */
 DELAM_API int32_t delam_problem_prescribe_mean(delam_problem *problem, int64_t count, const int64_t *nodes,
                                                const double *weights, const double *direction, int64_t pattern_count,
                                                const int64_t *patterns, const double *coefficients, int32_t index_base);
@@ -545,7 +547,7 @@ DELAM_API int32_t delam_problem_prescribe_mean(delam_problem *problem, int64_t c
  * unknown, however many there are; those of longer ones stay in the dense stage of the condensed operator. Among rigid
  * lines that turn: write u_i = u_0 + w r_i with equations of three nodes. delam_problem_check refuses, by number, an
  * equation that others imply or contradict.
- * [unit coefficients 1, prescribed L; null none; status argument, problem; since 0.1] */
+ * [unit coefficients 1 finite (not all 0), prescribed L finite; null none; status argument, problem; since 0.1] */
 DELAM_API int32_t delam_problem_add_equation(delam_problem *problem, int64_t count, const int64_t *nodes,
                                              const double *coefficients, int64_t pattern_count, const int64_t *patterns,
                                              const double *prescribed, int32_t index_base);
@@ -562,12 +564,12 @@ DELAM_API int32_t delam_problem_add_equation(delam_problem *problem, int64_t cou
  * force on control node k: its reaction where it is prescribed. Of the cell itself one node must be held against
  * translation, and as long as the average rotation is not prescribed, control nodes against it: d(d-1)/2 components,
  * e.g. y of control node 0 in 2D.
- * [unit periods L, tolerance 1 in [0, 0.5); null none; status argument, mesh; since 0.1] */
+ * [unit periods L finite (independent), tolerance 1 in [0, 0.5); null none; status argument, mesh; since 0.1] */
 DELAM_API int32_t delam_problem_add_periodic(delam_problem *problem, int64_t period_count, const double *periods,
                                              const int64_t *control_nodes, double tolerance, int32_t index_base);
 /* Dead forces on nodes [count]: forces [count][dimension] times the factor of the pattern. A pattern drives either
  * forces or prescribed displacements.
- * [unit forces F; null none; status argument, problem; since 0.1] */
+ * [unit forces F finite; null none; status argument, problem; since 0.1] */
 DELAM_API int32_t delam_problem_add_forces(delam_problem *problem, int64_t pattern, int64_t count, const int64_t *nodes,
                                            const double *forces, int32_t index_base);
 
@@ -576,12 +578,12 @@ DELAM_API int32_t delam_problem_add_forces(delam_problem *problem, int64_t patte
  * strain); stored_bulk is the energy of that stress. Several add up. Plane strain: strain zz makes stress in the plane
  * as well; plane stress: zz, 2yz, 2zx are free and do nothing. reaction:NAME of such a pattern is dE/dfactor = - int
  * strain : stress, and `work` what the change of the eigenstrain has done on the bodies.
- * [unit strain 1; null none; status argument, problem; since 0.1] */
+ * [unit strain 1 finite; null none; status argument, problem; since 0.1] */
 DELAM_API int32_t delam_problem_add_eigenstrain(delam_problem *problem, int64_t pattern, int32_t body,
                                                 const double *strain);
 
 /* Options by key; see delam_option_info. Numbers of integer options must be whole.
- * [unit value of key; null none; status argument; since 0.1] */
+ * [unit value of key in its range; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_number(delam_problem *problem, const char *key, double value);
 /* A text option by key, with a value of its list.
  * [null none; status argument; since 0.1] */
@@ -642,7 +644,7 @@ DELAM_API int32_t delam_problem_forces(const delam_problem *problem, int64_t pat
  * [unit matrix F L; null none; status argument, problem; source none; since 0.1] */
 DELAM_API int32_t delam_problem_eigenstrain_energy(const delam_problem *problem, int64_t capacity, double *matrix);
 /* Factors of all patterns at a time, factors: [pattern_count].
- * [unit time t, factors 1; null none; status argument; source none; since 0.1] */
+ * [unit time t finite, factors 1; null none; status argument; source none; since 0.1] */
 DELAM_API int32_t delam_problem_factors(const delam_problem *problem, double time, int64_t capacity, double *factors);
 /* Number of patterns into *count.
  * [null none; status argument; since 0.1] */
@@ -690,7 +692,7 @@ DELAM_API int32_t delam_solver_pending(const delam_solver *solver, int32_t *pend
  * the factor there to values[0] at times[0], and on through the points, constant beyond the last. Steps up to the
  * committed one keep theirs. times: [count] strictly increasing, the first after the committed time; values: [count];
  * count >= 1. It is part of what delam_solver_save saves. DELAM_ERROR_STATE: a step is pending.
- * [unit times t, values 1; null none; status argument, state; since 0.1] */
+ * [unit times t > committed (increasing), values 1 finite; null none; status argument, state; since 0.1] */
 DELAM_API int32_t delam_solver_set_history(delam_solver *solver, int64_t pattern, int64_t count, const double *times,
                                            const double *values);
 /* One displacement step alone: minimal-energy displacements at `time` with the given adhesion held: [pairs of all
@@ -701,10 +703,12 @@ DELAM_API int32_t delam_solver_set_history(delam_solver *solver, int64_t pattern
  * state, numerical; source M. Hintermueller, K. Ito, K. Kunisch, SIAM J. Optim. 13 (2002) 865-888; since 0.1] */
 DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, const double *adhesion);
 
-/* A scalar of the pending state, else of the committed one, into *value. Keys (delam_solver_value_name lists them):
- *   step, time             of the state; steps are counted from 0, the initial one
+/* A scalar of the pending state, else of the committed one, into *value. Keys (delam_solver_value_name lists them),
+ * with the unit where it is not 1:
+ *   step                   of the state, counted from 0, the initial one
+ *   time                   t: of the state
  *   stored_bulk, stored_interface, dissipated, stored_interface_slides, dissipated_slides, load_potential, work, lower,
- *   increment, upper, increment_lower   energies, F L (2D: F): cumulative but for the last four, which are of the step;
+ *   increment, upper, increment_lower   F L: energies, cumulative but for the last four, which are of the step;
  *                          stored_interface holds the gradient term, if there is one. mixity_rule = variational:
  *                          increment, its bounds and increment_lower are those of the slides' split
  *   defect, defect_slides  F L: what does not close since the start, stored + load_potential + dissipated - work -
@@ -720,7 +724,7 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   contact_iterations_first, contact_iterations_max   of the first displacement solve and of the worst
  *   contact_fallbacks      displacement solves that had to exchange one pair at a time because active sets came back
  *   contact_pairs          pairs in contact
- *   debonded_length        L (2D) or L2 (3D): weight of the pairs that adhered at first and now have zeta <= 1e-3
+ *   debonded_length        L or L2: weight of the pairs that adhered at first and now have zeta <= 1e-3
  *   front                  L or L2: advance of the front, sum of weight (1 - zeta) over the pairs that adhered at first
  *   process_zone           L or L2: weight of the pairs in the process zone (see delam_solver_front)
  *   backtracks             returns to an earlier step that this step has made (option backtracking)
@@ -757,11 +761,14 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  * of the fronts of all interfaces with a law, and with :I behind it (crack_length:0) of interface I:
  *   crack_length           L or L2: initially open part, in 2D up to the pair at the tip, in 3D the faces that touch an
  *                          open pair, and sum of weight (1 - zeta) over the pairs that adhered at first
- *   energy_release_rate, front_mixity   G in F/L and (G_II + G_III)/G at the front point with the largest G; 0: there
- *                          is no front
- *   process_zone_length, process_zone_pairs   L, and number of pairs, there (see delam_solver_front for all of these)
- * and per pattern load:NAME (its factor) and reaction:NAME (its conjugate: positive when the device does work; of a
- * force pattern, minus the conjugate displacement; of an eigenstrain, minus the integral of stress times strain).
+ *   energy_release_rate    F/L: G at the front point with the largest G; 0: there is no front
+ *   front_mixity           (G_II + G_III)/G there
+ *   process_zone_length    L: there
+ *   process_zone_pairs     there (see delam_solver_front for all of these)
+ * and per pattern
+ *   load:NAME              its factor
+ *   reaction:NAME          F L: its conjugate, positive when the device does work; of a force pattern minus the
+ *                          conjugate displacement, of an eigenstrain minus the integral of stress times strain
  * delam_solver_value_count counts all of them.
  * [unit value of key; null none; status argument, problem; source of what is computed: at delam_solver_advance and
  * delam_solver_front; since 0.1] */

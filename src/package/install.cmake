@@ -6,6 +6,12 @@ install(TARGETS delam EXPORT delam LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} C
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/delam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
         FILES_MATCHING PATTERN "*.h")
+# The contract, and what the header names as a source, by the paths that it names them with.
+foreach(document capi/CONTRACT.md reduction/README.md reduction/condensed/README.md evolution/README.md)
+  get_filename_component(folder src/${document} DIRECTORY)
+  install(FILES ${PROJECT_SOURCE_DIR}/src/${document} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder}
+          COMPONENT development)
+endforeach()
 install(EXPORT delam NAMESPACE delam:: FILE delam-targets.cmake DESTINATION ${DELAM_CMAKE_DIR} COMPONENT development)
 # Before 1.0 a minor version may change the interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/delam-config-version.cmake COMPATIBILITY SameMinorVersion)

@@ -12,7 +12,8 @@ Checked for each function, from its signature:
     what    some words besides the brackets; every parameter named in them or in the brackets, but for the ones that the
             head of the header explains once (EXPLAINED, and the object itself)
     shape   each array of numbers is followed by [..] where it is named; an output of one number is written *name
-    unit    each parameter of type double has one; texts and integers have none
+    unit    each parameter of type double has one; texts and integers have none. What goes in has a range: an interval,
+            a bound, a condition, or finite
     null    there when a pointer that is no handle is taken; names pointers only
     owns    there when a pointer outlives the call: handles that are made, texts that are given, callbacks
     status  known words only; every function that returns a status; with --sources, what the façade's own lines return
@@ -40,7 +41,7 @@ STATUSES = {"not_converged", "cancelled", "limit", "argument", "handle", "mesh",
 USUAL = {"handle", "memory", "internal"}
 EXPLAINED = {"out", "capacity", "index_base", "user", "interface_index", "index", "body", "context"}
 ONE_UNIT = r"(?:1|L2|L3|L|F/L2|F/L3|F/L|F L|F|L/F|rad|t|of key|of unit|of factors)"
-UNIT = re.compile(rf"(\w+) ({ONE_UNIT}(?: or {ONE_UNIT})*)(?: (?:[<>]=? |in |finite|sum |not ).*)?")
+UNIT = re.compile(rf"(\w+) ({ONE_UNIT}(?: or {ONE_UNIT})*)(?: ((?:[<>]=? |in |finite|sum |not ).*))?")
 SINCE = re.compile(r"\d+\.\d+")
 
 
@@ -141,17 +142,21 @@ def check(function, header, listed, implemented, fuzzed=None):
             if not has_shape(p.name, prose) and f"*{p.name}" not in prose:
                 gaps.append(f"shape: {p.name} has no [..] where it is named, nor is it written *{p.name}")
 
-    units = {}
+    units, ranges = {}, {}
     for entry in split(fields.get("unit", "")):
         match = UNIT.fullmatch(entry)
         if match:
             units[match.group(1)] = match.group(2)
+            ranges[match.group(1)] = match.group(3)
         else:
             gaps.append(f"unit: '{entry}' is not a parameter with a unit of the header")
     doubles = [p.name for p in parameters if pointee(p.type) == "double"]
     for name in doubles:
         if name not in units:
             gaps.append(f"unit: none for {name}")
+    for name in (p.name for p in parameters if p.type in ("double", "const double*")):
+        if name in units and not ranges[name]:
+            gaps.append(f"unit: {name} has no range; finite where any number will do")
     for name in units:
         if name not in doubles:
             gaps.append(f"unit: {name} is not a parameter of type double")

@@ -26,7 +26,9 @@ header=$root/include/delam/delam.h
 
 if [[ -f $here/baseline/delam.abi && $breaking == no ]]; then
     if ! /usr/bin/python3 "$here/gate.py" baseline --header "$header" ||
-        ! /usr/bin/python3 "$here/gate.py" abidiff --header "$header" --library "$library"; then
+        ! /usr/bin/python3 "$here/gate.py" abidiff --header "$header" --library "$library" ||
+        ! /usr/bin/python3 "$here/promise.py" "$header" ||
+        ! /usr/bin/python3 "$here/keys.py" "$library" "$header" --new-defaults; then
         printf 'this breaks hosts that exist. On purpose: --break\n' >&2
         exit 1
     fi
@@ -60,6 +62,8 @@ print("/* SPDX-License-Identifier: BSD-3-Clause\n"
       " * delam.h of the baseline, without its comments. Written by update.sh. */")
 print(re.sub(r"\n\s*\n+", "\n", re.sub(r"[ \t]+$", "", text, flags=re.M)).strip())
 PYTHON
+/usr/bin/python3 "$here/promise.py" "$header" --write >"$here/baseline/contract.txt"
+/usr/bin/python3 "$here/keys.py" "$library" "$header" --write >"$here/baseline/keys.txt"
 /usr/bin/python3 "$here/gate.py" abixml --header "$header" --library "$library" >"$new"
 cp "$new" "$here/baseline/delam.abi"
 printf '%s functions in symbols.txt and the baseline\n' "$(grep -vc '^#' "$here/symbols.txt")"

@@ -25,10 +25,18 @@ only() {
     printf '%s: %d files\n' "$component" "$(wc -l <<<"$found")"
 }
 
-only runtime 'lib/libdelam\.so\.[0-9.]+|share/doc/.*' "lib/libdelam.so.$ABI" "lib/libdelam.so.$VERSION"
+only runtime 'lib/libdelam\.so\.[0-9.]+|share/doc/[a-z]+/LICENSE' "lib/libdelam.so.$ABI" "lib/libdelam.so.$VERSION"
 headers='include/delam/[a-z_]+\.h'
-only development "lib/libdelam\.so|$headers|lib/cmake/delam/delam-(config|targets).*\.cmake|lib/pkgconfig/delam\.pc" \
-    lib/libdelam.so include/delam/delam.h lib/cmake/delam/delam-config.cmake lib/pkgconfig/delam.pc
+documents='share/doc/delam/src/[a-z/]+/[A-Z]+\.md'
+only development "lib/libdelam\.so|$headers|$documents|lib/cmake/delam/delam-(config|targets).*\.cmake|lib/pkgconfig/delam\.pc" \
+    lib/libdelam.so include/delam/delam.h lib/cmake/delam/delam-config.cmake lib/pkgconfig/delam.pc \
+    share/doc/delam/src/capi/CONTRACT.md
+# Whatever the header names as a source among ours comes with it.
+mapfile -t named < <(grep -oE 'src/[a-z_/]+/[A-Z]+\.md' "$SOURCE/include/delam/delam.h" | sort -u)
+((${#named[@]} > 0)) || fail "the header names no source among ours"
+for name in "${named[@]}"; do
+    [[ -f $work/development/share/doc/delam/$name ]] || fail "component development has no $name, which delam.h names"
+done
 if has cli; then
     only cli 'bin/delam|share/delam/[a-z_]+\.py' bin/delam share/delam/plot.py
 fi

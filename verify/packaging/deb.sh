@@ -44,6 +44,7 @@ holds libdelam-dev 'cmake/delam/delam-config\.cmake$'
 holds libdelam-dev 'pkgconfig/delam\.pc$'
 holds libdelam-dev 'share/delam/fortran/delam\.f90$'
 holds libdelam-dev 'libdelam\.so$'
+holds libdelam-dev 'share/doc/.*/CONTRACT\.md$'
 lacks libdelam-dev 'libdelam\.so\.|/bin/'
 depends libdelam-dev "libdelam$ABI (= $VERSION)"
 if has cpp; then
