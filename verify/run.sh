@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# bash verify/run.sh [--all]: installs, builds, runs the quick tier of the tests, then the unit tests and the light
-# cases under AddressSanitizer and UBSan, then the quick part of the verification report (out/report-quick).
+# bash verify/run.sh [--all]: installs, builds, runs the quick tier of the tests, then the unit tests, the light cases
+# and the fuzzer's corpus under AddressSanitizer and UBSan, then the quick part of the verification report (out/report-quick).
 #   --all   also the long tier, the thread sanitizer, clang 14 without warnings, valgrind on the unit tests and two cases
 # bash verify/run.sh --report [--quick] [--only ID|CHAPTER ...] [--accept] [--jobs N]: builds and writes the verification report into
 # out/report (report/README.md) instead; exit code 1 if a case failed.
@@ -112,7 +112,7 @@ if ((failed == 0)); then
 fi
 check "build with sanitizers" build asan -DDELAM_BUILD_CLI=OFF -DDELAM_BUILD_EXAMPLES=OFF
 if [[ -f build/asan/verify/CTestTestfile.cmake ]]; then
-    CK_FORK=no tests asan -j2 --label-exclude long --tests-regex "^(unit/.*|case/test_($light_cases))\$"
+    CK_FORK=no tests asan -j2 --label-exclude long --tests-regex "^(unit/.*|case/test_($light_cases)|fuzz/replay_.*)\$"
 fi
 if [[ -f build/release/lib/libdelam.so ]]; then
     check "quick report" /usr/bin/python3 verify/report/make.py --build build/release --out out/report-quick --quick
@@ -121,6 +121,7 @@ if [[ $all == yes ]]; then
     check "build with the thread sanitizer" build tsan -DDELAM_BUILD_CLI=OFF -DDELAM_BUILD_EXAMPLES=OFF
     check "thread sanitizer, 8 islands" threads_checked build/tsan/verify/fault_threads 4
     check "thread sanitizer, the library's own threads" threads_checked build/tsan/verify/case_test_host_march
+    check "thread sanitizer, cancel from another thread" threads_checked build/tsan/verify/case_test_threads_host
     check "clang without warnings" build clang
     for program in build/release/verify/unit_test_* build/release/verify/case_test_{capi,single_pair}; do
         if [[ -x $program && -f $program && $program != *test_long_* ]]; then

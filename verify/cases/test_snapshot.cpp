@@ -257,6 +257,87 @@ CASE_TEST(cancelled_leaps) {
     cases::expect(cancelled.save() == after, "snapshots differ");
 }
 
+// Two plies of hexahedra, unbonded at one end, which is peeled off by its corners, one pulled harder and aside: all three modes.
+struct Peel {
+    const char* name;
+    reference::LawData law;
+    std::vector<std::pair<const char*, const char*>> texts;
+    std::int64_t subdomains = 0;
+};
+
+const reference::LawData ductile{125e9, 125e9, 100.0, 160.0, 250.0, 700.0}, brittle{125e13, 125e13, 1.0, 1.0, 25.0, 60.0};
+
+const Peel peels[] = {
+    {"condensed", ductile, {{"reduction", "condensed"}}},
+    {"FETI", ductile, {{"reduction", "feti"}}, 4},
+    {"brittle", brittle, {{"reduction", "condensed"}, {"minimisation", "accelerated"}}},
+    {"brittle, FETI", brittle, {{"reduction", "feti"}}, 2},
+    {"variational", ductile, {{"mixity_rule", "variational"}}},
+    {"converged", ductile, {{"mixity_rule", "converged"}}},
+    {"energetic", {125e13, 125e13, 600.0, 600.0, 600.0, 600.0, 1.0}, {{"solution", "energetic"}, {"backtracking", "on"}}},
+};
+
+Scene make_peel(const Peel& p) {
+    constexpr double length = 0.024, width = 4e-3, ply = 2e-3, crack = 0.006;
+    Scene scene(3, {length, width}, {12, 2}, {ply, ply}, {1, 1}, DELAM_HEX8);
+    scene.interface(0, 1);
+    scene.begin();
+    scene.elastic(-1, 75e9, 0.3);
+    scene.law(0, p.law);
+    std::vector<std::int64_t> open;
+    const auto pairs = scene.pairs(0);
+    for (std::size_t i = 0; i < pairs.count(); ++i)
+        if (scene.coordinate(pairs.node_a[i], 0) < crack - 1e-4) open.push_back(static_cast<std::int64_t>(i));
+    scene.adhesion(0, open, std::vector<double>(open.size(), 0.0));
+    const auto bottom = scene.find(0, {0.0, 0.0, 0.0}, {length, width, 0.0});
+    for (const std::vector<double>& axis : {std::vector<double>{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}) scene.hold(bottom, axis);
+    const auto edge = scene.find(1, {0.0, 0.0, 2.0 * ply}, {0.0, width, 2.0 * ply});
+    std::vector<double> uneven;
+    for (const auto node : edge) uneven.push_back(1.0 + 0.2 * scene.coordinate(node, 1) / width);
+    scene.drive(edge, {0.0, 0.0, 1.0}, scene.pattern("peel", {0.0, 1.0}, {0.0, 4e-4}), uneven);
+    scene.drive(edge, {0.0, 1.0, 0.0}, scene.pattern("aside", {0.0, 1.0}, {0.0, 1e-4}), std::vector<double>(edge.size(), 1.0));
+    for (const auto& [key, value] : p.texts) scene.text(key, value);
+    if (p.subdomains > 0) scene.number("subdomains", static_cast<double>(p.subdomains));
+    return scene;
+}
+
+constexpr int peel_steps = 12;
+
+void peel(Solver& solver, int step) {
+    solver.step(static_cast<double>(step) / peel_steps);
+    solver.commit();
+}
+
+CASE_TEST(resumed_peel) {
+    const Peel& p = peels[loop];
+    const Scene scene = make_peel(p);
+    Solver whole(scene, 0.0);
+    std::vector<std::vector<std::uint8_t>> bytes{whole.save()};
+    std::vector<cases::Bits> bits{cases::read_bits(whole)};
+    std::vector<double> dissipated{0.0};
+    for (int k = 1; k <= peel_steps; ++k) {
+        peel(whole, k);
+        bytes.push_back(whole.save());
+        bits.push_back(cases::read_bits(whole));
+        dissipated.push_back(whole.value("dissipated"));
+    }
+    // A scene made anew, as after a restart of the host.
+    const Scene again = make_peel(p);
+    for (const std::size_t from : {3U, 6U, 9U}) {
+        cases::expect(dissipated[from] > 0.0 && dissipated.back() > dissipated[from],
+                      std::string(p.name) + ": no damage before step " + std::to_string(from) + ", or none after it");
+        Solver resumed(again, 0.0);
+        again.require(resumed.load(bytes[from]), "delam_solver_load");
+        for (std::size_t k = from;; ++k) {
+            const std::string where = std::string(p.name) + " resumed at step " + std::to_string(from) + ", step " + std::to_string(k);
+            cases::expect_same(resumed, cases::read_bits(resumed), bits[k], where);
+            cases::expect(resumed.save() == bytes[k], where + ": snapshots differ");
+            if (k == peel_steps) break;
+            peel(resumed, static_cast<int>(k) + 1);
+        }
+    }
+}
+
 }  // namespace
 
 int main() {
@@ -272,6 +353,7 @@ int main() {
     tcase_add_test(tests, leaps_rolled_back);
     tcase_add_test(tests, loaded_over_another_past);
     tcase_add_test(tests, cancelled_leaps);
+    tcase_add_loop_test(tests, resumed_peel, 0, static_cast<int>(std::size(peels)));
     suite_add_tcase(suite, tests);
     return cases::run_suite(suite);
 }
