@@ -6,6 +6,7 @@ import base64
 import io
 import math
 import re
+import textwrap
 
 import matplotlib
 
@@ -99,7 +100,7 @@ def _draw(plot: dict, size: tuple[float, float]):
                 axes.plot([low, high], [top * (low / high) ** mark["order"], top], color=palette.GREY, linewidth=1.2,
                           linestyle=((0, (1, 2)), (0, (5, 2)), "-.")[slopes % 3], label=mark["label"])
                 slopes += 1
-    axes.set_xlabel(_label(plot["x"]))
+    axes.set_xlabel("\n".join(textwrap.wrap(_label(plot["x"]), 42)) if narrow else _label(plot["x"]))
     axes.set_ylabel(_label(plot["y"]))
     for name, ax in (("x", axes.xaxis), ("y", axes.yaxis)):
         if plot[name]["scale"] == "log":
