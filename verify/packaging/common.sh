@@ -51,3 +51,19 @@ same_history() {
         "$1" "$work/history.csv"
     fi
 }
+
+# unpack_tarball: the source tarball of the commit, made anew, in $work/delam-$VERSION; `alone` in front of a command then
+# runs it without git and without a network where the system lets us (cut_off=yes), else with proxies that lead nowhere.
+unpack_tarball() {
+    if [[ ! -e $SOURCE/.git ]] || ! commit=$(git -C "$SOURCE" rev-parse HEAD 2>/dev/null); then
+        skip "no git, or the sources are not a checkout"
+    fi
+    quietly "$CMAKE" --build "$BUILD" --target dist
+    tar -xzf "$BUILD/delam-$VERSION.tar.gz" -C "$work"
+    alone=(env http_proxy=http://127.0.0.1:9 https_proxy=http://127.0.0.1:9 GIT_CEILING_DIRECTORIES="$work")
+    cut_off=no
+    if unshare -rn true 2>/dev/null; then
+        alone+=(unshare -rn)
+        cut_off=yes
+    fi
+}
