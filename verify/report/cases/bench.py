@@ -21,8 +21,11 @@ def bench(context, table, *arguments, **variables):
     path = folder / f"bench-{table}-{os.getpid()}.json"
     words = [*arguments, table]
     context.commands.append(" ".join([*(f"{k}={v}" for k, v in variables.items()), shlex.join(["delam_bench", "--json", "FILE", *words])]))
+    env = {**environment(context.library, timing=True), **variables}
+    if "DELAM_BENCH_AS_SHIPPED" in variables:
+        env = {k: v for k, v in env.items() if not k.startswith("OMP_")}
     run = subprocess.run([str(program), "--json", str(path), *words], cwd=context.root, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                         check=False, env={**environment(context.library), **variables})
+                         check=False, env=env)
     print(run.stdout, run.stderr, sep="\n", flush=True)
     if run.returncode != 0:
         raise Failed(f"delam_bench {shlex.join(words)} ended with status {run.returncode}: " + " / ".join(run.stderr.strip().splitlines()[-2:]))

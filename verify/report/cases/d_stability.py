@@ -283,7 +283,7 @@ def cases():
                   geometry="2 x 2 to 8 x 8 square blocks of 3 x 3 cells, FETI with n^2 + 4 subdomains", supports="bottom held, top pulled and turned", materials=f"{STEEL}; k = 1e14 N/m3 or bonded", expected=6),
         stability("supports-twice", "Supports given twice", "A support that was given already is refused, in words.", [Subject("supports-twice", "given twice", "blocks a side", scale="linear")],
                   ref=reference("physics", "the same row twice makes the reactions undetermined", "none"), geometry="blocks of 3 x 3 cells", supports="the bottom, held twice", materials=STEEL, expected=1),
-        stability("pairs", "From one pair to 1e5", "One pair, a row of cells under uniform tension: exact by either realisation; what is left out says why.",
+        stability("pairs", "From one pair to a thousand", "One pair, a row of cells under uniform tension: exact by either realisation; what is left out says why.",
                   [Subject("pairs", "strip", "pairs", defect=1e-8)], ref=reference("closed form", "uniform tension of two cells and a spring in series; one pair: the direct solver", "exact"),
                   geometry="two rows of cells of 1 mm, as long as there are pairs; one pair: corners of two triangles", supports="bottom held, top pulled by 1 micrometre", materials="E = 70 GPa, nu = 0; k = 1e14 N/m3", expected=5),
         stability("no-load", "No load at all", "Steps without any load give zeros, exactly.", [Subject("no-load", "no load", "steps")],
