@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The same colour for the same thing in every picture: Okabe and Ito's colours, which colour-blind eyes tell apart, each with a
-marker of its own, so that a print without colours can be read too."""
+"""The same colour for the same thing in every picture: Okabe and Ito's colours for solvers, concepts and bounds, Paul Tol's muted ones for what
+is only told apart in its picture. Colour-blind eyes tell both apart; each has a marker of its own, so that a print without colours can be read."""
 
 BLUE, VERMILLION, GREEN, PURPLE = "#0072B2", "#D55E00", "#009E73", "#CC79A7"
-ORANGE, SKY, YELLOW, BLACK, GREY = "#E69F00", "#56B4E9", "#F0E442", "#000000", "#6E6E6E"
+ORANGE, SKY, BLACK, GREY, BROWN = "#E69F00", "#56B4E9", "#000000", "#6E6E6E", "#7A4B1E"
+INDIGO, ROSE, TEAL, OLIVE, WINE, FOREST = "#332288", "#CC6677", "#44AA99", "#999933", "#882255", "#117733"
 
 # role: colour, marker, line
 ROLES = {
@@ -11,7 +12,7 @@ ROLES = {
     "feti": (VERMILLION, "s", "-"),
     "direct": (BLACK, "x", "-"),
     "reference": (BLACK, "", "--"),
-    "baseline": (ORANGE, "D", "-"),
+    "baseline": (BROWN, "D", "-"),
     "accelerated": (SKY, "^", "-"),
     "local": (PURPLE, "v", "-"),
     "backtracking": (ORANGE, "d", "-"),
@@ -19,13 +20,13 @@ ROLES = {
     "limit": (GREY, "", ":"),
     "lower": (SKY, "", "-"),
     "upper": (VERMILLION, "", "-"),
-    # Quantities of one realisation, meshes, languages: told apart in this order.
-    "first": (BLUE, "o", "-"),
-    "second": (VERMILLION, "s", "-"),
-    "third": (GREEN, "^", "-"),
-    "fourth": (PURPLE, "v", "-"),
-    "fifth": (ORANGE, "D", "-"),
-    "sixth": (SKY, "P", "-"),
+    # Quantities of one realisation, elements, languages: told apart in this order.
+    "first": (INDIGO, "o", "-"),
+    "second": (ROSE, "s", "-"),
+    "third": (TEAL, "^", "-"),
+    "fourth": (OLIVE, "v", "-"),
+    "fifth": (WINE, "D", "-"),
+    "sixth": (FOREST, "P", "-"),
 }
 ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth")
 

@@ -65,7 +65,8 @@ SCENES = [
     {"name": "enf-ductile", "title": "End-notched flexure, ductile", "quick": True, "set": [], "limit": 1e-8, "expected": 4,
      "geometry": "two arms 120 mm x 3 mm, notch 30 mm, 4-node cells of 1 mm, plane strain", "materials": "E = 75 GPa, nu = 0.3; k = 125e9 N/m3, "
      "Go = 100, Gc = 250 J/m2", "supports": "bottom corners on points, midspan pressed by 6 mm"},
-    {"name": "mmb", "title": "Mixed-mode bending", "quick": True, "set": ["geometry.divisions=200", "time.steps=40"], "limit": 1e-8, "expected": 6,
+    # At time 0.8 one pair's gap is 4e-12 of the largest, below the 1e-11 by which the solvers' jumps differ.
+    {"name": "mmb", "title": "Mixed-mode bending", "quick": True, "set": ["geometry.divisions=200", "time.steps=40"], "limit": 1e-8, "expected": 6, "close_calls": True,
      "geometry": "two arms 100 mm x 2.25 mm, notch 30 mm, 200 x 4 incompatible 4-node cells an arm, plane strain",
      "materials": "IM7/8552: E1 = 161, E2 = 11.38, G12 = 5.17 GPa; k = 1e15 N/m3, Benzeggagh-Kenane, 212 and 774 J/m2",
      "supports": "rollers, a rigid lever as one equation over two displacements"},
