@@ -14,7 +14,8 @@
 namespace delam {
 
 // Setting the environment takes 0.2 microseconds, longer than most calls. On x86-64 two control words say whether it is
-// the default already, as nearly always; then only flags have to be put back: those of SSE, where nearly all arithmetic is done, and those of the x87 in the rare call that raises one.
+// the default already, as nearly always; then only flags have to be put back: those of SSE, where nearly all arithmetic
+// is done, and those of the x87 in the rare call that raises one.
 class DefaultFloats {
 public:
     DefaultFloats() noexcept {
