@@ -780,6 +780,21 @@ DELAM_API int32_t delam_solver_value_count(const delam_solver *solver, int64_t *
  * [null result; owns result the solver; status argument; since 0.1] */
 DELAM_API const char *delam_solver_value_name(const delam_solver *solver, int64_t index);
 
+/* Records a value of the committed state and, with each delam_solver_commit from now on, of every further step: a load
+ * curve without asking after each step, with what a return has replaced already in place. key: of delam_solver_value, but
+ * for those that recover the displacements (rotation_max and the kkt_ values) and the counts of the solver's life
+ * (bulk_factorisations, field_recoveries). Asked for again it changes nothing. What is recorded is part of what
+ * delam_solver_save saves; delam_solver_load replaces it. DELAM_ERROR_STATE: a step is pending.
+ * [null none; status argument, state; since 0.1] */
+DELAM_API int32_t delam_solver_record(delam_solver *solver, const char *key);
+/* Recorded are *steps steps, from step *first to the committed one; 0 and 0 where no value is recorded.
+ * [null first, steps; status argument; since 0.1] */
+DELAM_API int32_t delam_solver_recorded_size(const delam_solver *solver, int64_t *first, int64_t *steps);
+/* A recorded value step by step, values: [steps]; NaN at steps before it was asked for, and where a law
+ * of the host's own failed when a front asked it.
+ * [unit values of key; null none; status argument; source none; since 0.1] */
+DELAM_API int32_t delam_solver_recorded(const delam_solver *solver, const char *key, int64_t capacity, double *values);
+
 /* Shape of a field, *rows and *columns. Fields are of the pending state, else of the committed one, as [rows][columns];
  * key:
  *   displacement  [nodes][dimension]    L; recovered from the interfaces when asked for

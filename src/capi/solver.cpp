@@ -124,6 +124,35 @@ const char* delam_solver_value_name(const delam_solver* solver, int64_t index) {
     return name;
 }
 
+int32_t delam_solver_record(delam_solver* solver, const char* key) {
+    return guard(solver, [&] {
+        require_pointer(key, "key");
+        solver->core->record(key);
+    });
+}
+
+int32_t delam_solver_recorded_size(const delam_solver* solver, int64_t* first, int64_t* steps) {
+    return guard(solver, [&] {
+        const Record& record = solver->core->recorded();
+        if (first != nullptr) *first = record.first();
+        if (steps != nullptr) *steps = record.steps();
+    });
+}
+
+int32_t delam_solver_recorded(const delam_solver* solver, const char* key, int64_t capacity, double* values) {
+    return guard(solver, [&] {
+        require_pointer(key, "key");
+        const Record& record = solver->core->recorded();
+        const Record::Column* column = record.find(key);
+        if (column == nullptr) {
+            std::string kept;
+            for (const Record::Column& other : record.columns()) kept += (kept.empty() ? "" : ", ") + other.key;
+            fail(DELAM_ERROR_ARGUMENT, "value '", key, "' is not recorded (delam_solver_record); recorded: ", kept.empty() ? "none" : kept);
+        }
+        copy_out(column->values, capacity, values, "values");
+    });
+}
+
 int32_t delam_solver_field_shape(const delam_solver* solver, const char* key, int64_t part, int64_t* rows, int64_t* columns) {
     return guard(solver, [&] {
         require_pointer(key, "key");

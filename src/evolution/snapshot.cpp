@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "evolution/snapshot.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <string>
 #include <type_traits>
 
 #include "base/error.hpp"
 #include "delam/delam.h"
+#include "evolution/values.hpp"
 
 namespace delam {
 
 namespace {
 
 constexpr std::uint64_t magic = 0x31305453'4d4c4544;  // "DELMST01" in memory on a little-endian machine
-// 5: the first that was ever published. 6: histories of patterns that the host has changed.
-constexpr std::uint32_t version = 6, oldest = 5;
+// 5: the first that was ever published. 6: histories of patterns that the host has changed. 7: recorded values.
+constexpr std::uint32_t version = 7, oldest = 5;
 constexpr std::int64_t most_steps = std::int64_t{1} << 53;
 
 std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
@@ -167,6 +170,44 @@ std::vector<Pattern> read_histories(Reader& r, std::vector<Pattern> patterns) {
     return patterns;
 }
 
+// Recorded values: first step, then keys with their columns.
+void write_record(Writer& w, const Record& record) {
+    w.item(static_cast<std::uint64_t>(record.columns().size()));
+    w.item(record.first());
+    for (const Record::Column& column : record.columns()) {
+        w.item(std::vector<char>(column.key.begin(), column.key.end()));
+        w.item(column.values);
+    }
+}
+
+Record read_record(Reader& r, const Solver& solver) {
+    std::uint64_t columns = 0;
+    std::int64_t first = 0;
+    r.item(columns);
+    r.item(first);
+    Record record;
+    for (std::uint64_t i = 0; i < columns; ++i) {
+        std::vector<char> letters;
+        std::vector<double> values;
+        r.item(letters);
+        r.item(values);
+        const std::string key(letters.begin(), letters.end());
+        const auto names = value_names(solver.problem());
+        if (std::find(names.begin(), names.end(), key) == names.end() || !recordable(solver.problem(), key) || record.find(key) != nullptr)
+            fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a record of '", key, "', which is no value of this solver that is recorded, or comes twice");
+        record.add({key, std::move(values)}, first);
+    }
+    if (columns == 0 && first != 0) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a record from step ", first, " on that has no values");
+    return record;
+}
+
+// A row for every step from the first to that of the state.
+void check(const Record& record, const State& state) {
+    for (const Record::Column& column : record.columns())
+        if (record.first() < 0 || record.first() > state.step || static_cast<std::int64_t>(column.values.size()) != state.step - record.first() + 1)
+            fail(DELAM_ERROR_SNAPSHOT, "snapshot holds ", column.values.size(), " recorded values of '", column.key, "' from step ", record.first(), " on, its state is of step ", state.step);
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> save(const Solver& solver) {
@@ -179,6 +220,7 @@ std::vector<std::uint8_t> save(const Solver& solver) {
     w.item(static_cast<std::uint64_t>(solver.past().size()));
     for (const State& state : solver.past()) walk(w, state);
     w.item(solver.jumps(false));
+    write_record(w, solver.recorded());
     w.item(checksum(w.bytes));
     return w.bytes;
 }
@@ -212,6 +254,8 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
     for (State& earlier : past) walk(r, earlier);
     std::vector<Jump> jumps;
     r.item(jumps);
+    Record record;
+    if (found_version >= 7) record = read_record(r, solver);
     if (r.left() != sizeof(found_sum)) fail(DELAM_ERROR_SNAPSHOT, "snapshot has ", r.left(), " bytes too many");
     check(state, solver);
     std::int64_t step = state.step - static_cast<std::int64_t>(kept);
@@ -223,7 +267,8 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
         if (const double next = i + 1 < past.size() ? past[i + 1].time : state.time; !(past[i].time < next))
             fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", past[i].step, " at time ", past[i].time, ", the step after it at ", next);
     for (const Jump& jump : jumps) check(jump, solver);
-    solver.restore(std::move(state), std::move(past), std::move(jumps), std::move(patterns));
+    check(record, state);
+    solver.restore(std::move(state), std::move(past), std::move(jumps), std::move(patterns), std::move(record));
 }
 
 }  // namespace delam

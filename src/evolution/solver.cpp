@@ -12,6 +12,7 @@
 #include "evolution/balance.hpp"
 #include "evolution/fronts.hpp"
 #include "evolution/step_control.hpp"
+#include "evolution/values.hpp"
 #include "scene/strain_loads.hpp"
 
 namespace delam {
@@ -117,7 +118,13 @@ void Solver::commit() {
     const bool keeps = keeps_past() && pending_->state.step > committed_.step;
     std::vector<Jump> all = jumps(true);
     if (keeps) past_.reserve(past_.size() + 1);
+    const std::vector<std::string> keys = record_.keys();
+    std::vector<Record::Row> rows;
+    for (const State& state : pending_->revised) rows.push_back({state.step, values_of(state, keys)});
+    rows.push_back({pending_->state.step, values_of(pending_->state, keys)});
+    record_.reserve_row();
     // Nothing below can fail.
+    for (const Record::Row& row : rows) record_.put(row);
     if (looked_ != nullptr) forget();
     looked_ = nullptr;
     jumps_ = std::move(all);
@@ -159,6 +166,41 @@ void Solver::set_history(std::int64_t pattern, std::span<const double> times, st
     v.insert(v.end(), values.begin(), values.end());
     changed.times = std::move(t);
     changed.values = std::move(v);
+}
+
+void Solver::record(const std::string& key) {
+    if (pending_) fail(DELAM_ERROR_STATE, "a step is pending: commit it or roll it back before a value is recorded");
+    if (!recordable(problem_, key))
+        fail(DELAM_ERROR_ARGUMENT, "value '", key, "' is no part of the state, or recovers the displacements, a sparse solve a step: ask for it at the steps that need it");
+    if (record_.find(key) == nullptr) record_.add(key, committed_.step, values_of(committed_, {key}).front());
+}
+
+std::vector<double> Solver::values_of(const State& state, const std::vector<std::string>& keys) {
+    const State* const shown = looked_;
+    const auto show = [&](const State* next) {
+        if (next == looked_) return;
+        forget();
+        looked_ = next;
+    };
+    std::vector<double> values;
+    values.reserve(keys.size());
+    if (&state != &this->state()) show(&state);
+    const auto value_or_unknown = [&](const std::string& key) {
+        try {
+            return value(*this, key);
+        } catch (const Error& error) {  // of a law of the host's, which the front asks
+            if (error.status() != DELAM_ERROR_PROBLEM) throw;
+            return unknown;
+        }
+    };
+    try {
+        for (const std::string& key : keys) values.push_back(value_or_unknown(key));
+    } catch (...) {
+        show(shown);
+        throw;
+    }
+    show(shown);
+    return values;
 }
 
 std::vector<std::int64_t> Solver::changed_histories() const {
@@ -206,12 +248,13 @@ std::vector<Jump> Solver::jumps(bool pending) const {
     return all;
 }
 
-void Solver::restore(State restored, std::vector<State> past, std::vector<Jump> jumps, std::vector<Pattern> patterns) {
+void Solver::restore(State restored, std::vector<State> past, std::vector<Jump> jumps, std::vector<Pattern> patterns, Record record) {
     stepper_.op().recall(restored.memory);
     problem_.patterns = std::move(patterns);
     committed_ = std::move(restored);
     past_ = std::move(past);
     jumps_ = std::move(jumps);
+    record_ = std::move(record);
     pending_.reset();
     looked_ = nullptr;
     forget();

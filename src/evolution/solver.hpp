@@ -12,6 +12,7 @@
 #include "evolution/crack_front.hpp"
 #include "evolution/jump.hpp"
 #include "evolution/plan.hpp"
+#include "evolution/record.hpp"
 #include "evolution/stepper.hpp"
 #include "scene/problem.hpp"
 
@@ -39,6 +40,9 @@ public:
     void set_history(std::int64_t pattern, std::span<const double> times, std::span<const double> values);
     // Patterns whose history was changed, with those that hold now.
     std::vector<std::int64_t> changed_histories() const;
+    // From the committed state on, commit() keeps this value of every step.
+    void record(const std::string& key);
+    const Record& recorded() const { return record_; }
     // Hash of the scene as the solver was made with it.
     std::uint64_t scene_hash() const { return scene_hash_; }
     // state() is then that of an earlier step which is still kept, of the pending chain or the committed one; -1: the present.
@@ -57,7 +61,7 @@ public:
     // Jumps of the march up to the committed state, and with `pending` those of the pending step.
     std::vector<Jump> jumps(bool pending) const;
     // Replaces the committed states (of the same scene); drops a pending one.
-    void restore(State state, std::vector<State> past, std::vector<Jump> jumps, std::vector<Pattern> patterns);
+    void restore(State state, std::vector<State> past, std::vector<Jump> jumps, std::vector<Pattern> patterns, Record record);
     // Of the scene as the solver was made with it.
     const std::vector<Pattern>& first_patterns() const { return first_patterns_; }
     bool keeps_past() const;
@@ -110,6 +114,8 @@ private:
     void require_nothing_pending(double time) const;
     // Of what was found on request.
     void forget();
+    // Of a state that need not be that of state().
+    std::vector<double> values_of(const State& state, const std::vector<std::string>& keys);
     void warn_of_unresolved_front(const State& before, const State& after);
     std::optional<CrackedInterface> cracked(const State& state, std::int64_t interface) const;
     Outcome unconverged_displacement(const State& state) const;
@@ -125,6 +131,7 @@ private:
     State committed_;
     std::vector<State> past_;
     std::vector<Jump> jumps_;
+    Record record_;
     std::optional<Pending> pending_;
     const State* looked_ = nullptr;
     std::string searched_;

@@ -117,9 +117,12 @@ constexpr FrontEntry front_table[] = {
     {"process_zone_pairs", [](const Solver& s, std::int64_t i) { return leading_point(s, i).zone_pairs; }},
 };
 
+enum class Of { state, life, displacement };
+
 struct Entry {
     const char* key;
     double (*value)(const Solver&);
+    Of of = Of::state;
 };
 
 constexpr Entry table[] = {
@@ -168,15 +171,15 @@ constexpr Entry table[] = {
     {"refused_steps", [](const Solver& s) { return count(s.state().counts.refused_steps); }},
     {"jumps", [](const Solver& s) { return count(s.state().counts.jumps); }},
     {"released", [](const Solver& s) { return s.state().counts.released; }},
-    {"bulk_factorisations", [](const Solver& s) { return count(s.jump_operator().factorisations()); }},
-    {"field_recoveries", [](const Solver& s) { return count(s.recoveries()); }},
+    {"bulk_factorisations", [](const Solver& s) { return count(s.jump_operator().factorisations()); }, Of::life},
+    {"field_recoveries", [](const Solver& s) { return count(s.recoveries()); }, Of::life},
     {"damage_change", [](const Solver& s) { return s.state().counts.damage_change; }},
     {"linear_residual", [](const Solver& s) { return s.state().counts.linear_residual; }},
-    {"kkt_gap", kkt_gap},
-    {"kkt_pressure", kkt_pressure},
-    {"kkt_complementarity", kkt_complementarity},
-    {"rotation_max", [](const Solver& s) { return s.largest_rotation(); }},
-    {"kkt_equilibrium", [](const Solver& s) { return s.equilibrium_defect(); }},
+    {"kkt_gap", kkt_gap, Of::displacement},
+    {"kkt_pressure", kkt_pressure, Of::displacement},
+    {"kkt_complementarity", kkt_complementarity, Of::displacement},
+    {"rotation_max", [](const Solver& s) { return s.largest_rotation(); }, Of::displacement},
+    {"kkt_equilibrium", [](const Solver& s) { return s.equilibrium_defect(); }, Of::displacement},
 };
 
 }  // namespace
@@ -191,6 +194,14 @@ std::vector<std::string> value_names(const Problem& problem) {
         names.push_back("reaction:" + pattern.name);
     }
     return names;
+}
+
+bool recordable(const Problem& problem, const std::string& key) {
+    for (const Entry& entry : table)
+        if (key == entry.key) return entry.of == Of::state;
+    const std::vector<std::string> names = value_names(problem);
+    if (std::find(names.begin(), names.end(), key) == names.end()) fail(DELAM_ERROR_ARGUMENT, "unknown value '", key, "'");
+    return true;
 }
 
 double value(const Solver& solver, const std::string& key) {

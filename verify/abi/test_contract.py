@@ -165,6 +165,10 @@ class Scene:
         fine("solver_commit", self.solver)
         return self
 
+    def recorded(self):
+        fine("solver_record", self.solver, words("time"))
+        return self
+
     def saved(self):
         needed = whole(0)
         fine("solver_save", self.solver, 0, None, needed)
@@ -317,6 +321,9 @@ CALLS = {
     "solver_equilibrate": (full, lambda s: [s.solver, 0.5, real(1, 1)]),
     "solver_value": (full, lambda s: [s.solver, words("kkt_gap"), real(0)]),
     "solver_value_count": (full, lambda s: [s.solver, whole(0)]),
+    "solver_record": (lambda: full().committed(), lambda s: [s.solver, words("time")]),
+    "solver_recorded_size": (full, lambda s: [s.solver, whole(0), whole(0)]),
+    "solver_recorded": (lambda: full().recorded(), lambda s: [s.solver, words("time"), 1, real(0)]),
     "solver_field_shape": (full, lambda s: [s.solver, words("jump"), 0, whole(0), whole(0)]),
     "solver_field": (full, lambda s: [s.solver, words("jump"), 0, 4, room(c_double, 4)]),
     "solver_average": (full, lambda s: [s.solver, -1, real(0), room(c_double, 6), room(c_double, 6)]),

@@ -63,14 +63,15 @@ struct Golden {
     const char* name;
     std::uint32_t since;
 };
-constexpr Golden goldens[] = {{"feti", 5}, {"energetic", 5}, {"told", 6}, {"space", 6}};
+constexpr Golden goldens[] = {{"feti", 5}, {"energetic", 5}, {"told", 6}, {"space", 6}, {"recorded", 7}};
 constexpr int steps = 8, saved = 5;
 
-// told: the host changes a history half-way, which is then part of what is saved.
+// told: the host changes a history half-way; recorded: it has a value recorded. Both are then part of what is saved.
 void march(Solver& solver, int first, int last, const std::string& name) {
     for (int k = first; k <= last; ++k) {
         const double times[] = {0.6, 1.0}, values[] = {2e-5, 9e-5};
         if (name == "told" && k == 4) solver.scene().require(delam_solver_set_history(solver.get(), 1, 2, times, values), "delam_solver_set_history");
+        if (name == "recorded" && k == 3) solver.scene().require(delam_solver_record(solver.get(), "work"), "delam_solver_record");
         solver.step(static_cast<double>(k) / steps);
         solver.commit();
     }
@@ -80,6 +81,14 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     cases::expect(file.good(), path.string() + " cannot be read");
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+std::vector<double> recorded_work(const Solver& solver) {
+    std::int64_t first = 0, count = 0;
+    solver.scene().require(delam_solver_recorded_size(solver.get(), &first, &count), "delam_solver_recorded_size");
+    std::vector<double> work(static_cast<std::size_t>(count));
+    solver.scene().require(delam_solver_recorded(solver.get(), "work", count, work.data()), "delam_solver_recorded");
+    return work;
 }
 
 // Values that machines agree on but for rounding.
@@ -175,6 +184,11 @@ CASE_TEST(every_version_is_read) {
         cases::expect(whole.value("dissipated") > 0.0, "nothing was damaged");
         for (const char* k : keys)
             cases::expect_near(solver.value(k), whole.value(k), 1e-8, std::abs(whole.value("work")) + std::abs(whole.value(k)), stem + ": " + k);
+        if (name == "recorded") {
+            const std::vector<double> resumed = recorded_work(solver), all = recorded_work(whole);
+            cases::expect(resumed.size() == steps - 1 && all.size() == resumed.size(), stem + ": a recorded value for each step");
+            for (std::size_t k = 0; k < all.size(); ++k) cases::expect_near(resumed[k], all[k], 1e-8, all.back(), stem + ": recorded work");
+        }
         ++read;
     }
     cases::expect(read > 0, "no saved state was read");

@@ -374,6 +374,8 @@ void march(Host& host, const Strip& s) {
         host.create(
             "delam_solver_advance", [&] { return delam_solver_advance(h.solver, time); }, rollback);
     };
+    for (const char* key : {"time", "dissipated", "energy_release_rate"})
+        host.change("delam_solver_record", [&] { return delam_solver_record(h.solver, key); });
     const auto commit = [&] { host.change("delam_solver_commit", [&] { return delam_solver_commit(h.solver); }); };
     const auto time = [&](int k) { return 2.0 * k / s.steps; };
     std::vector<std::uint8_t> half;

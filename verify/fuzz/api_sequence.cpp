@@ -548,6 +548,15 @@ std::int32_t set_history(Input& in, delam_solver* solver) {
                     maybe(in, values)}.status;
 }
 
+std::int32_t recorded(Input& in, delam_solver* solver) {
+    std::int64_t steps = 0;
+    const std::int32_t status = in.seldom() ? delam_solver_recorded_size(solver, nullptr, &steps)
+                                            : delam_solver_recorded_size(solver, &steps, &steps);
+    if (status != DELAM_OK) return status;
+    Room<double> room(in, steps);
+    return delam_solver_recorded(solver, in.word(value_keys), room.capacity, room.data());
+}
+
 std::int64_t patterns_of(delam_solver* solver) {
     std::int64_t count = 0, patterns = 0;
     delam_solver_value_count(solver, &count);
@@ -916,6 +925,10 @@ const Call calls[] = {
      }},
     {"delam_solver_set_history", Subject::solver, may::argument | may::state,
      [](const Asked& a) { return set_history(a.in, a.solver); }},
+    {"delam_solver_record", Subject::solver, may::argument | may::state,
+     [](const Asked& a) { return delam_solver_record(a.solver, a.in.word(value_keys)); }},
+    {"delam_solver_recorded", Subject::solver, may::argument,
+     [](const Asked& a) { return recorded(a.in, a.solver); }},
     {"delam_solver_condensed", Subject::solver, may::argument | may::state,
      [](const Asked& a) { return condensed(a.in, a.solver); }},
     {"delam_solver_pending", Subject::solver, may::argument,

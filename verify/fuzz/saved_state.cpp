@@ -37,6 +37,8 @@ public:
         expect(delam_solver_create(scene.problem, 0.0, &solver_) >= 0, "a march begins", "delam_solver_create");
         destroy(scene);
         expect(solver_ != nullptr, "a march begins", "delam_solver_create");
+        for (const char* key : {"time", "front", "energy_release_rate"})
+            expect(delam_solver_record(solver_, key) == DELAM_OK, "values are recorded", "delam_solver_record");
         states_.push_back(saved(solver_));
         for (int step = 1; step <= steps; ++step) {
             expect(advance(step) >= 0, "a march goes on", "delam_solver_advance");
@@ -105,6 +107,13 @@ private:
             std::vector<double> field(static_cast<std::size_t>(rows * columns));
             host_.begin();
             host_.settle(key, delam_solver_field(solver_, key, -1, rows * columns, field.data()), may::argument);
+        }
+        std::int64_t first = 0, steps_recorded = 0;
+        delam_solver_recorded_size(solver_, &first, &steps_recorded);
+        std::vector<double> recorded(static_cast<std::size_t>(steps_recorded));
+        for (const char* key : {"time", "front", "energy_release_rate"}) {
+            host_.begin();
+            host_.settle(key, delam_solver_recorded(solver_, key, steps_recorded, recorded.data()), may::argument);
         }
         delam_solver_jump_count(solver_, &jumps);
         for (std::int64_t i = 0; i < jumps; ++i)

@@ -217,6 +217,8 @@ void test_step_tangent() {
     const delam::Context context;
     const auto problem = strip(context);
     delam::Solver solver(problem, 0.0);
+    solver.record("time");
+    solver.record("reaction:lift");
     using Pair = std::array<double, 2>;
     const auto step = [&](double time, const Pair& factors) {
         for (std::size_t p = 0; p < 2; ++p) solver.set_history(static_cast<std::int64_t>(p), {time}, {factors[p]});
@@ -255,7 +257,13 @@ void test_step_tangent() {
         }
         step(time, factors);
         solver.commit();
+        expect(solver.recorded("reaction:lift").back() == solver.value("reaction:lift"), "the last step is recorded");
     }
+    const auto steps = solver.recorded_steps();
+    const auto times = solver.recorded("time");
+    expect(steps.first == 0 && steps.count == 11 && times.size() == 11 && times[3] == 0.1 * 3, "what was committed");
+    expect(status_of([&] { (void)solver.recorded("work"); }) == DELAM_ERROR_ARGUMENT, "a value that is not recorded");
+    expect(status_of([&] { solver.record("kkt_gap"); }) == DELAM_ERROR_ARGUMENT, "a value that costs a recovery");
     expect(unlike > 0.02, "damage was met");
     expect(status_of([&] { (void)solver.step_tangent(); }) == DELAM_ERROR_STATE, "no step is pending");
     expect(status_of([&] { solver.set_history(0, {2.0, 3.0}, {1.0}); }) == DELAM_ERROR_ARGUMENT, "unequal sizes");

@@ -826,6 +826,29 @@ module delam_raw
       integer(c_int64_t), value :: index
       type(c_ptr) :: text
     end function delam_solver_value_name
+    function delam_solver_record(solver, key) bind(c, name="delam_solver_record") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: solver
+      character(kind=c_char), intent(in) :: key(*)
+      integer(c_int32_t) :: status
+    end function delam_solver_record
+    function delam_solver_recorded_size(solver, first, steps) bind(c, name="delam_solver_recorded_size") &
+        result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: solver
+      integer(c_int64_t), intent(inout), optional :: first
+      integer(c_int64_t), intent(inout), optional :: steps
+      integer(c_int32_t) :: status
+    end function delam_solver_recorded_size
+    function delam_solver_recorded(solver, key, capacity, values) bind(c, name="delam_solver_recorded") &
+        result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: solver
+      character(kind=c_char), intent(in) :: key(*)
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout), optional :: values(*)
+      integer(c_int32_t) :: status
+    end function delam_solver_recorded
     function delam_solver_field_shape(solver, key, part, rows, columns) bind(c, name="delam_solver_field_shape") &
         result(status)
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double

@@ -25,6 +25,9 @@ module delam_solvers
     procedure :: value => solver_value
     procedure :: value_count => solver_value_count
     procedure :: value_name => solver_value_name
+    procedure :: record => solver_record
+    procedure :: recorded_steps => solver_recorded_steps
+    procedure :: recorded => solver_recorded
     procedure :: field_shape => solver_field_shape
     procedure :: field => solver_field
     procedure :: fill_field => solver_fill_field
@@ -186,6 +189,45 @@ contains
     character(:), allocatable :: name
     name = delam_text(delam_solver_value_name(self%handle(), index - 1_c_int64_t))
   end function solver_value_name
+
+  ! This value of the committed state and, with each commit from now on, of every further step.
+  subroutine solver_record(self, key, status, message)
+    class(delam_solver), intent(in) :: self
+    character(*), intent(in) :: key
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    call settle(delam_solver_record(self%handle(), zero_ended(key)), self, status, message)
+  end subroutine solver_record
+
+  ! Steps that are recorded: `count` of them from `first` to the committed one.
+  subroutine solver_recorded_steps(self, first, count, status, message)
+    class(delam_solver), intent(in) :: self
+    integer(delam_index), intent(out) :: first, count
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: code
+    first = 0
+    count = 0
+    code = delam_solver_recorded_size(self%handle(), first, count)
+    call settle(code, self, status, message)
+  end subroutine solver_recorded_steps
+
+  ! A recorded value step by step; NaN before it was asked for.
+  function solver_recorded(self, key, status, message) result(values)
+    class(delam_solver), intent(in) :: self
+    character(*), intent(in) :: key
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    real(delam_real), allocatable :: values(:)
+    integer(c_int64_t) :: first, count
+    integer(c_int32_t) :: code
+    first = 0
+    count = 0
+    code = delam_solver_recorded_size(self%handle(), first, count)
+    allocate(values(count))
+    if (code == DELAM_OK) code = delam_solver_recorded(self%handle(), zero_ended(key), count, values)
+    call settle(code, self, status, message)
+  end function solver_recorded
 
   ! The field is (columns, rows). part: an interface, for the fields of pairs; absent: all of them.
   subroutine solver_field_shape(self, key, columns, rows, part, status, message)

@@ -234,7 +234,8 @@ contains
     type(delam_mesh) :: mesh
     type(delam_problem) :: problem
     type(delam_solver) :: solver, nobody
-    real(dp), allocatable :: tangent(:,:), held(:,:)
+    real(dp), allocatable :: tangent(:,:), held(:,:), recorded(:)
+    integer(delam_index) :: first, count
     real(dp) :: time, factors(2), change(2), high(2), low(2), slope(2), scale(2), size_, unlike, lopsided
     integer :: k, p, q, rule, status
     call context%create()
@@ -243,6 +244,7 @@ contains
     do rule = 1, 2
       if (rule == 2) call problem%set('mixity_rule', 'converged')
       call solver%create(problem, 0.0_dp)
+      call solver%record('reaction:lift')
       unlike = 0
       lopsided = 0
       do k = 1, 10
@@ -272,6 +274,10 @@ contains
         high = reactions(solver, time, factors)
         call solver%commit()
       end do
+      call solver%recorded_steps(first, count)
+      recorded = solver%recorded('reaction:lift')
+      call expect(first == 0 .and. count == 11 .and. size(recorded) == 11, 'the steps that were committed')
+      call expect(recorded(11) == high(1), 'the last one')
       call expect(unlike > 0.02_dp, 'damage was met')
       if (rule == 2) call expect(lopsided > 2e-4_dp, 'a matrix that is not symmetric')
     end do
@@ -281,6 +287,10 @@ contains
     call expect(status == DELAM_ERROR_ARGUMENT, 'patterns count from 1')
     call solver%set_history(1_ip, [2.0_dp, 3.0_dp], [1.0_dp], status)
     call expect(status == DELAM_ERROR_ARGUMENT, 'unequal sizes')
+    recorded = solver%recorded('work', status)
+    call expect(status == DELAM_ERROR_ARGUMENT .and. size(recorded) == 11, 'a value that is not recorded')
+    recorded = nobody%recorded('work', status)
+    call expect(status == DELAM_ERROR_HANDLE .and. size(recorded) == 0, 'no solver')
     held = nobody%step_tangent(status)
     call expect(status == DELAM_ERROR_HANDLE .and. size(held) == 0, 'no solver')
   end subroutine test_step_tangent

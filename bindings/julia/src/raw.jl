@@ -472,6 +472,19 @@ function delam_solver_value_name(solver, index)
     @ccall libdelam.delam_solver_value_name(solver::Ptr{delam_solver}, index::Int64)::Cstring
 end
 
+function delam_solver_record(solver, key)
+    @ccall libdelam.delam_solver_record(solver::Ptr{delam_solver}, key::Cstring)::Int32
+end
+
+function delam_solver_recorded_size(solver, first, steps)
+    @ccall libdelam.delam_solver_recorded_size(solver::Ptr{delam_solver}, first::Ptr{Int64}, steps::Ptr{Int64})::Int32
+end
+
+function delam_solver_recorded(solver, key, capacity, values)
+    @ccall libdelam.delam_solver_recorded(solver::Ptr{delam_solver}, key::Cstring, capacity::Int64,
+        values::Ptr{Cdouble})::Int32
+end
+
 function delam_solver_field_shape(solver, key, part, rows, columns)
     @ccall libdelam.delam_solver_field_shape(solver::Ptr{delam_solver}, key::Cstring, part::Int64,
         rows::Ptr{Int64}, columns::Ptr{Int64})::Int32
@@ -596,11 +609,12 @@ const FUNCTIONS = (
     :delam_problem_factors, :delam_problem_pattern_count, :delam_problem_pattern_name, :delam_solver_create,
     :delam_solver_destroy, :delam_solver_advance, :delam_solver_commit, :delam_solver_rollback, :delam_solver_pending,
     :delam_solver_set_history, :delam_solver_equilibrate, :delam_solver_value, :delam_solver_value_count,
-    :delam_solver_value_name, :delam_solver_field_shape, :delam_solver_field, :delam_solver_average,
-    :delam_solver_front_count, :delam_solver_front, :delam_solver_tangent, :delam_solver_step_tangent,
-    :delam_solver_condensed_size, :delam_solver_condensed, :delam_solver_plan, :delam_solver_plan_count,
-    :delam_solver_plan_item, :delam_solver_option, :delam_solver_searched, :delam_solver_look, :delam_solver_jump_count,
-    :delam_solver_jump, :delam_solver_save, :delam_solver_load, :delam_solver_save_file, :delam_solver_load_file,
+    :delam_solver_value_name, :delam_solver_record, :delam_solver_recorded_size, :delam_solver_recorded,
+    :delam_solver_field_shape, :delam_solver_field, :delam_solver_average, :delam_solver_front_count,
+    :delam_solver_front, :delam_solver_tangent, :delam_solver_step_tangent, :delam_solver_condensed_size,
+    :delam_solver_condensed, :delam_solver_plan, :delam_solver_plan_count, :delam_solver_plan_item,
+    :delam_solver_option, :delam_solver_searched, :delam_solver_look, :delam_solver_jump_count, :delam_solver_jump,
+    :delam_solver_save, :delam_solver_load, :delam_solver_save_file, :delam_solver_load_file,
 )
 
 end

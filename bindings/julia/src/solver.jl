@@ -128,6 +128,26 @@ function Base.getindex(solver::Solver, key::AbstractString)
     return value[]
 end
 
+"This value of the committed state and, with each commit from now on, of every further step."
+function record!(solver::Solver, key::AbstractString)
+    ask(handle -> Raw.delam_solver_record(handle, key), solver)
+    return solver
+end
+
+"Steps that are recorded, up to the committed one."
+function recorded_steps(solver::Solver)
+    first, count = Ref(Int64(0)), Ref(Int64(0))
+    ask(handle -> Raw.delam_solver_recorded_size(handle, first, count), solver)
+    return first[]:first[]+count[]-1
+end
+
+"A recorded value step by step; NaN before it was asked for."
+function recorded(solver::Solver, key::AbstractString)
+    values = Vector{Float64}(undef, length(recorded_steps(solver)))
+    ask(handle -> Raw.delam_solver_recorded(handle, key, length(values), values), solver)
+    return values
+end
+
 function Base.keys(solver::Solver)
     count = Ref(Int64(0))
     ask(handle -> Raw.delam_solver_value_count(handle, count), solver)

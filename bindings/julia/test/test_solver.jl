@@ -47,6 +47,11 @@
     end
     @test_throws InvalidArgument solver["no such value"]
 
+    # Values that each commit records.
+    record!(other, "time")
+    @test recorded(other, "time") == [other["time"]] && length(recorded_steps(other)) == 1
+    @test_throws InvalidArgument recorded(other, "work")
+
     # A history from here on.
     set_history!(solver, 1, [2.0], [0.0])
     advance!(solver, 1.5)

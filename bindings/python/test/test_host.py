@@ -213,6 +213,28 @@ class Marches(unittest.TestCase):
         with self.assertRaises(delam.StateError):
             told.set_history("lift", 2.0, 1.0)
 
+    def test_recorded_values_are_the_history(self):
+        times = [0.3, 0.6, 1.0]
+        history = delam.Solver(strip()).history(times, ["time", "reaction:lift", "front"])
+        solver = delam.Solver(strip())
+        solver.record("time", "reaction:lift")
+        for time in times:
+            solver.advance(time)
+            self.assertEqual(len(solver.recorded_steps), len(solver.recorded("time")))
+            solver.commit()
+        solver.record("front")
+        self.assertEqual(solver.recorded_steps, range(0, 4))
+        for name in ("time", "reaction:lift"):
+            np.testing.assert_array_equal(solver.recorded(name), history[name])
+        np.testing.assert_array_equal(solver.recorded("front"), [np.nan, np.nan, np.nan, history["front"][-1]])
+        other = delam.Solver(strip())
+        other.load(solver.save())
+        np.testing.assert_array_equal(other.recorded("time"), history["time"])
+        with self.assertRaisesRegex(delam.ArgumentError, "'work' is not recorded.*time, reaction:lift, front"):
+            solver.recorded("work")
+        with self.assertRaisesRegex(delam.ArgumentError, "'kkt_gap'"):
+            solver.record("kkt_gap")
+
     def test_step_tangent_is_the_derivative(self):
         solver = delam.Solver(strip())
         names = list(ENDS)

@@ -254,6 +254,11 @@ FUNCTIONS = {
         ("solver", POINTER(delam_solver)), ("key", c_char_p), ("value", POINTER(c_double)))),
     "delam_solver_value_count": (c_int32, (("solver", POINTER(delam_solver)), ("count", POINTER(c_int64)))),
     "delam_solver_value_name": (c_char_p, (("solver", POINTER(delam_solver)), ("index", c_int64))),
+    "delam_solver_record": (c_int32, (("solver", POINTER(delam_solver)), ("key", c_char_p))),
+    "delam_solver_recorded_size": (c_int32, (
+        ("solver", POINTER(delam_solver)), ("first", POINTER(c_int64)), ("steps", POINTER(c_int64)))),
+    "delam_solver_recorded": (c_int32, (
+        ("solver", POINTER(delam_solver)), ("key", c_char_p), ("capacity", c_int64), ("values", POINTER(c_double)))),
     "delam_solver_field_shape": (c_int32, (
         ("solver", POINTER(delam_solver)), ("key", c_char_p), ("part", c_int64), ("rows", POINTER(c_int64)),
         ("columns", POINTER(c_int64)))),

@@ -250,6 +250,25 @@ class Solver(Object):
             history.record()
         return history
 
+    def record(self, *names):
+        """These values of the committed state and, with each commit from now on, of every further step, with what
+        returns replace; part of what save() saves. All but the costly ones and the counts of the solver's life."""
+        for name in names:
+            self._call(library.delam_solver_record, text("name", name))
+
+    @property
+    def recorded_steps(self):
+        """range of the steps that are recorded, up to the committed one."""
+        first, count = ctypes.c_int64(), ctypes.c_int64()
+        self._call(library.delam_solver_recorded_size, first, count)
+        return range(first.value, first.value + count.value)
+
+    def recorded(self, name):
+        """A recorded value step by step, an array; NaN before it was asked for."""
+        out = np.empty(len(self.recorded_steps))
+        self._call(library.delam_solver_recorded, text("name", name), out.size, pointer(out))
+        return out
+
     def _names(self, values):
         if values is None:
             return tuple(name for name in self.values if name not in COSTLY)

@@ -184,6 +184,9 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
 DELAM_API int32_t delam_solver_value(delam_solver *solver, const char *key, double *value);
 DELAM_API int32_t delam_solver_value_count(const delam_solver *solver, int64_t *count);
 DELAM_API const char *delam_solver_value_name(const delam_solver *solver, int64_t index);
+DELAM_API int32_t delam_solver_record(delam_solver *solver, const char *key);
+DELAM_API int32_t delam_solver_recorded_size(const delam_solver *solver, int64_t *first, int64_t *steps);
+DELAM_API int32_t delam_solver_recorded(const delam_solver *solver, const char *key, int64_t capacity, double *values);
 DELAM_API int32_t delam_solver_field_shape(const delam_solver *solver, const char *key, int64_t part, int64_t *rows,
                                            int64_t *columns);
 DELAM_API int32_t delam_solver_field(delam_solver *solver, const char *key, int64_t part, int64_t capacity,

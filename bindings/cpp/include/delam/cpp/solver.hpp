@@ -24,6 +24,9 @@ struct Field {
     std::int64_t rows, columns;
     std::vector<double> values;  // [rows][columns]
 };
+struct RecordedSteps {
+    std::int64_t first, count;
+};
 struct Average {
     double volume;
     std::array<double, 6> strain, stress;
@@ -104,6 +107,21 @@ public:
         std::vector<std::string> names;
         for (std::int64_t i = 0; i < count; ++i) names.push_back(detail::copy(delam_solver_value_name(get(), i)));
         return names;
+    }
+    // This value of the committed state and, with each commit() from now on, of every further step.
+    void record(Text key) { shared_->check(delam_solver_record(get(), key.get())); }
+    // Steps that are recorded: from the first to the committed one.
+    RecordedSteps recorded_steps() const {
+        RecordedSteps steps{};
+        shared_->check(delam_solver_recorded_size(get(), &steps.first, &steps.count));
+        return steps;
+    }
+    // A recorded value step by step; NaN before it was asked for.
+    std::vector<double> recorded(Text key) const {
+        std::vector<double> values(detail::length(recorded_steps().count));
+        const auto capacity = static_cast<std::int64_t>(values.size());
+        shared_->check(delam_solver_recorded(get(), key.get(), capacity, values.data()));
+        return values;
     }
     // part: an interface, for the fields of pairs; -1 otherwise, and for all interfaces.
     Field field(Text key, std::int64_t part = -1) {

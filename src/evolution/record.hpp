@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Values of every committed step, by the keys that the host asked for: the march's load curve, as part of its state.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace delam {
+
+class Record {
+public:
+    struct Column {
+        std::string key;
+        std::vector<double> values;  // [steps], NaN before the key was asked for
+    };
+    struct Row {
+        std::int64_t step = 0;
+        std::vector<double> values;  // [columns]
+    };
+
+    // The first of the steps; the rows after it are of the steps that follow, one each.
+    std::int64_t first() const { return first_; }
+    std::int64_t steps() const { return columns_.empty() ? 0 : static_cast<std::int64_t>(columns_.front().values.size()); }
+    const std::vector<Column>& columns() const { return columns_; }
+    std::vector<std::string> keys() const;
+    // nullptr: the key is not recorded.
+    const Column* find(const std::string& key) const;
+
+    // A further key, its value at `step`, the last there is.
+    void add(const std::string& key, std::int64_t step, double value);
+    // Columns as they were saved, of equal lengths.
+    void add(Column column, std::int64_t first);
+    // Room for a further row, so that put() cannot fail.
+    void reserve_row();
+    // Puts a row in the place of its step, or behind the last. One from before the record began is left out.
+    void put(const Row& row) noexcept;
+
+private:
+    std::int64_t first_ = 0;
+    std::vector<Column> columns_;
+};
+
+}  // namespace delam

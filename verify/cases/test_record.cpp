@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Values that the library records with each commit: what a host would have read step after step, returns included; part of the saved state.
+#include <algorithm>
+#include <cmath>
+
+#include "condensed_scenes.hpp"
+#include "flexure.hpp"
+#include "small_march.hpp"
+
+namespace {
+
+using reference::FlexureScene;
+using reference::Solver;
+
+constexpr int steps = 40;
+double time_of(int k) { return 2.0 * k / steps; }
+
+// Brittle: its jump makes the march return to earlier steps.
+FlexureScene returning() {
+    FlexureScene f = reference::make_flexure(reference::find_flexure("enf-brittle"));
+    f.scene.text("backtracking", "on");
+    return f;
+}
+
+constexpr const char* keys[] = {"step",     "time",      "dissipated", "work",         "lower",   "reaction:press", "energy_release_rate",
+                                "front", "revisions", "search_gap", "crack_length", "contact_pairs"};
+
+void record(const Solver& solver, const char* key) { solver.scene().require(delam_solver_record(solver.get(), key), key); }
+void record_all(const Solver& solver) {
+    for (const char* key : keys) record(solver, key);
+}
+
+struct Size {
+    std::int64_t first = -1, steps = -1;
+};
+Size size_of(const Solver& solver) {
+    Size size;
+    solver.scene().require(delam_solver_recorded_size(solver.get(), &size.first, &size.steps), "delam_solver_recorded_size");
+    return size;
+}
+
+std::vector<double> recorded(const Solver& solver, const char* key) {
+    std::vector<double> values(static_cast<std::size_t>(size_of(solver).steps));
+    solver.scene().require(delam_solver_recorded(solver.get(), key, static_cast<std::int64_t>(values.size()), values.data()), key);
+    return values;
+}
+
+void walk(Solver& solver, int first, int last) {
+    for (int k = first; k <= last; ++k) {
+        solver.step(time_of(k));
+        solver.commit();
+    }
+}
+
+void look(const Solver& solver, std::int64_t step) { solver.scene().require(delam_solver_look(solver.get(), step), "delam_solver_look"); }
+
+// What the kept steps say when they are looked at.
+void expect_as_looked_at(Solver& solver, const std::string& where) {
+    const Size size = size_of(solver);
+    for (const char* key : keys) {
+        const std::vector<double> values = recorded(solver, key);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            look(solver, size.first + static_cast<std::int64_t>(i));
+            cases::expect(cases::same_bits({solver.value(key)}, {values[i]}), where + ": " + key + " of step " + std::to_string(size.first + static_cast<std::int64_t>(i)));
+        }
+    }
+    look(solver, -1);
+}
+
+CASE_TEST(steps_that_returns_replace) {
+    const FlexureScene f = returning();
+    Solver solver(f.scene, 0.0), plain(f.scene, 0.0);
+    cases::expect(size_of(solver).first == 0 && size_of(solver).steps == 0, "nothing is recorded unless asked for");
+    record_all(solver);
+    cases::expect(size_of(solver).first == 0 && size_of(solver).steps == 1, "the present state is the first");
+    for (int k = 1; k <= steps; ++k) {
+        solver.step(time_of(k));
+        // Neither what is looked at nor what is thrown away is recorded.
+        if (k == 3) {
+            solver.rollback();
+            cases::expect(size_of(solver).steps == k, "a step that was rolled back is recorded");
+            solver.step(time_of(k));
+        }
+        if (k > 1) look(solver, k - 1);
+        solver.commit();
+        plain.step(time_of(k));
+        plain.commit();
+        cases::expect_same(solver, cases::read_bits(solver), cases::read_bits(plain), "a march that records, step " + std::to_string(k));
+    }
+    const std::vector<double> revisions = recorded(solver, "revisions");
+    cases::expect(*std::max_element(revisions.begin(), revisions.end()) >= 1.0, "no step was replaced");
+    cases::expect(size_of(solver).steps == steps + 1, "one entry a step");
+    expect_as_looked_at(solver, "in the end");
+}
+
+CASE_TEST(saved_with_the_state) {
+    const FlexureScene f = returning();
+    Solver whole(f.scene, 0.0), first(f.scene, 0.0), second(f.scene, 0.0);
+    walk(whole, 1, 2);
+    walk(first, 1, 2);
+    record_all(whole);
+    record_all(first);
+    walk(whole, 3, steps);
+    const int cut = 3;  // before the march returns behind it
+    walk(first, 3, cut);
+    const auto bytes = first.save();
+    record(second, "stored_bulk");
+    f.scene.require(second.load(bytes), "delam_solver_load");
+    cases::expect(second.save() == bytes, "saved again");
+    std::vector<double> none(1);
+    cases::expect(delam_solver_recorded(second.get(), "stored_bulk", 1, none.data()) == DELAM_ERROR_ARGUMENT, "the record is that of the bytes");
+    walk(second, cut + 1, steps);
+    cases::expect(size_of(second).first == 2 && size_of(second).steps == steps - 1, "from the step on at which it was asked for");
+    for (const char* key : keys) cases::expect(cases::same_bits(recorded(whole, key), recorded(second, key)), std::string(key) + " after loading");
+    // A return behind the beginning of the record replaces what there is of it.
+    expect_as_looked_at(second, "resumed");
+}
+
+CASE_TEST(in_space_by_feti) {
+    reference::Scene scene = cases::make_plies(3, 2, DELAM_HEX8, "standard", {1e13, 1e13, 1.0, 1.0, 20.0, 20.0}, 8);
+    scene.text("reduction", "feti");
+    Solver solver(scene, 0.0);
+    record(solver, "dissipated");
+    record(solver, "energy_release_rate");
+    std::vector<double> seen{solver.value("dissipated")}, rates{solver.value("energy_release_rate")};
+    for (int k = 1; k <= 6; ++k) {
+        solver.step(k / 6.0);
+        solver.commit();
+        seen.push_back(solver.value("dissipated"));
+        rates.push_back(solver.value("energy_release_rate"));
+    }
+    cases::expect(seen.back() > 0.0, "nothing was damaged");
+    cases::expect(cases::same_bits(seen, recorded(solver, "dissipated")), "dissipated");
+    cases::expect(cases::same_bits(rates, recorded(solver, "energy_release_rate")), "energy release rate");
+}
+
+CASE_TEST(later_keys_and_set_states) {
+    const reference::Scene scene = cases::small_enf();
+    Solver solver(scene, 0.0);
+    record(solver, "time");
+    cases::walk(solver, 1, 2);
+    record(solver, "work");
+    record(solver, "time");
+    cases::walk(solver, 3, 3);
+    const std::vector<double> times = recorded(solver, "time"), work = recorded(solver, "work");
+    cases::expect(times.size() == 4 && times[0] == 0.0 && times[3] == cases::small_time(3), "asked for twice, recorded once");
+    cases::expect(work.size() == 4 && std::isnan(work[0]) && std::isnan(work[1]) && !std::isnan(work[2]) && work[3] > work[2], "not a number before it was asked for");
+    // A state that is set takes the place of its step.
+    solver.equilibrate(cases::small_time(5), solver.field("adhesion"));
+    solver.commit();
+    cases::expect(recorded(solver, "time").size() == 4 && recorded(solver, "time")[3] == cases::small_time(5), "a state that was set");
+}
+
+CASE_TEST(refused) {
+    const reference::Scene scene = cases::small_enf();
+    Solver solver(scene, 0.0);
+    for (const char* key : {"no_such_value", "", "kkt_gap", "kkt_equilibrium", "rotation_max", "bulk_factorisations", "field_recoveries", "crack_length:7"})
+        cases::expect(delam_solver_record(solver.get(), key) == DELAM_ERROR_ARGUMENT, std::string("recorded: ") + key);
+    cases::expect(size_of(solver).steps == 0, "a refusal leaves nothing");
+    record(solver, "time");
+    double value = -1.0;
+    cases::expect(delam_solver_recorded(solver.get(), "work", 1, &value) == DELAM_ERROR_ARGUMENT, "not recorded");
+    cases::expect(std::string(delam_context_message(scene.context())).find("recorded: time") != std::string::npos, "what is recorded is not said");
+    cases::expect(delam_solver_recorded(solver.get(), "time", 0, &value) == DELAM_ERROR_ARGUMENT && value == -1.0, "no room");
+    solver.step(cases::small_time(1));
+    cases::expect(delam_solver_record(solver.get(), "work") == DELAM_ERROR_STATE, "a step is pending");
+}
+
+}  // namespace
+
+int main() {
+    Suite* suite = suite_create("record");
+    TCase* one = tcase_create("record");
+    tcase_add_test(one, steps_that_returns_replace);
+    tcase_add_test(one, saved_with_the_state);
+    tcase_add_test(one, in_space_by_feti);
+    tcase_add_test(one, later_keys_and_set_states);
+    tcase_add_test(one, refused);
+    suite_add_tcase(suite, one);
+    return cases::run_suite(suite);
+}
