@@ -46,6 +46,10 @@ double strained(const Problem& problem, std::span<const double> displacement) {
 
 }  // namespace
 
+double largest_reaction(const JumpOperator& op, const State& state, double force_floor) {
+    return std::max(force_floor, largest(op.reaction(state.theta, state.response)));
+}
+
 // Parts that have come off move without strain, energy or reaction; all that is left there is rounding, rightly. Else the forces are held
 // against reactions, and their work against the energies, whichever they are less of.
 double out_of_balance(const Problem& problem, const JumpOperator& op, const State& state, double force_floor) {
@@ -56,7 +60,7 @@ double out_of_balance(const Problem& problem, const JumpOperator& op, const Stat
     const double motion = largest(displacement);
     if (strained(problem, displacement) <= rigid * motion) return 0.0;
     const double left = op.equilibrium_defect(state.theta, state.response);
-    const double reaction = std::max(force_floor, largest(op.reaction(state.theta, state.response)));
+    const double reaction = largest_reaction(op, state, force_floor);
     return std::min(left / std::max(reaction, tiny), left * motion / std::max(energies, tiny));
 }
 

@@ -370,9 +370,7 @@ const std::vector<double>& Solver::displacement() const {
 }
 
 double Solver::equilibrium_defect() const {
-    double reaction = 0.0;
-    for (const double r : this->reaction()) reaction = std::max(reaction, std::abs(r));
-    reaction = std::max(reaction, stepper_.contact().force_floor(state().theta));  // stresses of eigenstrains may need no reactions
+    const double reaction = largest_reaction(stepper_.op(), state(), stepper_.contact().force_floor(state().theta));
     const double defect = stepper_.op().equilibrium_defect(state().theta, state().response);
     return reaction > 0.0 ? defect / reaction : defect;
 }
