@@ -128,8 +128,11 @@ DELAM_API int32_t delam_context_set_log(delam_context *context, delam_log_callba
 /* Where the library reports from long work; callback NULL switches it off.
  * [null callback, user; owns callback and user: as delam_context_set_log; status usual; since 0.1] */
 DELAM_API int32_t delam_context_set_progress(delam_context *context, delam_progress_callback callback, void *user);
-/* Ask the running call to stop at its next check; any thread (and from a signal handler: it sets one lock-free flag).
- * The request is consumed by the call that it stops.
+/* Ask the running call to stop at its next check; any thread (and from a signal handler: it counts up one lock-free
+ * number). The request is consumed by the call that it stops. One that comes while no call runs, or that the running
+ * one does not meet any more, waits for the next call of the march: delam_solver_create, _advance, _equilibrate,
+ * _tangent, _step_tangent, _load, _load_file or delam_problem_set_stiffness. The other calls that list `cancelled`
+ * build or read; only a request that comes while they run stops them.
  * [status only handle; thread any; since 0.1] */
 DELAM_API int32_t delam_context_cancel(delam_context *context);
 
@@ -167,7 +170,7 @@ DELAM_API int32_t delam_mesh_create(delam_context *context, int32_t dimension, i
  *                       split each box into 2 or 6
  * Neighbouring layers match; no interface is made yet. Nodes of a layer are numbered x fastest, the last axis slowest,
  * middle nodes among the corners.
- * [unit lengths L > 0, thickness L > 0; null none; owns out caller; status argument, mesh; since 0.1] */
+ * [unit lengths L > 0, thickness L > 0; null none; owns out caller; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_create_layers(delam_context *context, int32_t dimension, const double *lengths,
                                            const int64_t *divisions, int64_t layer_count, const double *thickness,
                                            const int64_t *layer_divisions, int32_t cell_type, delam_mesh **out);
@@ -175,7 +178,7 @@ DELAM_API int32_t delam_mesh_create_layers(delam_context *context, int32_t dimen
 /* Adds cells of one type, cell_type. connectivity: [cell_count][nodes of the type]; bodies: [cell_count] labels >= 0,
  * or NULL for all 0. A node belongs to one body only: DELAM_ERROR_MESH otherwise, also for inverted or degenerate
  * cells. DELAM_ERROR_STATE: the body has an interface already, all its cells come before.
- * [null bodies; status argument, mesh, state; since 0.1] */
+ * [null bodies; status cancelled, argument, mesh, state; since 0.1] */
 DELAM_API int32_t delam_mesh_add_cells(delam_mesh *mesh, int32_t cell_type, int64_t cell_count,
                                        const int64_t *connectivity, const int32_t *bodies, int32_t index_base);
 
@@ -188,7 +191,7 @@ DELAM_API int32_t delam_mesh_add_cells(delam_mesh *mesh, int32_t cell_type, int6
  * doubled). Where three or more bodies meet, each has a node. Bodies that share faces are then joined by
  * delam_mesh_add_all_interfaces; those that share no more than a corner, or in 3D an edge, are joined by nothing there.
  * DELAM_ERROR_MESH for inverted or degenerate cells.
- * [null bodies; status argument, mesh, state; since 0.1] */
+ * [null bodies; status cancelled, argument, mesh, state; since 0.1] */
 DELAM_API int32_t delam_mesh_add_conforming_cells(delam_mesh *mesh, int32_t cell_type, int64_t cell_count,
                                                   const int64_t *connectivity, const int32_t *bodies,
                                                   int32_t index_base);
@@ -204,7 +207,7 @@ DELAM_API int32_t delam_mesh_add_conforming_cells(delam_mesh *mesh, int32_t cell
  * curved. Those of tet10 and hex20 are not in the proportion of a uniform traction: on a stiff interface pairs then
  * bear up to 1.3 (tet10) or 1.6 times (hex20) the traction at middle nodes and none, or a closed contact, at corners.
  * Pairs are ordered by coordinates, x first.
- * [unit tolerance 1 in [0, 0.5); null none; status argument, mesh; since 0.1] */
+ * [unit tolerance 1 in [0, 0.5); null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_interface(delam_mesh *mesh, int32_t body_a, int32_t body_b, double tolerance,
                                            int64_t *out_interface);
 /* An interface, as by delam_mesh_add_interface, between every two bodies that share matching faces and have none yet,
@@ -213,7 +216,7 @@ DELAM_API int32_t delam_mesh_add_interface(delam_mesh *mesh, int32_t body_a, int
  * there. DELAM_ERROR_MESH when faces of two bodies overlap without matching (the first place is named; the mesh is
  * unchanged). Bodies whose faces are farther from each other than the tolerance, such as the two sides of a curved
  * interface meshed apart, do not touch in this sense and get no interface.
- * [unit tolerance 1 in [0, 0.5); null none; status argument, mesh; since 0.1] */
+ * [unit tolerance 1 in [0, 0.5); null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_all_interfaces(delam_mesh *mesh, double tolerance, int64_t *out_count);
 /* An interface of two bodies, a = body_a and b = body_b, whose meshes do not match; *out_interface receives its index.
  * The faces of b that lie on faces of a, within the distance `gap` (L; 0 gives 1e-6 of the shortest edge) and looking
@@ -231,7 +234,7 @@ DELAM_API int32_t delam_mesh_add_all_interfaces(delam_mesh *mesh, double toleran
  * of a node from its projection. A face of b must lie on a as a whole or not at all (a may reach beyond b, faces of b
  * may lie side by side with a's rim): DELAM_ERROR_MESH with the place where one lies on a in part only, where no face
  * of b lies on a, or when the two are joined.
- * [unit gap L >= 0; null none; status argument, mesh; since 0.1] */
+ * [unit gap L >= 0; null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_projected_interface(delam_mesh *mesh, int32_t body_a, int32_t body_b, double gap,
                                                      int64_t *out_interface);
 /* A rigid obstacle (loading nose, support, symmetry plane) that nodes of one body may touch; it moves as one
@@ -244,7 +247,7 @@ DELAM_API int32_t delam_mesh_add_projected_interface(delam_mesh *mesh, int32_t b
  *   weights  [count] > 0, length (2D) or area (3D) that a pair stands for; NULL: the nodal weights
  *            (delam_mesh_add_interface) of the body's boundary faces of which all nodes are listed and face the
  *            obstacle; a node on none is refused
- * [unit normals 1 finite (not 0), weights L or L2 > 0; null weights; status argument, mesh; since 0.1] */
+ * [unit normals 1 finite (not 0), weights L or L2 > 0; null weights; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_obstacle(delam_mesh *mesh, int64_t count, const int64_t *nodes, const double *normals,
                                           const double *weights, int64_t control_node, int32_t index_base,
                                           int64_t *out_interface);
@@ -252,7 +255,7 @@ DELAM_API int32_t delam_mesh_add_obstacle(delam_mesh *mesh, int64_t count, const
  * that belong to no body yet, each once; body: a label >= 0 that no cell has. Its interfaces are made of pairs
  * (delam_mesh_add_pairs, delam_mesh_add_obstacle with weights). Of where its nodes lie only rigid motions and places in
  * the output depend.
- * [null none; status argument, mesh; since 0.1] */
+ * [null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_host_body(delam_mesh *mesh, int32_t body, int64_t count, const int64_t *nodes,
                                            int32_t index_base);
 /* An interface of pairs that the host knows, of bodies with or without cells, in the order given; *out_interface its
@@ -264,7 +267,7 @@ DELAM_API int32_t delam_mesh_add_host_body(delam_mesh *mesh, int32_t body, int64
  *             in 2D; 3, 4, 6 or 8 in space, seen from b counter-clockwise; triangles among quadrilaterals repeat their
  *             last corner. face_count 0: none. Fronts, the gradient term and the neighbours that an energetic search
  *             advances to are known from faces alone
- * [unit normals 1 finite (not 0), weights L or L2 > 0; null none; status argument, mesh; since 0.1] */
+ * [unit normals 1 finite (not 0), weights L or L2 > 0; null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_pairs(delam_mesh *mesh, int32_t body_a, int32_t body_b, int64_t count,
                                        const int64_t *nodes_a, const int64_t *nodes_b, const double *normals,
                                        const double *weights, int64_t face_count, int32_t nodes_per_face,
@@ -328,7 +331,7 @@ DELAM_API int32_t delam_mesh_find_nodes(const delam_mesh *mesh, int32_t body, co
  * in L (2D) or L2 (3D), with a sum > 0. Those of linear cells are all > 0; quadratic cells also have negative ones (a
  * corner of an 8-node face: -1/12 of its area). DELAM_ERROR_MESH: two cells lie on the same side of a face they share.
  * [unit lower L finite, upper L >= lower, direction 1 finite (not 0), weights L or L2 sum > 0; null none; status
- * argument, mesh; source none; since 0.1] */
+ * cancelled, argument, mesh; source none; since 0.1] */
 DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, const double *lower, const double *upper,
                                         const double *direction, int64_t capacity, int64_t *nodes, double *weights,
                                         int64_t *count);
@@ -461,7 +464,7 @@ DELAM_API int32_t delam_problem_set_orthotropic(delam_problem *problem, int32_t 
  * and 2 in space, also in 2D (z is out of the plane there), any lengths > 0, not parallel; 2 is made normal to 1, 3 = 1
  * x 2. cells: [count] mesh cells, of `body` (-1: of any); NULL with count 1: all cells of the body. Later calls
  * overwrite earlier ones. Cells of equal axes share them.
- * [unit axes 1 finite (not parallel); null cells; status argument; since 0.1] */
+ * [unit axes 1 finite (not parallel); null cells; status cancelled, argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_orientation(delam_problem *problem, int32_t body, int64_t count,
                                                 const int64_t *cells, const double *axes, int32_t index_base);
 /* How the cells of a body (-1: of all) are computed, formulation: "standard" (default), or "incompatible" for bodies of
@@ -526,7 +529,8 @@ DELAM_API int32_t delam_problem_add_pattern(delam_problem *problem, const char *
 /* Prescribes, for each of nodes [count], direction . u = sum over patterns of coefficients[i][p] * factor_p(t).
  * direction: [dimension], any length > 0 (normalised). patterns: [pattern_count]; coefficients: [count][pattern_count],
  * L per factor. pattern_count 0: held at zero.
- * [unit direction 1 finite (not 0), coefficients L finite; null none; status argument, problem; since 0.1] */
+ * [unit direction 1 finite (not 0), coefficients L finite; null none; status cancelled, argument, problem;
+ * since 0.1] */
 DELAM_API int32_t delam_problem_prescribe_nodes(delam_problem *problem, int64_t count, const int64_t *nodes,
                                                 const double *direction, int64_t pattern_count, const int64_t *patterns,
                                                 const double *coefficients, int32_t index_base);
@@ -534,8 +538,8 @@ DELAM_API int32_t delam_problem_prescribe_nodes(delam_problem *problem, int64_t 
  * * factor_p(t). With the weights of delam_mesh_find_patch: a support or load spread as a uniform traction over a patch
  * of fixed size, which has a limit as the mesh is refined (a point support has none). nodes: [count], each once;
  * weights: [count], sum > 0; direction: [dimension], any length > 0; patterns, coefficients: [pattern_count].
- * [unit weights 1 sum > 0, direction 1 finite (not 0), coefficients L finite; null none; status argument, problem;
- * since 0.1] */
+ * [unit weights 1 sum > 0, direction 1 finite (not 0), coefficients L finite; null none; status cancelled, argument,
+ * problem; since 0.1] */
 DELAM_API int32_t delam_problem_prescribe_mean(delam_problem *problem, int64_t count, const int64_t *nodes,
                                                const double *weights, const double *direction, int64_t pattern_count,
                                                const int64_t *patterns, const double *coefficients, int32_t index_base);
@@ -547,7 +551,8 @@ DELAM_API int32_t delam_problem_prescribe_mean(delam_problem *problem, int64_t c
  * unknown, however many there are; those of longer ones stay in the dense stage of the condensed operator. Among rigid
  * lines that turn: write u_i = u_0 + w r_i with equations of three nodes. delam_problem_check refuses, by number, an
  * equation that others imply or contradict.
- * [unit coefficients 1 finite (not all 0), prescribed L finite; null none; status argument, problem; since 0.1] */
+ * [unit coefficients 1 finite (not all 0), prescribed L finite; null none; status cancelled, argument, problem;
+ * since 0.1] */
 DELAM_API int32_t delam_problem_add_equation(delam_problem *problem, int64_t count, const int64_t *nodes,
                                              const double *coefficients, int64_t pattern_count, const int64_t *patterns,
                                              const double *prescribed, int32_t index_base);
@@ -564,12 +569,13 @@ DELAM_API int32_t delam_problem_add_equation(delam_problem *problem, int64_t cou
  * force on control node k: its reaction where it is prescribed. Of the cell itself one node must be held against
  * translation, and as long as the average rotation is not prescribed, control nodes against it: d(d-1)/2 components,
  * e.g. y of control node 0 in 2D.
- * [unit periods L finite (independent), tolerance 1 in [0, 0.5); null none; status argument, mesh; since 0.1] */
+ * [unit periods L finite (independent), tolerance 1 in [0, 0.5); null none; status cancelled, argument, mesh;
+ * since 0.1] */
 DELAM_API int32_t delam_problem_add_periodic(delam_problem *problem, int64_t period_count, const double *periods,
                                              const int64_t *control_nodes, double tolerance, int32_t index_base);
 /* Dead forces on nodes [count]: forces [count][dimension] times the factor of the pattern. A pattern drives either
  * forces or prescribed displacements.
- * [unit forces F finite; null none; status argument, problem; since 0.1] */
+ * [unit forces F finite; null none; status cancelled, argument, problem; since 0.1] */
 DELAM_API int32_t delam_problem_add_forces(delam_problem *problem, int64_t pattern, int64_t count, const int64_t *nodes,
                                            const double *forces, int32_t index_base);
 
@@ -598,10 +604,10 @@ DELAM_API int32_t delam_option_info(int64_t index, const char **key, const char 
 
 /* Everything there and consistent: materials, laws, supports against every rigid motion of what hangs together.
  * Cells that lie on the same side of a face that they share: DELAM_ERROR_MESH.
- * [status mesh, problem; since 0.1] */
+ * [status cancelled, mesh, problem; since 0.1] */
 DELAM_API int32_t delam_problem_check(delam_problem *problem);
 /* Hash of everything that determines the result, as 16 hexadecimal digits and a terminating zero: out[17].
- * [null none; status argument; since 0.1] */
+ * [null none; status cancelled, argument; since 0.1] */
 DELAM_API int32_t delam_problem_hash(const delam_problem *problem, char *out);
 /* *primal DOFs (nodes times dimension) and *dual DOFs (pairs times dimension, notch included).
  * [null primal, dual; status usual; since 0.1] */
@@ -614,16 +620,16 @@ DELAM_API int32_t delam_problem_dofs(const delam_problem *problem, int64_t *prim
  * stress E, of an orthotropic body its smallest Young's modulus, h: volume of the body over area of the interface; of
  * the two bodies the one with the shorter zone. An estimate: a factor of 2 either way. length 0: bonded, a law
  * without softening, or bodies of the host's alone.
- * [unit length L, spacing L; null length, spacing; status argument, problem; source Q. Yang, B. Cox, Int. J. Fract. 133
- * (2005); since 0.1] */
+ * [unit length L, spacing L; null length, spacing; status cancelled, argument, problem; source Q. Yang, B. Cox, Int. J.
+ * Fract. 133 (2005); since 0.1] */
 DELAM_API int32_t delam_problem_process_zone(const delam_problem *problem, int64_t interface_index, double *length,
                                              double *spacing);
 
 /* What the library assembled, for hosts that check or reuse it. Stiffness of a body, both triangles, CSR over the
  * body's DOFs: local node i of the body is the i-th ascending mesh node of that body, its DOFs dimension*i + component.
  * Call with NULL arrays for *rows and *entries, then with row_starts [rows+1], columns [entries] and values [entries].
- * [unit values F/L; null rows, entries, row_starts, columns, values; status argument, problem; source T. Hughes, The
- * Finite Element Method (1987), chapters 3 and 4; since 0.1] */
+ * [unit values F/L; null rows, entries, row_starts, columns, values; status cancelled, argument, problem; source T.
+ * Hughes, The Finite Element Method (1987), chapters 3 and 4; since 0.1] */
 DELAM_API int32_t delam_problem_body_matrix(const delam_problem *problem, int32_t body, int64_t *rows, int64_t *entries,
                                             int64_t *row_starts, int64_t *columns, double *values);
 /* Constraints (prescribed nodes, means, equations, periods in the order they were added), one a row, CSR over mesh DOFs
@@ -631,17 +637,17 @@ DELAM_API int32_t delam_problem_body_matrix(const delam_problem *problem, int32_
  * coefficients [rows][pattern_count]. row_starts [rows+1], columns and values [entries]; NULL arrays ask for the sizes
  * *rows, *entries and *pattern_count.
  * [unit values 1, coefficients L; null rows, entries, pattern_count, row_starts, columns, values, coefficients; status
- * usual; source none; since 0.1] */
+ * cancelled; source none; since 0.1] */
 DELAM_API int32_t delam_problem_constraints(const delam_problem *problem, int64_t *rows, int64_t *entries,
                                             int64_t *pattern_count, int64_t *row_starts, int64_t *columns,
                                             double *values, double *coefficients);
 /* Nodal forces of a pattern at factor 1, forces: [primal DOFs]: dead forces, or int B^T C e* of its eigenstrains e*.
- * [unit forces F; null none; status argument, problem; source none; since 0.1] */
+ * [unit forces F; null none; status cancelled, argument, problem; source none; since 0.1] */
 DELAM_API int32_t delam_problem_forces(const delam_problem *problem, int64_t pattern, int64_t capacity, double *forces);
 /* matrix: [pattern_count][pattern_count], W_pq = int e*_p : C : e*_q of the eigenstrains, 0 for other patterns. With it
  * the energy of the bodies is 1/2 u.K u - sum factor_p f_p.u + 1/2 sum factor_p W_pq factor_q, f_p as
  * delam_problem_forces gives it. capacity: pattern_count^2.
- * [unit matrix F L; null none; status argument, problem; source none; since 0.1] */
+ * [unit matrix F L; null none; status cancelled, argument, problem; source none; since 0.1] */
 DELAM_API int32_t delam_problem_eigenstrain_energy(const delam_problem *problem, int64_t capacity, double *matrix);
 /* Factors of all patterns at a time, factors: [pattern_count].
  * [unit time t finite, factors 1; null none; status argument; source none; since 0.1] */
@@ -770,8 +776,8 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   reaction:NAME          F L: its conjugate, positive when the device does work; of a force pattern minus the
  *                          conjugate displacement, of an eigenstrain minus the integral of stress times strain
  * delam_solver_value_count counts all of them.
- * [unit value of key; null none; status argument, problem; source of what is computed: at delam_solver_advance and
- * delam_solver_front; since 0.1] */
+ * [unit value of key; null none; status cancelled, argument, problem; source of what is computed: at
+ * delam_solver_advance and delam_solver_front; since 0.1] */
 DELAM_API int32_t delam_solver_value(delam_solver *solver, const char *key, double *value);
 /* Number of values into *count.
  * [null none; status argument; since 0.1] */
@@ -814,7 +820,7 @@ DELAM_API int32_t delam_solver_recorded(const delam_solver *solver, const char *
 DELAM_API int32_t delam_solver_field_shape(const delam_solver *solver, const char *key, int64_t part, int64_t *rows,
                                            int64_t *columns);
 /* The numbers of a field, values: [rows][columns], of the key and part as delam_solver_field_shape takes them.
- * [unit values of key; null none; status argument; source none; since 0.1] */
+ * [unit values of key; null none; status cancelled, argument; source none; since 0.1] */
 DELAM_API int32_t delam_solver_field(delam_solver *solver, const char *key, int64_t part, int64_t capacity,
                                      double *values);
 
@@ -822,7 +828,7 @@ DELAM_API int32_t delam_solver_field(delam_solver *solver, const char *key, int6
  * of; exact. strain, stress: [6] in the order xx, yy, zz, xy, yz, zx, shear strains doubled (prescribed strains are
  * part of them), stress in F/L2; *volume in L2 or L3. In 2D the rest follows from the plane assumption. What cracks
  * open between bodies is not in it. Bodies without cells have no volume. Recovers the displacements.
- * [unit volume L2 or L3, strain 1, stress F/L2; null volume, strain, stress; status argument; source none;
+ * [unit volume L2 or L3, strain 1, stress F/L2; null volume, strain, stress; status cancelled, argument; source none;
  * since 0.1] */
 DELAM_API int32_t delam_solver_average(const delam_solver *solver, int32_t body, double *volume, double *strain,
                                        double *stress);

@@ -4,21 +4,45 @@
 #include <thread>
 
 #include "base/error.hpp"
+#include "base/glance.hpp"
 
 namespace delam {
 
+namespace {
+
+[[noreturn]] void stop(const char* stage) { fail(DELAM_CANCELLED, "cancelled by the host during stage '", stage, "'"); }
+
+}  // namespace
+
 void Monitor::progress(const char* stage, std::int64_t done, std::int64_t total) {
-    bool stop = progress_callback != nullptr && progress_callback(stage, done, total, progress_user) != 0;
+    bool wanted = progress_callback != nullptr && progress_callback(stage, done, total, progress_user) != 0;
     // After the callback, which may ask for it too.
-    if (cancelled_.exchange(false, std::memory_order_relaxed)) stop = true;
-    if (stop) fail(DELAM_CANCELLED, "cancelled by the host during stage '", stage, "'");
+    if (asked_to_stop()) wanted = true;
+    if (wanted) stop(stage);
 }
 
 Look Monitor::look_from(const char* stage, std::int64_t done, std::int64_t total) {
     return [this, stage, done, total, host = std::this_thread::get_id()] {
         if (std::this_thread::get_id() == host) return progress(stage, done, total);
-        if (cancelled_.exchange(false, std::memory_order_relaxed)) fail(DELAM_CANCELLED, "cancelled by the host during stage '", stage, "'");
+        if (asked_to_stop()) stop(stage);
     };
+}
+
+constinit thread_local Listening* listening = nullptr;
+
+Listening::Listening(Monitor& monitor, Waiting waiting)
+    : monitor_(monitor), waiting_(waiting), before_(monitor.requests_.load(std::memory_order_relaxed)) {
+    listening = this;
+}
+
+Listening::~Listening() { listening = nullptr; }
+
+void Listening::look(const char* stage) {
+    left_ = interval;
+    if (waiting_ == Waiting::stops) return monitor_.progress(stage, 0, 0);
+    const bool told = monitor_.progress_callback != nullptr && monitor_.progress_callback(stage, 0, 0, monitor_.progress_user) != 0;
+    const bool asked = monitor_.requests_.load(std::memory_order_relaxed) != before_ && monitor_.asked_to_stop();
+    if (told || asked) stop(stage);
 }
 
 }  // namespace delam

@@ -31,10 +31,19 @@ public:
     void progress(const char* stage, std::int64_t done, std::int64_t total);
     // The same where other threads of the library may come by: the callback is for the host's thread alone.
     Look look_from(const char* stage, std::int64_t done, std::int64_t total);
-    void cancel() noexcept { cancelled_.store(true, std::memory_order_relaxed); }
+    void cancel() noexcept { requests_.fetch_add(1, std::memory_order_relaxed); }
 
 private:
-    std::atomic<bool> cancelled_{false};
+    friend class Listening;
+    // Requests are counted, so that one that waited before a call can be told from one that comes while it runs. The first check that
+    // sees some answers them all; one of several threads that see them.
+    bool asked_to_stop() {
+        const std::uint32_t now = requests_.load(std::memory_order_relaxed);
+        std::uint32_t answered = answered_.load(std::memory_order_relaxed);
+        return answered != now && answered_.compare_exchange_strong(answered, now, std::memory_order_relaxed);
+    }
+    std::atomic<std::uint32_t> requests_{0}, answered_{0};
+    static_assert(std::atomic<std::uint32_t>::is_always_lock_free, "cancel runs in signal handlers");
 };
 
 }  // namespace delam

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/glance.hpp"
 #include "body/cell_elasticity.hpp"
 #include "body/element.hpp"
 #include "delam/delam.h"
@@ -40,6 +41,7 @@ LocalCells local_cells(const Mesh& mesh, std::span<const std::int64_t> cells, st
     if (!cells.empty()) local.node.reserve(cells.size() * mesh.cell(cells.front()).size());
     std::array<std::size_t, most_cell_nodes> hint{};
     for (const std::int64_t c : cells) {
+        glance("assemble");
         const auto cell = mesh.cell(c);
         for (std::size_t a = 0; a < cell.size(); ++a) {
             std::size_t place = hint[a] + 1;
@@ -94,6 +96,7 @@ NodeGraph node_graph(const LocalCells& cells, std::size_t nodes) {
     graph.start.reserve(nodes + 1);
     graph.start.push_back(0);
     for (std::size_t i = 0; i < nodes; ++i) {
+        glance("assemble");
         for (std::size_t e = begin[i]; e < begin[i + 1]; ++e) {
             const auto c = at(corner[e].cell);
             for (std::size_t k = cells.start[c]; k < cells.start[c + 1]; ++k) {
@@ -113,6 +116,7 @@ NodeGraph node_graph(const LocalCells& cells, std::size_t nodes) {
 
     graph.place.resize(places);
     for (std::size_t i = 0; i < nodes; ++i) {
+        glance("assemble");
         const std::size_t first = graph.start[i];
         for (std::size_t k = first; k < graph.start[i + 1]; ++k)
             mark[at(graph.neighbour[k])] = static_cast<std::int32_t>(k - first);
@@ -138,6 +142,7 @@ SparseMatrix empty_matrix(const NodeGraph& graph, std::size_t dim) {
     std::size_t entry = 0;
     k.start[0] = 0;
     for (std::size_t i = 0; i < nodes; ++i) {
+        glance("assemble");
         for (std::size_t row = 0; row < dim; ++row) {
             for (std::size_t e = graph.start[i]; e < graph.start[i + 1]; ++e)
                 for (std::size_t j = 0; j < dim; ++j)
@@ -217,6 +222,7 @@ std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> m
     stress.reserve(at(mesh.cell_count()) * (dim == 2 ? 4 : 6));
     std::vector<double> u;
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
+        glance("recover");
         u.clear();
         for (const std::int64_t n : mesh.cell(c))
             for (std::size_t i = 0; i < dim; ++i) u.push_back(displacement[at(n) * dim + i]);

@@ -17,6 +17,7 @@
 
 #include "base/error.hpp"
 #include "base/float_environment.hpp"
+#include "base/glance.hpp"
 #include "base/monitor.hpp"
 #include "body/model.hpp"
 #include "delam/delam.h"
@@ -102,6 +103,7 @@ std::int32_t guard(const H* self, Body&& body) noexcept {
     if (!alive(self)) return DELAM_ERROR_HANDLE;
     const std::shared_ptr<Context> context = self->context;  // outlives a handle that a callback destroys
     const DefaultFloats floats;
+    const Silence silence;
     try {
         if constexpr (std::is_void_v<decltype(body())>) {
             body();
@@ -120,6 +122,23 @@ std::int32_t guard(const H* self, Body&& body) noexcept {
     } catch (...) {
         return report(*context, DELAM_ERROR_INTERNAL, "unknown exception");
     }
+}
+
+// As guard, for calls that list `cancelled`. Those of the march are stopped by a request that was there before, too; those that build or
+// read leave it to them.
+template <class H, class Body>
+std::int32_t guard_march(const H* self, Body&& body) noexcept {
+    return guard(self, [&] {
+        const Listening call(self->context->monitor, Listening::Waiting::stops);
+        return body();
+    });
+}
+template <class H, class Body>
+std::int32_t guard_long(const H* self, Body&& body) noexcept {
+    return guard(self, [&] {
+        const Listening call(self->context->monitor, Listening::Waiting::stays);
+        return body();
+    });
 }
 
 template <class H>

@@ -76,6 +76,7 @@ public:
     Constraint constraint(std::vector<double> prescribed) const {
         Constraint c;
         for (const auto& [dof, coefficient] : sum_) {
+            glance("loads");
             if (coefficient == 0.0) continue;
             require_no_overflow(coefficient, "a coefficient of node ", dof / mesh_.dimension());
             c.dof.push_back(dof);
@@ -135,6 +136,7 @@ std::unordered_map<std::int64_t, std::vector<Direction>> held_directions(const P
     const std::int64_t dimension = problem.mesh->dimension();
     std::unordered_map<std::int64_t, std::vector<Direction>> held;
     for (const Constraint& constraint : problem.constraints) {
+        glance("loads");
         if (constraint.dof.front() / dimension != constraint.dof.back() / dimension) continue;
         Direction direction{};
         double length = 0.0;
@@ -197,7 +199,7 @@ int32_t delam_problem_add_pattern(delam_problem* problem, const char* name, int6
 int32_t delam_problem_prescribe_nodes(delam_problem* problem, int64_t count, const int64_t* nodes,
                                       const double* direction, int64_t pattern_count, const int64_t* patterns,
                                       const double* coefficients, int32_t index_base) {
-    return guard(problem, [&] {
+    return guard_long(problem, [&] {
         Problem& core = *problem->core;
         const std::int64_t dimension = core.mesh->dimension();
         require_base(index_base);
@@ -210,6 +212,7 @@ int32_t delam_problem_prescribe_nodes(delam_problem* problem, int64_t count, con
         auto held = held_directions(core);
         std::vector<Constraint> added;
         for (std::int64_t i = 0; i < count; ++i) {
+            glance("loads");
             const std::int64_t node = require_node(*core.mesh, nodes[i], index_base, text("nodes[", i, "]"));
             std::vector<Direction>& others = held[node];
             if (depends(others, unit)) {
@@ -231,7 +234,7 @@ int32_t delam_problem_prescribe_nodes(delam_problem* problem, int64_t count, con
 int32_t delam_problem_prescribe_mean(delam_problem* problem, int64_t count, const int64_t* nodes, const double* weights,
                                      const double* direction, int64_t pattern_count, const int64_t* patterns,
                                      const double* coefficients, int32_t index_base) {
-    return guard(problem, [&] {
+    return guard_long(problem, [&] {
         Problem& core = *problem->core;
         const std::int64_t dimension = core.mesh->dimension();
         require_base(index_base);
@@ -246,6 +249,7 @@ int32_t delam_problem_prescribe_mean(delam_problem* problem, int64_t count, cons
         double sum = 0.0;
         std::vector<std::pair<std::int64_t, double>> members;
         for (std::int64_t i = 0; i < count; ++i) {
+            glance("loads");
             members.emplace_back(require_node(*core.mesh, nodes[i], index_base, text("nodes[", i, "]")), weights[i]);
             sum += weights[i];
         }
@@ -258,6 +262,7 @@ int32_t delam_problem_prescribe_mean(delam_problem* problem, int64_t count, cons
             if (i > 0 && members[i].first == members[i - 1].first) {
                 fail(DELAM_ERROR_ARGUMENT, "nodes: node ", members[i].first + index_base, " is listed twice");
             }
+            glance("loads");
             for (std::int64_t d = 0; d < dimension; ++d) terms.add(members[i].first, d, members[i].second / sum * unit[size(d)]);
         }
         core.constraints.push_back(terms.constraint(prescribed(core, list, coefficients)));
@@ -268,7 +273,7 @@ int32_t delam_problem_prescribe_mean(delam_problem* problem, int64_t count, cons
 int32_t delam_problem_add_equation(delam_problem* problem, int64_t count, const int64_t* nodes, const double* coefficients,
                                    int64_t pattern_count, const int64_t* patterns, const double* prescribed_values,
                                    int32_t index_base) {
-    return guard(problem, [&] {
+    return guard_long(problem, [&] {
         Problem& core = *problem->core;
         const std::int64_t dimension = core.mesh->dimension();
         require_base(index_base);
@@ -282,6 +287,7 @@ int32_t delam_problem_add_equation(delam_problem* problem, int64_t count, const 
         Terms terms(*core.mesh);
         double largest = 0.0;
         for (std::int64_t i = 0; i < count; ++i) {
+            glance("loads");
             const std::int64_t node = require_node(*core.mesh, nodes[i], index_base, text("nodes[", i, "]"));
             for (std::int64_t d = 0; d < dimension; ++d) {
                 terms.add(node, d, coefficients[i * dimension + d]);
@@ -299,7 +305,7 @@ int32_t delam_problem_add_equation(delam_problem* problem, int64_t count, const 
 
 int32_t delam_problem_add_periodic(delam_problem* problem, int64_t period_count, const double* periods,
                                    const int64_t* control_nodes, double tolerance, int32_t index_base) {
-    return guard(problem, [&] {
+    return guard_long(problem, [&] {
         Problem& core = *problem->core;
         const std::int64_t dimension = core.mesh->dimension();
         require_base(index_base);
@@ -337,7 +343,7 @@ int32_t delam_problem_add_periodic(delam_problem* problem, int64_t period_count,
 
 int32_t delam_problem_add_forces(delam_problem* problem, int64_t pattern, int64_t count, const int64_t* nodes,
                                  const double* forces, int32_t index_base) {
-    return guard(problem, [&] {
+    return guard_long(problem, [&] {
         Problem& core = *problem->core;
         const std::int64_t dimension = core.mesh->dimension();
         require_base(index_base);
@@ -349,6 +355,7 @@ int32_t delam_problem_add_forces(delam_problem* problem, int64_t pattern, int64_
         const auto list = require_patterns(core, 1, &pattern, 0, Pattern::Drives::force);
         std::vector<NodalForce> added;
         for (std::int64_t i = 0; i < count; ++i) {
+            glance("loads");
             const std::int64_t node = require_node(*core.mesh, nodes[i], index_base, text("nodes[", i, "]"));
             Terms terms(*core.mesh);
             for (std::int64_t d = 0; d < dimension; ++d) terms.add(node, d, forces[i * dimension + d]);

@@ -91,7 +91,7 @@ int32_t delam_problem_set_orthotropic(delam_problem* problem, int32_t body, cons
 
 int32_t delam_problem_set_orientation(delam_problem* problem, int32_t body, int64_t count, const int64_t* cells,
                                       const double* axes, int32_t index_base) {
-    return guard(problem, [&] {
+    return guard_long(problem, [&] {
         Problem& core = *problem->core;
         const Mesh& mesh = *core.mesh;
         const std::int32_t index = require_body(core, body);
@@ -106,6 +106,7 @@ int32_t delam_problem_set_orientation(delam_problem* problem, int32_t body, int6
         std::vector<std::int64_t> list;
         std::vector<Axes> chosen(static_cast<std::size_t>(count));
         for (std::int64_t i = 0; i < count; ++i) {
+            glance("orientation");
             const double* own = axes + 6 * i;
             if (!orthonormal_axes(std::span<const double, 3>(own, 3), std::span<const double, 3>(own + 3, 3),
                                   chosen[static_cast<std::size_t>(i)]))
@@ -152,7 +153,7 @@ int32_t delam_problem_set_formulation(delam_problem* problem, int32_t body, cons
 int32_t delam_problem_set_stiffness(delam_problem* problem, int64_t count, const int64_t* nodes, const int64_t* dofs,
                                     const int64_t* row_starts, const int64_t* columns, const double* values,
                                     int64_t kernel_count, const double* kernel, int32_t index_base) {
-    return guard(problem, [&] {
+    return guard_march(problem, [&] {
         Problem& core = *problem->core;
         require_count(count, "count", 1);
         require_base(index_base);
@@ -273,11 +274,11 @@ int32_t delam_option_info(int64_t index, const char** key, const char** type, co
 }
 
 int32_t delam_problem_check(delam_problem* problem) {
-    return guard(problem, [&] { validate(*problem->core); });
+    return guard_long(problem, [&] { validate(*problem->core); });
 }
 
 int32_t delam_problem_hash(const delam_problem* problem, char* out) {
-    return guard(problem, [&] {
+    return guard_long(problem, [&] {
         require_pointer(out, "out");
         std::snprintf(out, 17, "%016llx", static_cast<unsigned long long>(hash(*problem->core)));
     });

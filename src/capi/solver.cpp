@@ -47,7 +47,7 @@ extern "C" {
 
 int32_t delam_solver_create(const delam_problem* problem, double time, delam_solver** out) {
     if (out != nullptr) *out = nullptr;
-    return guard(problem, [&] {
+    return guard_march(problem, [&] {
         require_pointer(out, "out");
         require_finite(&time, 1, "time");
         auto handle = std::make_unique<delam_solver>();
@@ -64,7 +64,7 @@ int32_t delam_solver_create(const delam_problem* problem, double time, delam_sol
 void delam_solver_destroy(delam_solver** solver) { destroy(solver); }
 
 int32_t delam_solver_advance(delam_solver* solver, double time) {
-    return guard(solver, [&] { return report(*solver->context, solver->core->advance(time)); });
+    return guard_march(solver, [&] { return report(*solver->context, solver->core->advance(time)); });
 }
 
 int32_t delam_solver_commit(delam_solver* solver) {
@@ -92,7 +92,7 @@ int32_t delam_solver_set_history(delam_solver* solver, int64_t pattern, int64_t 
 }
 
 int32_t delam_solver_equilibrate(delam_solver* solver, double time, const double* adhesion) {
-    return guard(solver, [&] {
+    return guard_march(solver, [&] {
         std::span<const double> held;
         if (adhesion != nullptr) held = {adhesion, solver->core->committed().adhesion.size()};
         return report(*solver->context, solver->core->equilibrate(time, held));
@@ -100,7 +100,7 @@ int32_t delam_solver_equilibrate(delam_solver* solver, double time, const double
 }
 
 int32_t delam_solver_value(delam_solver* solver, const char* key, double* out) {
-    return guard(solver, [&] {
+    return guard_long(solver, [&] {
         require_pointer(key, "key");
         require_pointer(out, "value");
         *out = value(*solver->core, key);
@@ -163,7 +163,7 @@ int32_t delam_solver_field_shape(const delam_solver* solver, const char* key, in
 }
 
 int32_t delam_solver_field(delam_solver* solver, const char* key, int64_t part, int64_t capacity, double* values) {
-    return guard(solver, [&] {
+    return guard_long(solver, [&] {
         require_pointer(key, "key");
         const FieldShape shape = field_shape(*solver->core, key, part);
         require_capacity(capacity, shape.rows * shape.columns, "values");
@@ -210,7 +210,7 @@ int32_t delam_solver_front(const delam_solver* solver, int64_t interface_index, 
 }
 
 int32_t delam_solver_average(const delam_solver* solver, int32_t body, double* volume, double* strain, double* stress) {
-    return guard(solver, [&] {
+    return guard_long(solver, [&] {
         const Mesh& mesh = *solver->core->problem().mesh;
         const std::int32_t index = body < 0 ? -1 : mesh.body_of_label(body);
         if (body != -1 && index < 0) fail(DELAM_ERROR_ARGUMENT, "body ", body, ": there is no body of this label");
@@ -223,7 +223,7 @@ int32_t delam_solver_average(const delam_solver* solver, int32_t body, double* v
 }
 
 int32_t delam_solver_tangent(delam_solver* solver, int64_t capacity, double* matrix) {
-    return guard(solver, [&] {
+    return guard_march(solver, [&] {
         const auto patterns = static_cast<int64_t>(solver->core->problem().patterns.size());
         require_capacity(capacity, patterns * patterns, "matrix");
         copy_out(solver->core->tangent(), capacity, matrix, "matrix");
@@ -231,7 +231,7 @@ int32_t delam_solver_tangent(delam_solver* solver, int64_t capacity, double* mat
 }
 
 int32_t delam_solver_step_tangent(delam_solver* solver, int64_t capacity, double* matrix) {
-    return guard(solver, [&] {
+    return guard_march(solver, [&] {
         const auto patterns = static_cast<int64_t>(solver->core->problem().patterns.size());
         require_capacity(capacity, patterns * patterns, "matrix");
         copy_out(solver->core->step_tangent(), capacity, matrix, "matrix");
@@ -364,7 +364,7 @@ int32_t delam_solver_save(const delam_solver* solver, int64_t capacity, uint8_t*
 }
 
 int32_t delam_solver_load(delam_solver* solver, int64_t size, const uint8_t* bytes) {
-    return guard(solver, [&] {
+    return guard_march(solver, [&] {
         require_count(size, "size");
         require_array(bytes, size, "bytes");
         load(*solver->core, {bytes, static_cast<std::size_t>(size)});
@@ -379,7 +379,7 @@ int32_t delam_solver_save_file(const delam_solver* solver, const char* path) {
 }
 
 int32_t delam_solver_load_file(delam_solver* solver, const char* path) {
-    return guard(solver, [&] {
+    return guard_march(solver, [&] {
         require_pointer(path, "path");
         load(*solver->core, read_file(path));
     });

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/glance.hpp"
 #include "mesh/faces.hpp"
 
 namespace delam {
@@ -34,6 +35,7 @@ BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxe
 }
 
 void BoxTree::grow(std::int64_t begin, std::int64_t end) {
+    glance("mesh", 1 + (end - begin) / 16);
     Box hull = boxes_[at(order_[at(begin)])];
     for (std::int64_t k = begin; k < end; ++k) {
         const Box& box = boxes_[at(order_[at(k)])];

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "base/glance.hpp"
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
 #include "mesh/mesh.hpp"
@@ -42,6 +43,7 @@ void Mesh::add_conforming_cells(CellType type, std::span<const std::int64_t> con
     try {
         for (std::size_t i = 0; i < own.size(); ++i) {
             const std::size_t c = i / per_cell;
+            if (i % per_cell == 0) glance("mesh");
             const std::int32_t label = c < labels.size() ? labels[c] : 0;
             // What else is wrong is left as it is, for add_cells to refuse.
             if (label < 0) continue;

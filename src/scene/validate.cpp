@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "base/glance.hpp"
 #include "delam/delam.h"
 #include "linalg/sparse_elimination.hpp"
 #include "scene/problem.hpp"
@@ -85,6 +86,7 @@ void check_constraints(const Problem& problem) {
     SparseElimination known;
     for (const std::size_t i : order) {
         const Constraint& c = problem.constraints[i];
+        glance("check", 1 + static_cast<std::int64_t>(c.dof.size()));
         SparseElimination::Row row{{}, c.prescribed};
         row.right.resize(problem.patterns.size(), 0.0);
         for (std::size_t k = 0; k < c.dof.size(); ++k) row.terms[c.dof[k]] += c.coefficient[k];

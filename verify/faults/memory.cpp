@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // fault_memory [MOST [SCENE ...]]: the k-th allocation inside a call fails, for k = 1, 2, 3 ... up to MOST / 2, and
-// from there on farther and farther apart (MOST 0: every one). A status, an object that goes on as if nothing had been,
-// no leak.
+// from there on with steps of 2 k / MOST, rounded down (MOST 0: every one). Calls of which some were left out are
+// listed. A status, an object that goes on as if nothing had been, no leak.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -26,8 +26,8 @@ public:
         };
         faults::Transcript before = state(true);
         const faults::Transcript numbers = state(false);
-        long step = 1, blocks = 0;
-        for (long k = 1;; k += step) {
+        long step = 1, blocks = 0, tried = 0;
+        for (long k = 1;; k += step, ++tried) {
             const long live = faults::live_blocks();
             faults::fail_at(k);
             const std::int32_t status = call();
@@ -35,6 +35,9 @@ public:
             const std::string where = name + " with allocation " + std::to_string(k) + " failing";
             if (!starved) {
                 expect(status == DELAM_OK, name + ": " + delam_status_name(status) + ": " + message());
+                if (step > 1)
+                    std::printf("  %s: %ld of some %ld allocations failed, each of the first %ld, every %ld-th in the end\n", name.c_str(), tried,
+                                k - step / 2, most_ / 2, step);
                 return;
             }
             ++failed;

@@ -651,7 +651,7 @@ const Call calls[] = {
      [](const Asked& a) {
          return a.world.make(a.world.mesh, a.in, a.host, [&](delam_mesh** o) { return create_mesh(a.in, a.host, o); });
      }},
-    {"delam_mesh_create_layers", Subject::host, may::argument | may::mesh,
+    {"delam_mesh_create_layers", Subject::host, may::cancelled | may::argument | may::mesh,
      [](const Asked& a) {
          return a.world.make(a.world.mesh, a.in, a.host,
                              [&](delam_mesh** o) { return create_layers(a.in, a.host, o); });
@@ -700,38 +700,38 @@ const Call calls[] = {
          return DELAM_OK;
      }},
 
-    {"delam_mesh_add_cells", Subject::mesh, may::argument | may::mesh | may::state,
+    {"delam_mesh_add_cells", Subject::mesh, may::cancelled | may::argument | may::mesh | may::state,
      [](const Asked& a) { return add_cells(a.in, a.mesh, false); }},
-    {"delam_mesh_add_conforming_cells", Subject::mesh, may::argument | may::mesh | may::state,
+    {"delam_mesh_add_conforming_cells", Subject::mesh, may::cancelled | may::argument | may::mesh | may::state,
      [](const Asked& a) { return add_cells(a.in, a.mesh, true); }},
-    {"delam_mesh_add_interface", Subject::mesh, may::argument | may::mesh,
+    {"delam_mesh_add_interface", Subject::mesh, may::cancelled | may::argument | may::mesh,
      [](const Asked& a) {
          std::int64_t index = -1;
          return in_order{delam_mesh_add_interface, a.mesh, a.in.small_label(3), a.in.small_label(3),
                                          a.in.flag() ? 0.0 : a.in.fraction(), a.in.seldom() ? nullptr : &index}.status;
      }},
-    {"delam_mesh_add_all_interfaces", Subject::mesh, may::argument | may::mesh,
+    {"delam_mesh_add_all_interfaces", Subject::mesh, may::cancelled | may::argument | may::mesh,
      [](const Asked& a) {
          std::int64_t count = -1;
          return in_order{delam_mesh_add_all_interfaces, a.mesh, a.in.flag() ? 0.0 : a.in.fraction(),
                                               a.in.seldom() ? nullptr : &count}.status;
      }},
-    {"delam_mesh_add_projected_interface", Subject::mesh, may::argument | may::mesh,
+    {"delam_mesh_add_projected_interface", Subject::mesh, may::cancelled | may::argument | may::mesh,
      [](const Asked& a) {
          std::int64_t index = -1;
          return in_order{delam_mesh_add_projected_interface, a.mesh, a.in.small_label(3), a.in.small_label(3),
                                                    a.in.flag() ? 0.0 : a.in.real(),
                          a.in.seldom() ? nullptr : &index}.status;
      }},
-    {"delam_mesh_add_obstacle", Subject::mesh, may::argument | may::mesh,
+    {"delam_mesh_add_obstacle", Subject::mesh, may::cancelled | may::argument | may::mesh,
      [](const Asked& a) { return add_obstacle(a.in, a.mesh); }},
-    {"delam_mesh_add_host_body", Subject::mesh, may::argument | may::mesh,
+    {"delam_mesh_add_host_body", Subject::mesh, may::cancelled | may::argument | may::mesh,
      [](const Asked& a) { return add_host_body(a.in, a.mesh); }},
-    {"delam_mesh_add_pairs", Subject::mesh, may::argument | may::mesh,
+    {"delam_mesh_add_pairs", Subject::mesh, may::cancelled | may::argument | may::mesh,
      [](const Asked& a) { return add_pairs(a.in, a.mesh); }},
     {"delam_mesh_find_nodes", Subject::mesh, may::argument,
      [](const Asked& a) { return find_in(a.in, a.mesh, false); }},
-    {"delam_mesh_find_patch", Subject::mesh, may::argument | may::mesh,
+    {"delam_mesh_find_patch", Subject::mesh, may::cancelled | may::argument | may::mesh,
      [](const Asked& a) { return find_in(a.in, a.mesh, true); }},
     {"delam_mesh_nodes", Subject::mesh, may::argument,
      [](const Asked& a) {
@@ -776,7 +776,7 @@ const Call calls[] = {
      }},
     {"delam_problem_set_orthotropic", Subject::problem, may::argument,
      [](const Asked& a) { return set_orthotropic(a.in, a.problem); }},
-    {"delam_problem_set_orientation", Subject::problem, may::argument,
+    {"delam_problem_set_orientation", Subject::problem, may::cancelled | may::argument,
      [](const Asked& a) { return set_orientation(a.in, a.problem); }},
     {"delam_problem_set_formulation", Subject::problem, may::argument,
      [](const Asked& a) {
@@ -807,15 +807,15 @@ const Call calls[] = {
      }},
     {"delam_problem_add_pattern", Subject::problem, may::argument,
      [](const Asked& a) { return add_pattern(a.in, a.problem); }},
-    {"delam_problem_prescribe_nodes", Subject::problem, may::argument | may::problem,
+    {"delam_problem_prescribe_nodes", Subject::problem, may::cancelled | may::argument | may::problem,
      [](const Asked& a) { return add_load(a.in, a.problem, Load::nodes); }},
-    {"delam_problem_prescribe_mean", Subject::problem, may::argument | may::problem,
+    {"delam_problem_prescribe_mean", Subject::problem, may::cancelled | may::argument | may::problem,
      [](const Asked& a) { return add_load(a.in, a.problem, Load::mean); }},
-    {"delam_problem_add_equation", Subject::problem, may::argument | may::problem,
+    {"delam_problem_add_equation", Subject::problem, may::cancelled | may::argument | may::problem,
      [](const Asked& a) { return add_load(a.in, a.problem, Load::equation); }},
-    {"delam_problem_add_forces", Subject::problem, may::argument | may::problem,
+    {"delam_problem_add_forces", Subject::problem, may::cancelled | may::argument | may::problem,
      [](const Asked& a) { return add_load(a.in, a.problem, Load::forces); }},
-    {"delam_problem_add_periodic", Subject::problem, may::argument | may::mesh,
+    {"delam_problem_add_periodic", Subject::problem, may::cancelled | may::argument | may::mesh,
      [](const Asked& a) { return add_periodic(a.in, a.problem); }},
     {"delam_problem_add_eigenstrain", Subject::problem, may::argument | may::problem,
      [](const Asked& a) {
@@ -835,23 +835,23 @@ const Call calls[] = {
          const char* key = option_key(a.in);
          return delam_problem_set_text(a.problem, key, a.in.word(option_texts));
      }},
-    {"delam_problem_check", Subject::problem, may::mesh | may::problem,
+    {"delam_problem_check", Subject::problem, may::cancelled | may::mesh | may::problem,
      [](const Asked& a) { return watched(a.world, a.in, [&] { return delam_problem_check(a.problem); }); }},
-    {"delam_problem_process_zone", Subject::problem, may::argument | may::problem,
+    {"delam_problem_process_zone", Subject::problem, may::cancelled | may::argument | may::problem,
      [](const Asked& a) {
          double length = 0.0;
          return delam_problem_process_zone(a.problem, a.in.index(2), &length, nullptr);
      }},
-    {"delam_problem_body_matrix", Subject::problem, may::argument | may::problem,
+    {"delam_problem_body_matrix", Subject::problem, may::cancelled | may::argument | may::problem,
      [](const Asked& a) { return body_matrix(a.in, a.problem); }},
-    {"delam_problem_constraints", Subject::problem, may::usual,
+    {"delam_problem_constraints", Subject::problem, may::cancelled,
      [](const Asked& a) { return constraints(a.in, a.problem); }},
-    {"delam_problem_forces", Subject::problem, may::argument | may::problem,
+    {"delam_problem_forces", Subject::problem, may::cancelled | may::argument | may::problem,
      [](const Asked& a) {
          Room<double> room(a.in, sizes_of(a.problem).dofs);
          return delam_problem_forces(a.problem, a.in.index(sizes_of(a.problem).patterns), room.capacity, room.data());
      }},
-    {"delam_problem_eigenstrain_energy", Subject::problem, may::argument | may::problem,
+    {"delam_problem_eigenstrain_energy", Subject::problem, may::cancelled | may::argument | may::problem,
      [](const Asked& a) {
          const std::int64_t patterns = sizes_of(a.problem).patterns;
          Room<double> room(a.in, patterns * patterns);
@@ -894,15 +894,16 @@ const Call calls[] = {
      [](const Asked& a) { return watched(a.world, a.in, [&] { return equilibrate(a.in, a.solver); }); }},
     {"delam_solver_look", Subject::solver, may::argument,
      [](const Asked& a) { return in_order{delam_solver_look, a.solver, a.in.index(7) - 1}.status; }},
-    {"delam_solver_value", Subject::solver, may::argument | may::problem,
+    {"delam_solver_value", Subject::solver, may::cancelled | may::argument | may::problem,
      [](const Asked& a) {
          double value = 0.0;
          return in_order{delam_solver_value, a.solver, a.in.word(value_keys), a.in.seldom() ? nullptr : &value}.status;
      }},
-    {"all values", Subject::solver, may::argument | may::problem,
+    {"all values", Subject::solver, may::cancelled | may::argument | may::problem,
      [](const Asked& a) { return read_all_values(a.solver); }},
-    {"delam_solver_field", Subject::solver, may::argument, [](const Asked& a) { return read_field(a.in, a.solver); }},
-    {"delam_solver_average", Subject::solver, may::argument,
+    {"delam_solver_field", Subject::solver, may::cancelled | may::argument,
+     [](const Asked& a) { return read_field(a.in, a.solver); }},
+    {"delam_solver_average", Subject::solver, may::cancelled | may::argument,
      [](const Asked& a) {
          std::vector<double> strain(6), stress(6);
          double volume = 0.0;

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "base/glance.hpp"
 #include "reduction/condensed/rigid_jumps.hpp"
 #include "scene/carriers.hpp"
 #include "scene/strain_loads.hpp"
@@ -384,7 +385,6 @@ void Bulk::add_variables(std::span<const double> variables, std::span<double> di
 }
 
 std::vector<double> Bulk::displacement(std::span<const double> theta, std::span<const double> unknowns) const {
-    ++recoveries_;
     std::vector<double> rest(rest_.size());
     if (base_)
         base_->recover(theta, unknowns, rest);
@@ -404,9 +404,12 @@ std::vector<double> Bulk::displacement(std::span<const double> theta, std::span<
     for (double& f : nodal) f = -f;
     for (std::size_t p = 0; p < theta.size(); ++p)
         if (!force_[p].empty()) add_scaled(theta[p], force_[p], nodal);
+    glance("recover", dofs() / 8);
     std::vector<double> inside = leading_solve(nodal);
+    glance("recover", dofs() / 8);
     inside.resize(v.size(), 0.0);
     add_variables(inside, u);
+    ++recoveries_;
     return u;
 }
 
@@ -437,14 +440,17 @@ std::vector<double> Bulk::reaction(std::span<const double> theta, std::span<cons
         return i;
     };
     std::map<std::int64_t, std::size_t> user;
-    for (std::size_t c = 0; c < count; ++c)
+    for (std::size_t c = 0; c < count; ++c) {
+        glance("recover", static_cast<std::int64_t>(problem_.constraints[c].dof.size()));
         for (const std::int64_t dof : problem_.constraints[c].dof)
             if (const auto [at, fresh] = user.try_emplace(dof, c); !fresh) group[find(c)] = find(at->second);
+    }
     std::map<std::size_t, std::vector<std::size_t>> members;
     for (std::size_t c = 0; c < count; ++c) members[find(c)].push_back(c);
 
     std::vector<double> rho(count, 0.0);
     for (const auto& [root, list] : members) {
+        glance("recover", static_cast<std::int64_t>(list.size()));
         const bool controlled = std::any_of(list.begin(), list.end(), [&](std::size_t c) {
             const auto& dofs = problem_.constraints[c].dof;
             return std::any_of(dofs.begin(), dofs.end(), [&](std::int64_t dof) { return carriers.kind(dof / dim) == Carriers::Kind::control; });

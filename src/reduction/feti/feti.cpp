@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/glance.hpp"
 #include "base/team.hpp"
 #include "body/assembly.hpp"
 #include "body/rigid_modes.hpp"
@@ -413,10 +414,10 @@ std::vector<double> Feti::local_displacement(std::size_t subdomain, std::span<co
 }
 
 std::vector<double> Feti::displacement(std::span<const double> theta, const Response& response) const {
-    ++recoveries_;
     const int dim = problem_.mesh->dimension();
     std::vector<double> u(index(problem_.mesh->node_count() * dim), 0.0);
     for (std::size_t s = 0; s < subdomains_.size(); ++s) {
+        glance("recover", subdomains_[s].dofs() / 8);
         const std::vector<double> local = local_displacement(s, theta, response);
         for (std::size_t i = 0; i < subdomains_[s].nodes.size(); ++i) {
             const std::size_t node = index(subdomains_[s].nodes[i]);
@@ -427,6 +428,7 @@ std::vector<double> Feti::displacement(std::span<const double> theta, const Resp
     for (const NodeTie& tie : problem_.mesh->ties())
         for (const auto& [node, weight] : tie.of)
             for (int k = 0; k < dim; ++k) u[index(tie.node * dim + k)] += weight * u[index(node * dim + k)];
+    ++recoveries_;
     return u;
 }
 
