@@ -906,7 +906,7 @@ DELAM_API int32_t delam_solver_condensed_size(const delam_solver *solver, int64_
  * bodies float; load L [patterns][unknowns]; constant A [patterns][patterns]; N in rows, row_starts [rows+1], columns
  * and values [entries]; offset O [rows][patterns]. capacity: unknowns^2, of stiffness.
  * [unit stiffness F/L, load F, constant F L, values 1, offset L; null stiffness, load, constant, row_starts, columns,
- * values, offset; status argument, state; source src/reduction/README.md; since 0.1] */
+ * values, offset; status cancelled, argument, state; source src/reduction/README.md; since 0.1] */
 DELAM_API int32_t delam_solver_condensed(const delam_solver *solver, int64_t capacity, double *stiffness, double *load,
                                          double *constant, int64_t *row_starts, int64_t *columns, double *values,
                                          double *offset);

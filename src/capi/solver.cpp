@@ -250,15 +250,17 @@ int32_t delam_solver_condensed_size(const delam_solver* solver, int64_t* unknown
 
 int32_t delam_solver_condensed(const delam_solver* solver, int64_t capacity, double* stiffness, double* load, double* constant,
                                int64_t* row_starts, int64_t* columns, double* values, double* offset) {
-    return guard(solver, [&] {
+    return guard_long(solver, [&] {
         const Bulk& bulk = bulk_of(*solver);
         const DenseEnergy& energy = bulk.energy();
         const std::size_t patterns = solver->core->problem().patterns.size();
         if (stiffness != nullptr) {
             require_capacity(capacity, energy.rows() * energy.rows(), "stiffness");
-            for (std::int64_t j = 0; j < energy.rows(); ++j)  // its lower triangle is the one that holds
+            for (std::int64_t j = 0; j < energy.rows(); ++j) {  // its lower triangle is the one that holds
+                glance("copy", 1 + energy.rows() / 64);
                 for (std::int64_t i = j; i < energy.rows(); ++i)
                     stiffness[i * energy.rows() + j] = stiffness[j * energy.rows() + i] = energy.stiffness(i, j);
+            }
         }
         if (load != nullptr) std::copy(energy.load.value.begin(), energy.load.value.end(), load);
         if (constant != nullptr) std::copy(bulk.pattern_stiffness().value.begin(), bulk.pattern_stiffness().value.end(), constant);

@@ -348,6 +348,13 @@ void read_solver(Host& host, const Block& b) {
     field("displacement", recovery);
     field("stress", b.cells);
     field("rotation", b.cells);
+    std::int64_t unknowns = 0;
+    if (delam_solver_condensed_size(solver, &unknowns, nullptr) == DELAM_OK) {
+        std::vector<double> stiffness(at(unknowns * unknowns));
+        host.call("delam_solver_condensed", unknowns + unknowns * (unknowns / 64), print, [&] {
+            return delam_solver_condensed(solver, unknowns * unknowns, stiffness.data(), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr);
+        });
+    }
     host.call("delam_solver_average", b.cells, print, [&] { return delam_solver_average(solver, -1, &value, nullptr, nullptr); });
 }
 

@@ -930,7 +930,7 @@ const Call calls[] = {
      [](const Asked& a) { return delam_solver_record(a.solver, a.in.word(value_keys)); }},
     {"delam_solver_recorded", Subject::solver, may::argument,
      [](const Asked& a) { return recorded(a.in, a.solver); }},
-    {"delam_solver_condensed", Subject::solver, may::argument | may::state,
+    {"delam_solver_condensed", Subject::solver, may::cancelled | may::argument | may::state,
      [](const Asked& a) { return condensed(a.in, a.solver); }},
     {"delam_solver_pending", Subject::solver, may::argument,
      [](const Asked& a) {

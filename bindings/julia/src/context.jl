@@ -193,7 +193,7 @@ end
     cancel(object)
 
 Asks a call that runs with this object or context in another thread to stop at its next check: it throws `Cancelled`.
-The request waits for the next long call if none is running.
+If none is running, the request waits for the next step, or for a solver that is made or loaded.
 """
 function cancel(object)
     context = context_of(object)

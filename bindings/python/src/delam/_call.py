@@ -267,8 +267,8 @@ class Object:
         self.close()
 
     def cancel(self):
-        """Ask a call that runs with this object in another thread to stop at its next check: it raises Cancelled. The
-        request waits for the next long call if none is running."""
+        """Ask a call that runs with this object in another thread to stop at its next check: it raises Cancelled. If none
+        is running, the request waits for the next step, or for a solver that is made or loaded."""
         self.context.cancel()
 
 
