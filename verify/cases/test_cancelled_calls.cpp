@@ -2,7 +2,6 @@
 // Every call that goes over all cells, nodes or faces looks up to the host every few hundred of them, so that what a cancel waits for does
 // not grow with the mesh; one that is stopped leaves everything as it was. Looks are counted, no clock is read.
 #include <functional>
-#include <memory>
 #include <vector>
 
 #include "delam/delam.h"
@@ -95,9 +94,7 @@ std::string print_of(delam_solver* solver) {
     delam_solver_save(solver, 0, nullptr, &size);
     std::vector<std::uint8_t> bytes(at(size));
     expect(delam_solver_save(solver, size, bytes.data(), &size) == DELAM_OK, "save");
-    double recoveries = 0.0;
-    expect(delam_solver_value(solver, "field_recoveries", &recoveries) == DELAM_OK, "value");
-    std::string text = std::to_string(recoveries);
+    std::string text;
     append(text, bytes);
     return text;
 }
@@ -333,7 +330,7 @@ void read_solver(Host& host, const Block& b) {
         host.require(delam_solver_rollback(solver), "delam_solver_rollback");
         host.require(delam_solver_advance(solver, 0.5), "delam_solver_advance");
     };
-    const std::int64_t recovery = (b.node_count - 1) * b.dimension / 8;
+    const std::int64_t recovery = 2 * 256;  // around the sparse solve and between its halves, whatever its size
     const auto field = [&](const char* key, std::int64_t passes) {
         std::int64_t of = 0, columns = 0;
         host.require(delam_solver_field_shape(solver, key, -1, &of, &columns), key);
@@ -351,7 +348,7 @@ void read_solver(Host& host, const Block& b) {
     std::int64_t unknowns = 0;
     if (delam_solver_condensed_size(solver, &unknowns, nullptr) == DELAM_OK) {
         std::vector<double> stiffness(at(unknowns * unknowns));
-        host.call("delam_solver_condensed", unknowns + unknowns * (unknowns / 64), print, [&] {
+        host.call("delam_solver_condensed", unknowns * (unknowns / 128), print, [&] {
             return delam_solver_condensed(solver, unknowns * unknowns, stiffness.data(), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr);
         });
     }
