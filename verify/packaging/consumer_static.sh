@@ -10,7 +10,7 @@ enf=$SOURCE/examples/enf
 
 # alone PROGRAM: it does not load the library.
 alone() {
-    if readelf -d "$1" | grep -E 'NEEDED.*libdelam'; then
+    if ldd "$1" | grep libdelam; then
         fail "$1 needs the shared library"
     fi
 }
@@ -40,6 +40,12 @@ if has cpp; then
     alone ./enf_cpp
     same_numbers ./enf_cpp
 fi
+if [[ -n ${FC:-} ]]; then
+    read -ra modules <<<"$(pkg-config --variable=fortransources delam)"
+    quietly "$FC" "${modules[@]}" "$enf/enf.f90" -o enf_fortran "${links[@]}"
+    alone ./enf_fortran
+    same_numbers ./enf_fortran
+fi
 
 # A host with functions of its own under every name of the C++ inside; whoever calls one of them is at an end.
 nm --defined-only "$BUILD/libdelam_core.a" | awk '$2 ~ /^[A-Zu]$/ && $3 ~ /5delam/ {print $3}' | sort -u >names
@@ -60,3 +66,4 @@ done
 same_numbers ./enf_names
 ./refused_names
 printf '%d names of the inside taken by the host\n' "$count"
+[[ -n ${FC:-} ]] || skip "the host in Fortran was left out: no Fortran compiler was found; the others ran"
