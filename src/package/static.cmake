@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # libdelam.a: the objects as one, in which the public names alone are global (one_object.cmake). What the objects need
 # of other libraries is told to hosts by name: as link interface of delam::delam_static, and in delam.pc.
-find_program(DELAM_LD NAMES ld.bfd ${CMAKE_LINKER})
-execute_process(COMMAND ${DELAM_LD} --help OUTPUT_VARIABLE help ERROR_QUIET)
-if(NOT help MATCHES "--force-group-allocation" OR NOT CMAKE_OBJCOPY OR NOT CMAKE_NM)
-  message(FATAL_ERROR "DELAM_STATIC needs GNU ld with --force-group-allocation, objcopy and nm (Debian: binutils); "
-                      "the linker is ${DELAM_LD}")
+set(DELAM_LD)
+foreach(linker ${CMAKE_LINKER} ld.bfd)
+  execute_process(COMMAND ${linker} --help OUTPUT_VARIABLE help ERROR_QUIET RESULT_VARIABLE status)
+  if(NOT DELAM_LD AND status EQUAL 0 AND help MATCHES "--force-group-allocation")
+    set(DELAM_LD ${linker})
+  endif()
+endforeach()
+if(NOT DELAM_LD OR NOT CMAKE_OBJCOPY OR NOT CMAKE_NM)
+  message(FATAL_ERROR "DELAM_STATIC needs GNU ld with --force-group-allocation, objcopy and nm (Debian: binutils)")
 endif()
 set(strip OFF)
 if(CMAKE_BUILD_TYPE MATCHES "^(Release|MinSizeRel)$")
