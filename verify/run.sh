@@ -102,7 +102,7 @@ if [[ $report == yes ]]; then
     exec /usr/bin/python3 verify/report/make.py --build build/release --out out/report "$@"
 fi
 
-check "build release" build release
+check "build release" build release -DDELAM_STATIC=ON
 if ((failed == 0)); then
     if [[ $all == yes ]]; then
         tests release -j2

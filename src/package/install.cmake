@@ -23,5 +23,19 @@ list(TRANSFORM DELAM_FORTRAN_MODULES REPLACE "(.+)" "\${fortrandir}/\\1.f90" OUT
 list(JOIN DELAM_PC_FORTRAN " " DELAM_PC_FORTRAN)
 # Relative to the file itself, so that an installed tree may be moved.
 file(RELATIVE_PATH DELAM_PC_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
-configure_file(${CMAKE_CURRENT_LIST_DIR}/delam.pc.in ${PROJECT_BINARY_DIR}/delam.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/delam.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+set(DELAM_PC_FILES delam)
+set(DELAM_PC_LINKS "Libs: -L\${libdir} -ldelam")
+if(DELAM_STATIC)
+  install(TARGETS delam_static EXPORT delam-static ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+  install(EXPORT delam-static NAMESPACE delam:: DESTINATION ${DELAM_CMAKE_DIR} COMPONENT development)
+  # `pkg-config --static` adds to what it says without, and a linker takes the first library that has a name: the shared
+  # one comes from a file of its own, behind the archive, and is dropped where nothing is left for it.
+  list(APPEND DELAM_PC_FILES delam-shared)
+  list(TRANSFORM DELAM_STATIC_LINKS REPLACE "^([^/-].*)$" "-l\\1" OUTPUT_VARIABLE DELAM_PC_LINKS)
+  list(JOIN DELAM_PC_LINKS " " DELAM_PC_LINKS)
+  set(DELAM_PC_LINKS "Requires: delam-shared\nLibs.private: \${libdir}/libdelam.a ${DELAM_PC_LINKS}")
+endif()
+foreach(file IN LISTS DELAM_PC_FILES)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/${file}.pc.in ${PROJECT_BINARY_DIR}/${file}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${file}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+endforeach()

@@ -5,6 +5,7 @@ exits with 1.
 
 symbols    exported functions = declared ones = symbols.txt; SONAME, version nodes, hidden visibility; which functions
            of CHOLMOD are used
+static     global names of the static library = symbols.txt and the experimental ones; no section groups
 baseline   every declaration and constant of the baseline's header stands in today's, unchanged
 abidiff    the library's own debug information against the baseline (libabigail)
 abixml     no check: what a new baseline would be
@@ -111,6 +112,30 @@ def check_symbols(options):
     return wrong
 
 
+def check_static(options):
+    wrong = []
+    expected = set(read_list(options.list))
+    if options.experimental and os.path.exists(options.experimental):
+        expected |= set(headers.read(options.experimental, headers.read(options.header)).functions)
+    found = set()
+    for line in output("nm", "--extern-only", "--defined-only", options.archive).splitlines():
+        words = line.split()
+        if len(words) == 3:
+            found.add(words[2])
+    for name in sorted(expected - found):
+        wrong.append(f"{name}: in {options.list} or experimental.h, but not global in {options.archive}")
+    for name in sorted(found - expected):
+        wrong.append(f"{name}: global in {options.archive}, but neither in {options.list} nor in experimental.h")
+    groups = [line for line in output("readelf", "--section-groups", "--wide", options.archive).splitlines()
+              if "group section" in line]
+    if groups:
+        wrong.append(f"{options.archive}: {len(groups)} section groups, which a linker exchanges for the host's of the "
+                     f"same name: {groups[0].strip()}")
+    if not wrong:
+        print(f"{len(found)} global names, no section groups")
+    return wrong
+
+
 def check_baseline(options):
     wrong = []
     old = headers.read(options.baseline_header)
@@ -176,9 +201,10 @@ def check_abixml(options):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("check", choices=("symbols", "baseline", "abidiff", "abixml"))
+    parser.add_argument("check", choices=("symbols", "static", "baseline", "abidiff", "abixml"))
     parser.add_argument("--library")
-    parser.add_argument("--archive", help="static archive of the objects that the library is linked from")
+    parser.add_argument("--archive", help="static archive: of the objects that the library is linked from (symbols), "
+                        "or the static library (static)")
     parser.add_argument("--header", required=True)
     parser.add_argument("--experimental", help="header outside the promise")
     parser.add_argument("--list")
@@ -187,8 +213,8 @@ def main():
     parser.add_argument("--baseline-header", default=os.path.join(HERE, "baseline", "delam", "delam.h"))
     options = parser.parse_args()
     try:
-        wrong = {"symbols": check_symbols, "baseline": check_baseline, "abidiff": check_abidiff,
-                 "abixml": check_abixml}[options.check](options)
+        wrong = {"symbols": check_symbols, "static": check_static, "baseline": check_baseline,
+                 "abidiff": check_abidiff, "abixml": check_abixml}[options.check](options)
     except headers.HeaderError as error:
         wrong = [str(error)]
     for line in wrong:

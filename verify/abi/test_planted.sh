@@ -125,6 +125,59 @@ accepted gate sound symbols
 accepted gate sound baseline
 accepted lint sound
 
+# ---- the static library ----
+# pack NAME [SOURCE.cpp]: the archive of its objects, made as the library's is. gate_static NAME.
+pack() {
+    local name=$1
+    (cd "$work/$name" && rm -f core.a libdelam.a && gcc -std=c99 -fPIC -fvisibility=hidden -I. -c law.c &&
+        g++ -std=c++17 -fPIC -fvisibility=hidden -I. -c inside.cpp && ar rcs core.a law.o inside.o &&
+        cmake -DARCHIVE=core.a -DOBJECT=one.o -DSTRIP=OFF -DLD=ld -DNM=nm -DOBJCOPY=objcopy \
+            -P "$root/src/package/one_object.cmake" && ar rcs libdelam.a one.o)
+}
+gate_static() { gate "$1" static --archive "$work/$1/libdelam.a"; }
+if command -v cmake >/dev/null; then
+    # What C++ makes weak, hidden, grouped and unique.
+    planted inside
+    cat >"$work/inside/inside.cpp" <<'CODE'
+#include <stdexcept>
+#include <vector>
+struct Inside : std::runtime_error { using std::runtime_error::runtime_error; };
+inline int counted() { static int count = 0; return ++count; }
+template <typename T> struct Names { static inline std::vector<T> all; };
+__attribute__((visibility("default"))) inline std::vector<int> shared;
+int helper(int a) {
+    if (a < 0) throw Inside("negative");
+    Names<int>::all.push_back(a);
+    shared.push_back(a);
+    return counted();
+}
+CODE
+    accepted pack inside
+    accepted gate_static inside
+    inside() {
+        rm -rf "${work:?}/$1"
+        cp -r "$work/inside" "$work/$1"
+    }
+    inside unlisted
+    edit unlisted symbols.txt '/watch/d'
+    refused '^delam_law_watch: global in .*, but neither in .*symbols.txt nor' gate_static unlisted
+    inside gone
+    printf 'delam_law_forget 0.1\n' >>"$work/gone/symbols.txt"
+    refused '^delam_law_forget: in .*, but not global in' gate_static gone
+    inside bare
+    (cd "$work/bare" && objcopy --globalize-symbol=_Z6helperi one.o && ar rcs libdelam.a one.o)
+    refused '^_Z6helperi: global in' gate_static bare
+    inside hidden
+    (cd "$work/hidden" && objcopy --localize-symbol=delam_law_watch one.o && ar rcs libdelam.a one.o)
+    refused '^delam_law_watch: in .*, but not global in' gate_static hidden
+    inside grouped
+    (cd "$work/grouped" && ar rcs libdelam.a inside.o)
+    refused 'section groups, which a linker exchanges' gate_static grouped
+    refused '^shared: global in' gate_static grouped
+else
+    left_out+=("those of the static library (Debian: cmake)")
+fi
+
 # ---- symbols, SONAME, nodes ----
 planted missing
 edit missing law.c 's/delam_law_watch\(/delam_law_watched(/; s/^DELAM_API (int32_t delam_law_watched)/\1/'

@@ -28,9 +28,14 @@ only() {
 only runtime 'lib/libdelam\.so\.[0-9.]+|share/doc/[a-z]+/LICENSE' "lib/libdelam.so.$ABI" "lib/libdelam.so.$VERSION"
 headers='include/delam/[a-z_]+\.h'
 documents='share/doc/delam/src/[a-z/]+/[A-Z]+\.md'
-only development "lib/libdelam\.so|$headers|$documents|lib/cmake/delam/delam-(config|targets).*\.cmake|lib/pkgconfig/delam\.pc" \
-    lib/libdelam.so include/delam/delam.h lib/cmake/delam/delam-config.cmake lib/pkgconfig/delam.pc \
-    share/doc/delam/src/capi/CONTRACT.md
+belongs="lib/libdelam\.so|$headers|$documents|lib/cmake/delam/delam-(config|targets).*\.cmake|lib/pkgconfig/delam\.pc"
+needed=(lib/libdelam.so include/delam/delam.h lib/cmake/delam/delam-config.cmake lib/pkgconfig/delam.pc
+    share/doc/delam/src/capi/CONTRACT.md)
+if has static; then
+    belongs+='|lib/libdelam\.a|lib/cmake/delam/delam-static.*\.cmake|lib/pkgconfig/delam-shared\.pc'
+    needed+=(lib/libdelam.a lib/cmake/delam/delam-static.cmake lib/pkgconfig/delam-shared.pc)
+fi
+only development "$belongs" "${needed[@]}"
 # Whatever the header names as a source among ours comes with it.
 mapfile -t named < <(grep -oE 'src/[a-z_/]+/[A-Z]+\.md' "$SOURCE/include/delam/delam.h" | sort -u)
 ((${#named[@]} > 0)) || fail "the header names no source among ours"

@@ -47,6 +47,17 @@ holds libdelam-dev 'libdelam\.so$'
 holds libdelam-dev 'share/doc/.*/CONTRACT\.md$'
 lacks libdelam-dev 'libdelam\.so\.|/bin/'
 depends libdelam-dev "libdelam$ABI (= $VERSION)"
+if has static; then
+    holds libdelam-dev '/libdelam\.a$'
+    for package in libsuitesparse-dev libmetis-dev libopenblas-dev; do
+        depends libdelam-dev $package
+    done
+    if readelf -SW "$(find "$work/root" -name libdelam.a)" | grep -q '\.debug_info'; then
+        fail "the archive in the package has debug information"
+    fi
+else
+    lacks libdelam-dev '/libdelam\.a$'
+fi
 if has cpp; then
     holds libdelam-dev '^\./usr/include/delam/delam\.hpp$'
     holds libdelam-dev '^\./usr/include/delam/cpp/solver\.hpp$'

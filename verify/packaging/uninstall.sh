@@ -13,6 +13,9 @@ fi
 grep -q 'has no install_manifest' "$work/log" || fail "no word of the missing manifest"
 quietly "$CMAKE" --install "$BUILD" --prefix "$work/prefix"
 [[ -e $work/prefix/include/delam/delam.h ]] || fail "nothing was installed"
+if has static && [[ -z $(find "$work/prefix" -name libdelam.a) ]]; then
+    fail "no libdelam.a was installed"
+fi
 quietly "$CMAKE" --build "$BUILD" --target uninstall
 left=$(cd "$work/prefix" && find . ! -type d | sort)
 [[ $left == $'./lib/other.so\n./share/delam/mine.txt' ]] || fail "left behind: $left"
