@@ -108,7 +108,7 @@ DELAM_API int32_t delam_blas_threads(void);
  * [null user; owns text until the callback returns; status -; thread call's; since 0.1] */
 typedef void (*delam_log_callback)(int32_t level, const char *text, void *user);
 /* Called inside long work, on the calling thread. stage: static text ("factor", "minimise", ...); done of total
- * (total 0 = not known). Non-zero return cancels: the call ends with DELAM_CANCELLED.
+ * (total 0 = not known). Non-zero return cancels: the call ends with DELAM_CANCELLED, unless it is one that only reads.
  * [null user; owns stage static; status cancelled; thread call's; since 0.1] */
 typedef int32_t (*delam_progress_callback)(const char *stage, int64_t done, int64_t total, void *user);
 

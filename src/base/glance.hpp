@@ -12,9 +12,10 @@ namespace delam {
 // As long as it lives, loops of this thread look up to the monitor.
 class Listening {
 public:
-    // What becomes of a request that was there before: it stops this call, or waits for the next one that it may stop.
-    enum class Waiting { stops, stays };
-    Listening(Monitor& monitor, Waiting waiting);
+    // What may stop the call. marches: the callback's answer and every request; one that was there before, too. builds: that answer and a
+    // request that comes meanwhile. reads: only such a request: who has stopped a march goes on saying so, and wants to read what there is.
+    enum class Call { marches, builds, reads };
+    Listening(Monitor& monitor, Call call);
     ~Listening();
     Listening(const Listening&) = delete;
     Listening& operator=(const Listening&) = delete;
@@ -28,7 +29,7 @@ public:
 private:
     static constexpr std::int64_t interval = 256;
     Monitor& monitor_;
-    Waiting waiting_;
+    Call call_;
     std::uint32_t before_;
     std::int64_t left_ = interval;
 };

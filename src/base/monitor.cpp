@@ -30,8 +30,8 @@ Look Monitor::look_from(const char* stage, std::int64_t done, std::int64_t total
 
 constinit thread_local Listening* listening = nullptr;
 
-Listening::Listening(Monitor& monitor, Waiting waiting)
-    : monitor_(monitor), waiting_(waiting), before_(monitor.requests_.load(std::memory_order_relaxed)) {
+Listening::Listening(Monitor& monitor, Call call)
+    : monitor_(monitor), call_(call), before_(monitor.requests_.load(std::memory_order_relaxed)) {
     listening = this;
 }
 
@@ -39,10 +39,10 @@ Listening::~Listening() { listening = nullptr; }
 
 void Listening::look(const char* stage) {
     left_ = interval;
-    if (waiting_ == Waiting::stops) return monitor_.progress(stage, 0, 0);
+    if (call_ == Call::marches) return monitor_.progress(stage, 0, 0);
     const bool told = monitor_.progress_callback != nullptr && monitor_.progress_callback(stage, 0, 0, monitor_.progress_user) != 0;
     const bool asked = monitor_.requests_.load(std::memory_order_relaxed) != before_ && monitor_.asked_to_stop();
-    if (told || asked) stop(stage);
+    if ((told && call_ == Call::builds) || asked) stop(stage);
 }
 
 }  // namespace delam

@@ -46,7 +46,7 @@ const SparseMatrix& body_matrix(const delam_problem& problem, std::int32_t body)
 
 int32_t delam_problem_body_matrix(const delam_problem* problem, int32_t body, int64_t* rows, int64_t* entries,
                                   int64_t* row_starts, int64_t* columns, double* values) {
-    return guard_long(problem, [&] {
+    return guard_read(problem, [&] {
         const std::int32_t index = body < 0 ? -1 : problem->core->mesh->body_of_label(body);
         if (index < 0) fail(DELAM_ERROR_ARGUMENT, "body = ", body, ": there is no body of this label");
         const SparseMatrix& matrix = body_matrix(*problem, index);
@@ -58,7 +58,7 @@ int32_t delam_problem_body_matrix(const delam_problem* problem, int32_t body, in
 
 int32_t delam_problem_constraints(const delam_problem* problem, int64_t* rows, int64_t* entries, int64_t* pattern_count,
                                   int64_t* row_starts, int64_t* columns, double* values, double* coefficients) {
-    return guard_long(problem, [&] {
+    return guard_read(problem, [&] {
         const Problem& core = *problem->core;
         SparseMatrix matrix;
         matrix.rows = static_cast<std::int64_t>(core.constraints.size());
@@ -81,7 +81,7 @@ int32_t delam_problem_constraints(const delam_problem* problem, int64_t* rows, i
 }
 
 int32_t delam_problem_forces(const delam_problem* problem, int64_t pattern, int64_t capacity, double* forces) {
-    return guard_long(problem, [&] {
+    return guard_read(problem, [&] {
         const Problem& core = *problem->core;
         require_index(pattern, static_cast<std::int64_t>(core.patterns.size()), 0, "pattern");
         require_pointer(forces, "forces");
@@ -99,7 +99,7 @@ int32_t delam_problem_forces(const delam_problem* problem, int64_t pattern, int6
 }
 
 int32_t delam_problem_eigenstrain_energy(const delam_problem* problem, int64_t capacity, double* matrix) {
-    return guard_long(problem, [&] {
+    return guard_read(problem, [&] {
         const Problem& core = *problem->core;
         const auto patterns = static_cast<std::int64_t>(core.patterns.size());
         require_array(matrix, patterns * patterns, "matrix");
@@ -137,7 +137,7 @@ const char* delam_problem_pattern_name(const delam_problem* problem, int64_t pat
 }
 
 int32_t delam_problem_process_zone(const delam_problem* problem, int64_t interface_index, double* length, double* spacing) {
-    return guard_long(problem, [&] {
+    return guard_read(problem, [&] {
         const auto count = static_cast<std::int64_t>(problem->core->interfaces.size());
         const ProcessZone zone = predicted_process_zone(*problem->core, require_index(interface_index, count, 0, "interface_index"));
         if (length != nullptr) *length = zone.length;

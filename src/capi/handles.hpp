@@ -124,21 +124,25 @@ std::int32_t guard(const H* self, Body&& body) noexcept {
     }
 }
 
-// As guard, for calls that list `cancelled`. Those of the march are stopped by a request that was there before, too; those that build or
-// read leave it to them.
+// As guard, for calls that list `cancelled`: what may stop them is said at Listening.
 template <class H, class Body>
-std::int32_t guard_march(const H* self, Body&& body) noexcept {
+std::int32_t guard_listening(const H* self, Listening::Call call, Body&& body) noexcept {
     return guard(self, [&] {
-        const Listening call(self->context->monitor, Listening::Waiting::stops);
+        const Listening ears(self->context->monitor, call);
         return body();
     });
 }
 template <class H, class Body>
-std::int32_t guard_long(const H* self, Body&& body) noexcept {
-    return guard(self, [&] {
-        const Listening call(self->context->monitor, Listening::Waiting::stays);
-        return body();
-    });
+std::int32_t guard_march(const H* self, Body&& body) noexcept {
+    return guard_listening(self, Listening::Call::marches, body);
+}
+template <class H, class Body>
+std::int32_t guard_build(const H* self, Body&& body) noexcept {
+    return guard_listening(self, Listening::Call::builds, body);
+}
+template <class H, class Body>
+std::int32_t guard_read(const H* self, Body&& body) noexcept {
+    return guard_listening(self, Listening::Call::reads, body);
 }
 
 template <class H>

@@ -199,7 +199,7 @@ int32_t delam_problem_add_pattern(delam_problem* problem, const char* name, int6
 int32_t delam_problem_prescribe_nodes(delam_problem* problem, int64_t count, const int64_t* nodes,
                                       const double* direction, int64_t pattern_count, const int64_t* patterns,
                                       const double* coefficients, int32_t index_base) {
-    return guard_long(problem, [&] {
+    return guard_build(problem, [&] {
         Problem& core = *problem->core;
         const std::int64_t dimension = core.mesh->dimension();
         require_base(index_base);
@@ -234,7 +234,7 @@ int32_t delam_problem_prescribe_nodes(delam_problem* problem, int64_t count, con
 int32_t delam_problem_prescribe_mean(delam_problem* problem, int64_t count, const int64_t* nodes, const double* weights,
                                      const double* direction, int64_t pattern_count, const int64_t* patterns,
                                      const double* coefficients, int32_t index_base) {
-    return guard_long(problem, [&] {
+    return guard_build(problem, [&] {
         Problem& core = *problem->core;
         const std::int64_t dimension = core.mesh->dimension();
         require_base(index_base);
@@ -273,7 +273,7 @@ int32_t delam_problem_prescribe_mean(delam_problem* problem, int64_t count, cons
 int32_t delam_problem_add_equation(delam_problem* problem, int64_t count, const int64_t* nodes, const double* coefficients,
                                    int64_t pattern_count, const int64_t* patterns, const double* prescribed_values,
                                    int32_t index_base) {
-    return guard_long(problem, [&] {
+    return guard_build(problem, [&] {
         Problem& core = *problem->core;
         const std::int64_t dimension = core.mesh->dimension();
         require_base(index_base);
@@ -305,7 +305,7 @@ int32_t delam_problem_add_equation(delam_problem* problem, int64_t count, const 
 
 int32_t delam_problem_add_periodic(delam_problem* problem, int64_t period_count, const double* periods,
                                    const int64_t* control_nodes, double tolerance, int32_t index_base) {
-    return guard_long(problem, [&] {
+    return guard_build(problem, [&] {
         Problem& core = *problem->core;
         const std::int64_t dimension = core.mesh->dimension();
         require_base(index_base);
@@ -343,7 +343,7 @@ int32_t delam_problem_add_periodic(delam_problem* problem, int64_t period_count,
 
 int32_t delam_problem_add_forces(delam_problem* problem, int64_t pattern, int64_t count, const int64_t* nodes,
                                  const double* forces, int32_t index_base) {
-    return guard_long(problem, [&] {
+    return guard_build(problem, [&] {
         Problem& core = *problem->core;
         const std::int64_t dimension = core.mesh->dimension();
         require_base(index_base);

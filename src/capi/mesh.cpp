@@ -150,7 +150,7 @@ int32_t delam_mesh_create_layers(delam_context* context, int32_t dimension, cons
                                  const int64_t* divisions, int64_t layer_count, const double* thickness,
                                  const int64_t* layer_divisions, int32_t cell_type, delam_mesh** out) {
     if (out != nullptr) *out = nullptr;
-    return guard_long(context, [&] {
+    return guard_build(context, [&] {
         require_pointer(out, "out");
         require_dimension(dimension);
         require_positive(lengths, dimension - 1, "lengths");
@@ -173,7 +173,7 @@ int32_t delam_mesh_create_layers(delam_context* context, int32_t dimension, cons
 
 int32_t delam_mesh_add_cells(delam_mesh* mesh, int32_t cell_type, int64_t cell_count, const int64_t* connectivity,
                              const int32_t* bodies, int32_t index_base) {
-    return guard_long(mesh, [&] {
+    return guard_build(mesh, [&] {
         const Cells cells = take_cells(*mesh->core, cell_type, cell_count, connectivity, bodies, index_base);
         mesh->core->add_cells(cells.type, cells.nodes, cells.labels);
     });
@@ -181,7 +181,7 @@ int32_t delam_mesh_add_cells(delam_mesh* mesh, int32_t cell_type, int64_t cell_c
 
 int32_t delam_mesh_add_conforming_cells(delam_mesh* mesh, int32_t cell_type, int64_t cell_count,
                                         const int64_t* connectivity, const int32_t* bodies, int32_t index_base) {
-    return guard_long(mesh, [&] {
+    return guard_build(mesh, [&] {
         const Cells cells = take_cells(*mesh->core, cell_type, cell_count, connectivity, bodies, index_base);
         mesh->core->add_conforming_cells(cells.type, cells.nodes, cells.labels);
     });
@@ -189,7 +189,7 @@ int32_t delam_mesh_add_conforming_cells(delam_mesh* mesh, int32_t cell_type, int
 
 int32_t delam_mesh_add_interface(delam_mesh* mesh, int32_t body_a, int32_t body_b, double tolerance,
                                  int64_t* out_interface) {
-    return guard_long(mesh, [&] {
+    return guard_build(mesh, [&] {
         require_pointer(out_interface, "out_interface");
         require_tolerance(tolerance);
         require_two_bodies(*mesh->core, body_a, body_b);
@@ -198,7 +198,7 @@ int32_t delam_mesh_add_interface(delam_mesh* mesh, int32_t body_a, int32_t body_
 }
 
 int32_t delam_mesh_add_all_interfaces(delam_mesh* mesh, double tolerance, int64_t* out_count) {
-    return guard_long(mesh, [&] {
+    return guard_build(mesh, [&] {
         require_pointer(out_count, "out_count");
         *out_count = mesh->core->add_all_interfaces(require_tolerance(tolerance));
     });
@@ -206,7 +206,7 @@ int32_t delam_mesh_add_all_interfaces(delam_mesh* mesh, double tolerance, int64_
 
 int32_t delam_mesh_add_projected_interface(delam_mesh* mesh, int32_t body_a, int32_t body_b, double gap,
                                            int64_t* out_interface) {
-    return guard_long(mesh, [&] {
+    return guard_build(mesh, [&] {
         require_pointer(out_interface, "out_interface");
         if (!(gap >= 0.0 && std::isfinite(gap)))
             fail(DELAM_ERROR_ARGUMENT, "gap = ", gap, " must be >= 0 and finite");
@@ -218,7 +218,7 @@ int32_t delam_mesh_add_projected_interface(delam_mesh* mesh, int32_t body_a, int
 int32_t delam_mesh_add_obstacle(delam_mesh* mesh, int64_t count, const int64_t* nodes, const double* normals,
                                 const double* weights, int64_t control_node, int32_t index_base,
                                 int64_t* out_interface) {
-    return guard_long(mesh, [&] {
+    return guard_build(mesh, [&] {
         Mesh& core = *mesh->core;
         require_pointer(out_interface, "out_interface");
         require_count(count, "count", 1);
@@ -232,7 +232,7 @@ int32_t delam_mesh_add_obstacle(delam_mesh* mesh, int64_t count, const int64_t* 
 }
 
 int32_t delam_mesh_add_host_body(delam_mesh* mesh, int32_t body, int64_t count, const int64_t* nodes, int32_t index_base) {
-    return guard_long(mesh, [&] {
+    return guard_build(mesh, [&] {
         Mesh& core = *mesh->core;
         require_count(count, "count", 1);
         require_base(index_base);
@@ -243,7 +243,7 @@ int32_t delam_mesh_add_host_body(delam_mesh* mesh, int32_t body, int64_t count, 
 int32_t delam_mesh_add_pairs(delam_mesh* mesh, int32_t body_a, int32_t body_b, int64_t count, const int64_t* nodes_a,
                              const int64_t* nodes_b, const double* normals, const double* weights, int64_t face_count,
                              int32_t nodes_per_face, const int64_t* faces, int32_t index_base, int64_t* out_interface) {
-    return guard_long(mesh, [&] {
+    return guard_build(mesh, [&] {
         Mesh& core = *mesh->core;
         require_pointer(out_interface, "out_interface");
         require_body(core, body_a, "body_a", false);
@@ -397,7 +397,7 @@ int32_t delam_mesh_find_nodes(const delam_mesh* mesh, int32_t body, const double
 int32_t delam_mesh_find_patch(const delam_mesh* mesh, int32_t body, const double* lower, const double* upper,
                               const double* direction, int64_t capacity, int64_t* nodes, double* weights,
                               int64_t* count) {
-    return guard_long(mesh, [&] {
+    return guard_read(mesh, [&] {
         const Mesh& core = *mesh->core;
         const int dimension = core.dimension();
         require_pointer(count, "count");

@@ -91,7 +91,7 @@ int32_t delam_problem_set_orthotropic(delam_problem* problem, int32_t body, cons
 
 int32_t delam_problem_set_orientation(delam_problem* problem, int32_t body, int64_t count, const int64_t* cells,
                                       const double* axes, int32_t index_base) {
-    return guard_long(problem, [&] {
+    return guard_build(problem, [&] {
         Problem& core = *problem->core;
         const Mesh& mesh = *core.mesh;
         const std::int32_t index = require_body(core, body);
@@ -274,11 +274,11 @@ int32_t delam_option_info(int64_t index, const char** key, const char** type, co
 }
 
 int32_t delam_problem_check(delam_problem* problem) {
-    return guard_long(problem, [&] { validate(*problem->core); });
+    return guard_build(problem, [&] { validate(*problem->core); });
 }
 
 int32_t delam_problem_hash(const delam_problem* problem, char* out) {
-    return guard_long(problem, [&] {
+    return guard_read(problem, [&] {
         require_pointer(out, "out");
         std::snprintf(out, 17, "%016llx", static_cast<unsigned long long>(hash(*problem->core)));
     });

@@ -100,7 +100,7 @@ int32_t delam_solver_equilibrate(delam_solver* solver, double time, const double
 }
 
 int32_t delam_solver_value(delam_solver* solver, const char* key, double* out) {
-    return guard_long(solver, [&] {
+    return guard_read(solver, [&] {
         require_pointer(key, "key");
         require_pointer(out, "value");
         *out = value(*solver->core, key);
@@ -163,7 +163,7 @@ int32_t delam_solver_field_shape(const delam_solver* solver, const char* key, in
 }
 
 int32_t delam_solver_field(delam_solver* solver, const char* key, int64_t part, int64_t capacity, double* values) {
-    return guard_long(solver, [&] {
+    return guard_read(solver, [&] {
         require_pointer(key, "key");
         const FieldShape shape = field_shape(*solver->core, key, part);
         require_capacity(capacity, shape.rows * shape.columns, "values");
@@ -210,7 +210,7 @@ int32_t delam_solver_front(const delam_solver* solver, int64_t interface_index, 
 }
 
 int32_t delam_solver_average(const delam_solver* solver, int32_t body, double* volume, double* strain, double* stress) {
-    return guard_long(solver, [&] {
+    return guard_read(solver, [&] {
         const Mesh& mesh = *solver->core->problem().mesh;
         const std::int32_t index = body < 0 ? -1 : mesh.body_of_label(body);
         if (body != -1 && index < 0) fail(DELAM_ERROR_ARGUMENT, "body ", body, ": there is no body of this label");
@@ -250,7 +250,7 @@ int32_t delam_solver_condensed_size(const delam_solver* solver, int64_t* unknown
 
 int32_t delam_solver_condensed(const delam_solver* solver, int64_t capacity, double* stiffness, double* load, double* constant,
                                int64_t* row_starts, int64_t* columns, double* values, double* offset) {
-    return guard_long(solver, [&] {
+    return guard_read(solver, [&] {
         const Bulk& bulk = bulk_of(*solver);
         const DenseEnergy& energy = bulk.energy();
         const std::size_t patterns = solver->core->problem().patterns.size();

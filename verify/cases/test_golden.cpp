@@ -104,7 +104,7 @@ std::uint32_t version_of(const std::vector<std::uint8_t>& bytes) {
     return version;
 }
 
-std::string stem_of(std::uint32_t version, const std::string& name) { return "v" + std::to_string(version) + "-" + name; }
+std::string stem_of(std::uint32_t version, const std::string& name) { return std::string("v").append(std::to_string(version)).append("-").append(name); }
 
 void write(const std::filesystem::path& folder) {
     for (const auto& [name, since] : goldens) {
