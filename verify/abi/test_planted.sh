@@ -460,7 +460,7 @@ untrue() {
     edit untrue delam.h "$1"
     refused "$2" "$python" "$here/test_contract.py" "$library" "$work/untrue/delam.h"
 }
-untrue 's/^ \* \[null bodies; status argument, mesh, state/ * [null none; status argument, mesh, state/' \
+untrue 's/^ \* \[null bodies; status cancelled, argument, mesh, state/ * [null none; status cancelled, argument, mesh, state/' \
     'delam_mesh_add_cells: bodies NULL: status 0, expected -1'
 untrue 's/^ \* \[unit nodes L finite; null none; owns out/ * [unit nodes L finite; null nodes; owns out/' \
     'delam_mesh_create: nodes NULL, as it may be: status -1, expected 0'

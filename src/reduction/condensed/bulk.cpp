@@ -404,9 +404,9 @@ std::vector<double> Bulk::displacement(std::span<const double> theta, std::span<
     for (double& f : nodal) f = -f;
     for (std::size_t p = 0; p < theta.size(); ++p)
         if (!force_[p].empty()) add_scaled(theta[p], force_[p], nodal);
-    glance("recover", dofs() / 8);
+    glance("recover", dofs() / 64);
     std::vector<double> inside = leading_solve(nodal);
-    glance("recover", dofs() / 8);
+    glance("recover", dofs() / 64);
     inside.resize(v.size(), 0.0);
     add_variables(inside, u);
     ++recoveries_;

@@ -417,7 +417,7 @@ std::vector<double> Feti::displacement(std::span<const double> theta, const Resp
     const int dim = problem_.mesh->dimension();
     std::vector<double> u(index(problem_.mesh->node_count() * dim), 0.0);
     for (std::size_t s = 0; s < subdomains_.size(); ++s) {
-        glance("recover", subdomains_[s].dofs() / 8);
+        glance("recover", subdomains_[s].dofs() / 16);
         const std::vector<double> local = local_displacement(s, theta, response);
         for (std::size_t i = 0; i < subdomains_[s].nodes.size(); ++i) {
             const std::size_t node = index(subdomains_[s].nodes[i]);
