@@ -123,7 +123,7 @@ public:
         if (again) again();
         stopped(name, passes, print, call, true);
     }
-    // Makes a solver forget what it has recovered.
+    // Makes an object forget what it has worked out for a call.
     std::function<void()> again;
     void stopped(const char* name, std::int64_t passes, const std::function<std::string()>& print, const std::function<std::int32_t()>& call,
                  bool reads) {
@@ -330,6 +330,9 @@ void read_problem(Host& host, const Block& b) {
     const auto print = [&] { return print_of(h.problem); };
     std::int64_t rows = 0;
     double length = 0.0;
+    host.again = [&] {  // the matrix that was asked for last is kept
+        host.require(delam_problem_body_matrix(h.problem, 1, &rows, nullptr, nullptr, nullptr, nullptr), "delam_problem_body_matrix");
+    };
     host.call("delam_problem_check", b.cells, print, [&] { return delam_problem_check(h.problem); });
     host.read("delam_problem_process_zone", b.cells, print, [&] { return delam_problem_process_zone(h.problem, 0, &length, nullptr); });
     host.read("delam_problem_body_matrix", b.cells / 2, print, [&] {
