@@ -31,6 +31,9 @@ import judge  # noqa: E402
 import schema  # noqa: E402
 
 
+DATE = "%Y-%m-%d %H:%M UTC"
+
+
 def find_cases(folder: pathlib.Path) -> list[case_module.Case]:
     found: list[case_module.Case] = []
     for path in sorted(folder.glob("*_*.py")):
@@ -95,7 +98,8 @@ def blank(case: case_module.Case, library: dict, command: str) -> dict:
             "judgement": {"reference": {"verdict": "none", "value": None, "limit": None, "why": "not judged"},
                           "past": {"verdict": "none", "worst": None, "limit": None, "why": "not judged"}},
             "status": "failed", "reason": "", "command": command, "commit": library["commit"], "library": library["name"],
-            "seconds": 0.0, "kernels": case_module.kernels(), "timing": case.timing, "expected_seconds": case.expected, "quick": False}
+            "seconds": 0.0, "kernels": case_module.kernels(), "timing": case.timing,
+            "date": datetime.datetime.now(datetime.timezone.utc).strftime(DATE), "expected_seconds": case.expected, "quick": False}
 
 
 def ended(case, library, command, status: str, reason: str, seconds: float = 0.0) -> dict:
@@ -327,7 +331,7 @@ def report(a, cases: list[case_module.Case], library: dict) -> int:
     if not source.startswith(library["commit"]):
         warnings.append(f"The library is of commit {library['commit']}, the sources beside it are {source}.")
     write_json(a.out / "report.json", {
-        "title": "libdelam: verification report", "date": started.strftime("%Y-%m-%d %H:%M UTC"), "command": command,
+        "title": "libdelam: verification report", "date": started.strftime(DATE), "command": command,
         "quick": a.quick, "commit": library["commit"], "source": source, "library": library, "machine": machine(),
         "seconds": round(time.monotonic() - start, 1), "chapters": case_module.CHAPTERS, "claims": claims.CLAIMS,
         "warnings": warnings, "cases": everything})
