@@ -198,7 +198,7 @@ def number(cell):
 # What a case hands back.
 
 def column(name: str, unit: str = "", **more) -> dict:
-    """more: from (the program's name), key (names its row), optional (may be empty), past ("free", "count", "rounding" or a
+    """more: part (words: on the page a new part of the table begins here), from (the program's name), key (names its row), optional (may be empty), past ("free", "count", "rounding" or a
     relative tolerance), may (True: a count of what did not converge that is allowed to be more than 0)."""
     return {"name": name, "unit": unit, **more}
 

@@ -53,7 +53,7 @@ def _log_ticks(ax, values: list[float], horizontal: bool, narrow: bool) -> None:
     places = sorted(set(values))
     apart = all(b / a > (places[-1] / places[0]) ** (0.16 if narrow else 0.09) for a, b in zip(places, places[1:]))
     plain = matplotlib.ticker.FuncFormatter(lambda v, _: f"{float(f'{v:.3g}'):g}")
-    if horizontal and len(places) <= (5 if narrow else 8) and apart and 1e-4 <= places[0] and places[-1] < 1e5:
+    if horizontal and len(places) <= (5 if narrow else 10) and apart and 1e-4 <= places[0] and places[-1] < 1e5:
         ax.set_major_locator(matplotlib.ticker.FixedLocator(places))
     elif max(values) / min(values) < 50 and 1e-4 <= min(values) and max(values) < 1e6:
         ax.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
