@@ -54,15 +54,15 @@ def _width(table: dict, i: int, text: int) -> float:
     return LETTER * min(letters, 30) + MARGINS
 
 
-def _split(columns: list[dict], width: list[float], keys: list[int], room: float) -> list[tuple[str, list[int]]]:
-    """Parts as words and columns; every part has the keys."""
-    found, now, words = [], list(keys), ""
+def _split(title: str, columns: list[dict], width: list[float], keys: list[int], room: float) -> list[tuple[str, list[int]]]:
+    """Parts as titles and columns; every part has the keys."""
+    found, now, words = [], list(keys), title
     for i, c in enumerate(columns):
         if i in keys:
             continue
         if len(now) > len(keys) and ("part" in c or sum(width[j] for j in now) + width[i] > room):
             found.append((words, now))
-            now, words = list(keys), f": {c['part']}" if "part" in c else f"{words.removesuffix(', continued')}, continued"
+            now, words = list(keys), c["part"] if "part" in c else f"{words.removesuffix(', continued')}, continued"
         now.append(i)
     return [*found, (words, now)]
 
@@ -74,16 +74,16 @@ def parts(table: dict) -> list[dict]:
     width = [_width(table, i, 18) for i in range(len(columns))]
     phone = [_width(table, i, 0) for i in range(len(columns))]
     keys = [i for i, c in enumerate(columns) if c.get("key")]
-    found = [("", list(range(len(columns))))]
+    found = [(table["title"], list(range(len(columns))))]
     if keys and (sum(width) > PAGE or any("part" in c for c in columns)):
-        found = _split(columns, width, keys, PAGE)
+        found = _split(table["title"], columns, width, keys, PAGE)
         # As many parts as needed, of widths that are alike: no last one with a single column.
         for room in range(PAGE // 3, PAGE, 16):
-            even = _split(columns, width, keys, room)
+            even = _split(table["title"], columns, width, keys, room)
             if len(even) == len(found):
                 found = even
                 break
-    return [{"title": table["title"] + words, "note": table.get("note", "") if place == 0 else "", "columns": [columns[i] for i in of],
+    return [{"title": words, "note": table.get("note", "") if place == 0 else "", "columns": [columns[i] for i in of],
              "rows": [[row[i] for i in of] for row in table["rows"]], "scrolls": sum(phone[i] for i in of) > PHONE} for place, (words, of) in enumerate(found)]
 
 
