@@ -82,7 +82,7 @@ def _draw_bars(plot: dict, size: tuple[float, float]):
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
     axes.axvline(0.0, color="#555555", linewidth=0.8)
-    axes.margins(x=0.14)
+    axes.margins(x=0.28 if size == NARROW else 0.14)
     axes.set_xlabel(_label(plot["y"]))
     if size == NARROW:
         axes.xaxis.set_major_locator(matplotlib.ticker.MaxNLocator(5))

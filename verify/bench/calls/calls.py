@@ -49,8 +49,8 @@ def compare(ends, rounds):
             differ += sum(a.hex() != b.hex() for a, b in pairs) + abs(len(end) - len(reference))
             worst = max([worst, *(abs(a - b) / max(abs(a), abs(b)) for a, b in pairs if a != b)])
         broken = sum(0.0 < v < 1.0 for v in reference[6:])
-        print(f"values: {language}: {numbers} numbers in {rounds} rounds, {differ} not the bits of C, relative difference "
-              f"{worst:.3g}, {broken} pairs partly damaged")
+        print(f"values: {language}: {numbers} numbers in {rounds} rounds, {differ} not the bits of C, "
+              f"relative difference {worst:.3g}, {broken} pairs partly damaged")
         wrong += differ
     return 1 if wrong or len(reference) < 7 else 0
 

@@ -202,8 +202,9 @@ class Report(unittest.TestCase):
             return {p.relative_to(out): p.read_bytes() for p in out.rglob("*") if p.is_file() and p.relative_to(out).parts[0] not in ("log", "raw")}
 
         before = kept()
+        # What runs the tests in the background may have told them to ignore Ctrl-C.
         run = subprocess.Popen([sys.executable, str(planted.REPORT / "make.py"), "--build", str(self.build), "--out", str(out), "--jobs", "1", "--cases", str(HERE / "cases"),
-                                "--past", str(self.base / "past")], text=True, stderr=subprocess.PIPE)
+                                "--past", str(self.base / "past")], text=True, stderr=subprocess.PIPE, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
         for line in run.stderr:
             if line.startswith("[1/"):
                 break
