@@ -198,7 +198,7 @@ def number(cell):
 # What a case hands back.
 
 def column(name: str, unit: str = "", **more) -> dict:
-    """more: from (the program's name), key (names its row), optional (may be empty), past ("free", "count", "rounding" or a
+    """more: part (words: on the page a new part of the table begins here), from (the program's name), key (names its row), optional (may be empty), past ("free", "count", "rounding" or a
     relative tolerance), may (True: a count of what did not converge that is allowed to be more than 0)."""
     return {"name": name, "unit": unit, **more}
 
@@ -212,12 +212,13 @@ def check(what: str, value, limit, why: str, sense: str = "<=") -> dict:
     return {"what": what, "value": value, "limit": limit, "sense": sense, "why": why}
 
 
-def axis(label: str, unit: str = "", scale: str = "linear") -> dict:
-    return {"label": label, "unit": unit, "scale": scale}
+def axis(label: str, unit: str = "", scale: str = "linear", **more) -> dict:
+    """more, of x: bars, names at 0, 1, ...: its series are drawn as bars over them."""
+    return {"label": label, "unit": unit, "scale": scale, **more}
 
 
 def series(name: str, role: str, x: list, y: list, **more) -> dict:
-    """role picks colour and marker (palette.py). more: line ("solid", "dashed", "none"), marker (False: none)."""
+    """role picks colour and marker (palette.py). more: line ("solid", "dashed", "none"), marker (False: none), low and high: ends of its spread."""
     return {"name": name, "role": role, "x": list(x), "y": list(y), **more}
 
 

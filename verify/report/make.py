@@ -31,6 +31,9 @@ import judge  # noqa: E402
 import schema  # noqa: E402
 
 
+DATE = "%Y-%m-%d %H:%M UTC"
+
+
 def find_cases(folder: pathlib.Path) -> list[case_module.Case]:
     found: list[case_module.Case] = []
     for path in sorted(folder.glob("*_*.py")):
@@ -95,7 +98,8 @@ def blank(case: case_module.Case, library: dict, command: str) -> dict:
             "judgement": {"reference": {"verdict": "none", "value": None, "limit": None, "why": "not judged"},
                           "past": {"verdict": "none", "worst": None, "limit": None, "why": "not judged"}},
             "status": "failed", "reason": "", "command": command, "commit": library["commit"], "library": library["name"],
-            "seconds": 0.0, "kernels": case_module.kernels(), "timing": case.timing, "expected_seconds": case.expected, "quick": False}
+            "seconds": 0.0, "kernels": case_module.kernels(), "timing": case.timing,
+            "date": datetime.datetime.now(datetime.timezone.utc).strftime(DATE), "expected_seconds": case.expected, "quick": False}
 
 
 def ended(case, library, command, status: str, reason: str, seconds: float = 0.0) -> dict:
@@ -142,8 +146,43 @@ def run_here(case: case_module.Case, context: case_module.Context, past: pathlib
 
 
 def write_json(path: pathlib.Path, data) -> None:
+    """Whole or not at all."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(data, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    unfinished = path.with_name(path.name + ".unfinished")
+    unfinished.write_text(json.dumps(data, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    os.replace(unfinished, path)
+
+
+def publish(new: pathlib.Path, out: pathlib.Path, everything: bool) -> None:
+    """The finished report in the place of the one before; what is no longer part of it goes. JSON of other cases stays unless everything was
+    run. Ctrl-C waits for the end."""
+    before = {s: signal.signal(s, signal.SIG_IGN) for s in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        for part in ("json", "cases") if everything else ("cases",):
+            if (new / part).is_dir():
+                (out / part).mkdir(parents=True, exist_ok=True)
+                kept = {path.name for path in (new / part).iterdir()}
+                for path in (out / part).iterdir():
+                    if path.name not in kept:
+                        path.unlink()
+        for path in sorted(p for p in new.rglob("*") if p.is_file()):
+            (out / path.relative_to(new)).parent.mkdir(parents=True, exist_ok=True)
+            os.replace(path, out / path.relative_to(new))
+        shutil.rmtree(new, ignore_errors=True)
+    finally:
+        for s, handler in before.items():
+            signal.signal(s, handler)
+
+
+def render(folder: pathlib.Path) -> int:
+    """Draws the pages in a process group of its own, which ends with this one."""
+    child = subprocess.Popen([sys.executable, str(HERE / "render.py"), str(folder)], start_new_session=True)
+    try:
+        return child.wait()
+    except BaseException:
+        os.killpg(child.pid, signal.SIGKILL)
+        child.wait()
+        raise
 
 
 def read_case(path: pathlib.Path, case: case_module.Case, library: dict, command: str, quick: bool) -> dict:
@@ -171,7 +210,7 @@ class Runner:
 
     def __call__(self, case: case_module.Case) -> dict:
         a = self.arguments
-        path = a.out / "json" / f"{case.id}.json"
+        path = a.out / "new" / "json" / f"{case.id}.json"
         path.unlink(missing_ok=True)
         command = [sys.executable, str(HERE / "make.py"), "--child", case.id, "--out", str(a.out), "--build", str(a.build),
                    "--cases", str(a.cases), "--past", str(a.past), *(["--quick"] if a.quick else [])]
@@ -248,7 +287,7 @@ def main(argv: list[str]) -> int:
     if a.child:
         case = next(c for c in cases if c.id == a.child)
         context = case_module.Context(ROOT, a.build, a.out, a.quick, case.seconds)
-        write_json(a.out / "json" / f"{case.id}.json", run_here(case, context, a.past, library))
+        write_json(a.out / "new" / "json" / f"{case.id}.json", run_here(case, context, a.past, library))
         return 0
     unknown = [o for o in a.only if o not in case_module.CHAPTERS and o not in [c.id for c in cases]]
     if unknown:
@@ -259,10 +298,10 @@ def main(argv: list[str]) -> int:
 def report(a, cases: list[case_module.Case], library: dict) -> int:
     started, start = datetime.datetime.now(datetime.timezone.utc), time.monotonic()
     command = shlex.join(["bash", "verify/run.sh", "--report", *(["--quick"] if a.quick else []), *(["--only", *a.only] if a.only else [])])
-    # Cached tables are of one report only.
-    shutil.rmtree(a.out / "raw", ignore_errors=True)
-    if not a.only:
-        shutil.rmtree(a.out / "json", ignore_errors=True)
+    # Cached tables are of one report only. The new report grows in a folder of its own; until it is whole, the one before stays.
+    new = a.out / "new"
+    for folder in (a.out / "raw", new):
+        shutil.rmtree(folder, ignore_errors=True)
     wanted = [c for c in cases if chosen(c, a.only) and (c.quick or not a.quick)]
     done = 0
 
@@ -301,8 +340,8 @@ def report(a, cases: list[case_module.Case], library: dict) -> int:
                 tell(results[c.id])
     except KeyboardInterrupt:
         runner.end_all()
-        raise SystemExit("make.py: interrupted; no report was written")
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        shutil.rmtree(new, ignore_errors=True)
+        raise SystemExit("make.py: interrupted; no report was written, the one before stays as it was")
     everything = []
     for c in cases:
         path = a.out / "json" / f"{c.id}.json"
@@ -318,7 +357,7 @@ def report(a, cases: list[case_module.Case], library: dict) -> int:
             if data["id"] in results and data["judgement"]["reference"]["verdict"] == "pass":
                 judge.accept(data, a.past, a.quick, started.strftime("%Y-%m-%d"))
                 judge.judge(data, a.past, a.quick)
-                write_json(a.out / "json" / f"{data['id']}.json", data)
+                write_json(new / "json" / f"{data['id']}.json", data)
                 say(f"accepted: {data['id']}")
     import claims
 
@@ -326,15 +365,22 @@ def report(a, cases: list[case_module.Case], library: dict) -> int:
     warnings = []
     if not source.startswith(library["commit"]):
         warnings.append(f"The library is of commit {library['commit']}, the sources beside it are {source}.")
-    write_json(a.out / "report.json", {
-        "title": "libdelam: verification report", "date": started.strftime("%Y-%m-%d %H:%M UTC"), "command": command,
+    write_json(new / "report.json", {
+        "title": "libdelam: verification report", "date": started.strftime(DATE), "command": command,
         "quick": a.quick, "commit": library["commit"], "source": source, "library": library, "machine": machine(),
         "seconds": round(time.monotonic() - start, 1), "chapters": case_module.CHAPTERS, "claims": claims.CLAIMS,
         "warnings": warnings, "cases": everything})
-    drawn = subprocess.run([sys.executable, str(HERE / "render.py"), str(a.out)], check=False)
+    say("drawing the pages")
+    try:
+        drawn = render(new)
+    except KeyboardInterrupt:
+        shutil.rmtree(new, ignore_errors=True)
+        raise SystemExit("make.py: interrupted; no report was written, the one before stays as it was")
+    publish(new, a.out, not a.only)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
     counts = {s: sum(d["status"] == s for d in everything) for s in schema.STATUSES}
     say(", ".join(f"{n} {s}" for s, n in counts.items()) + f"; {a.out / 'index.html'}")
-    return 1 if counts["failed"] or drawn.returncode else 0
+    return 1 if counts["failed"] or drawn else 0
 
 
 if __name__ == "__main__":

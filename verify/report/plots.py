@@ -15,6 +15,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import matplotlib.ticker  # noqa: E402
 
 import palette  # noqa: E402
+from words import show  # noqa: E402
 
 WIDE, NARROW = (7.0, 3.9), (3.6, 3.9)  # inches, at 9 points of text or more
 LINES = {"solid": "-", "dashed": "--", "dotted": ":", "none": ""}
@@ -52,7 +53,7 @@ def _log_ticks(ax, values: list[float], horizontal: bool, narrow: bool) -> None:
     places = sorted(set(values))
     apart = all(b / a > (places[-1] / places[0]) ** (0.16 if narrow else 0.09) for a, b in zip(places, places[1:]))
     plain = matplotlib.ticker.FuncFormatter(lambda v, _: f"{float(f'{v:.3g}'):g}")
-    if horizontal and len(places) <= (5 if narrow else 8) and apart and 1e-4 <= places[0] and places[-1] < 1e5:
+    if horizontal and len(places) <= (5 if narrow else 10) and apart and 1e-4 <= places[0] and places[-1] < 1e5:
         ax.set_major_locator(matplotlib.ticker.FixedLocator(places))
     elif max(values) / min(values) < 50 and 1e-4 <= min(values) and max(values) < 1e6:
         ax.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
@@ -65,7 +66,34 @@ def _log_ticks(ax, values: list[float], horizontal: bool, narrow: bool) -> None:
     ax.set_minor_formatter(matplotlib.ticker.NullFormatter())
 
 
+def _draw_bars(plot: dict, size: tuple[float, float]):
+    """Bars that lie, so that their names are read; the number at the end of each, its spread as a whisker."""
+    names = plot["x"]["bars"]
+    figure, axes = plt.subplots(figsize=(size[0], 0.9 + 0.42 * len(names) * len(plot["series"])), layout="constrained")
+    thick = 0.62 / len(plot["series"])
+    for place, s in enumerate(plot["series"]):
+        colour, _, _ = palette.style(s["role"])
+        at = [x + (place - 0.5 * (len(plot["series"]) - 1)) * thick for x in s["x"]]
+        spread = [[max(y - low, 0.0) for y, low in zip(s["y"], s["low"])], [max(high - y, 0.0) for y, high in zip(s["y"], s["high"])]] if "low" in s else None
+        axes.barh(at, s["y"], thick, color=colour, label=s["name"], xerr=spread, error_kw={"ecolor": palette.BLACK, "elinewidth": 1.2, "capsize": 3})
+        for x, y, end in zip(at, s["y"], s.get("high", s["y"])):
+            axes.annotate(show(y), (max(y, end, 0.0), x), xytext=(5, 0), textcoords="offset points", va="center", fontsize=9)
+    axes.set_yticks(range(len(names)), names)
+    axes.invert_yaxis()
+    axes.grid(axis="y", visible=False)
+    axes.axvline(0.0, color="#555555", linewidth=0.8)
+    axes.margins(x=0.28 if size == NARROW else 0.14)
+    axes.set_xlabel(_label(plot["y"]))
+    if size == NARROW:
+        axes.xaxis.set_major_locator(matplotlib.ticker.MaxNLocator(5))
+    if len(plot["series"]) > 1:
+        figure.legend(loc="outside lower center", ncols=2)
+    return figure
+
+
 def _draw(plot: dict, size: tuple[float, float]):
+    if "bars" in plot["x"]:
+        return _draw_bars(plot, size)
     figure, axes = plt.subplots(figsize=size, layout="constrained")
     narrow = size == NARROW
     repeated: dict[str, int] = {}

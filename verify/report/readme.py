@@ -3,7 +3,7 @@
 """readme.py OUT: headline figures and pictures of a report into the README, between its markers.
 
     readme.py OUT        from OUT/report.json: headline.json, pictures/, and the block in README.md
-    readme.py --check    exit status 1 if the block is not the one that headline.json makes"""
+    readme.py --check    exit status 1 if a block, the table of speed or a sentence is missing, or not the one that headline.json makes"""
 from __future__ import annotations
 
 import argparse
@@ -26,7 +26,11 @@ FIGURES = ["feti_direct_worst", "feti_direct_kkt", "balance_defect", "jump_mm"]
 PICTURES = [("b-ledger", 0), ("b-jump-instant", 0), ("a-feti-direct", 1)]
 # The table of speed: a row is what it is called, and the middle of the names of its figures. Only a report that has all of them renews it.
 SPEED = [("0.5 mm", "ductile_0.5"), ("0.1 mm, one thread", "ductile_0.1"), ("0.1 mm, OpenMP as Debian's CHOLMOD sets it", "ductile_0.1_shipped")]
-SPEED_COLUMNS = [("unknowns", "unknowns"), ("whole march", "seconds"), ("in linear solves", "lse"), ("baseline over this", "ratio"), ("memory, factorisations", "memory")]
+# Head, name of the figure, what follows the number.
+SPEED_COLUMNS = [("unknowns", "unknowns", ""), ("whole march", "seconds", " s"), ("in linear solves", "lse", ""), ("baseline over this", "ratio", " times"),
+                 ("peak memory over one factorisation's", "memory", " times")]
+# What the block of speed must say for itself while no report has made it.
+BY_HAND = "Measured by hand with `delam_bench`, not yet by the report"
 # Sentences with figures, each between markers of its own (NAME:begin, NAME:end), by name: whether the full report alone renews it, and the words.
 SENTENCES = {
     "jumps": (False, "Brittle end-notched flexure, 40 steps, points as supports, cells of 1 mm: the crack jumps at {jump_local_mm:.2f} mm (local), "
@@ -44,6 +48,17 @@ class Refused(Exception):
     """What the README asks for and the report does not have."""
 
 
+def when(report: dict, cases: list[dict]) -> str:
+    """When these cases ran; a report with --only holds older ones too."""
+    dates = sorted({c.get("date", report["date"]) for c in cases})
+    return dates[0] if len(cases) == 0 or dates[0][:10] == dates[-1][:10] else f"{dates[0]} to {dates[-1]}"
+
+
+def whole(report: dict) -> str:
+    """The command that makes all of the cases; that of the report may have renewed some of them."""
+    return report["command"].split(" --only")[0]
+
+
 def gather(report: dict, figures=None, pictures=None) -> dict:
     """What the README quotes, from the report alone."""
     figures, pictures = FIGURES if figures is None else figures, PICTURES if pictures is None else pictures
@@ -59,7 +74,8 @@ def gather(report: dict, figures=None, pictures=None) -> dict:
         drawn.append({"file": f"verify/report/pictures/{case}-{i + 1}.svg", "case": case, "plot": i, "title": plot["title"],
                       "caption": plot.get("caption", "")})
     statuses = ("passed", "failed", "refused as expected", "skipped")
-    return {"date": report["date"], "counts": {s: sum(c["status"] == s for c in report["cases"]) for s in statuses}, "command": report["command"], "commit": report["commit"], "processor": report["machine"]["processor"],
+    return {"date": when(report, list(good.values())), "counts": {s: sum(c["status"] == s for c in report["cases"]) for s in statuses}, "command": whole(report), "commit": report["commit"],
+            "processor": report["machine"]["processor"],
             "cores": report["machine"]["cores"], "figures": [found[name] for name in figures], "pictures": drawn}
 
 
@@ -76,15 +92,33 @@ def block(head: dict) -> str:
 
 def speed(report: dict) -> dict | None:
     """The table of speed, or None where the report has not all of it, or the machine was too busy: timings are of one report, never of two."""
-    found = {f["name"]: f for c in report["cases"] if c["status"] == "passed" for f in c["figures"]}
-    rows = []
+    if report.get("quick"):
+        return None
+    found = {f["name"]: (f, c) for c in report["cases"] if c["status"] == "passed" for f in c["figures"]}
+    rows, of, noise = [], [], []
     for title, scene in SPEED:
-        figures = [found.get(f"speed_{scene}_{key}") for _, key in SPEED_COLUMNS]
-        noise = found.get(f"speed_{scene}_noise")
-        if None in figures or noise is None or noise["value"] > NOISE:
+        figures = [found.get(f"speed_{scene}_{key}") for _, key, _ in SPEED_COLUMNS]
+        scatter = found.get(f"speed_{scene}_noise")
+        if None in figures or scatter is None or scatter[0]["value"] > NOISE:
             return None
-        rows.append([title, *(f["value"] for f in figures)])
-    return {**{k: report[k] for k in ("date", "commit", "command")}, "processor": report["machine"]["processor"], "rows": rows}
+        of.append(figures[0][1])
+        noise.append(scatter[0]["value"])
+        rows.append([title, *(f["value"] for f, _ in figures), priced(of[-1])])
+    machine = report["machine"]
+    return {"date": when(report, of), "commit": report["commit"], "command": f"{whole(report)} --only {' '.join(c['id'] for c in of)}", "processor": machine["processor"],
+            "cores": machine["cores"], "kernels": machine.get("openblas_of_timings", "unknown"), "noise": max(noise), "rows": rows,
+            "losses": [[title, text] for (title, _), c in zip(SPEED, of) for text in c["losses"]]}
+
+
+def priced(case: dict) -> str:
+    """How the baseline got its time, in the words of the case: measured, or priced from counted factorisations."""
+    for t in case["tables"]:
+        names = [c["name"] for c in t["columns"]]
+        if "method" in names and "note" in names:
+            for row in t["rows"]:
+                if row[names.index("method")] == "baseline":
+                    return row[names.index("note")]
+    return "measured"
 
 
 def sentences(report: dict) -> dict:
@@ -95,7 +129,7 @@ def sentences(report: dict) -> dict:
         wanted = [field for _, field, _, _ in string.Formatter().parse(words) if field]
         if not (full and report["quick"]) and all(field in found for field in wanted):
             told[name] = {"text": words.format(**found), "figures": {field: found[field] for field in wanted}, "date": report["date"], "commit": report["commit"],
-                          "command": report["command"]}
+                          "command": whole(report)}
     return told
 
 
@@ -115,12 +149,20 @@ def two_digits(value) -> str:
 
 
 def speed_block(table: dict) -> str:
-    lines = [SPEED_BEGIN, "", f"{table['processor']}, {table['date']}, commit {table['commit']}:", "", "| cells | " + " | ".join(name for name, _ in SPEED_COLUMNS) + " |",
-             "|---" * (len(SPEED_COLUMNS) + 1) + "|"]
-    for title, *values in table["rows"]:
-        cells = [two_digits(v) + (" s" if key == "seconds" else "") for v, (_, key) in zip(values, SPEED_COLUMNS)]
+    lines = [SPEED_BEGIN, ""]
+    if table["losses"]:
+        lines += ["Losses and missed goals:", ""]
+        for title in dict.fromkeys(title for title, _ in table["losses"]):
+            lines += textwrap.wrap(f"- {title}: " + "; ".join(text for name, text in table["losses"] if name == title), 140, subsequent_indent="  ", break_on_hyphens=False)
+        lines.append("")
+    lines += ["| cells | " + " | ".join(name for name, _, _ in SPEED_COLUMNS) + " |", "|---" * (len(SPEED_COLUMNS) + 1) + "|"]
+    for title, *values, how in table["rows"]:
+        cells = [two_digits(v) + unit + (f", {how}" if key == "ratio" and how != "measured" else "") for v, (_, key, unit) in zip(values, SPEED_COLUMNS)]
         lines.append("| " + " | ".join([title, *cells]) + " |")
-    return "\n".join([*lines, "", SPEED_END])
+    said = (f"Medians of three rounds that take turns, on {table['processor']}, {table['cores']} cores, BLAS kernels {table['kernels']}; two series of the same solve differ by "
+            f"{two_digits(100 * table['noise'])} % at most. Extrapolated: the baseline is priced from counted factorisations, of which a part was timed. {table['date']}, commit "
+            f"{table['commit']}, by")
+    return "\n".join([*lines, "", *textwrap.wrap(said, 140, break_on_hyphens=False), "", f"    {table['command']}", "", SPEED_END])
 
 
 def between(text: str, begin: str = BEGIN, end: str = END) -> str:
@@ -140,15 +182,22 @@ def differences(readme: str, head: dict, root: pathlib.Path) -> list[str]:
     wrong = [f"README has \"{a}\", headline.json gives \"{b}\"" for a, b in zip(got, wanted) if a != b]
     if len(got) != len(wanted):
         wrong.append(f"README's block has {len(got)} lines, headline.json gives {len(wanted)}")
-    if head.get("speed"):
-        try:
-            if between(readme, SPEED_BEGIN, SPEED_END) != speed_block(head["speed"]):
+    # Markers are missing whatever headline.json has: what is not there cannot be compared.
+    try:
+        table = between(readme, SPEED_BEGIN, SPEED_END)
+        if head.get("speed"):
+            if table != speed_block(head["speed"]):
                 wrong.append("README's table of speed is not the one that headline.json gives")
-        except Refused as error:
-            wrong.append(str(error))
-    for name, told in head.get("sentences", {}).items():
+        elif BY_HAND not in table:
+            wrong.append(f"headline.json has no table of speed, and README's does not say \"{BY_HAND}\"")
+    except Refused as error:
+        wrong.append(str(error))
+    told_of = head.get("sentences", {})
+    wrong += [f"headline.json has no sentence \"{name}\"" for name in SENTENCES if name not in told_of]
+    for name in dict.fromkeys([*SENTENCES, *told_of]):
         try:
-            if between(readme, *sentence_marks(name)) != sentence_block(name, told):
+            text, told = between(readme, *sentence_marks(name)), told_of.get(name)
+            if told and text != sentence_block(name, told):
                 wrong.append(f"README's sentence \"{name}\" is not the one that headline.json gives")
         except Refused as error:
             wrong.append(str(error))
@@ -159,7 +208,7 @@ def main(argv: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="readme.py", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("out", nargs="?", type=pathlib.Path)
     parser.add_argument("--check", action="store_true")
-    parser.add_argument("--readme", type=pathlib.Path, default=ROOT / "README.md")
+    parser.add_argument("--readme", type=pathlib.Path, default=ROOT / "README.md", help="a copy to try it on: headline.json and pictures stay as they are")
     a = parser.parse_args(argv)
     if a.check == (a.out is not None):
         parser.error("either OUT or --check")
@@ -178,12 +227,18 @@ def main(argv: list[str]) -> int:
         if timed:
             head["speed"] = timed
             text = text.replace(between(text, SPEED_BEGIN, SPEED_END), speed_block(timed))
+        else:
+            print("readme.py: the table of speed stays as it is: not all of its cases passed with a scatter below "
+                  f"{NOISE:.0%}", file=sys.stderr)
         head["sentences"] = {**before.get("sentences", {}), **sentences(report)}
         for name, told in head["sentences"].items():
             text = text.replace(between(text, *sentence_marks(name)), sentence_block(name, told))
     except Refused as error:
         print(f"readme.py: {error}", file=sys.stderr)
         return 1
+    if a.readme.resolve() != ROOT / "README.md":
+        a.readme.write_text(text.replace(old, block(head)), encoding="utf-8")
+        return 0
     import plots
 
     (HERE / "pictures").mkdir(exist_ok=True)

@@ -41,6 +41,52 @@ def closest(cases: list[dict]) -> dict | None:
     return max(judged, key=lambda entry: entry[0])[1] if judged else None
 
 
+# Widths in pixels: of a letter in a table, of a cell's margins, of the page's text at 1280, of a phone.
+LETTER, MARGINS, PAGE, PHONE = 8.3, 15, 1088, 362
+
+
+def _width(table: dict, i: int, text: int) -> float:
+    """Heads and texts wrap at words, numbers do not; text: letters that a text takes in a line."""
+    column = table["columns"][i]
+    cells = [row[i] for row in table["rows"]]
+    words = [*column["name"].split(), *column["unit"].split(), *(w for c in cells if isinstance(c, str) for w in c.split()), *(show(c) for c in cells if not isinstance(c, str))]
+    letters = max([len(w) for w in words] + [min(len(c), text) for c in cells if isinstance(c, str)] + [3])
+    return LETTER * min(letters, 30) + MARGINS
+
+
+def _split(title: str, columns: list[dict], width: list[float], keys: list[int], room: float) -> list[tuple[str, list[int]]]:
+    """Parts as titles and columns; every part has the keys."""
+    found, now, words = [], list(keys), title
+    for i, c in enumerate(columns):
+        if i in keys:
+            continue
+        if len(now) > len(keys) and ("part" in c or sum(width[j] for j in now) + width[i] > room):
+            found.append((words, now))
+            now, words = list(keys), c["part"] if "part" in c else f"{words.removesuffix(', continued')}, continued"
+        now.append(i)
+    return [*found, (words, now)]
+
+
+def parts(table: dict) -> list[dict]:
+    """A table as parts that the page is wide enough for, each with the columns that name a row. A column that says {"part": words} begins one,
+    so that what belongs together stays so; without key columns a table stays whole, and scrolls."""
+    columns = table["columns"]
+    width = [_width(table, i, 18) for i in range(len(columns))]
+    phone = [_width(table, i, 0) for i in range(len(columns))]
+    keys = [i for i, c in enumerate(columns) if c.get("key")]
+    found = [(table["title"], list(range(len(columns))))]
+    if keys and (sum(width) > PAGE or any("part" in c for c in columns)):
+        found = _split(table["title"], columns, width, keys, PAGE)
+        # As many parts as needed, of widths that are alike: no last one with a single column.
+        for room in range(PAGE // 3, PAGE, 16):
+            even = _split(table["title"], columns, width, keys, room)
+            if len(even) == len(found):
+                found = even
+                break
+    return [{"title": words, "note": table.get("note", "") if place == 0 else "", "columns": [columns[i] for i in of],
+             "rows": [[row[i] for i in of] for row in table["rows"]], "scrolls": sum(phone[i] for i in of) > PHONE} for place, (words, of) in enumerate(found)]
+
+
 def draw(plots_of: dict) -> dict:
     """Every plot by case and place; drawn at once on all cores."""
     import plots
@@ -56,7 +102,7 @@ def environment() -> jinja2.Environment:
     env = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE / "templates"), undefined=jinja2.StrictUndefined,
                              autoescape=jinja2.select_autoescape(["html", "html.j2"]), trim_blocks=True, lstrip_blocks=True)
     env.filters.update(show=show, slug=slug)
-    env.globals["ledger_text"] = LEDGER_TEXT
+    env.globals.update(ledger_text=LEDGER_TEXT, parts=parts)
     return env
 
 
@@ -70,7 +116,7 @@ def pages(report: dict) -> dict:
         of = sorted((c for c in report["cases"] if c["chapter"] == key), key=lambda c: ORDER.index(c["status"]))
         chapters.append({"key": key, "title": title, "cases": of, "counts": counts(of), "closest": closest(of),
                          "claims": [claim["text"] for claim in report["claims"] if claim["chapter"] == key],
-                         "losses": [{"case": c, "text": text} for c in of for text in c["losses"]]})
+                         "losses": [{"case": c, "texts": c["losses"]} for c in of if c["losses"]]})
     style = (HERE / "templates" / "style.css").read_text(encoding="utf-8")
     env = environment()
     everything = {"report": report, "chapters": chapters, "drawn": drawn, "style": style, "totals": counts(report["cases"]),

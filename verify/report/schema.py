@@ -74,6 +74,14 @@ def _plot(plot: dict, where: str) -> None:
         place = f"{where}, series \"{s['name']}\""
         if len(s["x"]) != len(s["y"]) or not s["x"]:
             raise Invalid(f"{place}: {len(s['x'])} x for {len(s['y'])} y")
+        for end in ("low", "high"):
+            if end in s and len(s[end]) != len(s["y"]):
+                raise Invalid(f"{place}: {len(s[end])} values of {end} for {len(s['y'])} y")
+            for value in s.get(end, ()):
+                _finite(value, f"{place}, {end}")
+        names = plot["x"].get("bars")
+        if names is not None and any(x not in range(len(names)) for x in s["x"]):
+            raise Invalid(f"{place}: a bar without a name")
         for x, y in zip(s["x"], s["y"]):
             _finite(x, f"{place}, x")
             if y is not None:

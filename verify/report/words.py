@@ -17,6 +17,8 @@ def show(value) -> str:
         return f"{int(value):,}".replace(",", "\u202f") if abs(value) >= 10000 else str(int(value))
     size = abs(value)
     if 1e-3 <= size < 1e5:
-        return f"{value:.4g}"
+        return f"{value:.4g}" if size < 9999.5 else f"{value:,.0f}".replace(",", "\u202f")
+    if 1e5 <= size < 1e6:
+        return f"{value:,.0f}".replace(",", "\u202f")
     mantissa, exponent = f"{value:.2e}".split("e")
     return f"{mantissa}e{int(exponent)}"

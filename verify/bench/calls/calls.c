@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
  * calls_c CALLS STEPS: prints nanoseconds of processor time of a call of delam_solver_value for a key that costs
- * nothing (time), and of a step (advance, commit) of a small march that damages nothing; behind them a reaction, the
- * same for all hosts.
+ * nothing (time), and of a step (advance, commit) of a small march that damages nothing; behind them, not timed, what
+ * ten more steps that do damage end with: reaction, energies and the adhesion of all pairs, in digits that give every
+ * bit back, for all hosts alike.
  */
 #define _POSIX_C_SOURCE 199309L
 #include <stdint.h>
@@ -45,7 +46,7 @@ static delam_solver *make_solver(void) {
     const int64_t divisions[1] = {20};
     const double thickness[2] = {2e-3, 2e-3};
     const int64_t layer_divisions[2] = {1, 1};
-    const double times[2] = {0.0, 1.0}, values[2] = {0.0, 1e-6};
+    const double times[3] = {0.0, 1.0, 2.0}, values[3] = {0.0, 1e-6, 4e-3};
     delam_mesh *mesh;
     delam_law *law;
     delam_problem *problem;
@@ -64,7 +65,7 @@ static delam_solver *make_solver(void) {
     must(delam_problem_create(context, mesh, &problem));
     must(delam_problem_set_elastic(problem, -1, 70e9, 0.3));
     must(delam_problem_set_law(problem, glue, law));
-    must(delam_problem_add_pattern(problem, "pull", 2, times, values, &pull));
+    must(delam_problem_add_pattern(problem, "pull", 3, times, values, &pull));
     prescribe(problem, node_at(mesh, 0.0, 0.0), 1.0, 0.0, 0, NULL);
     prescribe(problem, node_at(mesh, 0.0, 0.0), 0.0, 1.0, 0, NULL);
     prescribe(problem, node_at(mesh, 0.1, 0.0), 0.0, 1.0, 0, NULL);
@@ -74,6 +75,20 @@ static delam_solver *make_solver(void) {
     delam_law_destroy(&law);
     delam_mesh_destroy(&mesh);
     return solver;
+}
+
+static void print_state(delam_solver *solver) {
+    static const char *const keys[5] = {"reaction:pull", "stored_bulk", "stored_interface", "dissipated", "work"};
+    double adhesion[64], value;
+    int64_t rows = 0, columns = 0, i;
+    for (i = 0; i < 5; ++i) {
+        must(delam_solver_value(solver, keys[i], &value));
+        printf(" %.17g", value);
+    }
+    must(delam_solver_field_shape(solver, "adhesion", -1, &rows, &columns));
+    must(delam_solver_field(solver, "adhesion", -1, 64, adhesion));
+    for (i = 0; i < rows * columns; ++i) printf(" %.17g", adhesion[i]);
+    printf("\n");
 }
 
 int main(int argc, char **argv) {
@@ -94,8 +109,12 @@ int main(int argc, char **argv) {
         must(delam_solver_commit(solver));
     }
     per_step = (now() - begin) / steps;
-    must(delam_solver_value(solver, "reaction:pull", &value));
-    printf("%.6g %.6g %.15g\n", per_call, per_step, value + sum);
+    printf("%.6g %.6g %.17g", per_call, per_step, sum);
+    for (i = 1; i <= 10; ++i) {
+        must(delam_solver_advance(solver, 1.0 + i / 10.0));
+        must(delam_solver_commit(solver));
+    }
+    print_state(solver);
     delam_solver_destroy(&solver);
     delam_context_destroy(&context);
     return 0;

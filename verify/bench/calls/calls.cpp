@@ -28,7 +28,7 @@ delam::Solver make_solver(const delam::Context& context) {
     delam::Problem problem(context, mesh);
     problem.set_elastic(-1, 70e9, 0.3);
     problem.set_law(0, law);
-    const std::int64_t pull = problem.add_pattern("pull", {0.0, 1.0}, {0.0, 1e-6});
+    const std::int64_t pull = problem.add_pattern("pull", {0.0, 1.0, 2.0}, {0.0, 1e-6, 4e-3});
     const auto at = [&](double x, double y) { return mesh.find_nodes(-1, {x, y}, {x, y}).at(0); };
     problem.prescribe_nodes({at(0.0, 0.0)}, {1.0, 0.0});
     problem.prescribe_nodes({at(0.0, 0.0)}, {0.0, 1.0});
@@ -45,13 +45,18 @@ void run(int calls, int steps) {
     for (int i = 0; i < calls; ++i) sum += solver.value("time");
     const double per_call = (now() - begin) / calls;
     begin = now();
-    for (int i = 1; i <= steps; ++i) {
-        if (solver.advance(static_cast<double>(i) / steps) != delam::Outcome::done)
-            throw std::runtime_error(context.message());
+    const auto step = [&](double time) {
+        if (solver.advance(time) != delam::Outcome::done) throw std::runtime_error(context.message());
         solver.commit();
-    }
+    };
+    for (int i = 1; i <= steps; ++i) step(static_cast<double>(i) / steps);
     const double per_step = (now() - begin) / steps;
-    std::printf("%.6g %.6g %.15g\n", per_call, per_step, solver.value("reaction:pull") + sum);
+    std::printf("%.6g %.6g %.17g", per_call, per_step, sum);
+    for (int i = 1; i <= 10; ++i) step(1.0 + i / 10.0);
+    for (const char* key : {"reaction:pull", "stored_bulk", "stored_interface", "dissipated", "work"})
+        std::printf(" %.17g", solver.value(key));
+    for (const double adhesion : solver.field("adhesion").values) std::printf(" %.17g", adhesion);
+    std::printf("\n");
 }
 
 }  // namespace

@@ -29,7 +29,13 @@ program calls_fortran
     call solver%commit()
   end do
   per_step = (now() - begin)/steps
-  print '(2(g0.6, 1x), g0.15)', per_call, per_step, solver%value('reaction:pull') + total
+  do i = 1, 10
+    call solver%advance(1 + i/10.0_dp)
+    call solver%commit()
+  end do
+  print '(2(g0.6, 1x), *(es24.16e3, 1x))', per_call, per_step, total, solver%value('reaction:pull'), &
+    solver%value('stored_bulk'), solver%value('stored_interface'), solver%value('dissipated'), solver%value('work'), &
+    solver%field('adhesion')
 
 contains
 
@@ -58,7 +64,7 @@ contains
     call problem%create(context, mesh)
     call problem%set_elastic(70e9_dp, 0.3_dp)
     call problem%set_law(1, law)
-    call problem%add_pattern('pull', [0.0_dp, 1.0_dp], [0.0_dp, 1e-6_dp], pull)
+    call problem%add_pattern('pull', [0.0_dp, 1.0_dp, 2.0_dp], [0.0_dp, 1e-6_dp, 4e-3_dp], pull)
     call problem%prescribe_nodes(mesh%find_nodes([0.0_dp, 0.0_dp], [0.0_dp, 0.0_dp]), [1.0_dp, 0.0_dp])
     call problem%prescribe_nodes(mesh%find_nodes([0.0_dp, 0.0_dp], [0.0_dp, 0.0_dp]), [0.0_dp, 1.0_dp])
     call problem%prescribe_nodes(mesh%find_nodes([0.1_dp, 0.0_dp], [0.1_dp, 0.0_dp]), [0.0_dp, 1.0_dp])

@@ -12,7 +12,7 @@ function make_solver()
     problem = Problem(mesh)
     set_elastic!(problem, 70e9, 0.3)
     set_law!(problem, glue, law)
-    pull = add_pattern!(problem, "pull", [0.0, 1.0], [0.0, 1e-6])
+    pull = add_pattern!(problem, "pull", [0.0, 1.0, 2.0], [0.0, 1e-6, 4e-3])
     prescribe!(problem, find_node(mesh, (0.0, 0.0)), "x")
     prescribe!(problem, find_node(mesh, (0.0, 0.0)), "y")
     prescribe!(problem, find_node(mesh, (0.1, 0.0)), "y")
@@ -33,7 +33,12 @@ function timed(calls, steps)
         commit!(solver)
     end
     per_step = (time_ns() - begun) / steps
-    return per_call, per_step, solver["reaction:pull"] + total
+    for i in 1:10
+        advance!(solver, 1.0 + i / 10.0)
+        commit!(solver)
+    end
+    state = [solver[key] for key in ("reaction:pull", "stored_bulk", "stored_interface", "dissipated", "work")]
+    return [per_call; per_step; total; state; field(solver, "adhesion")]
 end
 
 timed(1, 1)

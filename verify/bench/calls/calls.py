@@ -5,7 +5,8 @@
 FOLDER     the build folder (default build/release) with the targets bench_calls_c, _cpp and _fortran
 A round runs each language once, in a process of its own, in an order that turns; Julia where it is. Prints medians and
 quartiles of nanoseconds of processor time (Julia: of the wall clock), and the median over rounds of the difference to C
-in the same round.
+in the same round with its quartiles. Behind the times every program prints what its march ends with; these must be
+those of C in every bit and every round: exit status 1 if they are not.
 """
 import argparse
 import os
@@ -36,6 +37,24 @@ def commands(build):
     return found
 
 
+def compare(ends, rounds):
+    """Every end of every language beside that of C: how many numbers, how many differ in a bit, and by how much."""
+    wrong = 0
+    reference = min(ends["c"])
+    for language, found in ends.items():
+        numbers = min(len(end) for end in found)
+        differ, worst = 0, 0.0
+        for end in found:
+            pairs = list(zip(end, reference))
+            differ += sum(a.hex() != b.hex() for a, b in pairs) + abs(len(end) - len(reference))
+            worst = max([worst, *(abs(a - b) / max(abs(a), abs(b)) for a, b in pairs if a != b)])
+        broken = sum(0.0 < v < 1.0 for v in reference[6:])
+        print(f"values: {language}: {numbers} numbers in {rounds} rounds, {differ} not the bits of C, "
+              f"relative difference {worst:.3g}, {broken} pairs partly damaged")
+        wrong += differ
+    return 1 if wrong or len(reference) < 7 else 0
+
+
 def main():
     parser = argparse.ArgumentParser(description="what a call of the library costs through each language")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "release")
@@ -49,30 +68,30 @@ def main():
     environment = dict(os.environ, OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1",
                        PYTHONPATH=str(ROOT / "bindings" / "python" / "src"))
     environment.setdefault("DELAM_LIBRARY", str(options.build / "lib"))
-    rounds, last = [], set()
+    rounds, ends = [], {language: set() for language in hosts}
     for number in range(options.rounds):
         order = list(hosts)[number % len(hosts):] + list(hosts)[:number % len(hosts)]
         times = {}
         for language in order:
             done = subprocess.run([*hosts[language], str(options.calls), str(options.steps)], check=True, text=True,
                                   capture_output=True, env=environment)
-            per_call, per_step, value = map(float, done.stdout.split())
+            per_call, per_step, *end = map(float, done.stdout.split())
             times[language] = per_call, per_step
-            last.add(round(value, 3))
+            ends[language].add(tuple(end))
         rounds.append(times)
-    if len(last) != 1:
-        sys.exit(f"the languages do not compute the same: {sorted(last)}")
     print(f"{options.rounds} rounds of {options.calls} calls and {options.steps} steps, ns: median (quartiles), "
           "over C in the same round")
-    print(f"{'':8} {'value by key':>28} {'over C':>9} {'step (advance, commit)':>32} {'over C':>9}")
+    print(f"{'':8} {'value by key':>28} {'over C':>26} {'step (advance, commit)':>32} {'over C':>26}")
     for language in hosts:
         cells = []
         for column, width in ((0, 28), (1, 32)):
             times = [times[language][column] for times in rounds]
-            over = statistics.median(times[language][column] - times["c"][column] for times in rounds)
+            least, over, most = statistics.quantiles((t[language][column] - t["c"][column] for t in rounds), n=4)
             low, middle, high = statistics.quantiles(times, n=4)
-            cells.append(f"{f'{middle:.0f} ({low:.0f} to {high:.0f})':>{width}} {over:9.0f}")
+            cells += [f"{f'{middle:.0f} ({low:.0f} to {high:.0f})':>{width}}",
+                      f"{f'{over:.0f} ({least:.0f} to {most:.0f})':>26}"]
         print(f"{language:8} {' '.join(cells)}")
+    return compare(ends, options.rounds)
 
 
-main()
+sys.exit(main())

@@ -14,7 +14,7 @@ def make_solver():
     problem = delam.Problem(mesh)
     problem.set_elastic(70e9, 0.3)
     problem.set_law(glue, law)
-    pull = problem.add_pattern("pull", [0.0, 1.0], [0.0, 1e-6])
+    pull = problem.add_pattern("pull", [0.0, 1.0, 2.0], [0.0, 1e-6, 4e-3])
     problem.prescribe(mesh.find_node((0.0, 0.0)), "x")
     problem.prescribe(mesh.find_node((0.0, 0.0)), "y")
     problem.prescribe(mesh.find_node((0.1, 0.0)), "y")
@@ -35,7 +35,11 @@ def main():
         solver.advance(i / steps)
         solver.commit()
     per_step = (time.process_time_ns() - begin) / steps
-    print(f"{per_call:.6g} {per_step:.6g} {values['reaction:pull'] + total:.15g}")
+    for i in range(1, 11):
+        solver.advance(1.0 + i / 10.0)
+        solver.commit()
+    state = [values[key] for key in ("reaction:pull", "stored_bulk", "stored_interface", "dissipated", "work")]
+    print(f"{per_call:.6g} {per_step:.6g}", *(f"{v:.17g}" for v in (total, *state, *solver.field("adhesion"))))
 
 
 main()

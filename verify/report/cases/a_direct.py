@@ -103,7 +103,7 @@ def scene_case(scene):
         rounding = difference_columns()
         columns = [column("time", "", key=True), column("realisation", "", key=True), column("debonded", "of the pairs"), column("closed", "pairs"), *rounding,
                    column("contacts", "pairs", past="free"), column("Krylov iterations", "", past="free", **{"from": "linear_iterations"}),
-                   column("stalled", "", may=scene.get("stalls", False)), column("KKT, worst", "relative", past="rounding", **{"from": "kkt"}),
+                   column("stalled", "", may=scene.get("stalls", False)), column("KKT, worst", "relative", past="rounding", part="States of the march: worst violations of the primal KKT conditions", **{"from": "kkt"}),
                    *[column(n, "relative", past="rounding", **{"from": f"kkt_{n}"}) for n in ("gap", "pressure", "complementarity", "equilibrium")]]
         why = scene.get("why", "what the linear tolerances of the march leave; ten times less than any of the march's own tolerances")
         checks, curves, kkt = [], [], []

@@ -5,6 +5,7 @@ import math
 
 from bench import MACHINE_WHY, bench, middle
 from case import Case, Failed, axis, check, column, figure, largest, plot, reference, result, series, table
+from words import show
 
 BASELINE = reference("direct solver",
                      "plain alternate minimisation with CHOLMOD's factorisation of the whole system whenever its matrix has changed, on the same scene, with the same "
@@ -276,7 +277,7 @@ def scene_files(context):
                      r["linear_iterations"] if r["whole"] else None, r["peak_MB"] / max(r["lse_MB"], 1e-9), "" if r["whole"] else "stopped by the cap"])
         if how == "chosen":
             if cost > 8:
-                losses.append(f"{name}: the march costs {cost:.3g} linear solves for {steps} steps")
+                losses.append(f"{name}: the march costs {show(cost)} linear solves for {steps} steps")
             if r["peak_MB"] > r["lse_MB"]:
                 losses.append(f"{name}: it holds {r['peak_MB'] / max(r['lse_MB'], 1e-9):.2g} times the memory of one factorisation")
     for name in wanted:

@@ -5,12 +5,17 @@ import json
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
 import unittest
 
-import planted
+import planted  # sets the path
+
+import case
+import plots
+import render
 import schema
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -189,10 +194,60 @@ class Report(unittest.TestCase):
         finally:
             path.unlink()
 
+    def test_interrupted_the_report_before_stays(self):
+        out = self.base / "interrupted"
+        shutil.copytree(self.out, out)
+
+        def kept():
+            return {p.relative_to(out): p.read_bytes() for p in out.rglob("*") if p.is_file() and p.relative_to(out).parts[0] not in ("log", "raw")}
+
+        before = kept()
+        # What runs the tests in the background may have told them to ignore Ctrl-C.
+        run = subprocess.Popen([sys.executable, str(planted.REPORT / "make.py"), "--build", str(self.build), "--out", str(out), "--jobs", "1", "--cases", str(HERE / "cases"),
+                                "--past", str(self.base / "past")], text=True, stderr=subprocess.PIPE, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+        for line in run.stderr:
+            if line.startswith("[1/"):
+                break
+        run.send_signal(signal.SIGINT)
+        said = run.stderr.read()
+        run.stderr.close()
+        self.assertEqual(run.wait(), 1)
+        self.assertIn("interrupted", said)
+        self.assertEqual(kept(), before)
+
     def test_unknown_names_are_refused(self):
         run = self.make(self.build, self.base / "unknown", "--only", "t-nonsense")
         self.assertNotEqual(run.returncode, 0)
         self.assertIn("t-nonsense", run.stderr)
+
+
+class Pages(unittest.TestCase):
+    def test_wide_tables_are_split_and_lose_nothing(self):
+        columns = [case.column("time", key=True), *(case.column(f"quantity {i}", "relative") for i in range(20)), case.column("gap", "relative", part="KKT")]
+        whole = case.table("T", columns, [[t, *(1.234e-12 * (i + 1) for i in range(21))] for t in (0.5, 1.0)])
+        parts = render.parts(whole)
+        self.assertGreater(len(parts), 2)
+        self.assertEqual([p["title"] for p in parts][-1], "KKT")
+        for p in parts:
+            self.assertEqual(p["columns"][0]["name"], "time")
+            self.assertEqual([row[0] for row in p["rows"]], [0.5, 1.0])
+            self.assertTrue(p["scrolls"] or len(p["columns"]) < 5)
+        self.assertEqual([c["name"] for p in parts for c in p["columns"][1:]], [c["name"] for c in columns[1:]])
+        self.assertEqual([v for p in parts for v in p["rows"][1][1:]], whole["rows"][1][1:])
+        narrow = case.table("N", columns[:3], [row[:3] for row in whole["rows"]])
+        self.assertEqual(len(render.parts(narrow)), 1)
+
+    def test_bars_need_names_and_whole_spreads(self):
+        data = planted.sound(status="passed")
+        data["judgement"]["reference"]["verdict"] = "pass"
+        bars = case.plot("B", case.axis("", bars=["C++", "Python"]), case.axis("step", "us"), [case.series("s", "first", [0, 1], [0.1, 9.0], low=[-0.1, 8.0], high=[0.2, 9.5])])
+        data["plots"] = [bars]
+        schema.check(data)
+        self.assertIn("<svg", plots.svg(bars, plots.NARROW))
+        for spoil in ({"x": [0, 2]}, {"low": [0.0]}, {"high": [float("nan"), 1.0]}):
+            spoilt = {**bars, "series": [{**bars["series"][0], **spoil}]}
+            with self.assertRaises(schema.Invalid):
+                schema.check({**data, "plots": [spoilt]})
 
 
 class RealCases(unittest.TestCase):
