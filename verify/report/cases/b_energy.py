@@ -4,7 +4,7 @@ import numpy as np
 
 import flexure
 import orders
-from case import Case, axis, check, column, figure, largest, ledger_of, order, plot, reference, result, series, table
+from case import Case, Rows, axis, check, column, figure, largest, ledger_of, order, plot, reference, result, series, table
 
 ENF = dict(geometry="two arms 120 mm x 3 mm, notch 30 mm, 4-node cells, plane strain", supports="bottom corners (ENF), the notched end at the "
            "interface (MMF); midspan pressed by 6 mm", units="energies in J per metre of width; loads in mm")
@@ -15,27 +15,39 @@ BALANCE = reference("physics", "stored + dissipated = work of the loads for a co
 
 
 def balance(context):
-    rows = context.harness("balance")
-    curves, bands, checks, found = [], [], [], []
+    delam, rows = context.python(), context.harness("balance")
+    curves, bands, checks, found, levels = [], [], [], [], []
     for h, role, other in zip(rows.values("h_mm"), ("first", "second"), ("third", "fourth")):
         of = rows.where(h_mm=h)
         tau = [1.0 / n for n in of.column("steps")]
         defects, band = of.column("max_defect"), of.column("band_J_per_m")
         curves.append(series(f"defect, h = {h:g} mm", role, tau, defects))
         bands.append(series(f"h = {h:g} mm", role, tau, band))
-        found.append(order(f"defect, h = {h:g} mm", "tau", orders.fit(tau, defects), 1.0, 0.2, tau, defects, "at least"))
-        found.append(order(f"band, h = {h:g} mm", "tau", orders.fit(tau, band), 1.0, 0.02, tau, band))
+        fitted = orders.fit(tau, defects), orders.fit(tau, band)
+        found.append(order(f"defect, h = {h:g} mm", "tau", fitted[0], 1.0, 0.1, tau, defects, "at least"))
+        found.append(order(f"band, h = {h:g} mm", "tau", fitted[1], 1.0, 1e-6, tau, band))
+        dofs, slides, both = flexure.dofs(delam, "enf-ductile", 1e-3 * h), of.column("max_defect_slides"), zip(orders.rates(tau, defects), orders.rates(tau, band))
+        names = "final_work", "lower_violated", "upper_violated", "am_iterations", "not_converged"
+        for i, (rate, band_rate) in enumerate(both):
+            last = i + 1 == len(tau)
+            levels.append([h, i + 1, 1.0 / tau[i], tau[i], dofs, defects[i], rate, 1.0, fitted[0] if last else None, slides[i], band[i], band_rate, 1.0,
+                           fitted[1] if last else None, *(of.column(name)[i] for name in names)])
     checks += [check("violated lower bounds", largest(rows.column("lower_violated")), 0, "beyond 1e-9 of the energy"),
                check("violated upper bounds", largest(rows.column("upper_violated")), 0, "beyond 1e-9 of the energy"),
-               check("largest defect of the balance, finest step, over the work", rows.column("max_defect")[-1], 1e-4,
-                     "the two-sided band over 2 would allow 3 % at 80 steps; a ductile march has no jump to release energy")]
-    columns = [column("h", "mm", key=True, **{"from": "h_mm"}), column("steps", "", key=True), column("defect", "of the work", **{"from": "max_defect", "past": 1e-4}),
-               column("defect, slides' ledger", "of the work", **{"from": "max_defect_slides", "past": 1e-4}),
-               column("band", "J/m", **{"from": "band_J_per_m"}), column("work", "J/m", **{"from": "final_work"}),
-               column("below lower", "steps", **{"from": "lower_violated"}), column("above upper", "steps", **{"from": "upper_violated"}),
-               column("alternations", "", **{"from": "am_iterations", "past": "count"}), column("not_converged", "steps")]
+               check("largest defect of the balance, finest step, over the work", rows.column("max_defect")[-1], 2e-4 if context.quick else 5e-5,
+                     "three times what was measured when it was set; a ductile march has no jump to release energy, and the defect is of second order until softening sets in")]
+    columns = [column("h", "mm", key=True), column("level", ""), column("steps", "", key=True), column("tau", "of the loading"), column("DOFs", ""),
+               column("defect", "of the work", past=1e-4), column("rate of defect", "", optional=True, past="free"), column("expected of defect, at least", ""),
+               column("fitted, defect", "", optional=True, past="free"), column("defect, slides' ledger", "of the work", past=1e-4), column("band", "J/m"),
+               column("rate of band", "", optional=True, past="free"), column("expected of band", ""), column("fitted, band", "", optional=True, past="free"),
+               column("work", "J/m"), column("below lower", "steps"), column("above upper", "steps"), column("alternations", "", past="count"), column("not_converged", "steps")]
     last = rows.column("max_defect")[-1]
-    return result(BALANCE, tables=[rows.table("Balance and band against the step", columns, rows.note)], orders=found, checks=checks,
+    h, steps = 1e-3 * rows.column("h_mm")[-1], round(rows.column("steps")[-1])
+    marched = flexure.march(delam, "enf-ductile", h, steps)
+    checks.append(check("work of the finest march, by Python beside the table's", abs(marched.at["work"][-1] / rows.column("final_work")[-1] - 1.0), 1e-6,
+                        "the table is by FETI, the ledger below by the condensed interface: their tolerances"))
+    return result(BALANCE, tables=[table("Balance and band against the step", columns, levels, rows.note)], orders=found, checks=checks,
+                  ledger=ledger_of({f"h = {1e3 * h:g} mm, {steps} steps": marched.at}, "J/m"),
                   plots=[plot("Defect of the energy balance", axis("step tau", "of the loading", "log"), axis("largest defect", "of the work", "log"), curves,
                               [{"kind": "slope", "order": 1, "label": "order 1"}], "Largest |stored + dissipated - work| over the final work."),
                          plot("Width of the two-sided estimate", axis("step tau", "of the loading", "log"), axis("sum of upper - lower", "J/m", "log"), bands,
@@ -85,9 +97,9 @@ def ledger(context):
                  "rows": [[round(mm[k], 9), at["reaction:load"][k], at["stored_bulk"][k], at["stored_interface"][k], at["dissipated"][k], at["work"][k], again[k],
                            (total[k] - again[k]) / size] for k in range(0, n, every)]}],
         ledger=ledger_of({f"h = {1e3 * cell:g} mm, {steps} steps": at}, "J/m"),
-        checks=[check("booked work against the reaction's integral", max(abs(a - b) for a, b in zip(at["work"], again)) / size, 1e-9,
+        checks=[check("booked work against the reaction's integral", max(abs(a - b) for a, b in zip(at["work"], again)) / size, 1e-13,
                       "for one prescribed displacement (lower + upper)/2 is the trapezoid of the end reactions, up to rounding of the energies"),
-                check("defect of the balance", max(abs(a - b) for a, b in zip(total, again)) / size, 1e-3, "four times the defect of b-balance at 40 steps"),
+                check("defect of the balance", max(abs(a - b) for a, b in zip(total, again)) / size, 7e-4 if context.quick else 5e-5, "three times the defect of b-balance at as many steps"),
                 check("below the lower bound", low, 1e-9, "of the final work; the bounds hold up to rounding"),
                 check("above the upper bound", high, 1e-9, "of the final work; the bounds hold up to rounding")],
         plots=[plot("Energies over the load", axis("displacement of mid-span", "mm"), axis("energy", "J/m"),
@@ -353,7 +365,7 @@ def mechanism(march, levels, element, rules, found, checks, losses, tables):
             rows.append([rule, i + 1, levels[i][0], levels[i][1], tau[i], m.dofs, falls[i], rate, None if rule == "frozen" else 1.0, fitted if i + 1 == len(levels) else None,
                          100 * max(m.at["mixity_error"]), 100 * bound, 100 * off])
         if rule != "frozen":
-            found.append(order(f"largest share of the run that breaks in one step, {rule}", "tau", fitted, 1.0, 0.3, tau, falls, "at least"))
+            found.append(order(f"largest share of the run that breaks in one step, {rule}", "tau", fitted, 1.0, 0.2, tau, falls, "at least"))
         else:
             offs = [abs(m.at["dissipated"][-1] / limit - 1.0) for m in marches]
             few = len(levels) - 2
@@ -376,21 +388,36 @@ def mechanism(march, levels, element, rules, found, checks, losses, tables):
 
 def jump_instant(context):
     rows = context.harness("jump-instant")
-    columns = [column("element", "", key=True), column("h", "mm", key=True, **{"from": "h_mm"}), column("jump", "mm", **{"from": "jump_mm"}),
-               column("to beam theory", "relative", **{"from": "to_beam", "past": 1e-5}), column("change", "relative", optional=True, past=1e-3, **{"from": "step"}),
-               column("order", "", optional=True, past="free"), column("Richardson", "mm", optional=True, past="free", **{"from": "richardson_mm"}),
-               column("front after it", "mm", **{"from": "front_mm"}), column("onset", "mm", **{"from": "griffith_mm"}),
-               column("onset to beam theory", "relative", past=1e-5, **{"from": "griffith_to_beam"})]
+    delam = context.python()
+    # The quadratic cells are nearest to the limit: theirs is the one that errors are taken to.
+    limit = [v for v in rows.where(element="quad8").column("richardson_mm") if v is not None][-1]
+    levels, found, expected = [], [], {"quad4": 1.0, "quad4-incompatible": 1.0}  # of energies, with a crack tip
+    for element in rows.values("element"):
+        of = rows.where(element=element)
+        h, errors = of.column("h_mm"), [abs(v / limit - 1.0) for v in of.column("jump_mm")]
+        if element in expected:
+            found.append(order(f"load of the jump, {element}", "h", orders.fit(h, errors), expected[element], 0.2, h, errors, "at least"))
+        names = "step", "jump_mm", "to_beam", "richardson_mm", "front_mm", "griffith_mm", "griffith_to_beam"
+        for i, rate in enumerate(orders.rates(h, errors)):
+            levels.append([element, i + 1, h[i], flexure.dofs(delam, "enf-brittle", 1e-3 * h[i], element), errors[i], rate, expected.get(element),
+                           orders.fit(h, errors) if i + 1 == len(h) else None, *(of.column(name)[i] for name in names)])
+    columns = [column("element", "", key=True), column("level", ""), column("h", "mm", key=True), column("DOFs", ""), column("error", "relative", past=1e-3),
+               column("rate", "", optional=True, past="free"), column("expected", "at least", optional=True), column("fitted order", "", optional=True, past="free"),
+               column("change", "relative", optional=True, past=1e-3), column("jump", "mm"), column("to beam theory", "relative", past=1e-5), column("Richardson's limit", "mm", optional=True, past="free"), column("front after it", "mm"),
+               column("onset", "mm"), column("onset to beam theory", "relative", past=1e-5)]
     curves = [series(e, role, of.column("h_mm"), of.column("jump_mm")) for e, role in zip(rows.values("element"), ("first", "second", "third"))
               for of in [rows.where(element=e)]]
     finest = {e: rows.where(element=e).column("jump_mm")[-1] for e in rows.values("element")}
     spread = max(finest.values()) / min(finest.values()) - 1.0
     return result(reference("closed form", "beam theory without shear of the arms and compliance of the root (verify/report: a = 48.0 mm after a jump at 0.281 mm)",
                             "beam theory is stiffer than the plane solution: 2 to 4 % are expected; the meshes among themselves have none of it"),
-                  tables=[rows.table("Load of the jump over meshes and elements", columns, rows.note)],
+                  tables=[table("Load of the jump over meshes and elements", columns, levels, "Error: to Richardson's limit of the quadratic cells; the crossing is exact for any load, "
+                                "there is no step. " + rows.note)], orders=found,
+                  ledger="None: nothing is marched. The energies of all fronts are scanned at one load, and the load is that where two of them cross.",
                   checks=[check("distance to beam theory, finest meshes", max(abs(v / 0.281 - 1.0) for v in finest.values()), 0.04,
                                 "shear of the arms and the root, which beam theory omits, soften a plane specimen by 2 to 4 %"),
-                          check("spread among elements, finest meshes", spread, 0.005, "three elements share one limit")],
+                          check("spread among elements, finest meshes", spread, 6e-3 if context.quick else 6e-4,
+                                "three elements share one limit; three times what was measured when it was set")],
                   plots=[plot("Load at which the energies of two fronts cross", axis("cell size h", "mm", "log"), axis("load of the jump", "mm"), curves,
                               [{"kind": "horizontal", "value": 0.281, "label": "beam theory"}], "Brittle ENF, supports and load on patches of 2 mm, exhaustive scan of fronts.")],
                   figures=[figure("jump_mm", finest["quad4-incompatible"], "mm", "Brittle ENF: load of the energetic jump, finest incompatible mesh (beam theory: 0.281 mm)")])
@@ -399,8 +426,16 @@ def jump_instant(context):
 def energetic_case(specimen, quick, expected):
     def run(context):
         rows = context.harness("energetic", "--specimen", specimen, *(() if context.quick else ("--finest", "0.4")))
+        delam = context.python()
+        unknowns = {h: flexure.dofs(delam, specimen, 1e-3 * h) for h in rows.values("h_mm")}
+        rows = Rows({"table": rows.name, "note": rows.note, "columns": [*rows.columns, "dofs", "tau", "allowed"],
+                     "rows": [[*r, unknowns[r[rows.index("h_mm")]], 1 / 40, "-" if not r[rows.index("method")].startswith("energetic") else
+                               1e-11 if specimen.startswith("enf") else "-" if r[rows.index("method")] != "energetic" and r[rows.index("mixity")] == "frozen" else 1e-4]
+                              for r in rows.rows]})
         columns = [column("exponent", "", key=True), column("mixity", "", key=True), column("h", "mm", key=True, **{"from": "h_mm"}), column("patch", "mm", key=True, **{"from": "patch_mm"}),
-                   column("method", "", key=True), column("excess", "over the scan", past="free", optional=True), column("above", "steps", optional=True, past="free", **{"from": "steps_above"}),
+                   column("tau", "of the loading"), column("DOFs", "", **{"from": "dofs"}),
+                   column("method", "", key=True), column("error", "over the scan's energy", past="free", optional=True, **{"from": "excess"}),
+                   column("expected, at most", "over the scan's energy", optional=True, past="free", **{"from": "allowed"}), column("above", "steps", optional=True, past="free", **{"from": "steps_above"}),
                    column("jump at step", "", optional=True, **{"from": "jump_step"}), column("scan's", "", optional=True, **{"from": "scan_step"}),
                    column("jump at", "mm", optional=True, **{"from": "jump_mm"}), column("front", "mm", optional=True, **{"from": "front_mm"}),
                    column("scan's front", "mm", optional=True, **{"from": "scan_front_mm"}), column("toughness", "J/m2", optional=True, past=1e-4),
@@ -416,7 +451,7 @@ def energetic_case(specimen, quick, expected):
             # Frozen mixity in mixed mode: locating the jump books other mixities than the scan's steps do; another history, listed below.
             same = [r for r in of.rows if specimen.startswith("enf") or method == "energetic" or r[of.index("mixity")] != "frozen"]
             worst = largest(r[of.index("excess")] for r in same)
-            limit, why = (1e-6, "no front of the exhaustive scan may be lower; in mode II both histories have the same toughness") if specimen.startswith("enf") else (
+            limit, why = (1e-11, "no front of the exhaustive scan may be lower; in mode II both histories have the same toughness: rounding alone") if specimen.startswith("enf") else (
                 1e-4, "no front of the exhaustive scan may be lower; in mixed mode the two histories book mixities of their own states, which need not "
                       "agree to the last digits")
             checks.append(check(f"{method}: energy above the scan's", worst, limit, why))
@@ -448,9 +483,12 @@ def energetic_case(specimen, quick, expected):
         for method in ("local", "backtracking", "energetic") if specimen == "enf-brittle" else ():
             at = points.where(method=method).column("jump_mm")
             figures.append(figure(f"jump_{method}_mm", at[0], "mm", f"Brittle ENF, 40 steps, points as supports: load of the first jump, {method}"))
+        marches = {f"{name}, h = 1 mm, 40 steps": flexure.march(delam, specimen, 1e-3, 40, **options).at for name, options in (
+            ("local", {}), ("backtracking", {"backtracking": "on"}), ("energetic", {"solution": "energetic"}))}
         return result(reference("exhaustive scan", "verify/reference/fronts: every front position of every step, own history and mixity",
                                 "none within contiguous fronts on the same mesh; other sets of broken pairs are outside the scan"),
-                      tables=[rows.table("Marches beside the scan", columns, rows.note)], checks=checks, losses=losses, figures=figures,
+                      tables=[rows.table("Marches beside the scan", columns, "No order is expected: march and scan are of one mesh and one step, and must agree on each. " + rows.note)],
+                      checks=checks, losses=losses, figures=figures, ledger=ledger_of(marches, "J/m"),
                       plots=[plot(f"Load of the first jump, {specimen}", axis("cell size h", "mm"), axis("load of the jump", "mm"), curves,
                                   [], "Supports and load on patches of 2 mm, 40 steps of 0.15 mm: the energetic march jumps in the step of the scan.")])
 
@@ -464,9 +502,9 @@ def cases():
                  "with the step; no bound is violated.", materials=DUCTILE, run=balance, quick=True, seconds=600, expected=30, **ENF),
             Case(id="b-ledger", chapter="b", title="Energy ledger of a march", requirement="What is stored and dissipated is the work of the load, "
                  "integrated outside the library, and every step lies between its bounds.", materials=DUCTILE, run=ledger, quick=True, seconds=300, expected=10, **ENF),
-            estimate_case("enf-ductile", "local", True, 60), estimate_case("mmf-ductile", "local", True, 60), estimate_case("enf-brittle", "local", True, 90),
-            estimate_case("enf-brittle", "energetic", True, 240), estimate_case("mmf-brittle", "local", False, 120),
-            convergence_case("enf-ductile", 60), convergence_case("mmf-ductile", 60),
+            estimate_case("enf-ductile", "local", True, 5), estimate_case("mmf-ductile", "local", True, 10), estimate_case("enf-brittle", "local", True, 15),
+            estimate_case("enf-brittle", "energetic", True, 5), estimate_case("mmf-brittle", "local", False, 40),
+            convergence_case("enf-ductile", 10), convergence_case("mmf-ductile", 15),
             Case(id="b-jump-instant", chapter="b", title="Load of the energetic jump", requirement="The load of the jump converges over meshes, is the same for three elements, "
                  "and lies 2 to 4 % below beam theory.", materials=BRITTLE, run=jump_instant, quick=True, seconds=1200, expected=120,
                  **{**ENF, "supports": "as the slides, spread over patches of 2 mm"}),
