@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The flexure specimens of chapter (b) by the Python package: end-notched (ENF) and mixed-mode (MMF), ductile and brittle, and their marches."""
+"""The flexure specimens of chapter (b) by the Python package: end-notched (ENF) and mixed-mode (MMF), ductile and
+brittle, and their marches."""
 import types
 
 import numpy as np
@@ -14,13 +15,15 @@ def scene(delam, specimen, h, patch=0.0, element="quad4", **options):
     """Problem and interface; patch: length over which supports and load are spread as means, 0: points."""
     stiffness, onset, toughness = LAWS[specimen[4:]]
     quadratic, margin = element == "quad8", 0.25 * h / (2.0 if element == "quad8" else 1.0)
-    mesh = delam.Mesh.layers(LENGTH, round(LENGTH / h), [ARM, ARM], [max(1, round(ARM / h))] * 2, "quad8" if quadratic else "quad4")
+    mesh = delam.Mesh.layers(LENGTH, round(LENGTH / h), [ARM, ARM], [max(1, round(ARM / h))] * 2,
+                             "quad8" if quadratic else "quad4")
     interface = mesh.add_interface(0, 1)
     problem = delam.Problem(mesh, plane="plane-strain")
     problem.set_elastic(75e9, 0.3)
     if element == "quad4-incompatible":
         problem.set_formulation("incompatible")
-    problem.set_law(interface, delam.Law("piecewise-linear", normal_stiffness=stiffness, tangential_stiffness=stiffness, normal_onset=onset, tangential_onset=onset,
+    problem.set_law(interface, delam.Law("piecewise-linear", normal_stiffness=stiffness, tangential_stiffness=stiffness,
+                                         normal_onset=onset, tangential_onset=onset,
                                          normal_toughness=toughness, tangential_toughness=toughness))
     problem.set_adhesion(interface, interface.places[:, 0] < NOTCH - margin, 0.0)
     load = problem.add_pattern("load", [0.0, END], [0.0, LOAD])
@@ -48,8 +51,8 @@ def dofs(delam, specimen, h, element="quad4"):
 
 
 def march(delam, specimen, h, steps, patch=0.0, element="quad4", adhesion=False, **options):
-    """A march of equal steps: `at`, lists of the values after every step, the initial state first; `open`, the steps that met an iteration
-    limit; `adhesion`, that of the bonded run after every step, where asked for; dofs and places of the pairs beside them."""
+    """A march of equal steps: `at`, lists of the values after every step, the initial state first; `open`, the steps
+    that met an iteration limit; `adhesion`, that of all pairs after every step, where asked for; `x`, their places."""
     problem, interface = scene(delam, specimen, h, patch, element, **options)
     out = types.SimpleNamespace(h=h, steps=steps, dofs=problem.dofs[0], open=0, x=interface.places[:, 0], adhesion=[])
     with delam.Solver(problem) as solver:
