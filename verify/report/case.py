@@ -241,31 +241,34 @@ def order(of: str, by: str, fitted: float, expected: float, tolerance: float, si
 
 def result(reference: dict, *, tables=(), orders=(), ledger=None, plots=(), figures=(), checks=(), warnings=(), losses=(),
            refused: str = "") -> dict:
-    """refused: the library's own words, where the expected outcome is a refusal. losses: where something else is better. ledger: a table
-    (`ledger_of`), or a phrase that says why there is none; None: the phrase of the chapter (words.py)."""
+    """refused: the library's own words, where the expected outcome is a refusal. losses: where something else is
+    better. ledger: a table (`ledger_of`), or a phrase that says why there is none; None: the phrase of the chapter
+    (words.py)."""
     return {"reference": reference, "tables": list(tables), "orders": list(orders), "ledger": ledger, "plots": list(plots),
             "figures": list(figures), "checks": list(checks), "warnings": list(warnings), "losses": list(losses),
             "refused": refused}
 
 
 def ledger_of(marches: dict, unit: str, slack: float = 1e-9) -> dict:
-    """The energy ledger of marches, by name: each the values of the public API after every step, lists by their names, the initial state
-    first or a first step that has bounds of its own. Sums of the two-sided estimate beside what was booked; beyond: steps outside of it
-    by more than `slack` of the largest energy."""
+    """The energy ledger of marches, by name: each the values of the public API after every step, lists by their names,
+    the initial state first. Sums of the two-sided estimate beside what was booked; beyond: steps outside of it by more
+    than `slack` of the largest energy."""
+    names = ("stored_bulk", "stored_interface", "dissipated", "work", "lower", "increment_lower", "increment", "upper")
     rows = []
     for name, at in marches.items():
-        values = {key: [float(v) for v in at[key]] for key in ("stored_bulk", "stored_interface", "dissipated", "work", "lower", "increment", "upper", "increment_lower")}
-        bulk, interface, spent, work = (values[key] for key in ("stored_bulk", "stored_interface", "dissipated", "work"))
-        size = max(max(abs(v) for v in bulk), max(abs(v) for v in work))
-        beyond = sum(max(low - own, now - up) > slack * size
-                     for low, own, now, up in zip(values["lower"], values["increment_lower"], values["increment"], values["upper"]))
-        rows.append([name, bulk[-1], interface[-1], spent[-1], work[-1], bulk[-1] + interface[-1] - bulk[0] - interface[0] + spent[-1] - work[-1],
-                     sum(values["lower"]), sum(values["increment"]), sum(values["upper"]), beyond])
-    columns = [column("march", "", key=True), column("stored, bodies", unit), column("stored, interface", unit), column("dissipated", unit), column("work", unit),
-               column("defect", unit), column("sum of lower bounds", unit), column("sum of increments", unit), column("sum of upper bounds", unit),
-               column("steps beyond a bound", "steps")]
+        bulk, interface, spent, work, lower, own, now, upper = ([float(v) for v in at[key]] for key in names)
+        slack_here = slack * max(max(abs(v) for v in bulk), max(abs(v) for v in work))
+        gained = bulk[-1] + interface[-1] - bulk[0] - interface[0]
+        beyond = sum(max(low - a, b - up) > slack_here for low, a, b, up in zip(lower, own, now, upper))
+        rows.append([name, bulk[-1], interface[-1], spent[-1], work[-1], gained + spent[-1] - work[-1], sum(lower),
+                     sum(now), sum(upper), beyond])
+    energies = ("stored, bodies", "stored, interface", "dissipated", "work", "defect", "lower, sum",
+                "increments, sum", "upper, sum")
+    columns = [column("march", "", key=True), *(column(what, unit) for what in energies),
+               column("beyond a bound", "steps")]
     return table("At the end of the march", columns, rows,
-                 "As the library books it, by its public values. Defect: growth of what is stored, and dissipated, less the work; bounds and increments are summed over the steps.")
+                 "As the library books it, by its public values. Defect: growth of what is stored, and dissipated, "
+                 "less the work; bounds and increments are summed over the steps.")
 
 
 def reference(kind: str, source: str, uncertainty: str) -> dict:

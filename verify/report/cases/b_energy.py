@@ -220,11 +220,10 @@ def estimate_case(specimen, solution, quick, expected):
                 losses.append(f"mixity rule {name}: {of['open']} of {of['steps']} steps end at the iteration limit, "
                               f"and say so")
             if lags and rule == "frozen" and len(tau) > 1:
-                losses.append(f"mixity rule {name}: the defect of the balance does not fall with the step "
-                              f"({of['defect'][0]:.2g} of the work at "
-                              f"{1 / tau[0]:.0f} steps, {of['defect'][-1]:.2g} at {1 / tau[-1]:.0f}): one step breaks "
-                              f"many pairs at a mixity that lags; see "
-                              "b-convergence-mmf-ductile, which has the bound and the cures")
+                listed = ", ".join(f"{v:.2g} at {1 / t:.0f}" for t, v in zip(tau, of["defect"]))
+                losses.append(f"mixity rule {name}: the defect of the balance does not fall with the step ({listed} "
+                              "steps, of the work): one step breaks many pairs at a mixity that lags; "
+                              "b-convergence-mmf-ductile has the bound and the cures")
         for rule, role in zip(RULES, ("first", "second", "third")):
             of = series_of[1e-3, rule]
             curves.append(series(rule, role, of["tau"], of["defect"]))
@@ -388,12 +387,12 @@ def convergence_case(specimen, expected):
                                             "at order 1 this is what is left to the limit; the bound is three times "
                                             "what was measured when it was set"))
             if mixed and name == "dissipated":
-                by_both, by_tau, by_h = ([r for r in rows if r[:3] == [by, good, "converged"]] for by in ("h and tau",
-                        "tau", "h"))
+                by_both, by_tau, by_h = ([r for r in rows if r[:3] == [by, good, "converged"]]
+                                         for by in ("h and tau", "tau", "h"))
                 parts = [r[-1][13] / r[-2][13] - 1.0 for r in (by_tau, by_h)]
                 checks.append(check("dissipated, converged: change by the last halving of h over that of tau",
-                                    parts[1] / parts[0], 0.0, "of opposite signs: halved together they cancel on coarse "
-                                    "levels, so that no order can be fitted there; each alone has its order"))
+                                    parts[1] / parts[0], 0.0, "of opposite signs: halved together they cancel on "
+                                    "coarse levels, so that no order can be fitted there; each alone has its order"))
                 losses.append(f"dissipated energy, mixity converged, h and tau halved together: order "
                               f"{by_both[-1][12]:.2f} fitted to its changes, below the order 1 that tau alone "
                               f"({by_tau[-1][12]:.2f}) and h alone ({by_h[-1][12]:.2f}) have: the last halving of tau "
@@ -441,9 +440,10 @@ def convergence_case(specimen, expected):
                       tables=tables, orders=found, checks=checks, losses=losses, ledger=ledger_of(shown, "J/m"),
                       plots=plots)
 
-    need = ("With the mixity of the step itself (mixity_rule = converged) energies, work, reaction and adhesion "
-            "converge with order 1 at least; with frozen mixity they do only in "
-            "steps that are short enough for it, which is a loss." if mixed else
+    need = ("With the mixity of the step itself (mixity_rule = converged) energies, work, reaction and adhesion converge "
+            "with order 1 at least in tau and in h, and halved together but for the dissipated energy, whose two parts "
+            "cancel on coarse levels. With frozen mixity they converge only in steps that are short enough for it."
+            if mixed else
             "Energies, work, reaction and adhesion converge with order 1 at least as h and tau are halved together.")
     return Case(id=f"b-convergence-{specimen}", chapter="b", title=f"Mesh and step refined together, {specimen}",
                 requirement=need, materials=DUCTILE, run=run,

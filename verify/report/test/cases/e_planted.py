@@ -92,7 +92,8 @@ def refused(result):
 
 def loss(result):
     result["losses"] = ["twice as slow as <b>the baseline</b>"]
-    ends = dict.fromkeys(("stored_bulk", "stored_interface", "dissipated", "work", "lower", "increment", "upper", "increment_lower"), [0.0, 1.0])
+    names = "stored_bulk", "stored_interface", "dissipated", "work", "lower", "increment", "upper", "increment_lower"
+    ends = dict.fromkeys(names, [0.0, 1.0])
     result["ledger"] = ledger_of({"one step": ends}, "J/m")
 
 
