@@ -249,14 +249,16 @@ def result(reference: dict, *, tables=(), orders=(), ledger=None, plots=(), figu
             "refused": refused}
 
 
+LEDGER_VALUES = ("stored_bulk", "stored_interface", "dissipated", "work", "lower", "increment_lower", "increment", "upper")
+
+
 def ledger_of(marches: dict, unit: str, slack: float = 1e-9) -> dict:
     """The energy ledger of marches, by name: each the values of the public API after every step, lists by their names,
     the initial state first. Sums of the two-sided estimate beside what was booked; beyond: steps outside of it by more
     than `slack` of the largest energy."""
-    names = ("stored_bulk", "stored_interface", "dissipated", "work", "lower", "increment_lower", "increment", "upper")
     rows = []
     for name, at in marches.items():
-        bulk, interface, spent, work, lower, own, now, upper = ([float(v) for v in at[key]] for key in names)
+        bulk, interface, spent, work, lower, own, now, upper = ([float(v) for v in at[key]] for key in LEDGER_VALUES)
         slack_here = slack * max(max(abs(v) for v in bulk), max(abs(v) for v in work))
         gained = bulk[-1] + interface[-1] - bulk[0] - interface[0]
         beyond = sum(max(low - a, b - up) > slack_here for low, a, b, up in zip(lower, own, now, upper))
