@@ -242,10 +242,36 @@ def order(of: str, by: str, fitted: float, expected: float, tolerance: float, si
 
 def result(reference: dict, *, tables=(), orders=(), ledger=None, plots=(), figures=(), checks=(), warnings=(), losses=(),
            refused: str = "") -> dict:
-    """refused: the library's own words, where the expected outcome is a refusal. losses: where something else is better."""
+    """refused: the library's own words, where the expected outcome is a refusal. losses: where something else is
+    better. ledger: a table (`ledger_of`), or a phrase that says why there is none; None: the phrase of the chapter
+    (words.py)."""
     return {"reference": reference, "tables": list(tables), "orders": list(orders), "ledger": ledger, "plots": list(plots),
             "figures": list(figures), "checks": list(checks), "warnings": list(warnings), "losses": list(losses),
             "refused": refused}
+
+
+LEDGER_VALUES = ("stored_bulk", "stored_interface", "dissipated", "work", "lower", "increment_lower", "increment", "upper")
+
+
+def ledger_of(marches: dict, unit: str, slack: float = 1e-9) -> dict:
+    """The energy ledger of marches, by name: each the values of the public API after every step, lists by their names,
+    the initial state first. Sums of the two-sided estimate beside what was booked; beyond: steps outside of it by more
+    than `slack` of the largest energy."""
+    rows = []
+    for name, at in marches.items():
+        bulk, interface, spent, work, lower, own, now, upper = ([float(v) for v in at[key]] for key in LEDGER_VALUES)
+        slack_here = slack * max(max(abs(v) for v in bulk), max(abs(v) for v in work))
+        gained = bulk[-1] + interface[-1] - bulk[0] - interface[0]
+        beyond = sum(max(low - a, b - up) > slack_here for low, a, b, up in zip(lower, own, now, upper))
+        rows.append([name, bulk[-1], interface[-1], spent[-1], work[-1], gained + spent[-1] - work[-1], sum(lower),
+                     sum(now), sum(upper), beyond])
+    energies = ("stored, bodies", "stored, interface", "dissipated", "work", "defect", "lower, sum",
+                "increments, sum", "upper, sum")
+    columns = [column("march", "", key=True), *(column(what, unit) for what in energies),
+               column("beyond a bound", "steps")]
+    return table("At the end of the march", columns, rows,
+                 "As the library books it, by its public values. Defect: growth of what is stored, and dissipated, "
+                 "less the work; bounds and increments are summed over the steps.")
 
 
 def reference(kind: str, source: str, uncertainty: str) -> dict:

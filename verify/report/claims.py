@@ -6,7 +6,8 @@ CLAIMS = [
                              "of the whole system does, and the state they end with meets the primal KKT conditions, checked outside "
                              "the library."},
     {"chapter": "b", "text": "Every step books all energies and a two-sided estimate; balance and band shrink with the step, mesh and step "
-                             "refined together converge, and energetic marches find what an exhaustive scan of crack fronts finds."},
+                             "refined together converge (in mixed mode with the mixity of the step itself; a frozen one "
+                             "needs short steps for it), and energetic marches find what an exhaustive scan of crack fronts finds."},
     {"chapter": "c", "text": "At equal error a march costs a few linear solves of the scene, tens to hundreds of times less than alternate "
                              "minimisation with a factorisation in every iteration; where it costs more, that is listed first."},
     {"chapter": "d", "text": "Over the ranges of stiffness, toughness, contrast, shape, size and tolerance that are listed, the result is right "

@@ -15,11 +15,9 @@ sys.path.insert(0, str(HERE))
 import jinja2  # noqa: E402
 
 import schema  # noqa: E402
-from words import show  # noqa: E402
+from words import NO_LEDGER, show  # noqa: E402
 
 ORDER = ("failed", "refused as expected", "passed", "skipped")
-LEDGER_TEXT = {"stored_bulk": "stored in the bodies", "stored_interface": "stored in the interfaces", "dissipated": "dissipated",
-               "work": "work of the loads", "defect": "defect: stored + dissipated - work", "initial": "stored at the start"}
 
 
 def slug(status: str) -> str:
@@ -102,7 +100,7 @@ def environment() -> jinja2.Environment:
     env = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE / "templates"), undefined=jinja2.StrictUndefined,
                              autoescape=jinja2.select_autoescape(["html", "html.j2"]), trim_blocks=True, lstrip_blocks=True)
     env.filters.update(show=show, slug=slug)
-    env.globals.update(ledger_text=LEDGER_TEXT, parts=parts)
+    env.globals.update(parts=parts, no_ledger=NO_LEDGER)
     return env
 
 

@@ -116,6 +116,12 @@ def check(data: dict) -> dict:
         raise Invalid(f"{where}: the reference has no source or no uncertainty")
     for i, table in enumerate(data["tables"]):
         _table(table, f"{where}, table {i}")
+    if isinstance(data["ledger"], str) and not data["ledger"].strip():
+        raise Invalid(f"{where}: \"ledger\" is empty: a table, or why there is none")
+    if data["ledger"] is not None and not isinstance(data["ledger"], str):
+        _table(data["ledger"], f"{where}, ledger")
+        if not data["ledger"]["rows"]:
+            raise Invalid(f"{where}, ledger: no march")
     for i, plot in enumerate(data["plots"]):
         _plot(plot, f"{where}, plot {i}")
     for o in data["orders"]:

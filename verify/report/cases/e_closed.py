@@ -9,7 +9,8 @@ import sys
 import numpy as np
 
 import orders
-from case import Case, Failed, Skip, axis, check, column, figure, largest, order, plot, reference, result, series
+from case import (LEDGER_VALUES, Case, Failed, Skip, axis, check, column, figure, largest, ledger_of, order, plot, reference,
+                  result, series)
 
 K, ONSET, TOUGHNESS = 125e9, 100.0, 250.0
 PEAK = math.sqrt(2 * K * ONSET)
@@ -33,7 +34,7 @@ def box(mesh, lower, upper, body=None):
 def pair(context):
     delam = context.python()
     turns, per_leg = [0.0, 0.3, 0.6, 0.1, 0.75, 0.2, 1.2, 0.4], 16 if context.quick else 64
-    rows, checks, plots = [], [], []
+    rows, checks, plots, marches = [], [], [], {}
     for mode, name, along in ((0, "mode I", "y"), (1, "mode II", "x")):
         stiffness, onset, toughness = ((125e9, 100.0, 250.0), (80e9, 160.0, 480.0))[mode]
         first = math.sqrt(2 * onset / stiffness)
@@ -51,10 +52,12 @@ def pair(context):
         off = dict.fromkeys(("adhesion", "traction", "stored", "dissipated"), 0.0)
         jumps, found, exact, furthest = [0.0], [0.0], [0.0], 0.0
         with delam.Solver(problem, not_converged="raise") as solver:
+            marches[name] = delam.History(solver, LEDGER_VALUES)
             for k in range(1, per_leg * (len(turns) - 1) + 1):
                 time = k / per_leg
                 solver.advance(time)
                 solver.commit()
+                marches[name].record()
                 w = float(np.interp(time, range(len(turns)), turns)) * last
                 furthest = max(furthest, w)
                 zeta = 1.0 if furthest <= first else 0.0 if furthest >= last else first * (last - furthest) / (furthest * (last - first))
@@ -75,7 +78,7 @@ def pair(context):
                           "Loading, unloading on the secant, reloading, past the final jump."))
     return result(reference("closed form", "the bilinear law of traction and jump with its secant after the largest jump, modes of different strength", "exact; 1e-16"),
                   tables=[{"title": "Largest difference over the path", "note": "", "columns": [column("mode", key=True), column("quantity", key=True), column("difference", "relative", past="rounding")], "rows": rows}],
-                  checks=checks, plots=plots, figures=[figure("pair_law", max(r[2] for r in rows), "relative", "One pair through loading, unloading and reloading: largest difference to the closed form", past="rounding")])
+                  checks=checks, plots=plots, ledger=ledger_of(marches, "J/m"), figures=[figure("pair_law", max(r[2] for r in rows), "relative", "One pair through loading, unloading and reloading: largest difference to the closed form", past="rounding")])
 
 
 # ---- a spring in series
@@ -97,13 +100,15 @@ def spring_scene(delam, spring, end, **options):
 
 def spring(context):
     delam = context.python()
-    rows, checks, curves, steps, known_w, known_t = [], [], [], 60, [], []
+    rows, checks, curves, steps, known_w, known_t, marches = [], [], [], 60, [], [], {}
     for ratio, role in ((1.5, "first"), (3.0, "second"), (10.0, "third")):
         stiff, worst, w_mm, t_found, t_exact = ratio * SLOPE, 0.0, [0.0], [0.0], [0.0]
         with delam.Solver(spring_scene(delam, stiff, 1.1 * DC), not_converged="raise") as solver:
+            history = marches[f"K = {ratio:g} of the slope"] = delam.History(solver, LEDGER_VALUES)
             for i in range(1, steps + 1):
                 solver.advance(i / steps)
                 solver.commit()
+                history.record()
                 w = 1.1 * DC * i / steps
                 start = PEAK * (1 / stiff + 1 / K)
                 jump, traction = (w / (1 + K / stiff), w / (1 / stiff + 1 / K)) if w <= start else (w, 0.0)
@@ -148,7 +153,7 @@ def spring(context):
                   tables=[{"title": "Stiff springs: one continuous solution", "note": "", "columns": [column("K over the slope", key=True), column("largest difference", "of final jump, strength", past="rounding")], "rows": rows},
                           {"title": "Soft springs: load of the jump", "note": "", "columns": [column("solution", key=True), column("K over the slope", key=True), column("closed form", "mm"), column("located", "mm", past=1e-4), column("difference", "relative", past="free"),
                            column("difference, from the work", "relative", past="free"), column("released", "J/m2", past="rounding"), column("released, closed form", "J/m2", past=1e-4)], "rows": loads}],
-                  checks=checks, plots=[plot("Stiff springs (K over the softening slope)", axis("end displacement", "mm"), axis("traction", "MPa"), curves), plot("Load of the jump, soft springs", axis("K over the softening slope", "", "log"), axis("load", "mm", "log"), x)],
+                  checks=checks, ledger=ledger_of(marches, "J/m"), plots=[plot("Stiff springs (K over the softening slope)", axis("end displacement", "mm"), axis("traction", "MPa"), curves), plot("Load of the jump, soft springs", axis("K over the softening slope", "", "log"), axis("load", "mm", "log"), x)],
                   figures=[figure("spring_jump_load", largest(max(abs(r[4]), abs(r[5])) for r in loads), "relative", "Spring in series: load of the jump against the closed form, local and energetic, largest difference", past="free")])
 
 
@@ -184,7 +189,7 @@ def bar_scene(delam, cells, held, end, **options):
 def bar(context):
     delam = context.python()
     meshes = (50, 100) if context.quick else (50, 100, 200)
-    rows, curves, checks, found, loads = [], [], [], [], []
+    rows, curves, checks, found, loads, marches = [], [], [], [], [], {}
 
     def load_of(front):
         return (front + BAR["bond"]) * PLATEAU / BAR["membrane"]
@@ -199,9 +204,11 @@ def bar(context):
             off = front = 0.0
             w_mm, force = [0.0], [0.0]
             with delam.Solver(bar_scene(delam, n, True, end, **({"solution": "energetic"} if solution == "energetic" else {})), not_converged="raise") as solver:
+                history = marches[f"{solution}, {n} cells"] = delam.History(solver, LEDGER_VALUES)
                 for i in range(1, steps + 1):
                     solver.advance(i / steps)
                     solver.commit()
+                    history.record()
                     w = end * i / steps
                     a = max(BAR["start"], w * BAR["membrane"] / PLATEAU - BAR["bond"])
                     off = max(off, abs(solver.values["reaction:pull"] - BAR["membrane"] * w / (a + BAR["bond"])) / PLATEAU)
@@ -240,7 +247,7 @@ def bar(context):
     return result(reference("closed form", "a bar on a bond of membrane stiffness Et and length lam = sqrt(Et/k): F = Et w/(a + lam), plateau sqrt(2 G Et); with a free far end it comes off at once at (a + lam) = (L + lam)/2", "the far end many lam away: exp(-7) of the force at the ends of the range"),
                   tables=[{"title": "Peeling of the held bar", "note": "", "columns": [column("solution", key=True), column("cells", key=True), column("h", "mm"), column("force, off", "of the plateau", past=1e-4), column("front, off", "mm", past=1e-4)], "rows": rows},
                           {"title": "Free bar: load at which it comes off, energetic", "note": "", "columns": [column("cells", key=True), column("closed form", "mm"), column("found", "mm", past=1e-4), column("difference", "relative", past="free"), column("dissipated, off", "relative", past="rounding")], "rows": loads}],
-                  orders=found, checks=checks, plots=[plot("Force over end displacement", axis("end displacement", "mm"), axis("force", "N/m"), curves)],
+                  orders=found, checks=checks, ledger=ledger_of(marches, "J/m"), plots=[plot("Force over end displacement", axis("end displacement", "mm"), axis("force", "N/m"), curves)],
                   figures=[figure("bar_jump_load", abs(loads[-1][3]), "relative", "Bar on a bond: load at which it comes off, against the closed form", past="free")])
 
 
@@ -484,6 +491,7 @@ def user_element(context):
     u = np.zeros(3)
     with delam.Solver(arms(delam, False), not_converged="raise") as element, delam.Solver(arms(delam, True), not_converged="raise") as whole:
         quadratic, worst_force, worst_spent, forces = 0, 0.0, 0.0, []
+        booked = delam.History(element, LEDGER_VALUES), delam.History(whole, LEDGER_VALUES)
         for k in range(1, steps + 1):
             time, residuals = k / steps, []
             while True:
@@ -503,6 +511,8 @@ def user_element(context):
             element.commit()
             whole.advance(time)
             whole.commit()
+            for history in booked:
+                history.record()
             if len(residuals) >= 3 and residuals[-2] < 1e-3 and residuals[-1] <= 100 * residuals[-2] ** 2 + 1e-11:
                 quadratic += 1
             same = np.array([whole.values[f"reaction:{name}"] for name in NAMES])
@@ -522,6 +532,7 @@ def user_element(context):
                   checks=[check("force of the element off the whole structure", worst_force, 1e-8, "delta and the residual of Newton's method, through softening"), check("dissipated energy, off", worst_spent, 1e-8, "as of the force"),
                           check("steps with quadratic convergence", quadratic, 15, "the last residual is at most 100 times the square of the one before; steps without damage are linear and need two", ">="),
                           check("Newton iterations of a step", max(iterations), 7, "more would not be Newton's method"), check("energy dissipated", spent, 0.1, "J/m: the arms part, it is no elastic element", ">=")],
+                  ledger=ledger_of({"element in the host": booked[0], "whole structure, springs of the machine included": booked[1]}, "J/m"),
                   plots=[plot("Force of the machine", axis("time"), axis("force", "N/m"), [series("whole structure", "reference", [f[0] for f in forces], [f[2] for f in forces], marker=False), series("element in the host", "condensed", [f[0] for f in forces], [f[1] for f in forces], line="none")]),
                          plot("Newton's method of the host, longest step", axis("iteration"), axis("residual", "relative", "log"), [series("residual", "condensed", list(range(1, len(longest) + 1)), [max(v, FLOOR) for v in longest])])],
                   figures=[figure("user_element_force", worst_force, "relative", "Sub-laminate as one element of a host: force against the whole structure in one scene, largest difference", past="rounding")])

@@ -6,7 +6,7 @@ import os
 import pathlib
 import shutil
 
-from case import Case, Failed, axis, check, column, figure, largest, plot, reference, result, series
+from case import Case, Failed, axis, check, column, figure, largest, ledger_of, plot, reference, result, series
 
 NUMBERS_PAST = 1e-5  # of marches with softening over hundreds of steps; BLAS kernels of other processors move them by less
 
@@ -47,11 +47,6 @@ def energy_checks(h):
             check("dissipated energy that comes back", max(healed, 0.0), 1e-9, "damage only grows; rounding")]
 
 
-def ledger(h):
-    last = {key: h[key][-1] for key in ("stored_bulk", "stored_interface", "dissipated", "work")}
-    return {**last, "defect": last["stored_bulk"] + last["stored_interface"] + last["dissipated"] - last["work"]}
-
-
 def beam(name, title, need, source, own, width, points, peak, fronts, coarse, loose, expected, losses=(), **scene):
     """A double cantilever: loads of the specimen, N, at openings of each arm, mm, and peak, as published. `loose`: how much wider the
     limits are with the coarse cells of the quick report."""
@@ -84,7 +79,7 @@ def beam(name, title, need, source, own, width, points, peak, fronts, coarse, lo
             tables.append({"title": "Crack front", "note": "", "columns": [column("opening of an arm", "mm", key=True), column("published", "mm"), column("found", "mm", past=1e-3)], "rows": found})
             plots.append(plot("Crack length over opening", axis("opening of each arm", "mm"), axis("crack length", "mm"),
                               [series("libdelam", "condensed", opening, crack, marker=False), series("published", "reference", [w for w, _ in fronts], [a for _, a in fronts], line="none")]))
-        return result(reference("published", source, own), tables=tables, checks=checks, plots=plots, ledger=ledger(h), losses=losses,
+        return result(reference("published", source, own), tables=tables, checks=checks, plots=plots, ledger=ledger_of({"the scene": h}, "J/m"), losses=losses,
                       figures=[figure(name.replace("-", "_") + "_peak", top, "N", f"{title}: peak load, published {peaks} N", past=NUMBERS_PAST)])
 
     return Case(id=f"e-{name}", chapter="e", title=title, requirement=need, run=run, quick=True, expected=expected, seconds=1800, units="mm; N on the specimen", **scene)
@@ -109,7 +104,7 @@ def plateau(context):
                               [{"kind": "horizontal", "value": exact, "label": "beam theory"}]),
                          plot("Load over crack length", axis("crack length", "mm"), axis("load", "N/m"), [series("libdelam", "condensed", crack, load, line="none")],
                               [{"kind": "horizontal", "value": exact, "label": "beam theory"}], "Mode II, stable: the load stays the same while the crack grows between the noses.")],
-                  ledger=ledger(h), figures=[figure("4enf_plateau", largest(off), "relative", "4ENF: load on the plateau against beam theory, largest difference", past=1e-3)])
+                  ledger=ledger_of({"the scene": h}, "J/m"), figures=[figure("4enf_plateau", largest(off), "relative", "4ENF: load on the plateau against beam theory, largest difference", past=1e-3)])
 
 
 def mixed(context):
@@ -133,7 +128,7 @@ def mixed(context):
                          plot("Mixity at the front", axis("crack length", "mm"), axis("G_II / G"), [series("libdelam", "condensed", [crack[k] for k in growing], [mixity[k] for k in growing])],
                               [{"kind": "horizontal", "value": 0.5, "label": "beam theory"}]),
                          plot("Load over displacement", axis("displacement of the load on the lever", "mm"), axis("load", "N/m"), [series("libdelam", "condensed", down, load, marker=False)])],
-                  ledger=ledger(h), figures=[figure("mmb_rate", largest(rates), "relative", "MMB: energy release rate of growth against the criterion, largest difference", past=1e-2)])
+                  ledger=ledger_of({"the scene": h}, "J/m"), figures=[figure("mmb_rate", largest(rates), "relative", "MMB: energy release rate of growth against the criterion, largest difference", past=1e-2)])
 
 
 def cases():

@@ -120,6 +120,14 @@ class Report(unittest.TestCase):
         # Failures come first.
         self.assertLess(index.index('id="failures"'), index.index('id="claims"'))
 
+    def test_every_case_that_ran_shows_a_ledger_or_says_why_not(self):
+        for name, words in (("right", ("Energy ledger", "one step", "J/m", "lower, sum")), ("refused", ("None here",))):
+            _, parsed = self.page(f"cases/t-{name}.html")
+            text = " ".join(" ".join(parsed.text).split())
+            for word in words:
+                self.assertIn(word, text, name)
+        self.assertIn("lower, sum (J/m)", (self.out / "report.md").read_text(encoding="utf-8"))
+
     def test_losses_are_shown_and_escaped(self):
         index, parsed = self.page("index.html")
         self.assertIn("twice as slow as <b>the baseline</b>", " ".join(parsed.text))
