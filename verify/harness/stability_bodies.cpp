@@ -138,8 +138,8 @@ void poisson(Study& study) {
             t.scene = [=] { return make_ring(ring.cell, ring.corners, ring.formulation, young, nu); };
             t.reference = "closed form (Lame), energy";
             t.error = [=](const Result& r) { return std::abs(r.stored_bulk / exact - 1.0); };
-            // Straight edges leave a tenth of the angle of a cell, 0.065, squared; parabolas 3e-7, which volumes that cannot
-            // change multiply without mean dilatation.
+            // Straight edges leave a tenth of the angle of a cell, 0.065, squared; parabolas 3e-7, which volumes that
+            // cannot change multiply without mean dilatation.
             const bool locks = ring.formulation == std::string("standard");
             t.limit = ring.cell == DELAM_QUAD4 ? 4e-4 : locks ? 1e-6 / (1.0 - 2.0 * nu) : 1e-6;
             t.defect_limit = 1e-8;
@@ -237,7 +237,7 @@ void aspect(Study& study) {
             t.scene = [twin = t.twin] { return twin(1.0); };
             t.may_say = true;
             t.defect_limit = 1e-8;
-            t.subdomains = 288;  // a cell each
+            t.subdomains = 72;  // four cells each
             study.run(t);
         }
     if (!study.wanted("slender-3d")) return;
@@ -264,9 +264,9 @@ void aspect(Study& study) {
     }
 }
 
-// Compliance of both arms as beams on springs that resist opening alone, crack a, root length 1/lam, over EI. Each
-// arm's deflection grows from the point where the arms touch as cosh s sin s - sinh s cos s, s = lam times the distance:
-// no deflection, slope and moment there. The tip, where moment over shear is a, lies at s0.
+// Compliance of both arms as beams on springs that resist opening alone, crack a, root length 1/lam, times EI. Each
+// arm's deflection grows from the point where the arms touch as cosh s sin s - sinh s cos s, with s = lam times the
+// distance: no deflection, slope and moment there. The tip, where moment over shear is a, lies at s0.
 double beams_on_springs(double a, double lam) {
     double s0 = 2.0;
     for (int i = 0; i < 60; ++i) s0 = std::acos(-1.0) - std::atan(2.0 * a * lam + std::tanh(s0));
@@ -329,8 +329,8 @@ void slender(Study& study) {
         t.reference = "direct solver";
         t.error = nullptr;
         t.twin = twin;
-        // Penetrations of 1e-11 of the largest jump are taken for rounding: where the arms just touch, that is 1e-7 of the
-        // largest traction.
+        // Penetrations of 1e-11 of the largest jump are taken for rounding: where the arms just touch, that is 1e-7 of
+        // the largest traction.
         t.limit = 5e-7;
         t.acceptance_limit = 1e-8;
         study.run(t);

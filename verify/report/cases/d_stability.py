@@ -124,7 +124,8 @@ def told(subject, rows):
         answered = {r[rows.index("value")] for r in rows.rows if r[rows.index("status")] == "converged"}
         for r in picked:
             if r[rows.index("expected")].startswith("refused") and r[rows.index("value")] in answered:
-                out.append(f"{subject.title}: {who} is refused at {name} = {r[rows.index('value')]:g}: {r[rows.index('message')]}")
+                value, words = r[rows.index("value")], r[rows.index("message")]
+                out.append(f"{subject.title}: {who} is refused at {name} = {value:g}: {words}")
     return out + [f"{subject.title}: {', '.join(of)} {why}" for why, of in missing.items()]
 
 
@@ -190,9 +191,11 @@ def shown(subject, rows):
 
 def falls(subject, rows, least, expected, tolerance):
     """Order of the condensed error in one over the parameter, from `least` on."""
-    of = [(1.0 / r[rows.index("value")], r[rows.index("error")]) for r in rows.rows if r[rows.index("realisation")] == "condensed" and r[rows.index("value")] >= least]
+    value, error, who = (rows.index(name) for name in ("value", "error", "realisation"))
+    of = [(1.0 / r[value], r[error]) for r in rows.rows if r[who] == "condensed" and r[value] >= least]
     sizes, errors = [s for s, _ in of], [e for _, e in of]
-    return order(f"error, {subject.title}", f"1/{parameter(rows)[0]}", fitting.fit(sizes, errors), expected, tolerance, sizes, errors)
+    return order(f"error, {subject.title}", f"1/{parameter(rows)[0]}", fitting.fit(sizes, errors), expected, tolerance,
+                 sizes, errors)
 
 
 def stability(id, title, requirement, subjects, ref=DIRECT, quick=True, expected=30, seconds=1200, figures=(), rates=(), **scene):
@@ -264,7 +267,7 @@ def cases():
                   ref=reference("closed form", "Lame's ring, its energy; of the cantilever the direct solver", "exact; the mesh of 24 x 12 cells leaves up to 4e-4 (quad4: straight edges), 1e-6 (quad8: parabolas), 1e-6/(1 - 2 nu) without mean dilatation"),
                   geometry="quarter of a ring, radii 1 and 2 m, two bonded halves; or " + CANTILEVER["geometry"], supports="planes of symmetry, inner face pushed by 1 mm; or " + CANTILEVER["supports"],
                   materials="E = 1 GPa (ring), 70 GPa (cantilever), nu from 0 to 0.4999", expected=6),
-        stability("aspect", "Cells up to 1e4 times longer than thick", "Flat and tall cells, in the plane and in space: right to 1e-8, or to twenty times what rounding of the matrices leaves, which the direct solver shows. FETI with a cell a piece converges FETITO; pieces that are whole flat layers lose digits by their bending, from cells of 10 on, and beyond that a step says that it did not converge, and by how much.",
+        stability("aspect", "Cells up to 1e4 times longer than thick", "Flat and tall cells, in the plane and in space: right to 1e-8, or to twenty times what rounding of the matrices leaves, which the direct solver shows. FETI with a cell a piece converges; pieces that are whole flat layers lose digits by their bending, from cells of 10 on, and beyond that a step says that it did not converge, and by how much.",
                   [Subject(f"aspect-{n}", t, "aspect ratio of cells", quick=n != "3d") for n, t in (("flat", "flat, plane"), ("flat-whole", "flat, plane, layers whole"), ("tall", "tall, plane"), ("3d", "flat, space"))],
                   ref=reference("direct solver", DIRECT["source"], "its energy in two units of length differs by the rounding of the assembled matrices: the row 'direct'"),
                   materials=f"{STEEL}; k = 1e14 N/m3", **{**CANTILEVER, "geometry": "thin layers of one cell beside the interface, glued to arms of 40 mm x 4 mm; or arms of tall cells", "supports": "right end clamped; upper left corner (edge) lifted; FETI with a cell a piece, or 4 subdomains (tall; layers whole)"}, expected=30),

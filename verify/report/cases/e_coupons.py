@@ -17,8 +17,7 @@ def march(context, name, coarse):
     out.parent.mkdir(parents=True, exist_ok=True)
     settings = [word for setting in (coarse if context.quick else []) for word in ("--set", setting)]
     # An exit status other than 0 (a step that did not converge among them) fails the case.
-    # Told with the report's own folder, which may be anywhere.
-    context.command("delam", "run", f"examples/{name}/{name}.toml", "--out", str(out), *settings, stdout_json=False, told={str(out): f"out/report/marches/{name}"})
+    context.command("delam", "run", f"examples/{name}/{name}.toml", "--out", str(out), *settings, stdout_json=False)
     with open(pathlib.Path(out) / "history.csv", newline="", encoding="utf-8") as file:
         rows = list(csv.reader(file))
     text = ("solution", "mixity_rule")
