@@ -237,7 +237,6 @@ void aspect(Study& study) {
             t.scene = [twin = t.twin] { return twin(1.0); };
             t.may_say = true;
             t.defect_limit = 1e-8;
-            t.subdomains = 72;  // four cells each
             study.run(t);
         }
     if (!study.wanted("slender-3d")) return;
