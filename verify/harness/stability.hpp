@@ -57,9 +57,9 @@ struct Trial {
     bool may_say = false;                   // not converged, said so, is as good as right
     std::string refused;                    // expected: a refusal or outcome with these words
     bool condensed = true, feti = true, direct = true;
-    std::string left_out;  // why, where one of these is false
+    std::string left_out;  // why, where one of these is false; empty: no row tells it
     // The scene with lengths in units of `unit`: what its direct solution has another energy by is what rounding of the
-    // matrices leaves. The error may be a hundred times that, up to 1e-2.
+    // matrices leaves. The error may be twenty times that, up to 1e-2.
     std::function<reference::Scene(double unit)> twin;
     // Of the reference alone: a scene with the same answer in which every body is held. None: the scene itself.
     std::function<reference::Scene()> held;
@@ -75,6 +75,8 @@ public:
     // Whether the subject was asked for; says so on stderr.
     bool wanted(const std::string& subject) const;
     void run(const Trial& trial);
+    // A row for a realisation that the trial is not run with.
+    void leave_out(const Trial& trial, const std::string& realisation, const std::string& why);
     // For what no trial describes: a row of its own.
     void row(const std::string& subject, const std::string& parameter_name, double parameter,
              const std::string& realisation, const std::string& reference, double error, double limit,

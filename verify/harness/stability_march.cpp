@@ -261,8 +261,8 @@ void tolerances(Study& study) {
             return scene;
         };
         t.condensed = false;
-        // The residual is that of the dual system; fields follow within its condition.
-        t.limit = 1e3 * tolerance + 1e-8;
+        // The residual is relative in the norm of the preconditioned dual system; fields follow it within a few times.
+        t.limit = 20.0 * tolerance + 1e-9;
         t.acceptance_limit = t.limit;
         t.may_say = tolerance < 1e-13;
         study.run(t);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stability against how many pairs, subdomains and how badly cut: one pair to 1e5 of them, 1 to 512 subdomains, bodies
-// that are combs pushed into each other.
+// Stability against how many pairs, subdomains and how badly cut: one pair to 1e5 of them, pieces from short to
+// slender, 1 to 512 subdomains, bodies that are combs pushed into each other.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 
 #include "stability.hpp"
@@ -52,9 +53,43 @@ Scene one_pair(double pull) {
     return scene;
 }
 
+constexpr double pull = 1e-6, spring = 1e14;
+
+// Tractions, jumps and the force of a strip against uniform tension.
+double strip_error(const Result& r, std::int64_t cells) {
+    constexpr double h = 1e-3, traction = pull / (2.0 * h / young + 1.0 / spring);
+    double worst = std::abs(r.pattern[0] / (traction * h * static_cast<double>(cells)) - 1.0);
+    for (std::size_t i = 0; i < r.traction.size(); i += 2)
+        worst = std::max({worst, std::abs(r.traction[i] / traction - 1.0), std::abs(r.traction[i + 1] / traction),
+                          std::abs(r.jump[i] * spring / traction - 1.0)});
+    return worst;
+}
+
+std::string format(const char* text, double a, double b, double c) {
+    char line[200];
+    std::snprintf(line, sizeof line, text, a, b, c);
+    return line;
+}
+
+// What the dense matrices of the condensed operator would cost: src/reduction/README.md.
+std::string dense_cost(double pairs) {
+    const double m = 2.0 * pairs, operations = (2.0 / 3.0 + 0.7 + 0.2) * m * m * m;
+    return format("expected: %.3g GB for four dense matrices of two rows a pair, %.2g operations, %.2g minutes at "
+                  "20 GF/s", 4.0 * 8.0 * m * m * 1e-9, operations, operations / 20e9 / 60.0);
+}
+
+// The coarse problem of FETI is dense: it is factored twice.
+std::string coarse_cost(double pieces) {
+    const double n = 3.0 * pieces;
+    return format("expected: %.3g GB for two dense matrices of the %.3g rigid motions of its pieces, %.2g operations "
+                  "to factor them", 2.0 * 8.0 * n * n * 1e-9, n, 2.0 / 3.0 * n * n * n);
+}
+
+// Cells of a piece of FETI: longer ones are known to fewer digits, see pieces().
+constexpr std::int64_t piece = 20;
+
 void pairs(Study& study) {
     if (!study.wanted("pairs")) return;
-    constexpr double pull = 1e-6, h = 1e-3, k = 1e14;
     for (const double count : study.range({1, 2, 11, 101, 1001, 10001, 100001}, 3)) {
         if (study.options().quick && count > 200) continue;
         const auto cells = std::lround(count) - 1;
@@ -62,34 +97,52 @@ void pairs(Study& study) {
         t.subject = "pairs";
         t.parameter_name = "pairs";
         t.parameter = count;
-        t.scene = [=] { return cells == 0 ? one_pair(pull) : strip(cells, k, pull); };
-        t.subdomains = cells == 0 ? 2 : static_cast<int>(std::clamp<long>(cells / 50, 2, 2000));
+        t.scene = [=] { return cells == 0 ? one_pair(pull) : strip(cells, spring, pull); };
+        t.subdomains = static_cast<int>(std::max<long>(2, 2 * cells / piece));
         if (cells > 0) {
             t.reference = "closed form (uniform tension)";
-            const double traction = pull / (2.0 * h / young + 1.0 / k);
-            t.error = [=](const Result& r) {
-                double worst = std::abs(r.pattern[0] / (traction * h * static_cast<double>(cells)) - 1.0);
-                for (std::size_t i = 0; i < r.traction.size(); i += 2)
-                    worst = std::max({worst, std::abs(r.traction[i] / traction - 1.0),
-                                      std::abs(r.traction[i + 1] / traction),
-                                      std::abs(r.jump[i] * k / traction - 1.0)});
-                return worst;
-            };
+            t.error = [=](const Result& r) { return strip_error(r, cells); };
         }
-        // Strips one cell thick are hard for FETI: 100 pairs take 140 iterations, 1001 take 600, and rounding ends them.
-        t.may_say = count > 20;
-        if (count > 2e3) {
-            t.condensed = t.feti = t.direct = false;
-            t.left_out = "dense: 3 GB at 1e4 pairs, no LAPACK beyond 23170; FETI: iterations grow with the length of a strip "
-                         "one cell thick, minutes";
+        if (count > 5e4) {
+            Trial refused = t;
+            refused.feti = refused.direct = false;
+            refused.refused = "allowed: up to 46340; feti has no such limit";
+            study.run(refused);
+            study.leave_out(t, "FETI", coarse_cost(t.subdomains));
+            t.feti = false;
+        } else if (count > 2e3) {
+            study.leave_out(t, "condensed", dense_cost(count));
         }
+        t.condensed = count < 2e3;
+        t.defect_limit = 1e-8;
+        study.run(t);
+    }
+}
+
+// One strip in ever longer pieces. A floating piece bends: of a compliance that grows with (length / thickness)^3 FETI
+// takes differences, which rounding spoils, until residuals no longer reach its tolerance.
+void pieces(Study& study) {
+    if (!study.wanted("pairs-pieces")) return;
+    constexpr std::int64_t cells = 400;
+    for (const double length : study.range({5, 10, 20, 50, 100, 200, 400}, 3)) {
+        Trial t;
+        t.subject = "pairs-pieces";
+        t.parameter_name = "cells of a piece";
+        t.parameter = length;
+        t.scene = [=] { return strip(cells, spring, pull); };
+        t.subdomains = static_cast<int>(std::lround(2.0 * cells / length));
+        t.reference = "closed form (uniform tension)";
+        t.error = [=](const Result& r) { return strip_error(r, cells); };
+        t.condensed = false;
+        t.may_say = length > static_cast<double>(piece);
         t.defect_limit = 1e-8;
         study.run(t);
     }
 }
 
 void subdomains(Study& study) {
-    const std::vector<double> counts{2, 4, 8, 16, 32, 64, 128, 256, 512};
+    // 1: no fewer than one for each connected part, so two.
+    const std::vector<double> counts{1, 2, 4, 8, 16, 32, 64, 128, 256, 512};
     for (const char* preconditioner : {"series", "dirichlet", "lumped"}) {
         const std::string subject = std::string("subdomains-") + preconditioner;
         if (!study.wanted(subject)) continue;
@@ -226,6 +279,7 @@ void poor_cuts(Study& study) {
 
 void stability_partition(Study& study) {
     pairs(study);
+    pieces(study);
     subdomains(study);
     poor_cuts(study);
 }

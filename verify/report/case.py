@@ -78,9 +78,10 @@ class Context:
         raise Skip(f"{name} was not built in {self.build.name}")
 
     def command(self, name: str, *arguments: str, stdout_json: bool = True, check: bool = True) -> object:
-        """Runs a program of the build and returns its JSON (or text). An exit status other than 0 fails the case."""
+        """Runs a program of the build and returns its JSON (or text). An exit status other than 0 fails the case. The page shows the command
+        with the report in its usual folder, wherever it is made."""
         program = self.program(name)
-        self.commands.append(shlex.join([name, *arguments]))
+        self.commands.append(shlex.join([name, *(a.replace(str(self.out), "out/report") for a in arguments)]))
         run = subprocess.run([str(program), *arguments], cwd=self.root, text=True, capture_output=True, check=False,
                              env=environment(self.library, timing=True))  # kernels: those of the case's own process
         if check and run.returncode != 0:

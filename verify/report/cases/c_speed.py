@@ -185,10 +185,10 @@ def precision(context):
                                 "elements of second order bend: their coarsest mesh has the error of fine linear ones"))
     found = {name: {r["h_mm"]: r["error_reaction_mesh"] for r in of_line if r["element"] == name} for name in ("quad4", "quad4-incompatible")}
     shared = [h for h in found["quad4"] if h in found["quad4-incompatible"]]
-    checks += [check("incompatible modes: error of the reaction over that without, same mesh", largest(found["quad4-incompatible"][h] / found["quad4"][h] for h in shared), 0.5,
-                     "they are there to bend"),
-               check("change of the error between tolerances of 1e-3 and less", moved / errors[tightest]["error_reaction"], 0.05,
-                     "the stopping test must not be what decides the error"),
+    checks += [check("incompatible modes: error of the reaction over that without, same mesh", largest(found["quad4-incompatible"][h] / found["quad4"][h] for h in shared), 0.1,
+                     "they bend exactly where 4-node cells are too stiff by their part of the arm, which is nearly all of the error of these"),
+               check("change of the error between tolerances of 1e-3 and less", moved / errors[tightest]["error_reaction"], 1e-9,
+                     "a step ends with a Newton step, exact on its piece of the law, whatever the tolerance: rounding and the march's amplification of it are left"),
                check("steps that did not converge", largest(r["counts"]["not_converged"] for r in rows), 0, "a step at its limit is no evidence")]
     if stopped:
         losses.append(f"{len(stopped)} of {len(data['rows'])} marches were stopped by the cap")

@@ -4,7 +4,8 @@ are those of verify/harness/stability_*.cpp; what a row may be is decided here a
 import dataclasses
 import math
 
-from case import Case, Failed, axis, check, column, figure, plot, reference, result, series
+import orders as fitting
+from case import Case, Failed, axis, check, column, figure, order, plot, reference, result, series
 
 REALISATIONS = (("condensed", "condensed"), ("FETI", "feti"), ("direct", "direct"))
 SAID = "DELAM_NOT_CONVERGED"
@@ -26,7 +27,8 @@ class Subject:
     unit: str = ""
     scale: str = "log"
     place: object = float           # of a value on the axis
-    acceptance: float = 1e-8        # of KKT and ledger
+    acceptance: object = 1e-8       # of KKT and ledger: a number, or a function of the parameter, told in `accepts`
+    accepts: str = "1e-8"
     defect: float = 0.0             # of the balance; 0: it falls with the steps, so that it is not judged here
     refused: str = ""               # words with which rows of it are to be refused, or ""
     past: object = "rounding"
@@ -45,9 +47,10 @@ def finite(value):
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
-def bound_of(subject, limit, expected):
+def bound_of(subject, value, limit, expected):
     """Of KKT and ledger: where rounding of the matrices decides, as much as it leaves."""
-    return max(subject.acceptance, limit) if BY_ROUNDING in expected else subject.acceptance
+    acceptance = subject.acceptance(value) if callable(subject.acceptance) else subject.acceptance
+    return max(acceptance, limit) if BY_ROUNDING in expected else acceptance
 
 
 def judged(subject, rows):
@@ -80,7 +83,7 @@ def judged(subject, rows):
         if holes:
             missing.append(f"{who}: {holes[0]}")
             continue
-        bound = bound_of(subject, values["limit"], expected)
+        bound = bound_of(subject, get("value"), values["limit"], expected)
         used = values["error"] / values["limit"] if values["limit"] > 0 else (0.0 if values["error"] == 0.0 else 2.0)
         acceptance[who] = bound
         worst, kkt, ledger = max(worst, used), max(kkt, values["kkt"] / bound), max(ledger, values["ledger"] / bound)
@@ -97,8 +100,8 @@ def judged(subject, rows):
                     + (": " + ", ".join(unexpected[:3]) if unexpected else ""))]
     if acceptance:
         checks += [check(f"{name}: error over its limit", worst, 1, "the limit of every row is in the table, with what it is compared with"),
-                   check(f"{name}: primal KKT over its limit", kkt, 1, f"limit {subject.acceptance:g}, or the rounding of the matrices where the row says so; {KKT_WHY}"),
-                   check(f"{name}: ledger over its limit", ledger, 1, f"limit {subject.acceptance:g}, or the rounding of the matrices where the row says so; {LEDGER_WHY}")]
+                   check(f"{name}: primal KKT over its limit", kkt, 1, f"limit {subject.accepts}, or the rounding of the matrices where the row says so; {KKT_WHY}"),
+                   check(f"{name}: ledger over its limit", ledger, 1, f"limit {subject.accepts}, or the rounding of the matrices where the row says so; {LEDGER_WHY}")]
         if subject.defect:
             checks.append(check(f"{name}: defect of the balance", defect, subject.defect, "nothing is damaged or slides with loss: stored energy is work, to rounding"))
     if refused:
@@ -118,6 +121,11 @@ def told(subject, rows):
         if left:
             why = f"left out at {name} = " + ", ".join(f"{v:g}" for v, _ in left) + f": {left[0][1]}"
             missing.setdefault(why, []).append(who)
+        answered = {r[rows.index("value")] for r in rows.rows if r[rows.index("status")] == "converged"}
+        for r in picked:
+            if r[rows.index("expected")].startswith("refused") and r[rows.index("value")] in answered:
+                value, words = r[rows.index("value")], r[rows.index("message")]
+                out.append(f"{subject.title}: {who} is refused at {name} = {value:g}: {words}")
     return out + [f"{subject.title}: {', '.join(of)} {why}" for why, of in missing.items()]
 
 
@@ -125,11 +133,12 @@ def pictures(subject, rows):
     """Error, KKT violation and iterations over the parameter, a series a realisation."""
     x_axis = axis(subject.x, subject.unit, subject.scale)
     errors, violations, counts, refused = [], [], [], []
-    limits, bounds, zeros = {}, {}, False
+    limits, bounds, zeros, answers = {}, {}, False, False
     for who, role in REALISATIONS:
         picked = [r for r in rows.rows if r[rows.index("realisation")] == who and r[rows.index("status")] in ("converged", SAID)]
         if not picked:
             continue
+        answers = True
         x = [subject.place(r[rows.index("value")]) for r in picked]
 
         def y(name):
@@ -143,14 +152,15 @@ def pictures(subject, rows):
             errors.append(series(who, role, x, [None if v is None else max(v, 1e-18) for v in y("error")]))
             zeros = zeros or 0.0 in y("error")
         violations.append(series(who, role, x, [None if v is None else max(v, 1e-18) for v in y("kkt")]))
-        bounds.update((a, bound_of(subject, limit, r[rows.index("expected")])) for a, limit, r in zip(x, y("limit"), picked))
+        bounds.update((a, bound_of(subject, r[rows.index("value")], limit, r[rows.index("expected")])) for a, limit, r in zip(x, y("limit"), picked))
         counts.append(series(f"{who}: Krylov" if who == "FETI" else f"{who}: active set", role, x, y("krylov" if who == "FETI" else "active_set")))
         if who != "direct":
             limits.update(zip(x, y("limit")))
     for r in rows.rows:
         if r[rows.index("expected")].startswith("refused"):
-            refused.append(r[rows.index("value")])
-    note = f" Refused, as expected: {parameter(rows)[0]} = " + ", ".join(f"{v:g}" for v in sorted(set(refused))) + "." if refused else ""
+            refused.append((r[rows.index("value")], r[rows.index("realisation")]))
+    who = ", ".join(dict.fromkeys(of for _, of in refused)) + ": " if answers else ""
+    note = f" Refused, as expected: {who}{parameter(rows)[0]} = " + ", ".join(f"{v:g}" for v in sorted({v for v, _ in refused})) + "." if refused else ""
     out = []
     if errors:
         places = sorted(limits)
@@ -179,14 +189,25 @@ def shown(subject, rows):
         column("status"), column("expected outcome", "", **{"from": "expected"}), column("verdict"), column("in its own words", "", **{"from": "message"})])
 
 
-def stability(id, title, requirement, subjects, ref=DIRECT, quick=True, expected=30, seconds=1200, figures=(), **scene):
+def falls(subject, rows, least, expected, tolerance):
+    """Order of the condensed error in one over the parameter, from `least` on."""
+    value, error, who = (rows.index(name) for name in ("value", "error", "realisation"))
+    of = [(1.0 / r[value], r[error]) for r in rows.rows if r[who] == "condensed" and r[value] >= least]
+    sizes, errors = [s for s, _ in of], [e for _, e in of]
+    return order(f"error, {subject.title}", f"1/{parameter(rows)[0]}", fitting.fit(sizes, errors), expected, tolerance,
+                 sizes, errors)
+
+
+def stability(id, title, requirement, subjects, ref=DIRECT, quick=True, expected=30, seconds=1200, figures=(), rates=(), **scene):
+    """rates: (subject, least value, order, tolerance) of errors that fall."""
     def run(context):
-        tables, checks, plots, losses, answered, numbers, words = [], [], [], [], False, [], ""
+        tables, checks, plots, losses, answered, numbers, words, found = [], [], [], [], False, [], "", []
         for subject in (s for s in subjects if s.quick or not context.quick):
             rows = context.harness("stability", "--subject", subject.call or subject.name).where(subject=subject.name)
             more, any_answer = judged(subject, rows)
             answered = answered or any_answer
             checks += more
+            found += [falls(subject, rows, *rest) for name, *rest in rates if name == subject.name]
             losses += told(subject, rows)
             tables.append(shown(subject, rows))
             plots += pictures(subject, rows)
@@ -194,7 +215,7 @@ def stability(id, title, requirement, subjects, ref=DIRECT, quick=True, expected
         for name, text in figures:
             used = [c["value"] for c in checks if c["what"].endswith("error over its limit")]
             numbers.append(figure(name, max(used), "of the limit", text, past="free"))
-        return result(ref, tables=tables, checks=checks, plots=plots, losses=losses, figures=numbers, refused="" if answered else words)
+        return result(ref, tables=tables, checks=checks, plots=plots, losses=losses, orders=found, figures=numbers, refused="" if answered else words)
 
     scene.setdefault("units", "SI; errors relative to the largest value of their kind over the march")
     return Case(id=f"d-{id}", chapter="d", title=title, requirement=requirement, run=run, quick=quick, expected=expected, seconds=seconds, **scene)
@@ -222,9 +243,10 @@ def cases():
         stability("stiffness", "Interface stiffness from 1e6 to 1e22 N/m3", "Sixteen decades of interface stiffness leave the elastic solution right to 1e-8, by either realisation, in the plane and in space.",
                   [Subject("stiffness", "plane", defect=1e-8, **k), Subject("stiffness-3d", "space", defect=1e-8, quick=False, **k)], materials=f"{STEEL}; kn = kt = k, unbreakable",
                   figures=[("stability_stiffness", "k from 1e6 to 1e22 N/m3: largest error over its limit of 1e-8")], expected=10, **CANTILEVER),
-        stability("rigid", "The rigid limit, and bonds", "As k grows the difference to the bonded arms falls as E/(k h), to nothing; bonds themselves are right to 1e-8 over meshes.",
+        stability("rigid", "The rigid limit, and bonds", "As k grows the difference to the bonded arms falls as that of springs in series with the cells beside them, a/(1 + a) with a = 0.3 E/(k h), to nothing; bonds themselves are right to 1e-8 over meshes.",
                   [Subject("rigid", "towards the bond", past=1e-3, defect=1e-8, **k), Subject("bonded", "bonded", "columns", defect=1e-8)],
-                  ref=reference("direct solver", "the bonded arms, eliminated by CHOLMOD; the difference that springs make is at most 0.3 E/(k h)", "1e-10, its rounding"),
+                  rates=[("rigid", 0.9e16, 1.0, 0.01)],
+                  ref=reference("direct solver", "the bonded arms, eliminated by CHOLMOD; the difference that springs make is at most a/(1 + a), a = 0.3 E/(k h), of the cells of 1 mm", "1e-10, its rounding"),
                   materials=f"{STEEL}; kn = kt = k, or bonded", expected=2, **{**CANTILEVER, "geometry": CANTILEVER["geometry"].replace("notch of 12 mm at the loaded end", "no notch, or one of 12 mm (bonded)")}),
         stability("tractions", "Interface tractions do not oscillate", "Up to the rigid bond tractions follow the closed form, and their total variation is that of the smooth solution to 1 %.",
                   [Subject("tractions", "tractions", past=1e-4, defect=1e-8, **k), Subject("oscillation", "total variation", past=1e-4, defect=1e-8, error="of the smooth one", quick=False, **k)],
@@ -238,21 +260,21 @@ def cases():
         stability("contrast", "Moduli of neighbours up to 1e8 apart", "A contrast of 1e-8 to 1e8 between the arms leaves the solution right to 1e-8.",
                   [Subject("contrast", "plane", "E upper / E lower", defect=1e-8), Subject("contrast-3d", "space", "E upper / E lower", defect=1e-8, quick=False)],
                   materials="the stiffer arm 70 GPa, nu = 0.3; k = 1e14 N/m3", expected=3, **CANTILEVER),
-        stability("poisson", "Poisson's ratio up to 0.4999", "Solves stay right up to nu = 0.4999, and mean dilatation keeps 4-node cells from locking: the energy of a ring is that of Lame to 1e-3.",
+        stability("poisson", "Poisson's ratio up to 0.4999", "Solves stay right up to nu = 0.4999, and mean dilatation keeps cells from locking: the energy of a ring is that of Lame to 4e-4 with 4 nodes, 1e-6 with 8; without it 8-node cells lose as 1/(1 - 2 nu).",
                   [Subject(name, text, "1 - 2 nu", "", "log", lambda v: 1 - 2 * v, defect=1e-8, past="rounding" if "poisson" in name else 1e-4) for name, text in
                    (("poisson-standard", "cantilever, standard"), ("poisson-mean-dilatation", "cantilever, mean dilatation"), ("ring-quad8-standard", "ring, quad8"),
                     ("ring-quad4-mean-dilatation", "ring, quad4, mean dilatation"), ("ring-quad8-mean-dilatation", "ring, quad8, mean dilatation"))],
-                  ref=reference("closed form", "Lame's ring, its energy; of the cantilever the direct solver", "exact; the mesh of 24 x 12 cells leaves up to 1e-3 (quad4), 2e-3 (quad8: edges bent by parabolas)"),
+                  ref=reference("closed form", "Lame's ring, its energy; of the cantilever the direct solver", "exact; the mesh of 24 x 12 cells leaves up to 4e-4 (quad4: straight edges), 1e-6 (quad8: parabolas), 1e-6/(1 - 2 nu) without mean dilatation"),
                   geometry="quarter of a ring, radii 1 and 2 m, two bonded halves; or " + CANTILEVER["geometry"], supports="planes of symmetry, inner face pushed by 1 mm; or " + CANTILEVER["supports"],
                   materials="E = 1 GPa (ring), 70 GPa (cantilever), nu from 0 to 0.4999", expected=6),
-        stability("aspect", "Cells up to 1e4 times longer than thick", "Flat and tall cells, in the plane and in space: right to 1e-8, or to a hundred times what rounding of the matrices leaves, which the direct solver shows.",
-                  [Subject(f"aspect-{n}", t, "aspect ratio of cells", quick=n != "3d") for n, t in (("flat", "flat, plane"), ("tall", "tall, plane"), ("3d", "flat, space"))],
+        stability("aspect", "Cells up to 1e4 times longer than thick", "Flat and tall cells, in the plane and in space: right to 1e-8, or to twenty times what rounding of the matrices leaves, which the direct solver shows. FETI with a cell a piece converges in the plane up to 1e4. Pieces that are whole flat layers bend and lose digits by that: with cells of 10 in the plane, 100 in space, and beyond, a step says that it did not converge, and by how much.",
+                  [Subject(f"aspect-{n}", t, "aspect ratio of cells", quick=n != "3d") for n, t in (("flat", "flat, plane"), ("flat-whole", "flat, plane, layers whole"), ("tall", "tall, plane"), ("3d", "flat, space"))],
                   ref=reference("direct solver", DIRECT["source"], "its energy in two units of length differs by the rounding of the assembled matrices: the row 'direct'"),
-                  materials=f"{STEEL}; k = 1e14 N/m3", **{**CANTILEVER, "geometry": "thin layers of one cell beside the interface, glued to arms of 40 mm x 4 mm; or arms of tall cells"}, expected=30),
-        stability("slender", "Plies 1000 times longer than thick", "Bending follows beams on springs; beside the direct solver solves are right to 1e-8, or to a hundred times what rounding leaves, or say that they did not converge.",
-                  [Subject("slender", "beam theory", "length / thickness", acceptance=1e-4, past=1e-2), Subject("slender-direct", "plane", "length / thickness", call="slender"), Subject("slender-3d", "space", "length / thickness", quick=False)],
-                  ref=reference("closed form", "double cantilever of beams on springs (compliance of both arms, root length 1/lambda); and the direct solver",
-                                "3 % for contact ahead of the tip, 10 (t/l)^2 for shear; rounding of the matrices, 2e-17 (l/t)^4 for a chain of cells"),
+                  materials=f"{STEEL}; k = 1e14 N/m3", **{**CANTILEVER, "geometry": "thin layers of one cell beside the interface, glued to arms of 40 mm x 4 mm; or arms of tall cells", "supports": "right end clamped; upper left corner (edge) lifted; FETI with a cell a piece, or 4 subdomains (tall cells; layers whole; space)"}, expected=30),
+        stability("slender", "Plies 1000 times longer than thick", "Bending follows beams on springs within 0.1 % and what thick arms add; beside the direct solver solves are right to 5e-7 (penetrations of 1e-11 of the largest jump pass for rounding, and are 1e-7 of the largest traction where the arms just touch), or to twenty times what rounding leaves, or say that they did not converge.",
+                  [Subject("slender", "beam theory", "length / thickness", acceptance=lambda ratio: max(1e-8, 2e-16 * ratio ** 4), accepts="1e-8, or 2e-16 (l/t)^4: rounding of bending forces", past=1e-2), Subject("slender-direct", "plane", "length / thickness", call="slender"), Subject("slender-3d", "space", "length / thickness", quick=False)],
+                  ref=reference("closed form", "double cantilever of beams on springs that resist opening alone, the arms touch behind them (compliance of both arms, root length 1/lambda); and the direct solver",
+                                "0.1 % for pairs a twelfth of the root length apart, 15 (t/l)^2 for shear and thickness of the arms; rounding of the matrices, 2e-17 (l/t)^4 for a chain of cells"),
                   geometry="arms of 1 m, 120 cells of 8 nodes, 10 to 1000 times longer than thick; in space 16 x 2 x 2 cells", supports="right end clamped, left end opened", materials="E = 70 GPa, nu = 0 (0.3 in space)", expected=25),
         stability("size", "From nanometres to kilometres", "The same specimen of 40 nm to 40 km gives the same numbers to 1e-9: there is no hidden absolute tolerance.",
                   [Subject("size", "sizes", "length / 40 mm")], ref=reference("physics", "the same march at 40 mm, scaled", "none: an identity of the model; data of other sizes are rounded, 1e-16"),
@@ -283,9 +305,9 @@ def cases():
                   geometry="2 x 2 to 8 x 8 square blocks of 3 x 3 cells, FETI with n^2 + 4 subdomains", supports="bottom held, top pulled and turned", materials=f"{STEEL}; k = 1e14 N/m3 or bonded", expected=6),
         stability("supports-twice", "Supports given twice", "A support that was given already is refused, in words.", [Subject("supports-twice", "given twice", "blocks a side", scale="linear")],
                   ref=reference("physics", "the same row twice makes the reactions undetermined", "none"), geometry="blocks of 3 x 3 cells", supports="the bottom, held twice", materials=STEEL, expected=1),
-        stability("pairs", "From one pair to a thousand", "One pair, a row of cells under uniform tension: exact by either realisation; what is left out says why.",
-                  [Subject("pairs", "strip", "pairs", defect=1e-8)], ref=reference("closed form", "uniform tension of two cells and a spring in series; one pair: the direct solver", "exact"),
-                  geometry="two rows of cells of 1 mm, as long as there are pairs; one pair: corners of two triangles", supports="bottom held, top pulled by 1 micrometre", materials="E = 70 GPa, nu = 0; k = 1e14 N/m3", expected=5),
+        stability("pairs", "From one pair to 1e5", "One pair, a strip one cell thick under uniform tension: exact to 1e-8 by each realisation up to 1e3 pairs, by FETI and the direct solver to 1e4; beyond, a refusal in words, or what it would cost. Pieces of FETI that are 20 times longer than thick leave 1e-12, longer ones say that they did not converge.",
+                  [Subject("pairs", "strip", "pairs", defect=1e-8), Subject("pairs-pieces", "strip of 401 pairs, by its pieces", "length / thickness of a piece", defect=1e-8)], ref=reference("closed form", "uniform tension of two cells and a spring in series; one pair: the direct solver", "exact"),
+                  geometry="two rows of cells of 1 mm, as long as there are pairs; one pair: corners of two triangles", supports="bottom held, top pulled by 1 micrometre; FETI with pieces of 20 cells", materials="E = 70 GPa, nu = 0; k = 1e14 N/m3", expected=60),
         stability("no-load", "No load at all", "Steps without any load give zeros, exactly.", [Subject("no-load", "no load", "steps")],
                   ref=reference("closed form", "nothing moves", "none: zeros"), materials=f"{STEEL}; law 50/80 and 200/400 J/m2", expected=1, **CANTILEVER),
         stability("cycles", "Load reversal and cycles", "Only the first pull damages: a hundred cycles of pull, release and pressure stay on the secant, and on the cantilever every state meets KKT and ledger.",
@@ -305,9 +327,9 @@ def cases():
                   [Subject(name, text, "log10 of delta" + none, "", "linear", decades) for name, text in (("damage-tolerance", "bar"), ("damage-tolerance-cantilever", "cantilever"), ("damage-tolerance-0", "delta = 0"))],
                   ref=reference("closed form", BAR["source"] + "; limit 10 delta + 1e-11; of the cantilever the direct solver", BAR["uncertainty"]),
                   geometry=SERIES["geometry"] + "; or " + CANTILEVER["geometry"], supports=SERIES["supports"] + "; or " + CANTILEVER["supports"], materials="k = 125e9 N/m3, Go = 100, Gc = 250 J/m2 (bar)", expected=8),
-        stability("linear-tolerance", "Tolerance of FETI from 1e-2 to 1e-16", "The error follows the tolerance within a thousand times; below 1e-13 FETI may say that it did not converge.",
-                  [Subject("linear-tolerance", "elastic cantilever", "linear_tolerance", acceptance=10.0)], materials=f"{STEEL}; k = 1e14 N/m3", expected=2, **CANTILEVER),
-        stability("subdomains", "1 to 512 subdomains", "The default preconditioner is right to 1e-8 with any number of subdomains; the textbook's are not made for springs, and say so where they stop short.",
+        stability("linear-tolerance", "Tolerance of FETI from 1e-2 to 1e-16", "The error follows the tolerance within twenty times, down to 1e-9; below 1e-13 FETI may say that it did not converge.",
+                  [Subject("linear-tolerance", "elastic cantilever", "linear_tolerance", acceptance=lambda tolerance: 20 * tolerance + 1e-9, accepts="20 tolerances + 1e-9")], materials=f"{STEEL}; k = 1e14 N/m3", expected=2, **CANTILEVER),
+        stability("subdomains", "1 to 512 subdomains", "The default preconditioner is right to 1e-8 with any number of subdomains asked for (1 for two arms: one for each connected part, two); the textbook's are not made for springs, and say so where they stop short.",
                   [Subject(f"subdomains-{n}", t, "subdomains", defect=1e-8) for n, t in (("series", "default (series)"), ("dirichlet", "Dirichlet"), ("lumped", "lumped"), ("1", "body on an obstacle"))],
                   materials=f"{STEEL}; k = 1e14 N/m3", expected=40, **{**CANTILEVER, "geometry": "the cantilever with 160 x 4 cells an arm; a body of 20 x 4 cells on a rigid obstacle, uncut to 8 parts"}),
         stability("combs", "Partitions that are all surface", "Combs pushed into each other, and cuts along them: right to 1e-8, or a status that says it is not.",

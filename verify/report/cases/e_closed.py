@@ -73,7 +73,7 @@ def pair(context):
                 exact.append(traction * 1e-6)
         for what, value in off.items():
             rows.append([name, what, value])
-            checks.append(check(f"{name}: {what}", value, 1e-12, "the law is evaluated at jumps that are prescribed: rounding alone"))
+            checks.append(check(f"{name}: {what}", value, 1e-14, "the law is evaluated at jumps that are prescribed: rounding alone, some tens of it"))
         plots.append(plot(f"Traction over jump, {name}", axis("jump", "mm"), axis("traction", "MPa"), [series("closed form", "reference", jumps, exact, marker=False), series("libdelam", "condensed", jumps, found, marker=False)], (),
                           "Loading, unloading on the secant, reloading, past the final jump."))
     return result(reference("closed form", "the bilinear law of traction and jump with its secant after the largest jump, modes of different strength", "exact; 1e-16"),
@@ -120,7 +120,7 @@ def spring(context):
                 t_found.append(float(solver.field("traction")[0, 0]) * 1e-6)
                 t_exact.append(traction * 1e-6)
         rows.append([ratio, worst])
-        checks.append(check(f"K = {ratio:g} of the slope: jump and traction, off", worst, 1e-11, "delta = 1e-12; alternation leaves 1/(K/slope - 1) times what it changed last, at most twice"))
+        checks.append(check(f"K = {ratio:g} of the slope: jump and traction, off", worst, 3e-12, "delta = 1e-12; alternation leaves 1/(K/slope - 1) times what it changed last, at most twice; rounding"))
         # One curve with gaps: the reader needs its name once.
         known_w, known_t = known_w + w_mm + [w_mm[-1]], known_t + t_exact + [None]
         curves.append(series(f"libdelam, K = {ratio:g}", role, w_mm[::3], t_found[::3], line="none"))
@@ -243,7 +243,7 @@ def bar(context):
         all_of_it = BAR["toughness"] * (BAR["length"] - BAR["start"] + 0.5 / cells)
         loads.append([cells, exact * 1e3, from_work * 1e3, from_work / exact - 1, spent / all_of_it - 1])
         checks += [check(f"free bar, {cells} cells: load of the jump, off", abs(from_work / exact - 1), 5e-3 if cells == 200 else 1.0 / cells, "from the work that is booked; h/L, half of it with 200 cells"),
-                   check(f"free bar, {cells} cells: dissipated, off", abs(spent / all_of_it - 1), 1e-9, "all of the bond, the pair at the tip with its whole cell")]
+                   check(f"free bar, {cells} cells: dissipated, off", abs(spent / all_of_it - 1), 1e-13, "all of the bond, the pair at the tip with its whole cell: a sum, rounding alone")]
     return result(reference("closed form", "a bar on a bond of membrane stiffness Et and length lam = sqrt(Et/k): F = Et w/(a + lam), plateau sqrt(2 G Et); with a free far end it comes off at once at (a + lam) = (L + lam)/2", "the far end many lam away: exp(-7) of the force at the ends of the range"),
                   tables=[{"title": "Peeling of the held bar", "note": "", "columns": [column("solution", key=True), column("cells", key=True), column("h", "mm"), column("force, off", "of the plateau", past=1e-4), column("front, off", "mm", past=1e-4)], "rows": rows},
                           {"title": "Free bar: load at which it comes off, energetic", "note": "", "columns": [column("cells", key=True), column("closed form", "mm"), column("found", "mm", past=1e-4), column("difference", "relative", past="free"), column("dissipated, off", "relative", past="rounding")], "rows": loads}],
@@ -285,7 +285,7 @@ def enf(context):
         rows.append([a * 1e3, press / force, compliance, press / force / compliance - 1, float(rates.sum()), g, float(rates.sum()) / g - 1, float(abs(rates[0]) / rates.sum()), contacts])
     checks = [check("compliance off beam theory", largest(abs(r[3]) for r in rows), 0.05, "bending of both arms and shear; elastic root of the crack and indentation of the supports are not in it: the arm thickness over the crack length, 3 mm over 30 to 54 mm"),
               check("energy release rate off beam theory", largest(abs(r[6]) for r in rows), 0.05, "beam theory knows no shear at the crack tip: about 0.1 of the arm over the crack"),
-              check("part of mode I", largest(r[7] for r in rows), 1e-3, "closed contact behind the tip: mode II alone"), check("pairs in contact", min(r[8] for r in rows), 1, "the arms press on each other", ">=")]
+              check("part of mode I", largest(r[7] for r in rows), 1e-4, "closed contact behind the tip: mode II alone; the tip's own pair opens a little"), check("pairs in contact", min(r[8] for r in rows), 1, "the arms press on each other", ">=")]
     x = [r[0] for r in rows]
     return result(reference("closed form", "Bernoulli's beams of plane strain with shear: C = (2 L^3 + 3 a^3)/(8 E' h^3) + 0.3 L/(G h), G_II = 9 P^2 a^2/(16 E' h^3) per width", "a few percent: no shear deformation at the crack tip, no indentation"),
                   tables=[{"title": "ENF below onset, by crack length", "note": "", "columns": [column("crack", "mm", key=True), column("compliance", "m2/N"), column("beams", "m2/N"), column("difference", "relative", past="free"), column("G", "J/m2", past=1e-5), column("G, beams", "J/m2"),
@@ -440,8 +440,10 @@ def fibre(context):
             errors_u.append(float(math.sqrt(off / size)))
             errors_s.append(float(math.sqrt(wrong / pull)))
             rows.append([name, n, problem.dofs[0], errors_u[-1], errors_s[-1]])
-        found += [order(f"displacement, {name}", "h", orders.fit(sizes, errors_u), 2.0, 0.3, sizes, errors_u, "at least"), order(f"stress, {name}", "h", orders.fit(sizes, errors_s), 1.5, 0.1, sizes, errors_s, "at least")]
-        checks += [check(f"{name}: displacement", errors_u[-1], 5e-3, "16 cells a quarter of the circle leave less; the exact field moves the rim"), check(f"{name}: stress at the middles of cells", errors_s[-1], 1e-2, "as of the displacement")]
+        found += [order(f"displacement, {name}", "h", orders.fit(sizes, errors_u), 2.0, 0.1, sizes, errors_u, "at least"), order(f"stress, {name}", "h", orders.fit(sizes, errors_s), 2.0, 0.15, sizes, errors_s, "at least")]
+        angle = 0.5 * math.pi / n
+        checks += [check(f"{name}: displacement", errors_u[-1], 0.25 * angle ** 2, "second order: (angle/2)^2 with the angle of a cell; a chord lies angle^2/8 inside the circle"),
+                   check(f"{name}: stress at the middles of cells", errors_s[-1], angle ** 2, "angle^2: where cells have second order for stresses")]
         by_u.append(series(name, role, sizes, errors_u))
         by_s.append(series(name, role, sizes, errors_s))
     return result(reference("closed form", "Muskhelishvili's potentials of a circular inclusion, perfect, on linear springs (Hashin, J. Mech. Phys. Solids 39, 1991), free, or sliding", "a system of six equations in double precision: 1e-12"),
@@ -529,7 +531,7 @@ def user_element(context):
                             "delta = 1e-12 on both sides; residual of the host 1e-10"),
                   tables=[{"title": "Every fifth step", "note": "", "columns": [column("time", key=True), column("Newton iterations", "", past="count"), column("residual", "relative", past="free"), column("force, element", "N/m", past=1e-5), column("force, whole", "N/m", past=1e-5),
                            column("dissipated, element", "J/m", past=1e-5), column("dissipated, whole", "J/m", past=1e-5)], "rows": rows}],
-                  checks=[check("force of the element off the whole structure", worst_force, 1e-8, "delta and the residual of Newton's method, through softening"), check("dissipated energy, off", worst_spent, 1e-8, "as of the force"),
+                  checks=[check("force of the element off the whole structure", worst_force, 1e-9, "the residual of the host's Newton method, 1e-10, through softening"), check("dissipated energy, off", worst_spent, 1e-9, "as of the force"),
                           check("steps with quadratic convergence", quadratic, 15, "the last residual is at most 100 times the square of the one before; steps without damage are linear and need two", ">="),
                           check("Newton iterations of a step", max(iterations), 7, "more would not be Newton's method"), check("energy dissipated", spent, 0.1, "J/m: the arms part, it is no elastic element", ">=")],
                   ledger=ledger_of({"element in the host": booked[0], "whole structure, springs of the machine included": booked[1]}, "J/m"),

@@ -2,7 +2,6 @@
 """Chapter (e): published coupons, marched by the command line from their scenes in examples/; --quick takes coarser cells."""
 import csv
 import math
-import os
 import pathlib
 import shutil
 
@@ -18,7 +17,7 @@ def march(context, name, coarse):
     out.parent.mkdir(parents=True, exist_ok=True)
     settings = [word for setting in (coarse if context.quick else []) for word in ("--set", setting)]
     # An exit status other than 0 (a step that did not converge among them) fails the case.
-    context.command("delam", "run", f"examples/{name}/{name}.toml", "--out", os.path.relpath(out, context.root), *settings, stdout_json=False)
+    context.command("delam", "run", f"examples/{name}/{name}.toml", "--out", str(out), *settings, stdout_json=False)
     with open(pathlib.Path(out) / "history.csv", newline="", encoding="utf-8") as file:
         rows = list(csv.reader(file))
     text = ("solution", "mixity_rule")
@@ -42,7 +41,7 @@ def energy_checks(h):
     above = max(a - b for a, b in zip(h["increment"], h["upper"])) / size
     healed = max((a - b for a, b in zip(h["dissipated"], h["dissipated"][1:])), default=0.0) / size
     why = "eta of the two-sided estimate, over the largest energy"
-    return [check("energy out of nothing, over the work", max(gain, 0.0), 0.01, "stored + dissipated is at most the work; steps of this size leave a percent"),
+    return [check("energy out of nothing, over the work", max(gain, 0.0), 5e-4, "stored + dissipated is at most the work, which is booked by the trapezoidal rule: steps of this size leave up to 1e-4"),
             check("below the lower bound", max(below, 0.0), 1e-3, why), check("above the upper bound", max(above, 0.0), 1e-3, why),
             check("dissipated energy that comes back", max(healed, 0.0), 1e-9, "damage only grows; rounding")]
 
@@ -92,13 +91,14 @@ def plateau(context):
     crack, load, down = [1e3 * v for v in h["crack_length"]], h["reaction"], [1e3 * v for v in h["load"]]
     flat = [(d, a, p) for d, a, p in zip(down, crack, load) if 45 < a < 70]
     off = [abs(p / exact - 1) for _, _, p in flat]
+    limit, left = (0.015, "quick: cells of 0.5 mm, 2 % of the distance that the front moves") if context.quick else (2.5e-3, "cells of 0.25 mm leave 5e-4")
     every = max(1, len(flat) // 8)
     return result(reference("closed form", "two arms as beams under the constant moment between the noses, plane strain: P = 2/s sqrt(4 E' h^3 G_IIc / 9), whatever the crack; specimen of Martin and Davidson (1999)",
-                            "shear of the arms and the cohesive zone: about 1 %"),
+                            "exact for beams under a constant moment; fronts within 10 mm of a nose are left out"),
                   tables=[{"title": "Load while the crack grows", "note": "", "columns": [column("displacement", "mm", key=True), column("crack", "mm", past=1e-3), column("load", "N/m", past=NUMBERS_PAST),
                            column("beam theory", "N/m"), column("difference", "relative", past="free")],
                            "rows": [[round(d, 9), a, p, exact, p / exact - 1] for d, a, p in flat[::every]]}],
-                  checks=[check("load on the plateau, off", largest(off), 0.015, "beams know neither shear nor the cohesive zone; 1.5 % over all loads with the front between 45 and 70 mm"),
+                  checks=[check("load on the plateau, off", largest(off), limit, f"all loads with the front between 45 and 70 mm: no shear force between the noses and a moment that does not depend on the front, so that neither shear nor the cohesive zone changes the load; {left}"),
                           check("loads on the plateau", len(flat), 4, "fewer would show no plateau", ">="), *energy_checks(h)],
                   plots=[plot("Load over displacement", axis("displacement of the middle", "mm"), axis("load", "N/m"), [series("libdelam", "condensed", down, load, marker=False)],
                               [{"kind": "horizontal", "value": exact, "label": "beam theory"}]),
@@ -135,8 +135,8 @@ def cases():
     krueger = [(w, p, 0.03) for w, p in ((0.750, 60.7), (0.794, 58.8), (0.842, 57.3), (0.890, 55.6), (0.942, 54.2), (1.001, 52.5), (1.274, 46.7))]
     return [
         beam("dcb-alfano", "DCB of Alfano and Crisfield", "The load is that of the paper's plot: its peak, and the fall at 2, 3 and 4 mm.",
-             "Alfano and Crisfield (Int. J. Numer. Meth. Engng 50, 2001), by their plot and a vendor's verification of the same data", "read off a plot to +-2 N; peaks of 60.0 and 61.5 N are reported",
-             0.020, [(2.0, 44.0, 2 / 44), (3.0, 35.0, 2 / 35), (4.0, 30.5, 2 / 30.5)], (60.0, 61.5), (), ["geometry.divisions=400", "time.steps=50"], 0.12, 10,
+             "Alfano and Crisfield (Int. J. Numer. Meth. Engng 50, 2001), by their plot and a vendor's verification of the same data", "read off a plot to +-2 N, 3 % of the peak and 7 % of the last point; peaks of 60.0 and 61.5 N are reported, 2.5 % apart",
+             0.020, [(2.0, 44.0, 2 / 44), (3.0, 35.0, 2 / 35), (4.0, 30.5, 2 / 30.5)], (60.0, 61.5), (), ["geometry.divisions=400", "time.steps=50"], 0.02, 10,
              geometry="two arms 100 mm x 1.5 mm, 20 mm wide, notch 30 mm; 1000 (quick: 400) cells along, 6 through an arm", supports="far end clamped, arms pulled apart by 4 mm each, as means over their ends",
              materials="E1 = 135.3, E2 = 9.0, G12 = 5.2 GPa, nu12 = 0.24, nu23 = 0.46; 57 MPa, k = 5.7e17 N/m3, Gc = 280 J/m2"),
         beam("dcb-krueger", "DCB of Krueger's benchmark", "Seven loads and fronts of linear fracture mechanics are met within 3 % and half a millimetre.",
