@@ -19,7 +19,7 @@ NOISE = 0.3
 
 
 def growth(context, scenes, time_limit, memory_limit, cap, space):
-    data = bench(context, "growth", "--repeat", "1" if context.quick else "3", "--cap", str(cap), *[w for s in scenes for w in ("--scene", s)])
+    data = bench(context, "growth", "--repeat", "1" if context.quick or space else "3", "--cap", str(cap), *[w for s in scenes for w in ("--scene", s)])
     found = next(iter(data["families"].values()))["scenes"]
     rows, points, counts, losses, stops, alternations = [], {}, [], [], {}, []
     for name in scenes:
