@@ -200,7 +200,8 @@ def number(cell):
 
 def column(name: str, unit: str = "", **more) -> dict:
     """more: part (words: on the page a new part of the table begins here), from (the program's name), key (names its row), optional (may be empty), past ("free", "count", "rounding" or a
-    relative tolerance), may (True: a count of what did not converge that is allowed to be more than 0)."""
+    relative tolerance), may (True: a count of what did not converge that is allowed to be more than 0), capped (True: empty where a cap on the time cut it off,
+    which the past forgives)."""
     return {"name": name, "unit": unit, **more}
 
 

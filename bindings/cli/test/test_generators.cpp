@@ -393,7 +393,7 @@ int main() {
     fibres.fraction = 0.55;
     fibres.fibres = 12;
     fibres.cells_around = 20;
-    for (const std::uint64_t seed : {1, 2, 3}) {
+    for (const std::uint64_t seed : {std::uint64_t{1}, std::uint64_t{2}, std::uint64_t{3}}) {
         fibres.seed = seed;
         fibre_cell(fibres, "12 fibres, seed " + std::to_string(seed));
     }

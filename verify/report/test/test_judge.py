@@ -152,6 +152,15 @@ class Judged(unittest.TestCase):
         del data["tables"][0]["rows"][0]
         self.fails(data, "missing")
 
+    def test_what_a_cap_on_the_time_cut_off(self):
+        def data(value, **more):
+            table = c.table("Counts", [c.column("method", key=True), c.column("count", optional=True, past="count", **more)], [["a", 7], ["b", value]])
+            return planted.sound(tables=[table])
+        judge.accept(self.judge(data(20, capped=True)), self.past, False, "2000-01-01")
+        for value, verdict in ((20, "pass"), (None, "pass"), (40, "fail")):
+            self.assertEqual(self.judge(data(value, capped=True))["judgement"]["past"]["verdict"], verdict, value)
+        self.fails(data(None), "missing")
+
     def test_new_rows_and_columns_are_no_difference(self):
         data = self.accepted()
         data["tables"][0]["rows"].append([0.025, 3.0 * 0.025**2, 2.0, 104, 0])
