@@ -297,6 +297,7 @@ def main(argv: list[str]) -> int:
 
 def report(a, cases: list[case_module.Case], library: dict) -> int:
     started, start = datetime.datetime.now(datetime.timezone.utc), time.monotonic()
+    source = source_commit()  # before an accepted past is written beside it
     command = shlex.join(["bash", "verify/run.sh", "--report", *(["--quick"] if a.quick else []), *(["--only", *a.only] if a.only else [])])
     # Cached tables are of one report only. The new report grows in a folder of its own; until it is whole, the one before stays.
     new = a.out / "new"
@@ -361,7 +362,6 @@ def report(a, cases: list[case_module.Case], library: dict) -> int:
                 say(f"accepted: {data['id']}")
     import claims
 
-    source = source_commit()
     warnings = []
     if not source.startswith(library["commit"]):
         warnings.append(f"The library is of commit {library['commit']}, the sources beside it are {source}.")
