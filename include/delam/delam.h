@@ -108,7 +108,9 @@ DELAM_API int32_t delam_blas_threads(void);
  * [null user; owns text until the callback returns; status -; thread call's; since 0.1] */
 typedef void (*delam_log_callback)(int32_t level, const char *text, void *user);
 /* Called inside long work, on the calling thread. stage: static text ("factor", "minimise", ...); done of total
- * (total 0 = not known). Non-zero return cancels: the call ends with DELAM_CANCELLED, unless it is one that only reads.
+ * (total 0 = not known). Non-zero return cancels: the call ends with DELAM_CANCELLED. Calls that read do not heed it,
+ * so that a host that has stopped can read what there is: delam_mesh_find_patch, delam_problem_hash, _process_zone,
+ * _body_matrix, _constraints, _forces, _eigenstrain_energy, delam_solver_value, _field, _average, _condensed.
  * [null user; owns stage static; status cancelled; thread call's; since 0.1] */
 typedef int32_t (*delam_progress_callback)(const char *stage, int64_t done, int64_t total, void *user);
 
@@ -129,10 +131,11 @@ DELAM_API int32_t delam_context_set_log(delam_context *context, delam_log_callba
  * [null callback, user; owns callback and user: as delam_context_set_log; status usual; since 0.1] */
 DELAM_API int32_t delam_context_set_progress(delam_context *context, delam_progress_callback callback, void *user);
 /* Ask the running call to stop at its next check; any thread (and from a signal handler: it counts up one lock-free
- * number). The request is consumed by the call that it stops. One that comes while no call runs, or that the running
- * one does not meet any more, waits for the next call of the march: delam_solver_create, _advance, _equilibrate,
- * _tangent, _step_tangent, _load, _load_file or delam_problem_set_stiffness. The other calls that list `cancelled`
- * build or read; only a request that comes while they run stops them.
+ * number). The request is consumed by the call that it stops. One that comes while no call runs, that the running one
+ * does not meet any more, or whose call is refused for its arguments, waits for the next call of the march:
+ * delam_solver_create, _advance, _equilibrate, _tangent, _step_tangent, _load, _load_file or
+ * delam_problem_set_stiffness. The other calls that list `cancelled` build or read; only a request that comes while
+ * they run stops them.
  * [status only handle; thread any; since 0.1] */
 DELAM_API int32_t delam_context_cancel(delam_context *context);
 
@@ -685,8 +688,9 @@ DELAM_API void delam_solver_destroy(delam_solver **solver);
  * Mielke, T. Roubicek, J. Zeman, Comput. Methods Appl. Mech. Eng. 199 (2010) 1242-1253, and src/evolution/README.md;
  * since 0.1] */
 DELAM_API int32_t delam_solver_advance(delam_solver *solver, double time);
-/* Keeps the pending step: it becomes the committed state.
- * [status state; since 0.1] */
+/* Keeps the pending step: it becomes the committed state, and what is recorded (delam_solver_record) gets its values.
+ * DELAM_ERROR_PROBLEM: a law of the host's own failed when a recorded front asked it; the step is still pending.
+ * [status problem, state; since 0.1] */
 DELAM_API int32_t delam_solver_commit(delam_solver *solver);
 /* Throws the pending step away.
  * [status state; since 0.1] */
@@ -787,17 +791,18 @@ DELAM_API int32_t delam_solver_value_count(const delam_solver *solver, int64_t *
 DELAM_API const char *delam_solver_value_name(const delam_solver *solver, int64_t index);
 
 /* Records a value of the committed state and, with each delam_solver_commit from now on, of every further step: a load
- * curve without asking after each step, with what a return has replaced already in place. key: of delam_solver_value, but
- * for those that recover the displacements (rotation_max and the kkt_ values) and the counts of the solver's life
- * (bulk_factorisations, field_recoveries). Asked for again it changes nothing. What is recorded is part of what
- * delam_solver_save saves; delam_solver_load replaces it. DELAM_ERROR_STATE: a step is pending.
- * [null none; status argument, state; since 0.1] */
+ * curve without asking after each step, with what a return has replaced already in place; a state that is set
+ * (delam_solver_equilibrate) replaces the entry of its step. key: of delam_solver_value, but for those that recover the
+ * displacements (rotation_max and the kkt_ values) and the counts of the solver's life (bulk_factorisations,
+ * field_recoveries). Asked for again it changes nothing. What is recorded is part of what delam_solver_save saves;
+ * delam_solver_load puts that of the bytes in its place, so record after it what must be there. DELAM_ERROR_STATE: a
+ * step is pending. DELAM_ERROR_PROBLEM: a law of the host's own failed when a front asked it; nothing is recorded.
+ * [null none; status argument, problem, state; since 0.1] */
 DELAM_API int32_t delam_solver_record(delam_solver *solver, const char *key);
 /* Recorded are *steps steps, from step *first to the committed one; 0 and 0 where no value is recorded.
  * [null first, steps; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_recorded_size(const delam_solver *solver, int64_t *first, int64_t *steps);
-/* A recorded value step by step, values: [steps]; NaN at steps before it was asked for, and where a law
- * of the host's own failed when a front asked it.
+/* A recorded value step by step, values: [steps]; NaN at steps before it was asked for.
  * [unit values of key; null none; status argument; source none; since 0.1] */
 DELAM_API int32_t delam_solver_recorded(const delam_solver *solver, const char *key, int64_t capacity, double *values);
 
@@ -967,7 +972,7 @@ DELAM_API int32_t delam_solver_jump(const delam_solver *solver, int64_t index, i
 DELAM_API int32_t delam_solver_save(const delam_solver *solver, int64_t capacity, uint8_t *bytes, int64_t *needed);
 /* Takes bytes: [size] that delam_solver_save has written as the committed state; a pending step is dropped. Damaged
  * bytes, and those of another scene or version, are refused: DELAM_ERROR_SNAPSHOT says what is wrong with them.
- * Histories that were set (delam_solver_set_history) are replaced by those of the bytes.
+ * Histories that were set (delam_solver_set_history) and what was recorded are replaced by those of the bytes.
  * [null none; status cancelled, argument, numerical, snapshot; since 0.1] */
 DELAM_API int32_t delam_solver_load(delam_solver *solver, int64_t size, const uint8_t *bytes);
 /* The same bytes as a file, path in the encoding of the file system: written beside it first and put in its place when

@@ -171,7 +171,7 @@ void Solver::set_history(std::int64_t pattern, std::span<const double> times, st
 void Solver::record(const std::string& key) {
     if (pending_) fail(DELAM_ERROR_STATE, "a step is pending: commit it or roll it back before a value is recorded");
     if (!recordable(problem_, key))
-        fail(DELAM_ERROR_ARGUMENT, "value '", key, "' is no part of the state, or recovers the displacements, a sparse solve a step: ask for it at the steps that need it");
+        fail(DELAM_ERROR_ARGUMENT, "value '", key, "' is not recorded: it recovers the displacements, a sparse solve a step, or counts over the solver's life; read it where it is needed");
     if (record_.find(key) == nullptr) record_.add(key, committed_.step, values_of(committed_, {key}).front());
 }
 
@@ -185,16 +185,8 @@ std::vector<double> Solver::values_of(const State& state, const std::vector<std:
     std::vector<double> values;
     values.reserve(keys.size());
     if (&state != &this->state()) show(&state);
-    const auto value_or_unknown = [&](const std::string& key) {
-        try {
-            return value(*this, key);
-        } catch (const Error& error) {  // of a law of the host's, which the front asks
-            if (error.status() != DELAM_ERROR_PROBLEM) throw;
-            return unknown;
-        }
-    };
     try {
-        for (const std::string& key : keys) values.push_back(value_or_unknown(key));
+        for (const std::string& key : keys) values.push_back(value(*this, key));
     } catch (...) {
         show(shown);
         throw;

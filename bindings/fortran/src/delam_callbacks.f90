@@ -47,7 +47,7 @@ contains
     character(*), intent(in) :: text
   end subroutine ignore_line
 
-  ! `total` 0: not known. `cancel`, .false. before, ends the call with DELAM_CANCELLED.
+  ! `total` 0: not known. `cancel`, .false. before, ends the call with DELAM_CANCELLED, unless it only reads.
   subroutine ignore_progress(self, stage, done, total, cancel)
     class(delam_observer), intent(inout) :: self
     character(*), intent(in) :: stage

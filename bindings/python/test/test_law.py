@@ -77,6 +77,31 @@ class Host(unittest.TestCase):
         trouble.clear()
         law.check()
 
+    def test_a_law_that_fails_while_a_step_is_committed(self):
+        class Mine(Exception):
+            pass
+
+        trouble = []
+
+        def spy(which):
+            if trouble:
+                raise Mine(which)
+
+        problem = support.brittle_flexure(30)
+        problem.set_law(0, support.host_bilinear(spy=spy))
+        solver = delam.Solver(problem, not_converged="ignore")
+        solver.record("time", "process_zone")
+        solver.advance(1.0)
+        trouble.append(True)
+        with self.assertRaises(Mine):
+            solver.commit()
+        self.assertTrue(solver.pending)
+        self.assertEqual(len(solver.recorded("time")), 1)
+        trouble.clear()
+        solver.commit()
+        self.assertEqual(list(solver.recorded("time")), [0.0, 1.0])
+        self.assertTrue(np.all(np.isfinite(solver.recorded("process_zone"))))
+
     def test_results_of_the_wrong_kind(self):
         law = delam.Law.host("bad", lambda mixity, driving: None, lambda mixity, adhesion: ("a", "b", "c"),
                              normal_stiffness=1.0, tangential_stiffness=1.0)

@@ -254,6 +254,9 @@ class Solver(Object):
         """These values of the committed state and, with each commit from now on, of every further step, with what
         returns replace; part of what save() saves. All but the costly ones and the counts of the solver's life."""
         for name in names:
+            if name not in self._keys:
+                raise unknown(name, self._keys, "value")
+        for name in names:
             self._call(library.delam_solver_record, text("name", name))
 
     @property

@@ -18,7 +18,7 @@
 namespace delam {
 
 using LogCallback = std::function<void(std::int32_t level, std::string_view text)>;
-// false: stop, the call ends with DELAM_CANCELLED.
+// false: stop, the call ends with DELAM_CANCELLED, unless it only reads.
 using ProgressCallback = std::function<bool(std::string_view stage, std::int64_t done, std::int64_t total)>;
 
 namespace detail {
