@@ -135,8 +135,8 @@ def against_past(data: dict, folder: pathlib.Path, quick: bool) -> dict:
     if stored is None:
         return {"verdict": "new", "worst": None, "limit": 1.0, "why": f"no accepted run of the {tier} report yet"}
     now, then = numbers(data), stored["numbers"]
-    if not then and not now:
-        return {"verdict": "none", "worst": None, "limit": 1.0, "why": "the case has timings alone, which have no past"}
+    if not then and not any(now.values()):
+        return {"verdict": "none", "worst": None, "limit": 1.0, "why": "nothing of it has a past: timings, or tests that pass or fail"}
     lost = [name for name in then if name not in now]
     if lost:
         return {"verdict": "fail", "worst": None, "limit": 1.0,

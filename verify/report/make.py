@@ -298,7 +298,7 @@ def main(argv: list[str]) -> int:
 def report(a, cases: list[case_module.Case], library: dict) -> int:
     started, start = datetime.datetime.now(datetime.timezone.utc), time.monotonic()
     source = source_commit()  # before an accepted past is written beside it
-    command = shlex.join(["bash", "verify/run.sh", "--report", *(["--quick"] if a.quick else []), *(["--only", *a.only] if a.only else [])])
+    command = shlex.join(["bash", "verify/run.sh", "--report", *(["--quick"] if a.quick else []), *(["--only", *a.only] if a.only else []), *(["--accept"] if a.accept else [])])
     # Cached tables are of one report only. The new report grows in a folder of its own; until it is whole, the one before stays.
     new = a.out / "new"
     for folder in (a.out / "raw", new):
@@ -356,8 +356,12 @@ def report(a, cases: list[case_module.Case], library: dict) -> int:
     if a.accept:
         for data in everything:
             if data["id"] in results and data["judgement"]["reference"]["verdict"] == "pass":
+                before = data["judgement"]["past"]
                 judge.accept(data, a.past, a.quick, started.strftime("%Y-%m-%d"))
                 judge.judge(data, a.past, a.quick)
+                # Compared with itself it would always pass: what counts is the comparison with the one before.
+                data["judgement"]["past"] = before if before["verdict"] == "pass" else {
+                    **before, "verdict": "new", "worst": None, "why": f"accepted by this run; against the one before: {before['why']}"}
                 write_json(new / "json" / f"{data['id']}.json", data)
                 say(f"accepted: {data['id']}")
     import claims

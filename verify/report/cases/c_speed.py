@@ -61,14 +61,16 @@ def march_case(scene, *, quick, expected, asked, cap, shipped=False):
         if "skipped" in best or best["label"].startswith("stopped"):
             raise Failed("the accelerated march did not end: " + best.get("skipped", best["label"]))
         cost, ratio = best["lse"], best["baseline_over_this"]
+        priced = part["methods"]["baseline"]["label"] != "measured"
         if cost > asked[0]:
             losses.append(f"the march costs {cost:.3g} linear solves, asked for were {asked[0]}")
         if ratio < asked[1]:
-            losses.append(f"the baseline takes {ratio:.3g} times as long, asked for was {asked[1]}")
+            losses.append(f"the baseline takes {ratio:.3g} times as long, asked for was {asked[1]}" + (", its time priced from counted factorisations" if priced else ""))
         peaks = memory["accelerated"]["peak_MB"] / peak
         if peaks > 1.0:
             losses.append(f"the march holds {peaks:.2g} times the memory of one factorisation")
-        checks += [check("baseline over the march", ratio, 20.0, "tens of times is what is claimed", ">="),
+        checks += [check("baseline over the march" + (", baseline extrapolated" if priced else ""), ratio, 20.0, "tens of times is what is claimed"
+                         + ("; the baseline is priced from counted factorisations, of which a part was timed" if priced else ""), ">="),
                    check("steps of the accelerated march that did not converge", best["counts"]["not_converged"], 0, "a step at its limit is no evidence")]
         pairs = part.get("agreement", {})
         agreed = [[pair, "1e-5", d["common_steps"], *(d[k] for k in ("reaction", "stored_bulk", "stored_interface", "dissipated"))] for pair, d in pairs.items()]
