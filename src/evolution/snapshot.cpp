@@ -186,14 +186,14 @@ Record read_record(Reader& r, const Solver& solver) {
     r.item(columns);
     r.item(first);
     Record record;
+    const std::vector<std::string> names = value_names(solver.problem());
     for (std::uint64_t i = 0; i < columns; ++i) {
         std::vector<char> letters;
         std::vector<double> values;
         r.item(letters);
         r.item(values);
         const std::string key(letters.begin(), letters.end());
-        const auto names = value_names(solver.problem());
-        if (std::find(names.begin(), names.end(), key) == names.end() || !recordable(solver.problem(), key) || record.find(key) != nullptr)
+        if (std::find(names.begin(), names.end(), key) == names.end() || why_unrecorded(key) != nullptr || record.find(key) != nullptr)
             fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a record of '", key, "', which is no value of this solver that is recorded, or comes twice");
         record.add({key, std::move(values)}, first);
     }

@@ -170,8 +170,7 @@ void Solver::set_history(std::int64_t pattern, std::span<const double> times, st
 
 void Solver::record(const std::string& key) {
     if (pending_) fail(DELAM_ERROR_STATE, "a step is pending: commit it or roll it back before a value is recorded");
-    if (!recordable(problem_, key))
-        fail(DELAM_ERROR_ARGUMENT, "value '", key, "' is not recorded: it recovers the displacements, a sparse solve a step, or counts over the solver's life; read it where it is needed");
+    if (const char* why = why_unrecorded(key)) fail(DELAM_ERROR_ARGUMENT, "value '", key, "' is not recorded: ", why);
     if (record_.find(key) == nullptr) record_.add(key, committed_.step, values_of(committed_, {key}).front());
 }
 

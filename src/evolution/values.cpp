@@ -117,12 +117,13 @@ constexpr FrontEntry front_table[] = {
     {"process_zone_pairs", [](const Solver& s, std::int64_t i) { return leading_point(s, i).zone_pairs; }},
 };
 
-enum class Of { state, life, displacement };
+constexpr const char* recovers = "it recovers the displacements, a sparse solve each";
+constexpr const char* counts_on = "it counts over the solver's life and is no part of a state";
 
 struct Entry {
     const char* key;
     double (*value)(const Solver&);
-    Of of = Of::state;
+    const char* unrecorded = nullptr;  // why it is not recorded
 };
 
 constexpr Entry table[] = {
@@ -171,15 +172,15 @@ constexpr Entry table[] = {
     {"refused_steps", [](const Solver& s) { return count(s.state().counts.refused_steps); }},
     {"jumps", [](const Solver& s) { return count(s.state().counts.jumps); }},
     {"released", [](const Solver& s) { return s.state().counts.released; }},
-    {"bulk_factorisations", [](const Solver& s) { return count(s.jump_operator().factorisations()); }, Of::life},
-    {"field_recoveries", [](const Solver& s) { return count(s.recoveries()); }, Of::life},
+    {"bulk_factorisations", [](const Solver& s) { return count(s.jump_operator().factorisations()); }, counts_on},
+    {"field_recoveries", [](const Solver& s) { return count(s.recoveries()); }, counts_on},
     {"damage_change", [](const Solver& s) { return s.state().counts.damage_change; }},
     {"linear_residual", [](const Solver& s) { return s.state().counts.linear_residual; }},
-    {"kkt_gap", kkt_gap, Of::displacement},
-    {"kkt_pressure", kkt_pressure, Of::displacement},
-    {"kkt_complementarity", kkt_complementarity, Of::displacement},
-    {"rotation_max", [](const Solver& s) { return s.largest_rotation(); }, Of::displacement},
-    {"kkt_equilibrium", [](const Solver& s) { return s.equilibrium_defect(); }, Of::displacement},
+    {"kkt_gap", kkt_gap, recovers},
+    {"kkt_pressure", kkt_pressure, recovers},
+    {"kkt_complementarity", kkt_complementarity, recovers},
+    {"rotation_max", [](const Solver& s) { return s.largest_rotation(); }, recovers},
+    {"kkt_equilibrium", [](const Solver& s) { return s.equilibrium_defect(); }, recovers},
 };
 
 }  // namespace
@@ -196,12 +197,10 @@ std::vector<std::string> value_names(const Problem& problem) {
     return names;
 }
 
-bool recordable(const Problem& problem, const std::string& key) {
+const char* why_unrecorded(const std::string& key) {
     for (const Entry& entry : table)
-        if (key == entry.key) return entry.of == Of::state;
-    const std::vector<std::string> names = value_names(problem);
-    if (std::find(names.begin(), names.end(), key) == names.end()) fail(DELAM_ERROR_ARGUMENT, "unknown value '", key, "'");
-    return true;
+        if (key == entry.key) return entry.unrecorded;
+    return nullptr;
 }
 
 double value(const Solver& solver, const std::string& key) {

@@ -13,7 +13,7 @@ namespace delam {
 std::vector<std::string> value_names(const Problem& problem);
 // Throws Error(DELAM_ERROR_ARGUMENT) for an unknown key.
 double value(const Solver& solver, const std::string& key);
-// Follows from the state by what every step knows: no recovery of displacements, no count of the solver's life. Throws as value().
-bool recordable(const Problem& problem, const std::string& key);
+// Why a value is not recorded, in words; nullptr where it can be.
+const char* why_unrecorded(const std::string& key);
 
 }  // namespace delam

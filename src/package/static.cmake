@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # libdelam.a: the objects as one, in which the public names alone are global (one_object.cmake). What the objects need
 # of other libraries is told to hosts by name: as link interface of delam::delam_static, and in delam.pc.
+if(CMAKE_INTERPROCEDURAL_OPTIMIZATION OR "${CMAKE_CXX_FLAGS}" MATCHES "-flto")
+  message(FATAL_ERROR "DELAM_STATIC cannot pack objects of link-time optimisation: leave one of the two out")
+endif()
 set(DELAM_LD)
 foreach(linker ${CMAKE_LINKER} ld.bfd)
   execute_process(COMMAND ${linker} --help OUTPUT_VARIABLE help ERROR_QUIET RESULT_VARIABLE status)

@@ -6,11 +6,12 @@ still hold those of the baseline? Prints what does not, by key; exit code 1 then
 A line of the baseline is one of
     option NAME; TYPE; unit UNIT; initial TEXT; range TEXT       as delam_option_info gives them
     law KIND NAME; TYPE; unit UNIT; initial TEXT; range TEXT     as delam_law_parameter_info does; kinds of the header
-    value NAME; unit UNIT                        delam_solver_value_name; units by the table at delam_solver_value
+    value NAME; unit UNIT; recorded yes          delam_solver_value_name; units by the table at delam_solver_value; of
+                                                 those that delam_solver_record refuses: no
     field NAME; shape [ROWS][COLUMNS]; unit UNIT     the table at delam_solver_field_shape
     text FUNCTION; range TEXT | TEXT             those in quotation marks in the comment of a function of CHOOSING
 
-None may go or change its type, unit or shape. Ranges may widen and texts to choose from may come. Another default is
+None may go, change its type, unit or shape, or be recorded no more. Ranges may widen and texts to choose from may come. Another default is
 named, and passes once the baseline has it (update.sh). New keys are free; those that the baseline does not have yet are
 listed.
 
@@ -76,8 +77,9 @@ def keys_of(library, header):
         count = library.delam_law_parameter_count(kind.encode())
         for name, facts in described(library.delam_law_parameter_info, count, kind.encode()).items():
             found[f"law {kind} {name}"] = facts
+    recorded = recorded_of(library, header)
     for name, unit in values_of(header).items():
-        found[f"value {name}"] = {"unit": unit}
+        found[f"value {name}"] = {"unit": unit, "recorded": recorded.get(name, "no")}
     for name, (shape, unit) in fields_of(header).items():
         found[f"field {name}"] = {"shape": shape, "unit": unit}
     for name in CHOOSING:
@@ -128,6 +130,20 @@ def texts_of(header, name):
 
 
 # ---- two beams that are peeled apart ----
+def recorded_of(library, header):
+    """key -> yes or no."""
+    march = March(library, header, 2, SMALL)
+    found = {general(name): "yes" if library.delam_solver_record(march.solver, name.encode()) == 0 else "no"
+             for name in march.values()}
+    march.end()
+    return found
+
+
+def general(name):
+    """Of a value of the march, as the table of the header has it."""
+    return re.sub(r":\d+$", ":I", re.sub(r":open$", ":NAME", name))
+
+
 class March:
     def __init__(self, library, header, dimension, units):
         length, force, time = units
@@ -260,11 +276,11 @@ def measured(library, header):
     for dimension in (2, 3):
         one, other = (March(library, header, dimension, units) for units in (SMALL, LARGE))
         before, after = one.values(), other.values()
-        general = {re.sub(r":\d+$", ":I", re.sub(r":open$", ":NAME", name)): name for name in before}
+        keys = {general(name): name for name in before}
         for name in values:
-            if name not in general:
+            if name not in keys:
                 wrong.append(f"value {name}: in the header, delam_solver_value_name does not give it")
-        for name, own in general.items():
+        for name, own in keys.items():
             if name not in values:
                 wrong.append(f"value {name}: delam_solver_value_name gives it, the table of the header has no such key")
             elif name not in ROUNDING:
@@ -292,7 +308,7 @@ def measured(library, header):
 # ---- against the baseline ----
 def line_of(head, facts):
     parts = [head] + ([facts["type"]] if "type" in facts else [])
-    return "; ".join(parts + [f"{key} {facts[key]}".strip() for key in ("shape", "unit", "initial", "range")
+    return "; ".join(parts + [f"{key} {facts[key]}".strip() for key in ("shape", "unit", "recorded", "initial", "range")
                               if key in facts])
 
 
@@ -305,7 +321,7 @@ def read_keys(path):
                 facts = {}
                 for part in parts:
                     key, _, value = part.partition(" ")
-                    if key in ("shape", "unit", "initial", "range"):
+                    if key in ("shape", "unit", "recorded", "initial", "range"):
                         facts[key] = value
                     else:
                         facts["type"] = part
@@ -330,6 +346,8 @@ def compare(baseline, today, new_defaults):
         for key in ("type", "shape", "unit"):
             if old.get(key) != new.get(key):
                 wrong.append(f"{head}: {key} {new.get(key)}, in the baseline {old.get(key)}")
+        if old.get("recorded") == "yes" and new.get("recorded") != "yes":
+            wrong.append(f"{head}: is not recorded any more")
         if "range" in old and not wider(old["range"], new["range"]):
             wrong.append(f"{head}: range '{new['range']}' does not allow all of '{old['range']}' of the baseline")
         if old.get("initial") != new.get("initial"):

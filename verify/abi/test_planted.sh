@@ -507,6 +507,12 @@ int32_t delam_solver_value_count(const delam_solver *solver, int64_t *count) {
     return status;
 }
 #endif
+#ifdef UNRECORDED
+int32_t delam_solver_record(delam_solver *solver, const char *key) {
+    BEHIND(delam_solver_record);
+    return strcmp(key, UNRECORDED) == 0 ? DELAM_ERROR_ARGUMENT : behind(solver, key);
+}
+#endif
 #ifdef FLAT
 int32_t delam_solver_field_shape(const delam_solver *solver, const char *key, int64_t part, int64_t *rows,
                                  int64_t *columns) {
@@ -542,6 +548,7 @@ refused '^law trapezoidal normal_stiffness: unit F/L2, in the baseline F/L3' \
     lying '-DPARAMETER="normal_stiffness"' -DPLACE=unit '-DTEXT="F/L2"'
 refused "^law trapezoidal plateau: in the baseline, gone" lying '-DPARAMETER="plateau"' -DPLACE=key '-DTEXT="level"'
 refused '^value reaction:NAME: in the header, delam_solver_value_name does not give it' lying -DFEWER_VALUES
+refused '^value crack_length: is not recorded any more' lying '-DUNRECORDED="crack_length"'
 refused '^field stress: shape None, by the header' lying -DFLAT
 
 # table SED MESSAGE: another table in the header.

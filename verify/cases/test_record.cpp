@@ -157,6 +157,9 @@ CASE_TEST(refused) {
     for (const char* key : {"no_such_value", "", "kkt_gap", "kkt_equilibrium", "rotation_max", "bulk_factorisations", "field_recoveries", "crack_length:7"})
         cases::expect(delam_solver_record(solver.get(), key) == DELAM_ERROR_ARGUMENT, std::string("recorded: ") + key);
     cases::expect(size_of(solver).steps == 0, "a refusal leaves nothing");
+    cases::expect(delam_solver_record(solver.get(), "kkt_gap") != DELAM_OK &&
+                      std::string(delam_context_message(scene.context())).find("recovers the displacements") != std::string::npos,
+                  "the reason is not said");
     record(solver, "time");
     double value = -1.0;
     cases::expect(delam_solver_recorded(solver.get(), "work", 1, &value) == DELAM_ERROR_ARGUMENT, "not recorded");

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <unistd.h>
 
@@ -90,6 +91,9 @@ struct World {
     Shelf<delam_solver> solver;
     // Of the call that runs: what it was asked of, and the callbacks that hear of it.
     Host* heard = nullptr;
+    // Of the call that comes: polls until it is cancelled, and whether by the callback's answer; -1: let it be.
+    std::int64_t interrupt_in = -1;
+    bool interrupt_by_call = false;
 
     ~World() {
         for (std::size_t i = 0; i < slots; ++i) {
@@ -694,6 +698,12 @@ const Call calls[] = {
          a.world.problem.put(slot, scene.problem, &a.host);
          return DELAM_OK;
      }},
+    {"the next call is interrupted", Subject::host, may::usual,
+     [](const Asked& a) {
+         a.world.interrupt_in = a.in.below(16);
+         a.world.interrupt_by_call = a.in.flag();
+         return DELAM_OK;
+     }},
     {"the host's law turns", Subject::host, may::usual,
      [](const Asked& a) {
          a.world.host_law.nonsense = a.in.flag();
@@ -989,6 +999,20 @@ void refuse_others(const Call& call, World& world, Input& in) {
            "solver");
 }
 
+// Runs the call, interrupted where the row before has asked for it and the call can be.
+std::int32_t run(World& world, const Call& call, const Asked& asked) {
+    Host& host = asked.host;
+    host.begin();
+    if ((call.documented & may::cancelled) != 0) {
+        host.cancel_in = std::exchange(world.interrupt_in, -1);
+        host.cancel_by_call = world.interrupt_by_call;
+    }
+    const std::int32_t status = call.make(asked);
+    host.cancel_in = -1;
+    host.settle(call.name, status, call.documented);
+    return status;
+}
+
 // One call on one object: what it may return, and that errors, cancellations and limits leave the object as it was.
 template <class T>
 void ask(World& world, Input& in, const Call& call, Shelf<T>& shelf, T* Asked::*member) {
@@ -1003,9 +1027,7 @@ void ask(World& world, Input& in, const Call& call, Shelf<T>& shelf, T* Asked::*
     const std::string before = print_of(subject);
     Asked asked{world, in, host, nullptr, nullptr, nullptr, nullptr};
     asked.*member = subject;
-    host.begin();
-    const std::int32_t status = call.make(asked);
-    host.settle(call.name, status, call.documented);
+    const std::int32_t status = run(world, call, asked);
     const bool untouched = status < 0 || status == DELAM_CANCELLED || status == DELAM_LIMIT;
     if (untouched && shelf.handle[slot] == subject)
         expect(print_of(subject) == before, "an error leaves the object as it was", call.name);
@@ -1018,8 +1040,7 @@ void one(World& world, Input& in, const Call& call) {
         case Subject::host: {
             Host& host = world.any_host(in);
             world.heard = &host;
-            host.begin();
-            host.settle(call.name, call.make({world, in, host, nullptr, nullptr, nullptr, nullptr}), call.documented);
+            run(world, call, {world, in, host, nullptr, nullptr, nullptr, nullptr});
             break;
         }
         case Subject::mesh: ask(world, in, call, world.mesh, &Asked::mesh); break;

@@ -45,7 +45,6 @@ public:
     bool listens = true;      // the log callback is set
     std::int64_t cancel_in = -1;  // polls until the progress callback cancels; -1: never
     bool cancel_by_call = false;  // then by delam_context_cancel from inside the callback
-    bool ask_by_host = false;     // a request that no call has met yet
 
     // No input may work for ever: beyond this many polls all is cancelled.
     std::int64_t polls_left = 4000;

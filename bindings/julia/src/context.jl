@@ -5,8 +5,8 @@
 #
 # Nothing may be thrown through C. What a callback throws is kept, the library is asked to stop, and it is thrown again
 # once the call is over. Ctrl-C is held back during a call (`disable_sigint`) and let in where it can be caught: inside
-# the progress callback, which then cancels by what it returns (a request by delam_context_cancel beside that would wait
-# for the next call), and at the call's end.
+# the progress callback, which then cancels by what it returns, and at the call's end. Calls that read do not heed what it
+# returns: they come to their end, and what was kept is thrown then.
 
 """
     Context(; progress=nothing)

@@ -93,6 +93,48 @@ class Interrupts(unittest.TestCase):
             solver.commit()
             self.assertEqual(solver.save(), self.after)
 
+    def test_control_c_while_something_is_built_or_read(self):
+        def interrupted(context, call):
+            """The call stopped in its first look, so that nothing of it has been done; then undisturbed."""
+            context.progress = at_poll(1, lambda: signal.raise_signal(signal.SIGINT))
+            with self.assertRaises(KeyboardInterrupt):
+                call()
+            self.assertEqual(len(context.progress.polls), 1)
+            context.progress = None
+            return call()
+
+        mesh = delam.Mesh.layers(0.1, 600, [1.5e-3, 1.5e-3], [2, 2])
+        glue = interrupted(mesh.context, lambda: mesh.add_interface(0, 1))
+        self.assertEqual((glue.index, mesh.interface_count), (0, 1))
+        self.assertEqual(interrupted(mesh.context, lambda: mesh.find_patch(0, (0, 0), (0.1, 3e-3), "-y"))[0].size, 601)
+        problem = delam.Problem(mesh, plane="plane-strain")
+        problem.set_elastic(young=135e9, poisson=0.3)
+        problem.set_law(glue, support.bilinear())
+        left = mesh.find_nodes((0, 0), (0.1, 0))
+        self.assertEqual(left.size, 601)
+        interrupted(problem.context, lambda: problem.prescribe(left, "y"))
+        problem.prescribe(mesh.find_nodes((0, 0), (0, 6e-3)), "x")
+        problem.prescribe(mesh.find_node((0, 3e-3)), "y")
+        interrupted(problem.context, problem.check)
+        matrix = interrupted(problem.context, lambda: problem.body_matrix(0))
+        body = np.flatnonzero(mesh.node_bodies == 0)
+        interrupted(problem.context, lambda: problem.set_stiffness(body, matrix))
+        self.assertEqual(interrupted(problem.context, problem.constraints)[0].shape[1], problem.dofs[0])
+        solver = delam.Solver(problem)
+        for read in (lambda: solver.field("stress"), solver.average, solver.condensed):
+            with self.subTest(read=read):
+                interrupted(problem.context, read)
+        # Requests are consumed by what they stop: none waits for a step.
+        solver.advance(1.0)
+
+    def test_progress_that_says_stop(self):
+        self.problem.progress = lambda stage, done, total: True
+        with self.assertRaises(delam.Cancelled):
+            self.problem.check()
+        with self.assertRaises(delam.Cancelled):
+            self.solver.advance(0.6)
+        self.assertTrue(np.isfinite(self.solver.field("displacement")).all())
+
     def test_control_c_when_all_is_done_already(self):
         for name, make in (("delam_solver_advance", lambda: self.solver.advance(0.6)),
                            ("delam_solver_create", lambda: delam.Solver(self.problem))):

@@ -50,6 +50,18 @@ class Parameters(unittest.TestCase):
         np.testing.assert_allclose(traction[:, 0], adhesion * 1e12 * jump[:, 0])
 
 
+class Mine(Exception):
+    pass
+
+
+def fails_in(trouble):
+    """A spy of host_bilinear whose law fails as long as `trouble` is not empty."""
+    def spy(which):
+        if trouble:
+            raise Mine(which)
+    return spy
+
+
 class Host(unittest.TestCase):
     def test_equals_the_law_of_the_library(self):
         jump = np.column_stack([np.linspace(0, 1.2e-4, 50), np.full(50, 1e-6)])
@@ -58,16 +70,8 @@ class Host(unittest.TestCase):
         np.testing.assert_allclose(law.respond(jump, 0.0)[0], support.bilinear().respond(jump, 0.0)[0], atol=1e-10)
 
     def test_an_exception_surfaces_after_the_call(self):
-        class Mine(Exception):
-            pass
-
         trouble = []
-
-        def spy(which):
-            if trouble:
-                raise Mine(which)
-
-        law = support.host_bilinear(spy=spy)
+        law = support.host_bilinear(spy=fails_in(trouble))
         trouble.append(True)
         with self.assertRaises(Mine) as caught:
             law.check()
@@ -78,17 +82,9 @@ class Host(unittest.TestCase):
         law.check()
 
     def test_a_law_that_fails_while_a_step_is_committed(self):
-        class Mine(Exception):
-            pass
-
         trouble = []
-
-        def spy(which):
-            if trouble:
-                raise Mine(which)
-
         problem = support.brittle_flexure(30)
-        problem.set_law(0, support.host_bilinear(spy=spy))
+        problem.set_law(0, support.host_bilinear(spy=fails_in(trouble)))
         solver = delam.Solver(problem, not_converged="ignore")
         solver.record("time", "process_zone")
         solver.advance(1.0)

@@ -62,7 +62,8 @@ def judged(subject, rows):
     """Checks of one range. A row that says `converged` must be right; one that does not must have been expected to say so."""
     at = {name: rows.index(name) for name in rows.columns}
     acceptance = {}
-    silent, unexpected, refused, worst, kkt, ledger, defect, damage, missing = [], [], 0, 0.0, 0.0, 0.0, 0.0, 0.0, []
+    silent, unexpected, refused, worst, kkt, ledger, defect, missing = [], [], 0, 0.0, 0.0, 0.0, 0.0, []
+    others = any(r[at["realisation"]] != "direct" and r[at["status"]] == "converged" for r in rows.rows)
     for row in rows.rows:
         def get(name):
             return row[at[name]]
@@ -91,12 +92,12 @@ def judged(subject, rows):
         bound = bound_of(subject, get("value"), values["limit"], expected)
         used = values["error"] / values["limit"] if values["limit"] > 0 else (0.0 if values["error"] == 0.0 else 2.0)
         acceptance[who] = bound
-        # The direct solver's own limit is twenty times its rounding, so that its share says nothing where others answered.
-        direct_alone = not any(r[at["realisation"]] != "direct" and r[at["status"]] == "converged" for r in rows.rows)
-        worst = max(worst, used) if direct_alone or get("realisation") != "direct" else worst
+        # The direct solver's own limit is twenty times its rounding: its share says nothing where others have answered.
+        if get("realisation") != "direct" or not others:
+            worst = max(worst, used)
         kkt, ledger = max(kkt, values["kkt"] / bound), max(ledger, values["ledger"] / bound)
         if get("realisation") != "direct":
-            defect, damage = max(defect, values["defect"]), max(damage, values["damage"])
+            defect = max(defect, values["defect"])
         if used > 1 or values["kkt"] > bound or values["ledger"] > bound or get("verdict") != "pass":
             silent.append(who)
     if missing:

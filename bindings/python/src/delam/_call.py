@@ -55,7 +55,11 @@ def _on_progress(stage, done, total, _):
                 return 1
     except BaseException as exception:
         keep_exception(exception)
-    return 0 if call.exception is None else 1
+    if call.exception is None:
+        return 0
+    # Calls that read heed requests, not answers.
+    library.delam_context_cancel(call.context.handle)
+    return 1
 
 
 @_raw.delam_log_callback
@@ -125,7 +129,8 @@ class Context:
 
         other     a further context that is used
         whole     Ctrl-C waits for the end of the function, which may be Python's own
-        long      so it does, but asks the library to stop; progress is told
+        long      so it does, but asks the library to stop; progress is told, whose true result
+                  does not stop what only reads
         outcomes  statuses > 0 that are given back instead of being raised
         Returns (status, message).
         """

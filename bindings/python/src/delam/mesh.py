@@ -173,11 +173,12 @@ class Mesh(Object):
 
     def _create(self, function, *arguments):
         context = Context()
-        self._make(context, _raw.delam_mesh, library.delam_mesh_destroy, function, context.handle, *arguments)
+        self._make(context, _raw.delam_mesh, library.delam_mesh_destroy, function, context.handle, *arguments,
+                   long=True)
         self.body_names = {}
 
-    def _call(self, function, *arguments):
-        self.context.call(function, self._handle, *arguments)
+    def _call(self, function, *arguments, long=False):
+        self.context.call(function, self._handle, *arguments, long=long)
 
     def __repr__(self):
         if self.closed:
@@ -194,7 +195,7 @@ class Mesh(Object):
         if ndim(bodies) == 0:
             bodies = np.full(count, integer("bodies", bodies, 32), np.int32)
         bodies = gate("bodies", bodies, np.int32, (count,))
-        self._call(function, number, count, pointer(connectivity), pointer(bodies), 0)
+        self._call(function, number, count, pointer(connectivity), pointer(bodies), 0, long=True)
 
     def add_cells(self, cells, connectivity, bodies=0):
         """Cells of one type, e.g. "quad4". bodies: a label for all, or one each. A node belongs to one body only."""
@@ -206,7 +207,8 @@ class Mesh(Object):
 
     def _add_interface(self, function, body_a, body_b, distance):
         index = ctypes.c_int64()
-        self._call(function, integer("body_a", body_a, 32), integer("body_b", body_b, 32), distance, index)
+        self._call(function, integer("body_a", body_a, 32), integer("body_b", body_b, 32), distance, index,
+                   long=True)
         return Interface(self, index.value)
 
     def add_interface(self, body_a, body_b, tolerance=0.0):
@@ -216,7 +218,7 @@ class Mesh(Object):
     def add_all_interfaces(self, tolerance=0.0):
         """An interface between every two bodies that share faces and have none yet; the new ones."""
         before, count = self.interface_count, ctypes.c_int64()
-        self._call(library.delam_mesh_add_all_interfaces, number("tolerance", tolerance), count)
+        self._call(library.delam_mesh_add_all_interfaces, number("tolerance", tolerance), count, long=True)
         return [Interface(self, before + i) for i in range(count.value)]
 
     def add_projected_interface(self, body_a, body_b, gap=0.0):
@@ -233,14 +235,15 @@ class Mesh(Object):
             weights = floats("weights", weights, (nodes.size,))
         index = ctypes.c_int64()
         self._call(library.delam_mesh_add_obstacle, nodes.size, pointer(nodes), pointer(normals), pointer(weights),
-                   integer("control_node", control_node), 0, index)
+                   integer("control_node", control_node), 0, index, long=True)
         return Interface(self, index.value)
 
     def add_host_body(self, body, nodes):
         """A body without cells, whose stiffness Problem.set_stiffness takes. nodes: of no body yet, indices or a
         mask."""
         nodes = indices("nodes", nodes, size=self.node_count)
-        self._call(library.delam_mesh_add_host_body, integer("body", body, 32), nodes.size, pointer(nodes), 0)
+        self._call(library.delam_mesh_add_host_body, integer("body", body, 32), nodes.size, pointer(nodes), 0,
+                   long=True)
 
     def add_pairs(self, body_a, body_b, nodes_a, nodes_b, normals, weights, faces=None):
         """An interface of pairs that the host knows, in the order given; their nodes may lie apart.
@@ -256,7 +259,7 @@ class Mesh(Object):
         index = ctypes.c_int64()
         self._call(library.delam_mesh_add_pairs, integer("body_a", body_a, 32), integer("body_b", body_b, 32),
                    nodes_a.size, pointer(nodes_a), pointer(nodes_b), pointer(normals), pointer(weights), faces.shape[0],
-                   faces.shape[1], pointer(faces), 0, index)
+                   faces.shape[1], pointer(faces), 0, index, long=True)
         return Interface(self, index.value)
 
     def _normals(self, normals, count):
@@ -368,7 +371,7 @@ class Mesh(Object):
         along = axis("direction", direction, dimension)
         count = ctypes.c_int64()
         box = body_label(body), pointer(lower), pointer(upper), pointer(along)
-        self._call(library.delam_mesh_find_patch, *box, 0, None, None, count)
+        self._call(library.delam_mesh_find_patch, *box, 0, None, None, count, long=True)
         nodes, weights = np.empty(count.value, np.int64), np.empty(count.value)
-        self._call(library.delam_mesh_find_patch, *box, nodes.size, pointer(nodes), pointer(weights), count)
+        self._call(library.delam_mesh_find_patch, *box, nodes.size, pointer(nodes), pointer(weights), count, long=True)
         return nodes, weights

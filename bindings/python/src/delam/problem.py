@@ -67,7 +67,8 @@ class Problem(Object):
     or index), a mapping {pattern: coefficient, or one each}, or None for zero. Directions are vectors or axes ("x",
     "-y").
 
-    progress: a function (stage, done, total) called inside long work, on the calling thread; a true result cancels."""
+    progress: a function (stage, done, total) called inside long work, on the calling thread; a true result cancels,
+    except what only reads, as fields."""
 
     def __init__(self, mesh, plane=None, progress=None):
         context = Context()
@@ -82,8 +83,8 @@ class Problem(Object):
         if plane is not None:
             self.set_plane(plane)
 
-    def _call(self, function, *arguments):
-        self.context.call(function, self._handle, *arguments)
+    def _call(self, function, *arguments, long=False):
+        self.context.call(function, self._handle, *arguments, long=long)
 
     @property
     def options(self):
@@ -126,14 +127,14 @@ class Problem(Object):
         """Directions of the material axes 1 and 2 in space, [2][3] for all cells of the body or [cells][2][3]."""
         if cells is None:
             axes = floats("axes", axes, (2, 3))
-            self._call(library.delam_problem_set_orientation, body_label(body), 1, None, pointer(axes), 0)
+            self._call(library.delam_problem_set_orientation, body_label(body), 1, None, pointer(axes), 0, long=True)
             return
         cells = indices("cells", cells, size=self._cell_count)
         if ndim(axes) == 2:
             axes = np.tile(floats("axes", axes, (2, 3)), (cells.size, 1, 1))
         axes = floats("axes", axes, (cells.size, 2, 3))
         self._call(library.delam_problem_set_orientation, body_label(body), cells.size, pointer(cells), pointer(axes),
-                   0)
+                   0, long=True)
 
     def set_formulation(self, formulation, body=None):
         """"standard" (initially), "incompatible" or "mean-dilatation"."""
@@ -163,7 +164,7 @@ class Problem(Object):
             kernel = floats("kernel", kernel, (None, size)) if np.size(kernel) else np.empty((0, size))
             motions = kernel.shape[0]
         self._call(library.delam_problem_set_stiffness, nodes.size, pointer(nodes), pointer(dofs), pointer(row_starts),
-                   pointer(columns), pointer(values), motions, pointer(kernel), 0)
+                   pointer(columns), pointer(values), motions, pointer(kernel), 0, long=True)
 
     # ---- interfaces
 
@@ -240,7 +241,7 @@ class Problem(Object):
         along = axis("direction", direction, self.dimension)
         patterns, coefficients = self._driven(drive, nodes.size)
         self._call(library.delam_problem_prescribe_nodes, nodes.size, pointer(nodes), pointer(along), patterns.size,
-                   pointer(patterns), pointer(coefficients), 0)
+                   pointer(patterns), pointer(coefficients), 0, long=True)
 
     def prescribe_mean(self, nodes, weights, direction, drive=None):
         """The weighted mean of direction . u over nodes; with the weights of Mesh.find_patch a support spread over a
@@ -250,7 +251,7 @@ class Problem(Object):
         along = axis("direction", direction, self.dimension)
         patterns, coefficients = self._driven(drive)
         self._call(library.delam_problem_prescribe_mean, nodes.size, pointer(nodes), pointer(weights), pointer(along),
-                   patterns.size, pointer(patterns), pointer(coefficients), 0)
+                   patterns.size, pointer(patterns), pointer(coefficients), 0, long=True)
 
     def add_equation(self, nodes, coefficients, drive=None):
         """sum_i coefficients[i] . u_nodes[i] = sum over patterns of drive * factor."""
@@ -258,7 +259,7 @@ class Problem(Object):
         coefficients = floats("coefficients", coefficients, (nodes.size, self.dimension))
         patterns, prescribed = self._driven(drive)
         self._call(library.delam_problem_add_equation, nodes.size, pointer(nodes), pointer(coefficients), patterns.size,
-                   pointer(patterns), pointer(prescribed), 0)
+                   pointer(patterns), pointer(prescribed), 0, long=True)
 
     def add_periodic(self, periods, control_nodes, tolerance=0.0):
         """u(x + period_k) - u(x) = u of control node k, on opposite faces of the mesh. periods:
@@ -266,7 +267,7 @@ class Problem(Object):
         periods = floats("periods", [periods] if ndim(periods) == 1 else periods, (None, self.dimension))
         control_nodes = indices("control_nodes", control_nodes, (periods.shape[0],))
         self._call(library.delam_problem_add_periodic, periods.shape[0], pointer(periods), pointer(control_nodes),
-                   number("tolerance", tolerance), 0)
+                   number("tolerance", tolerance), 0, long=True)
 
     def add_forces(self, pattern, nodes, forces):
         """Dead forces times the factor of a pattern: [nodes][dimension], or one vector for all."""
@@ -275,7 +276,7 @@ class Problem(Object):
             forces = np.tile(floats("forces", forces, (self.dimension,)), (nodes.size, 1))
         forces = floats("forces", forces, (nodes.size, self.dimension))
         self._call(library.delam_problem_add_forces, self.pattern(pattern), nodes.size, pointer(nodes), pointer(forces),
-                   0)
+                   0, long=True)
 
     def add_eigenstrain(self, pattern, strain, body=None):
         """xx, yy, zz, 2xy, 2yz, 2zx in the material axes, times the factor of a pattern."""
@@ -286,13 +287,13 @@ class Problem(Object):
 
     def check(self):
         """ProblemError names what is missing or contradictory."""
-        self._call(library.delam_problem_check)
+        self._call(library.delam_problem_check, long=True)
 
     @property
     def hash(self):
         """Of everything that determines the result: 16 hexadecimal digits."""
         out = ctypes.create_string_buffer(17)
-        self._call(library.delam_problem_hash, out)
+        self._call(library.delam_problem_hash, out, long=True)
         return out.value.decode()
 
     @property
@@ -305,41 +306,42 @@ class Problem(Object):
     def process_zone(self, interface):
         """Expected length of the process zone, 0 where there is none, and the mean distance of pairs."""
         length, spacing = ctypes.c_double(), ctypes.c_double()
-        self._call(library.delam_problem_process_zone, integer("interface", interface), length, spacing)
+        self._call(library.delam_problem_process_zone, integer("interface", interface), length, spacing, long=True)
         return length.value, spacing.value
 
     def body_matrix(self, body):
         """Stiffness of a body over its nodes in ascending order, both triangles."""
         body = integer("body", body, 32)
         rows, entries = ctypes.c_int64(), ctypes.c_int64()
-        self._call(library.delam_problem_body_matrix, body, rows, entries, None, None, None)
+        self._call(library.delam_problem_body_matrix, body, rows, entries, None, None, None, long=True)
         out = Sparse((rows.value, rows.value), np.empty(rows.value + 1, np.int64), np.empty(entries.value, np.int64),
                      np.empty(entries.value))
-        self._call(library.delam_problem_body_matrix, body, rows, entries, *(pointer(array) for array in out[1:]))
+        self._call(library.delam_problem_body_matrix, body, rows, entries, *(pointer(array) for array in out[1:]),
+                   long=True)
         return out
 
     def constraints(self):
         """Constraints over the mesh's displacements, and their right-hand sides [rows][patterns]."""
         rows, entries, patterns = ctypes.c_int64(), ctypes.c_int64(), ctypes.c_int64()
         sizes = rows, entries, patterns
-        self._call(library.delam_problem_constraints, *sizes, None, None, None, None)
+        self._call(library.delam_problem_constraints, *sizes, None, None, None, None, long=True)
         out = Sparse((rows.value, self.dofs[0]), np.empty(rows.value + 1, np.int64), np.empty(entries.value, np.int64),
                      np.empty(entries.value))
         coefficients = np.empty((rows.value, patterns.value))
         self._call(library.delam_problem_constraints, *sizes, *(pointer(array) for array in out[1:]),
-                   pointer(coefficients))
+                   pointer(coefficients), long=True)
         return out, coefficients
 
     def forces(self, pattern):
         """Nodal forces [nodes][dimension] of a pattern at factor 1."""
         out = np.empty((self.dofs[0] // self.dimension, self.dimension))
-        self._call(library.delam_problem_forces, self.pattern(pattern), out.size, pointer(out))
+        self._call(library.delam_problem_forces, self.pattern(pattern), out.size, pointer(out), long=True)
         return out
 
     def eigenstrain_energy(self):
         """[patterns][patterns]"""
         out = np.zeros((len(self.patterns),) * 2)
-        self._call(library.delam_problem_eigenstrain_energy, out.size, pointer(out))
+        self._call(library.delam_problem_eigenstrain_energy, out.size, pointer(out), long=True)
         return out
 
     def factors(self, time):

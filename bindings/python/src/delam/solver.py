@@ -149,8 +149,8 @@ class Solver(Object):
         self._keys = {name: name.encode() for name in names}
         self._outcome(outcome, 3)
 
-    def _call(self, function, *arguments):
-        self.context.call(function, self._handle, *arguments)
+    def _call(self, function, *arguments, long=False):
+        self.context.call(function, self._handle, *arguments, long=long)
 
     @property
     def _pattern_count(self):
@@ -340,13 +340,13 @@ class Solver(Object):
         part = -1 if interface is None else integer("interface", interface)
         rows, columns = self._shape(name, part)
         out = np.empty((rows, columns) if columns > 1 else rows)
-        self._call(library.delam_solver_field, text("name", name), part, out.size, pointer(out))
+        self._call(library.delam_solver_field, text("name", name), part, out.size, pointer(out), long=True)
         return out
 
     def average(self, body=None):
         """Volume, average strain and average stress of a body; None: of all."""
         volume, strain, stress = ctypes.c_double(), np.empty(6), np.empty(6)
-        self._call(library.delam_solver_average, body_label(body), volume, pointer(strain), pointer(stress))
+        self._call(library.delam_solver_average, body_label(body), volume, pointer(strain), pointer(stress), long=True)
         return Average(volume.value, strain, stress)
 
     def fronts(self, interface=0):
@@ -363,13 +363,13 @@ class Solver(Object):
     def tangent(self):
         """[patterns][patterns]: change of reactions with factors at the adhesion and contact held; symmetric."""
         out = np.empty((self._pattern_count,) * 2)
-        self.context.call(library.delam_solver_tangent, self._handle, out.size, pointer(out), long=True)
+        self._call(library.delam_solver_tangent, out.size, pointer(out), long=True)
         return out
 
     def step_tangent(self):
         """[patterns][patterns]: change of reactions with factors at the end of the pending step, damage included."""
         out = np.empty((self._pattern_count,) * 2)
-        self.context.call(library.delam_solver_step_tangent, self._handle, out.size, pointer(out), long=True)
+        self._call(library.delam_solver_step_tangent, out.size, pointer(out), long=True)
         return out
 
     def condensed(self):
@@ -384,7 +384,7 @@ class Solver(Object):
         out = Condensed(np.empty((n, n)), np.empty((patterns, n)), np.empty((patterns, patterns)), jump,
                         np.empty((rows, patterns)))
         self._call(library.delam_solver_condensed, n * n, *(pointer(array) for array in out[:3]),
-                   *(pointer(array) for array in jump[1:]), pointer(out.offset))
+                   *(pointer(array) for array in jump[1:]), pointer(out.offset), long=True)
         return out
 
     # ---- what was done
