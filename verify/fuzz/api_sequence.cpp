@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -906,7 +907,10 @@ const Call calls[] = {
      may::not_converged | may::cancelled | may::limit | may::argument | may::problem | may::state | may::numerical,
      [](const Asked& a) { return watched(a.world, a.in, [&] { return equilibrate(a.in, a.solver); }); }},
     {"delam_solver_look", Subject::solver, may::argument,
-     [](const Asked& a) { return in_order{delam_solver_look, a.solver, a.in.index(7) - 1}.status; }},
+     [](const Asked& a) {
+         const std::int64_t step = a.in.index(7);
+         return delam_solver_look(a.solver, step == std::numeric_limits<std::int64_t>::min() ? step : step - 1);
+     }},
     {"delam_solver_value", Subject::solver, may::cancelled | may::argument | may::problem,
      [](const Asked& a) {
          double value = 0.0;

@@ -41,7 +41,7 @@ public:
             expect(delam_solver_record(solver_, key) == DELAM_OK, "values are recorded", "delam_solver_record");
         states_.push_back(saved(solver_));
         for (int step = 1; step <= steps; ++step) {
-            expect(advance(step) >= 0, "a march goes on", "delam_solver_advance");
+            expect(goes_on(step), "a march goes on", "delam_solver_advance");
             delam_solver_commit(solver_);
             states_.push_back(saved(solver_));
         }
@@ -74,21 +74,22 @@ public:
         expect(again == bytes || !std::equal(again.begin(), again.begin() + 12, bytes.begin()),
                "a state is saved as it was loaded", "delam_solver_save");
         read_everything();
-        const auto step = own - states_.begin();
-        if (own != states_.end() && step < steps) {
-            expect(advance(static_cast<int>(step) + 1) >= 0, "a march goes on", "delam_solver_advance");
-            delam_solver_commit(solver_);
-            expect(saved(solver_) == states_[static_cast<std::size_t>(step) + 1], "the rest is bitwise the same",
-                   "delam_solver_load");
-        } else if (own == states_.end()) {
-            go_on_from_anywhere();
-        }
-        expect(delam_solver_load(solver_, static_cast<std::int64_t>(states_[0].size()), states_[0].data()) == DELAM_OK,
+        if (own == states_.end()) go_on_from_anywhere();
+        // Also after another state's march nothing is left that the next could tell.
+        host_.polls_left = 4000;
+        const std::size_t step = (own != states_.end() ? own - states_.begin() : bytes.size()) % steps;
+        expect(delam_solver_load(solver_, static_cast<std::int64_t>(states_[step].size()), states_[step].data()) == DELAM_OK,
                "another state can be loaded afterwards", "delam_solver_load");
+        expect(goes_on(static_cast<int>(step) + 1), "a march goes on", "delam_solver_advance");
+        delam_solver_commit(solver_);
+        expect(saved(solver_) == states_[step + 1], "the rest is bitwise the same", "delam_solver_load");
     }
 
 private:
-    std::int32_t advance(int step) { return delam_solver_advance(solver_, 0.25 * step); }
+    bool goes_on(int step) {
+        const std::int32_t status = delam_solver_advance(solver_, 0.25 * step);
+        return status == DELAM_OK || status == DELAM_NOT_CONVERGED;
+    }
 
     // Values and fields may be of a state that no march has come through; reading them must do no harm.
     void read_everything() {
