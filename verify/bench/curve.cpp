@@ -46,4 +46,17 @@ double distance(const Curve& a, const Curve& b) {
     return size > 0.0 ? difference / size : std::numeric_limits<double>::quiet_NaN();
 }
 
+Extrapolation richardson(double x_coarse, double x_middle, double x_finest, double d_coarse, double d_middle) {
+    const auto ratio = [&](double p) {
+        return (std::pow(x_coarse / x_finest, p) - 1.0) / (std::pow(x_middle / x_finest, p) - 1.0);
+    };
+    double low = 0.5;
+    double high = 6.0;
+    for (int i = 0; i < 60; ++i) {
+        const double p = 0.5 * (low + high);
+        (ratio(p) < d_coarse / d_middle ? low : high) = p;
+    }
+    return {low, d_middle / (std::pow(x_middle / x_finest, low) - 1.0)};
+}
+
 }  // namespace bench

@@ -18,4 +18,12 @@ Curve dissipation_curve(const March& march);
 // Integral of |a - b| over the path, over that of |b|.
 double distance(const Curve& a, const Curve& b);
 
+// Richardson: with errors c x^p the distances of two coarser results to the finest are c (x_i^p - x_finest^p). Their
+// ratio gives p (it grows with p, so it is bisected within 0.5 .. 6), and c x_finest^p is the error of the finest.
+struct Extrapolation {
+    double order;
+    double error;
+};
+Extrapolation richardson(double x_coarse, double x_middle, double x_finest, double d_coarse, double d_middle);
+
 }  // namespace bench

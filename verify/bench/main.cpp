@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* usage =
     "usage: delam_bench [--json FILE] [--quick] [--scene NAME]... [--repeat N] [--cap SECONDS] [--threads N]... "
-    "march | precision | growth | energetic\n"
+    "march | precision | methods | growth | energetic\n"
     "       delam_bench [--json FILE] [--repeat N] [--cap SECONDS] --scene FILE... [--set KEY=VALUE]... scene-file\n";
 
 }  // namespace
@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
     } tables[] = {
         {"march", bench::march_table},
         {"precision", bench::precision_table},
+        {"methods", bench::methods_table},
         {"growth", bench::growth_table},
 #ifdef DELAM_SCENE_FILES
         {"scene-file", bench::scene_file_table},

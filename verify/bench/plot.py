@@ -70,6 +70,20 @@ def march(result, figure):
     axis.legend(fontsize=8)
 
 
+def methods(result, figure):
+    axes = figure.subplots(1, 2, sharey=True)
+    for axis, key, name in ((axes[0], "error_reaction", "reaction"), (axes[1], "error_dissipated", "dissipated energy")):
+        for j, method in enumerate(METHODS):
+            found = [mesh["methods"][method] for mesh in result["meshes"]]
+            points = [(m[key], m["total_s"]["median"]) for m in found if key in m]
+            if points:
+                axis.plot(*zip(*points), "o-", color=f"C{j}", label=method)
+        axis.set(xscale="log", yscale="log", xlabel=f"error of the {name}, mesh alone")
+        axis.grid(True, which="both", alpha=0.3)
+    axes[0].set(ylabel="time, s")
+    axes[0].legend(fontsize=8)
+
+
 def growth(result, figure):
     axes = figure.subplots(1, len(result["families"]), squeeze=False)[0]
     for axis, (name, family) in zip(axes, result["families"].items()):
@@ -125,7 +139,7 @@ def main():
     with open(sys.argv[1], encoding="utf-8") as file:
         data = json.load(file)
     figure = plt.figure(figsize=(11, 5), layout="constrained")
-    draw = {"precision": precision, "march": march, "growth": growth, "energetic": energetic}
+    draw = {"precision": precision, "methods": methods, "march": march, "growth": growth, "energetic": energetic}
     draw[data["table"]](data["result"], figure)
     machine = data["machine"]
     note = f"{machine['processor']}, {machine['blas_core']}, {machine['commit']}"

@@ -127,6 +127,10 @@ SceneData find_scene(const std::string& name) {
     if (!(data.h > 0.0 && data.h <= 3e-3))
         throw reference::Failure(0, "scene '" + name + "': the edge in mm is missing");
     if (family == "enf-ductile") return data;
+    if (family == "enf-patch") {
+        data.patch = 2e-3;
+        return data;
+    }
     if (family == "enf-brittle") {
         data.brittle = true;
         data.law = {125e15, 125e15, 0.01, 0.01, 25.0, 25.0};
@@ -143,7 +147,8 @@ SceneData find_scene(const std::string& name) {
         data.steps = 10;
         return data;
     }
-    throw reference::Failure(0, "scene '" + name + "' is not known: enf-ductile-H, enf-brittle-H, block-H, H in mm");
+    throw reference::Failure(0, "scene '" + name + "' is not known: enf-ductile-H, enf-brittle-H, enf-patch-H, block-H, "
+                                    "H in mm");
 }
 
 Stage make_mesh(const SceneData& data) {

@@ -43,8 +43,15 @@ struct SceneData {
 inline constexpr double end_time = 2.0;
 inline double step_time(const SceneData& data, int step) { return end_time * step / data.steps; }
 
-// Scenes by name: enf-ductile-H, enf-brittle-H with H the edge in mm (enf-ductile-0.5), block-H in 3D.
+// Scenes by name: enf-ductile-H, enf-brittle-H with H the edge in mm (enf-ductile-0.5), block-H in 3D; enf-patch-H is
+// enf-ductile-H on patches of 2 mm: points have no limit as the mesh is refined.
 SceneData find_scene(const std::string& name);
+// Meshes, mm, of the reference of enf-patch-H and of what tells its error. What is dissipated converges with the first
+// order of the spacing of pairs, which quadratic cells halve: the last one has a quarter of that of the finest 4-node
+// cells of the lines.
+inline std::vector<double> reference_meshes(bool quick) {
+    return quick ? std::vector<double>{1.0, 0.5, 0.25} : std::vector<double>{0.5, 0.25, 0.125};
+}
 
 // How the library is asked to solve; nullptr: its default. declare() returns false where the library does not know the
 // option or its word.

@@ -20,6 +20,7 @@ struct Settings {
 
 Json march_table(const Settings& settings);
 Json precision_table(const Settings& settings);
+Json methods_table(const Settings& settings);
 Json growth_table(const Settings& settings);
 Json energetic_table(const Settings& settings);
 #ifdef DELAM_SCENE_FILES

@@ -83,7 +83,7 @@ void floating(Study& study) {
                 t.least_energy = young * press * press;
             } else {
                 t.held = [=] { return plies(loose, press, true); };
-                t.defect_limit = 1e-8;
+                t.defect_limit = closed_balance;
             }
             study.run(t);
         }
@@ -144,7 +144,7 @@ void floating(Study& study) {
             t.direct = false;
             t.refused = "no equilibrium";
         } else {
-            t.defect_limit = 1e-8;
+            t.defect_limit = closed_balance;
         }
         study.run(t);
     }
@@ -196,7 +196,7 @@ void corner(Study& study) {
                           "delam_problem_add_forces");
             return scene;
         };
-        t.defect_limit = 1e-8;
+        t.defect_limit = closed_balance;
         study.run(t);
     }
 }
@@ -230,7 +230,7 @@ void reversed(Study& study) {
             scene.drive(scene.find(1, {0.5 * length, top}, {0.5 * length, top}), {0.0, 1.0}, load, {-0.5});
             return scene;
         };
-        t.defect_limit = 1e-8;
+        t.defect_limit = closed_balance;
         study.run(t);
     }
 }
@@ -294,7 +294,7 @@ void crossings(Study& study) {
             t.scene = [=] { return blocks(std::lround(n), kind.bonded, kind.gluing, false); };
             // Bonds around a crossing are redundant: the forces among them are not unique.
             if (kind.bonded) t.compared = {true, false, false, true, true};
-            t.defect_limit = 1e-8;
+            t.defect_limit = closed_balance;
             study.run(t);
         }
     }

@@ -220,7 +220,8 @@ def axis(label: str, unit: str = "", scale: str = "linear", **more) -> dict:
 
 
 def series(name: str, role: str, x: list, y: list, **more) -> dict:
-    """role picks colour and marker (palette.py). more: line ("solid", "dashed", "none"), marker (False: none), low and high: ends of its spread."""
+    """role picks colour and marker (palette.py). more: line ("solid", "dashed", "none"), marker (False: none), hollow (True: open markers, for
+    bounds), low and high: ends of its spread."""
     return {"name": name, "role": role, "x": list(x), "y": list(y), **more}
 
 
@@ -272,7 +273,7 @@ def ledger_of(marches: dict, unit: str, slack: float = 1e-9) -> dict:
     columns = [column("march", "", key=True), *(column(what, unit) for what in energies),
                column("beyond a bound", "steps")]
     return table("At the end of the march", columns, rows,
-                 "As the library books it, by its public values. Defect: growth of what is stored, and dissipated, "
+                 "A march: all load steps of a scene in turn. As the library books it, by its public values. Defect: growth of what is stored, and dissipated, "
                  "less the work; bounds and increments are summed over the steps.")
 
 

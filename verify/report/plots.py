@@ -17,11 +17,13 @@ import matplotlib.ticker  # noqa: E402
 import palette  # noqa: E402
 from words import show  # noqa: E402
 
-WIDE, NARROW = (7.0, 3.9), (3.6, 3.9)  # inches, at 9 points of text or more
+# Inches: the page's text at 1280 pixels, a phone. Letters of 9 points or more; those of the wide one are larger, for windows between the two.
+WIDE, NARROW = (11.33, 5.2), (3.6, 3.9)
+LARGER = 1.25
+LETTERS = {"font.size": 9.5, "axes.labelsize": 9.5, "axes.titlesize": 10, "legend.fontsize": 9, "xtick.labelsize": 9, "ytick.labelsize": 9}
 LINES = {"solid": "-", "dashed": "--", "dotted": ":", "none": ""}
 matplotlib.rcParams.update({
-    "font.size": 9.5, "axes.labelsize": 9.5, "axes.titlesize": 10, "legend.fontsize": 9, "xtick.labelsize": 9, "ytick.labelsize": 9,
-    "font.family": "DejaVu Sans", "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": "#E3E3E3",
+    **LETTERS, "font.family": "DejaVu Sans", "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": "#E3E3E3",
     "grid.linewidth": 0.6, "axes.axisbelow": True, "lines.linewidth": 1.6, "lines.markersize": 5, "svg.fonttype": "path",
     "svg.hashsalt": "delam", "axes.edgecolor": "#555555", "legend.frameon": False,
 })
@@ -68,8 +70,8 @@ def _log_ticks(ax, values: list[float], horizontal: bool, narrow: bool) -> None:
 
 def _draw_bars(plot: dict, size: tuple[float, float]):
     """Bars that lie, so that their names are read; the number at the end of each, its spread as a whisker."""
-    names = plot["x"]["bars"]
-    figure, axes = plt.subplots(figsize=(size[0], 0.9 + 0.42 * len(names) * len(plot["series"])), layout="constrained")
+    names, scale = plot["x"]["bars"], 1.0 if size == NARROW else LARGER
+    figure, axes = plt.subplots(figsize=(size[0], scale * (0.9 + 0.42 * len(names) * len(plot["series"]))), layout="constrained")
     thick = 0.62 / len(plot["series"])
     for place, s in enumerate(plot["series"]):
         colour, _, _ = palette.style(s["role"])
@@ -77,7 +79,7 @@ def _draw_bars(plot: dict, size: tuple[float, float]):
         spread = [[max(y - low, 0.0) for y, low in zip(s["y"], s["low"])], [max(high - y, 0.0) for y, high in zip(s["y"], s["high"])]] if "low" in s else None
         axes.barh(at, s["y"], thick, color=colour, label=s["name"], xerr=spread, error_kw={"ecolor": palette.BLACK, "elinewidth": 1.2, "capsize": 3})
         for x, y, end in zip(at, s["y"], s.get("high", s["y"])):
-            axes.annotate(show(y), (max(y, end, 0.0), x), xytext=(5, 0), textcoords="offset points", va="center", fontsize=9)
+            axes.annotate(show(y), (max(y, end, 0.0), x), xytext=(5, 0), textcoords="offset points", va="center", fontsize=9 * scale)
     axes.set_yticks(range(len(names)), names)
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
@@ -96,6 +98,7 @@ def _draw(plot: dict, size: tuple[float, float]):
         return _draw_bars(plot, size)
     figure, axes = plt.subplots(figsize=size, layout="constrained")
     narrow = size == NARROW
+    scale = 1.0 if narrow else LARGER
     repeated: dict[str, int] = {}
     for place, s in enumerate(plot["series"]):
         below = min(sum(_coincide(s, other, plot["y"]["scale"]) for other in plot["series"][place + 1:]), 3)
@@ -110,8 +113,8 @@ def _draw(plot: dict, size: tuple[float, float]):
                 values[:] = [v if v > 0 else math.nan for v in values]
         axes.plot(x, y, color=colour, linestyle=line or "none",
                   marker="" if s.get("marker") is False or (len(x) > 60 and line) else marker or ("o" if not line else ""),
-                  markerfacecolor=colour if turn % 2 == 0 else "white", label=s["name"], linewidth=1.6 + 0.9 * below,
-                  markersize=5 + 2 * below)
+                  markerfacecolor="white" if s.get("hollow", turn % 2 == 1) else colour, label=s["name"], linewidth=1.6 + 0.9 * below,
+                  markersize=scale * (5 + 2 * below))
     axes.set_xscale(plot["x"]["scale"])
     axes.set_yscale(plot["y"]["scale"])
     slopes = 0
@@ -138,9 +141,9 @@ def _draw(plot: dict, size: tuple[float, float]):
     handles, labels = axes.get_legend_handles_labels()
     if len(handles) > 1 or plot.get("marks"):
         longest = max(len(text) for text in labels)
-        columns = min(len(handles), 1 if narrow and longest > 17 else 2 if narrow or longest > 30 else 3 if longest > 18 else 4)
+        columns = min(len(handles), (1 if longest > 17 else 2) if narrow else 2 if longest > 42 else 3 if longest > 28 else 4 if longest > 18 else 5)
         # Below the axes, where it covers nothing; the picture grows by its rows.
-        room = 0.2 * math.ceil(len(handles) / columns) + 0.08
+        room = scale * (0.2 * math.ceil(len(handles) / columns) + 0.08)
         height = size[1] + max(0.0, room - 0.3)
         figure.set_size_inches(size[0], height)
         figure.set_layout_engine("constrained", rect=(0.0, room / height, 1.0, 1.0 - room / height))
@@ -149,10 +152,11 @@ def _draw(plot: dict, size: tuple[float, float]):
 
 
 def svg(plot: dict, size: tuple[float, float]) -> str:
-    figure = _draw(plot, size)
     out = io.StringIO()
-    figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
-    plt.close(figure)
+    with matplotlib.rc_context({} if size == NARROW else {name: LARGER * points for name, points in LETTERS.items()}):
+        figure = _draw(plot, size)
+        figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
+        plt.close(figure)
     text = out.getvalue()
     text = text[text.index("<svg"):]
     text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)

@@ -15,7 +15,7 @@ sys.path.insert(0, str(HERE))
 import jinja2  # noqa: E402
 
 import schema  # noqa: E402
-from words import NO_LEDGER, show  # noqa: E402
+from words import NO_LEDGER, bound, expected, show  # noqa: E402
 
 ORDER = ("failed", "refused as expected", "passed", "skipped")
 
@@ -99,7 +99,7 @@ def draw(plots_of: dict) -> dict:
 def environment() -> jinja2.Environment:
     env = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE / "templates"), undefined=jinja2.StrictUndefined,
                              autoescape=jinja2.select_autoescape(["html", "html.j2"]), trim_blocks=True, lstrip_blocks=True)
-    env.filters.update(show=show, slug=slug)
+    env.filters.update(show=show, slug=slug, bound=bound, expected=expected)
     env.globals.update(parts=parts, no_ledger=NO_LEDGER)
     return env
 

@@ -17,6 +17,17 @@ NO_LEDGER = {
 }
 
 
+def bound(of: dict) -> str:
+    """The limit of a check or a judgement with its sense; that of an order is the order expected, within a tolerance."""
+    if of.get("limit") is None:
+        return show(None)
+    return {"<=": "≤ ", ">=": "≥ "}.get(of.get("sense"), "") + show(of["limit"])
+
+
+def expected(order: dict) -> str:
+    return ("at least " if order.get("sense") == "at least" else "") + show(order["expected"])
+
+
 def show(value) -> str:
     """Four digits, powers of ten where they are shorter."""
     if value is None:

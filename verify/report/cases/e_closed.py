@@ -282,14 +282,22 @@ def enf(context):
         span, crack = half - 0.5 * patch, a - 0.5 * patch
         compliance = (2 * span ** 3 + 3 * crack ** 3) / (8 * modulus * arm ** 3) + 0.3 * span / (shear * arm)
         g = 9 * force ** 2 * crack ** 2 / (16 * modulus * arm ** 3)
-        rows.append([a * 1e3, press / force, compliance, press / force / compliance - 1, float(rates.sum()), g, float(rates.sum()) / g - 1, float(abs(rates[0]) / rates.sum()), contacts])
-    checks = [check("compliance off beam theory", largest(abs(r[3]) for r in rows), 0.05, "bending of both arms and shear; elastic root of the crack and indentation of the supports are not in it: the arm thickness over the crack length, 3 mm over 30 to 54 mm"),
-              check("energy release rate off beam theory", largest(abs(r[6]) for r in rows), 0.05, "beam theory knows no shear at the crack tip: about 0.1 of the arm over the crack"),
+        # The crack of beam theory that would release as much.
+        root = (math.sqrt(float(rates.sum()) / g) - 1) * crack / arm
+        rows.append([a * 1e3, press / force, compliance, press / force / compliance - 1, float(rates.sum()), g, float(rates.sum()) / g - 1, float(abs(rates[0]) / rates.sum()), contacts, root])
+    longer = "elastic root of an isotropic arm: 0.66 of its height in mode I, less than half of that in mode II (0.42 of it in ASTM D6671)"
+    checks = [check("compliance off beam theory", largest(abs(r[3]) for r in rows), 0.05, "the root, which beam theory omits, makes the crack of 53 mm between the means longer by 0.33 of 3 mm at most, its cube by 5.7 % and so the compliance by "
+                    "3 %; the rest is left for the indentation of the supports"),
+              check("length that the root adds to the crack, over the arm, largest", largest(r[9] for r in rows), 0.33, longer),
+              check("length that the root adds to the crack, over the arm, least", min(r[9] for r in rows), 0.0, longer + ": it is softer than a clamp", ">="),
               check("part of mode I", largest(r[7] for r in rows), 1e-4, "closed contact behind the tip: mode II alone; the tip's own pair opens a little"), check("pairs in contact", min(r[8] for r in rows), 1, "the arms press on each other", ">=")]
     x = [r[0] for r in rows]
-    return result(reference("closed form", "Bernoulli's beams of plane strain with shear: C = (2 L^3 + 3 a^3)/(8 E' h^3) + 0.3 L/(G h), G_II = 9 P^2 a^2/(16 E' h^3) per width", "a few percent: no shear deformation at the crack tip, no indentation"),
+    over = [100 * r[6] for r in rows]
+    return result(reference("closed form", "Bernoulli's beams of plane strain, E' = E/(1 - nu^2): C = (2 L^3 + 3 a^3)/(8 E' h^3), G_II = P^2/2 dC/da = 9 P^2 a^2/(16 E' h^3) per width; shear of a rectangle adds 0.3 L/(G h), as P/2 on "
+                            "2 h with the factor 5/6, whatever the crack", "a few percent: no elastic root of the crack, no indentation"),
+                  warnings=[f"G is {min(over):.2g} to {max(over):.2g} % above beam theory: the crack has an elastic root, as long as {largest(r[9] for r in rows):.2g} arm heights at most, which beam theory omits."],
                   tables=[{"title": "ENF below onset, by crack length", "note": "", "columns": [column("crack", "mm", key=True), column("compliance", "m2/N"), column("beams", "m2/N"), column("difference", "relative", past="free"), column("G", "J/m2", past=1e-5), column("G, beams", "J/m2"),
-                           column("difference of G", "relative", past="free"), column("part of mode I", "of G", past="rounding"), column("contact", "pairs", past="count")], "rows": rows}],
+                           column("difference of G", "relative", past="free"), column("part of mode I", "of G", past="rounding"), column("contact", "pairs", past="count"), column("root", "of the arm", past=1e-4)], "rows": rows}],
                   checks=checks, plots=[plot("Compliance", axis("crack length", "mm"), axis("compliance", "m2/N"), [series("libdelam", "condensed", x, [r[1] for r in rows]), series("beam theory", "reference", x, [r[2] for r in rows], marker=False)]),
                                         plot("Energy release rate", axis("crack length", "mm"), axis("G", "J/m2"), [series("libdelam", "condensed", x, [r[4] for r in rows]), series("beam theory", "reference", x, [r[5] for r in rows], marker=False)])],
                   figures=[figure("enf_beam_rate", largest(abs(r[6]) for r in rows), "relative", "ENF: energy release rate against beam theory, largest difference", past="free")])
@@ -587,7 +595,7 @@ def cases():
         Case(id="e-spring", chapter="e", title="A spring in series with the interface", requirement="Stiff springs follow the one solution; soft ones jump at the local load, or in energetic marches where the energies cross.", run=spring, quick=True, expected=3, seconds=300, **series_),
         Case(id="e-bar", chapter="e", title="A bar peels off a rigid base", requirement="Force and front follow the plateau to first order in h, local and energetic; a bar with a free end comes off at once at the load where the energies cross.", run=bar, quick=True, expected=10, seconds=900,
              geometry="bar of 1 m, free over the first 0.2 m, bonded beyond with a take-up length of 40 mm", materials="Et = 1e6 N/m, Griffith's law with G = 50 J/m2", supports="pulled at the free end; far end held, or free", units="mm, N/m"),
-        Case(id="e-enf-beams", chapter="e", title="Beam theory of the ENF", requirement="Compliance and energy release rate follow beam theory within 5 % over the crack length, in mode II alone.", run=enf, quick=True, expected=3, seconds=300,
+        Case(id="e-enf-beams", chapter="e", title="Beam theory of the ENF", requirement="Over the crack length the compliance follows beam theory within 5 %, the energy release rate that of a crack that is longer by a third of the arm at most, in mode II alone.", run=enf, quick=True, expected=3, seconds=300,
              geometry="two arms 120 mm x 3 mm, cracks of 30 to 54 mm, incompatible 4-node cells of 0.5 mm (quick: 1 mm)", materials="E = 75 GPa, nu = 0.3; k = 125e12 N/m3, below onset", supports="ends and mid-span as means over 2 mm, pressed by 0.1 mm", units="mm, J/m2, per metre of width"),
         Case(id="e-inclusion", chapter="e", title="A circular fibre: the exact field", requirement="Glued, on springs, loose under tension and pressed without friction: displacements and stresses converge to the exact field.", run=fibre, quick=True, expected=3, seconds=600,
              geometry="fibre of 5 micrometres in a matrix out to 15, quadrilaterals of 4 nodes, 4 to 32 (quick: 16) on a quarter of the circle", materials="fibre 74 GPa, 0.2; matrix 3.5 GPa, 0.35; kn = 2e15, kt = 5e14 N/m3", supports="the rim moves as in the exact field", units="relative errors"),

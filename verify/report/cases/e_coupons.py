@@ -7,6 +7,7 @@ import shutil
 
 from case import Case, Failed, axis, check, column, figure, largest, ledger_of, plot, reference, result, series
 
+MIXITY_OFF = 0.03    # G_II/G of a front beside corrected beam theory
 NUMBERS_PAST = 1e-5  # of marches with softening over hundreds of steps; BLAS kernels of other processors move them by less
 
 
@@ -46,9 +47,9 @@ def energy_checks(h):
             check("dissipated energy that comes back", max(healed, 0.0), 1e-9, "damage only grows; rounding")]
 
 
-def beam(name, title, need, source, own, width, points, peak, fronts, coarse, loose, expected, losses=(), **scene):
-    """A double cantilever: loads of the specimen, N, at openings of each arm, mm, and peak, as published. `loose`: how much wider the
-    limits are with the coarse cells of the quick report."""
+def beam(name, title, need, source, own, width, points, peak, why, fronts, coarse, loose, expected, losses=(), strong=0.0, **scene):
+    """A double cantilever: loads of the specimen, N, at openings of each arm, mm, and peak, as published. `why`: of the limits; `loose`: how much wider they
+    are with the coarse cells of the quick report; `strong`: peak load of root-corrected beams of infinite strength."""
 
     def run(context):
         h = march(context, name, coarse)
@@ -62,9 +63,14 @@ def beam(name, title, need, source, own, width, points, peak, fronts, coarse, lo
             rows.append([w, published, found, found / published - 1.0, tolerance + more])
             worst.append(abs(found / published - 1.0) / (tolerance + more))
         top = max(load)
-        checks = [check("load at the published openings, off over its limit", largest(worst), 1, f"what the points can be read or compared to: column 'allowed'{coarse_why}"),
-                  check("peak load, over the highest published", top / peak[1], 1 + 0.03 + more, f"published {peaks} N; 3 % for the finite strength and reading{coarse_why}"),
-                  check("peak load, over the lowest published", top / peak[0], 1 - 0.03 - more, f"published {peaks} N; 3 %{coarse_why}", ">="), *energy_checks(h)]
+        checks = [check("load at the published openings, off over its limit", largest(worst), 1, f"column 'allowed': {why[0]}{coarse_why}"),
+                  check("peak load, over the highest published", top / peak[1], 1 + 0.03 + more, f"published {peaks} N; {why[1]}{coarse_why}"),
+                  check("peak load, over the lowest published", top / peak[0], 1 - 0.03 - more, f"published {peaks} N; {why[1]}{coarse_why}", ">="), *energy_checks(h)]
+        told = list(losses)
+        if strong:
+            checks.insert(2, check("peak load, over that of root-corrected beams", top / strong, 1 + more, f"{strong:g} N: an interface of finite strength carries less{coarse_why}"))
+            if top > peak[1]:
+                told.append(f"the peak, {top:.3g} N, is {100 * (top / peak[1] - 1):.2g} % above the highest published and {100 * (top / peak[0] - 1):.2g} % above the lowest")
         tables = [{"title": "Load at the published openings", "note": "", "columns": [column("opening of an arm", "mm", key=True), column("published", "N"), column("found", "N", past=NUMBERS_PAST),
                    column("difference", "relative", past="free"), column("allowed", "relative")], "rows": rows}]
         plots = [plot("Load over opening", axis("opening of each arm", "mm"), axis("load", "N"),
@@ -78,7 +84,7 @@ def beam(name, title, need, source, own, width, points, peak, fronts, coarse, lo
             tables.append({"title": "Crack front", "note": "", "columns": [column("opening of an arm", "mm", key=True), column("published", "mm"), column("found", "mm", past=1e-3)], "rows": found})
             plots.append(plot("Crack length over opening", axis("opening of each arm", "mm"), axis("crack length", "mm"),
                               [series("libdelam", "condensed", opening, crack, marker=False), series("published", "reference", [w for w, _ in fronts], [a for _, a in fronts], line="none")]))
-        return result(reference("published", source, own), tables=tables, checks=checks, plots=plots, ledger=ledger_of({"the scene": h}, "J/m"), losses=losses,
+        return result(reference("published", source, own), tables=tables, checks=checks, plots=plots, ledger=ledger_of({"the scene": h}, "J/m"), losses=told,
                       figures=[figure(name.replace("-", "_") + "_peak", top, "N", f"{title}: peak load, published {peaks} N", past=NUMBERS_PAST)])
 
     return Case(id=f"e-{name}", chapter="e", title=title, requirement=need, run=run, quick=True, expected=expected, seconds=1800, units="mm; N on the specimen", **scene)
@@ -112,36 +118,43 @@ def mixed(context):
     crack, mixity, rate, down, load = [1e3 * v for v in h["crack_length"]], h["front_mixity"], h["energy_release_rate"], [1e3 * v for v in h["load"]], h["reaction"]
     growing = [k for k in range(len(crack)) if 36 < crack[k] < 46]
     criterion = {k: 212 + (774 - 212) * mixity[k] ** 2.1 for k in growing}
-    rates = [abs(rate[k] / criterion[k] - 1) for k in growing]
+    rates = [rate[k] / criterion[k] - 1 for k in growing]
+    # What a mixity that is off by its own limit does to the criterion, by its slope.
+    follows = MIXITY_OFF * (774 - 212) * 2.1 * 0.5 ** 1.1 / (212 + (774 - 212) * 0.5 ** 2.1)
     start = next(k for k in range(1, len(crack)) if load[k] > 0)
     return result(reference("published", "Reeder and Crews (AIAA J. 28, 1990; ASTM D6671): the arm c = 41.3 mm of the lever gives half of the energy in mode II by corrected beam theory; IM7/8552 and its "
-                            "Benzeggagh-Kenane criterion as in Krueger (NASA/TM-2012-217562)", "mixity +-0.01 (corrections of the standard), criterion +-3 % at a mixity that is off by 0.03"),
+                            "Benzeggagh-Kenane criterion as in Krueger (NASA/TM-2012-217562)", f"mixity +-0.01 (corrections of the standard); a mixity that is off by {MIXITY_OFF} moves the criterion by {100 * follows:.2g} %, its slope"),
                   tables=[{"title": "While the crack grows", "note": "", "columns": [column("displacement", "mm", key=True), column("crack", "mm", past=1e-3), column("mixity G_II/G", "", past=1e-3), column("G", "J/m2", past=1e-3),
                            column("criterion at that mixity", "J/m2", past=1e-3), column("load", "N/m", past=NUMBERS_PAST)],
                            "rows": [[round(down[k], 9), crack[k], mixity[k], rate[k], criterion[k], load[k]] for k in growing]}],
-                  checks=[check("mixity before growth, off 0.5", abs(mixity[start] - 0.5), 0.03, "corrected beam theory has one half; shear of the arms"),
-                          check("mixity of growth, off 0.5", largest([abs(mixity[k] - 0.5) for k in growing]), 0.03, "the same, fronts between 36 and 46 mm"),
-                          check("energy release rate off the criterion", largest(rates), 0.06, "the mixity changes by 0.03 through the softening zone, which is 3 % of the toughness; cells have 3 to 8 pairs in it"),
+                  checks=[check("mixity before growth, off 0.5", abs(mixity[start] - 0.5), MIXITY_OFF, "corrected beam theory has one half within 0.01; the rest is shear of arms of 2.25 mm beside a crack of 30"),
+                          check("mixity of growth, off 0.5", largest([abs(mixity[k] - 0.5) for k in growing]), MIXITY_OFF, "the same, fronts between 36 and 46 mm"),
+                          check("energy release rate off the criterion", largest(abs(v) for v in rates), follows, f"pairs break at the mixity of their place in the softening zone, not of the whole front: {MIXITY_OFF} of it "
+                                f"are {100 * follows:.2g} % of the toughness, by the slope of the criterion"),
                           check("steps of growth", len(growing), 3, "fewer would show no growth", ">="), *energy_checks(h)],
                   plots=[plot("Energy release rate of the growing front", axis("crack length", "mm"), axis("G", "J/m2"),
                               [series("libdelam", "condensed", [crack[k] for k in growing], [rate[k] for k in growing]), series("criterion", "reference", [crack[k] for k in growing], [criterion[k] for k in growing])]),
                          plot("Mixity at the front", axis("crack length", "mm"), axis("G_II / G"), [series("libdelam", "condensed", [crack[k] for k in growing], [mixity[k] for k in growing])],
                               [{"kind": "horizontal", "value": 0.5, "label": "beam theory"}]),
                          plot("Load over displacement", axis("displacement of the load on the lever", "mm"), axis("load", "N/m"), [series("libdelam", "condensed", down, load, marker=False)])],
-                  ledger=ledger_of({"the scene": h}, "J/m"), figures=[figure("mmb_rate", largest(rates), "relative", "MMB: energy release rate of growth against the criterion, largest difference", past=1e-2)])
+                  losses=[f"the crack grows at {100 * -max(rates):.2g} to {100 * -min(rates):.2g} % less energy than the criterion asks for at the mixity of the whole front: within the {100 * follows:.2g} % "
+                          "that the change of mixity through the softening zone may take"] if max(rates) < 0 else [],
+                  ledger=ledger_of({"the scene": h}, "J/m"), figures=[figure("mmb_rate", largest(abs(v) for v in rates), "relative", "MMB: energy release rate of growth against the criterion, largest difference", past=1e-2)])
 
 
 def cases():
     krueger = [(w, p, 0.03) for w, p in ((0.750, 60.7), (0.794, 58.8), (0.842, 57.3), (0.890, 55.6), (0.942, 54.2), (1.001, 52.5), (1.274, 46.7))]
     return [
         beam("dcb-alfano", "DCB of Alfano and Crisfield", "The load is that of the paper's plot: its peak, and the fall at 2, 3 and 4 mm.",
-             "Alfano and Crisfield (Int. J. Numer. Meth. Engng 50, 2001), by their plot and a vendor's verification of the same data", "read off a plot to +-2 N, 3 % of the peak and 7 % of the last point; peaks of 60.0 and 61.5 N are reported, 2.5 % apart",
-             0.020, [(2.0, 44.0, 2 / 44), (3.0, 35.0, 2 / 35), (4.0, 30.5, 2 / 30.5)], (60.0, 61.5), (), ["geometry.divisions=400", "time.steps=50"], 0.02, 10,
+             "Alfano and Crisfield (Int. J. Numer. Meth. Engng 50, 2001): loads and a peak of 61.5 N read off their plot; peak of 60.0 N: target of a vendor's verification of the same data; 63.0 N: beam theory, "
+             "P = sqrt(b E I G)/a of each arm with the crack longer by its elastic root",
+             "read off a plot to +-2 N, 3 % of the peak and 7 % of the last point; the two peaks are 2.5 % apart",
+             0.020, [(2.0, 44.0, 2 / 44), (3.0, 35.0, 2 / 35), (4.0, 30.5, 2 / 30.5)], (60.0, 61.5), ("the plot is read to 2 N", "the plot is read to 2 N, 3 % of it"), (), ["geometry.divisions=400", "time.steps=50"], 0.02, 10, strong=63.0,
              geometry="two arms 100 mm x 1.5 mm, 20 mm wide, notch 30 mm; 1000 (quick: 400) cells along, 6 through an arm", supports="far end clamped, arms pulled apart by 4 mm each, as means over their ends",
              materials="E1 = 135.3, E2 = 9.0, G12 = 5.2 GPa, nu12 = 0.24, nu23 = 0.46; 57 MPa, k = 5.7e17 N/m3, Gc = 280 J/m2"),
         beam("dcb-krueger", "DCB of Krueger's benchmark", "Seven loads and fronts of linear fracture mechanics are met within 3 % and half a millimetre.",
              "R. Krueger (NASA/CR-2010-216723): virtual crack closure, fronts put to 30, 31, ... mm, G_Ic = 170.3 J/m2", "its own loads and openings release P^2/(2b) dC/da = 165.7 J/m2 on average, 2.7 % below G_Ic, which is 2.1 % of the load",
-             0.025, krueger, (60.7, 60.7), [(0.794, 31), (0.842, 32), (0.890, 33), (0.942, 34), (1.001, 35), (1.274, 40)], ["geometry.divisions=1200", "time.steps=70"], 0.03, 60,
+             0.025, krueger, (60.7, 60.7), ("3 %: 2.1 % are in the reference itself, the rest is the cohesive zone", "3 %, as of the loads"), [(0.794, 31), (0.842, 32), (0.890, 33), (0.942, 34), (1.001, 35), (1.274, 40)], ["geometry.divisions=1200", "time.steps=70"], 0.03, 60,
              losses=("the loads are 1.4 to 3 % above the reference with converged cells: 2.1 % of that are in the reference, whose loads release less than its G_Ic",),
              geometry="two arms 150 mm x 1.5 mm, 25 mm wide, notch 30 mm; 3000 (quick: 1200) cells along, 8 through an arm", supports="far end clamped, arms pulled apart by 1.4 mm each, as means over their ends",
              materials="E1 = 139.4, E2 = 10.16, G12 = 4.6 GPa, nu12 = 0.30, nu23 = 0.436; 60 MPa, k = 1e15 N/m3, Gc = 170.3 J/m2"),

@@ -18,6 +18,12 @@ def outcome_table(title, rows, note=""):
                  [[r["name"], r["outcome"], r["seconds"], r["says"]] for r in rows], note)
 
 
+def outcome_counts(rows):
+    """What skips depends on the machine; the others have a past."""
+    of = [sum(r["outcome"] == word for r in rows) for word in ("passed", "failed", "skipped")]
+    return table("Tests by outcome", [column("of", key=True), column("passed", past="count"), column("failed", past="count"), column("skipped", past="free")], [["all", *of]])
+
+
 def judged(rows, least=1):
     """Checks and warnings of a group of tests. Skipped ones are neither passed nor failed, and a group that only skips is skipped."""
     here = [r for r in rows if r["outcome"] != "skipped"]
@@ -81,9 +87,9 @@ def symbols(context):
         reference("own past", "verify/abi/baseline: header and debug information of the last accepted interface; verify/abi/symbols.txt", "none: names and types are compared as they are"),
         checks=checks, warnings=warnings,
         tables=[table("The gate", [column("check", key=True), column("outcome", may=True), column("what it said", may=True)], rows),
-                table("Promised functions and the version that brought them", [column("about", key=True), column("since", key=True), column("functions", past="free"), column("names")],
+                table("Promised functions and the version that brought them", [column("about", key=True), column("since", key=True), column("functions", past="count"), column("names")],
                       [[family, version, len(names), ", ".join(names)] for (family, version), names in sorted(families.items())], "Names without delam_.")],
-        figures=[figure("abi_functions", len(since), "", "Functions of the binary interface, exported = declared = listed", past="free")])
+        figures=[figure("abi_functions", len(since), "", "Functions of the binary interface, exported = declared = listed", past="count")])
 
 
 def abi(context):
@@ -95,10 +101,10 @@ def abi(context):
         made, missed = planted[-1]
         checks += [check("planted breaks that passed the gate", missed, 0, "a gate that lets nothing through is only seen at a break"),
                    check("planted breaks that were tried", made, 60, "of symbols, types, header, contract, reference", ">=")]
-        figures.append(figure("abi_planted", made, "", "Planted breaks of the binary interface and its contract, all refused by name", past="free"))
+        figures.append(figure("abi_planted", made, "", "Planted breaks of the binary interface and its contract, all refused by name", past="count"))
     return result(reference("own past", "verify/abi: baseline, contract of every function (unit, null, owns, status, thread), and breaks planted in copies of it",
                             "none: a planted break is found or not"),
-                  tables=[outcome_table("Tests of the interface", rows)], checks=checks, warnings=warnings, figures=figures)
+                  tables=[outcome_counts(rows), outcome_table("Tests of the interface", rows)], checks=checks, warnings=warnings, figures=figures)
 
 
 # What stands for each word. Parsed: its own compiler or parser reads it. Checked: compared with the public header. Run: over this library.
@@ -144,7 +150,7 @@ def languages(context):
         reference("other code", "the example scenes in C, Fortran, C++, Python and Julia against one table of reference values; raw layers against the public header, read by another parser",
                   "the reference values of the examples are met to the digits that are written"),
         tables=[table("What was done in which language", [column("language", key=True), *(column(w, may=True) for w in ("parsed", "checked", "run"))], listed,
-                      "Parsed: its own compiler or parser reads it. Checked: compared with the public header. Run: over this library."), *groups],
+                      "Parsed: its own compiler or parser reads it. Checked: compared with the public header. Run: over this library."), outcome_counts(rows), *groups],
         checks=checks, warnings=warnings, losses=losses, figures=[figure("languages_run", ran, "of 5", "Languages that ran over this library", past="free")])
 
 
@@ -160,9 +166,9 @@ def group_case(case_id, title, pattern, requirement, source, quick, expected, co
         for key, text in dict.fromkeys((c[3], c[2]) for c in counted):
             total = sum(n[2] for n in numbers if n[1] == text)
             if total:
-                figures.append(figure(key, total, "", f"{title}: {text}", past="free"))
-        counts = [table("Counts that the tests give", [column("test", key=True), column("what", key=True), column("number", past="free")], numbers)] if numbers else []
-        return result(reference("physics", source, "none: bits, statuses and texts are compared"), tables=[*counts, outcome_table("Tests", rows)], checks=checks,
+                figures.append(figure(key, total, "", f"{title}: {text}", past="count"))
+        counts = [table("Counts that the tests give", [column("test", key=True), column("what", key=True), column("number", past="count")], numbers)] if numbers else []
+        return result(reference("physics", source, "none: bits, statuses and texts are compared"), tables=[*counts, outcome_counts(rows), outcome_table("Tests", rows)], checks=checks,
                       warnings=warnings, figures=figures)
 
     return Case(id=case_id, chapter="f", title=title, requirement=requirement, **WHERE, run=run, quick=quick, seconds=1200, expected=expected)

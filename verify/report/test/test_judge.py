@@ -11,6 +11,7 @@ import case as c
 import judge
 import orders
 import schema
+import words
 
 
 class Judged(unittest.TestCase):
@@ -101,6 +102,24 @@ class Judged(unittest.TestCase):
         self.fails(planted.sound(checks=[c.check("at least", 0.0, 1.0, "x", ">=")]), "at least")
         self.fails(planted.sound(checks=[c.check("none", 1e-300, 0.0, "x")]), "none")
         self.assertEqual(self.judge(planted.sound(checks=[c.check("none", 0.0, 0.0, "x")]))["status"], "passed")
+
+    def test_an_upper_bound_decides_and_its_sense_is_said(self):
+        checks = [c.check("ran", 8, 8, "x", ">="), c.check("off", 1e-6, 1e-3, "x")]
+        found = self.judge(planted.sound(checks=checks))["judgement"]["reference"]
+        self.assertEqual((found["value"], words.bound(found)), (1e-6, "≤ 0.001"))
+        self.assertIn("off: 1e-06 <= 0.001", found["why"])
+        # A lower bound that does not hold comes first, and one alone decides.
+        checks[0]["limit"] = 9
+        self.fails(planted.sound(checks=checks), "ran: 8 >= 9 does not hold")
+        found = self.judge(planted.sound(checks=[c.check("ran", 8, 8, "x", ">=")]))["judgement"]["reference"]
+        self.assertEqual(words.bound(found), "≥ 8")
+
+    def test_an_order_that_may_be_higher_says_so(self):
+        found = c.order("error", "h", 3.0, 2.0, 0.1, sense="at least")
+        self.assertEqual(words.expected(found), "at least 2")
+        judged = self.judge(planted.sound(checks=[], orders=[found]))
+        self.assertIn("3.000, expected at least 2 within 0.1", judged["judgement"]["reference"]["why"])
+        self.assertEqual(words.expected(c.order("error", "h", 2.0, 2.0, 0.1)), "2")
 
     # Against the past.
     def accepted(self):

@@ -117,6 +117,7 @@ class Report(unittest.TestCase):
                 self.assertIn(c["reason"], markdown)
             for part in ("geometry", "materials", "supports", "units", "requirement", "commit"):
                 self.assertIn(c[part], text)
+        self.assertIn("limit ≤ 0.01, error at the finest level: 0.0075 <= 0.01", markdown)
         # Failures come first.
         self.assertLess(index.index('id="failures"'), index.index('id="claims"'))
 
