@@ -133,8 +133,13 @@ def texts_of(header, name):
 def recorded_of(library, header):
     """key -> yes or no."""
     march = March(library, header, 2, SMALL)
-    found = {general(name): "yes" if library.delam_solver_record(march.solver, name.encode()) == 0 else "no"
-             for name in march.values()}
+    refused = int(header.constants["DELAM_ERROR_ARGUMENT"])
+    found = {}
+    for name in march.values():
+        status = library.delam_solver_record(march.solver, name.encode())
+        if status not in (0, refused):
+            raise SystemExit(f"delam_solver_record of '{name}': status {status}")
+        found[general(name)] = "yes" if status == 0 else "no"
     march.end()
     return found
 

@@ -51,7 +51,7 @@ void add_findings(std::vector<Row>& rows, const Json& series) {
     const std::string scene = series["scene"];
     for (const auto& [key, m] : series["methods"].items()) {
         if (m.contains("skipped")) continue;
-        const auto spent = [&](const char* name) { return number(value_of(m["spent"][name]), "%.0f"); };
+        const auto spent = [&of = m["spent"]](const char* name) { return number(value_of(of[name]), "%.0f"); };
         Row row{scene, key};
         if (const Json& jump = m["jump"]; jump.is_object()) {
             row.insert(row.end(), {number(value_of(jump["step"]), "%.0f"), number(1e3 * value_of(jump["load"]), "%.2f"),

@@ -82,7 +82,7 @@ Json methods_table(const Settings& settings) {
             }
             m.erase("history");
             if (m.contains("skipped")) continue;
-            const auto error = [&](const char* name) { return number(m.value(name, std::nan("")), "%.2e"); };
+            const auto error = [&of = m](const char* name) { return number(of.value(name, std::nan("")), "%.2e"); };
             rows.push_back({number(h), key, number(m["total_s"]["median"].get<double>()),
                             number(m["lse"].get<double>(), "%.4g"), error("error_reaction"), error("error_dissipated"),
                             m["label"].get<std::string>()});

@@ -35,7 +35,7 @@ struct FibreMesh {
 
 class Mesher {
 public:
-    Mesher(int n, bool quadratic) : n_(n), step_(quadratic ? 2 : 1) {
+    Mesher(int n, bool quadratic) : step_(quadratic ? 2 : 1) {
         mesh_.cell = quadratic ? DELAM_QUAD8 : DELAM_QUAD4;
         constexpr double core = 0.5 * radius;
         patch(n, n, 0, [&](double s, double t) { return std::array{core * (2 * s - 1), core * (2 * t - 1)}; });
@@ -80,7 +80,7 @@ private:
             }
     }
 
-    int n_, step_;
+    int step_;
     FibreMesh mesh_;
     std::vector<std::pair<std::array<std::int64_t, 3>, std::int64_t>> known_;
 };

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // fault_layout [SCENE ...]: the same bits wherever blocks of memory lie. Kernels that treat the first entries of an
 // unaligned array in another way add them up in another order; then what a march gives would depend on what its host
-// had allocated before. Every block of a run begins at one of the four multiples of 16 within 64 bytes, by chance.
+// had allocated before. Every block that may, begins at one of the four multiples of 16 within 64 bytes, by chance.
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -30,9 +31,9 @@ struct Front {
 };
 static_assert(sizeof(Front) == 16);
 
-bool scattered = false;
-long moved = 0;  // blocks that do not lie where they would
-std::uint64_t seed = 0x9e3779b97f4a7c15;
+std::atomic<bool> scattered{false};
+std::atomic<long> moved{0};  // blocks that do not lie where they would
+thread_local std::uint64_t seed = 0x9e3779b97f4a7c15;
 
 std::uintptr_t chance() {
     seed ^= seed << 13U;
@@ -53,9 +54,11 @@ void __libc_free(void*);
 void* memalign(std::size_t alignment, std::size_t n) {
     if (alignment < 16) alignment = 16;
     const std::size_t room = sizeof(Front) + alignment + 48;
-    if (n > SIZE_MAX - room) return nullptr;
-    void* begin = __libc_malloc(n + room);
-    if (begin == nullptr) return nullptr;
+    void* begin = n <= SIZE_MAX - room ? __libc_malloc(n + room) : nullptr;
+    if (begin == nullptr) {
+        errno = ENOMEM;
+        return nullptr;
+    }
     std::uintptr_t at = reinterpret_cast<std::uintptr_t>(begin) + sizeof(Front);
     at = (at + alignment - 1) & ~(alignment - 1);
     if (alignment == 16 && scattered) {
@@ -112,9 +115,9 @@ int main(int argc, char** argv) {
                 const std::string difference = calm.transcript.difference(other.transcript);
                 faults::expect(difference.empty(), "other places in memory: " + difference);
             }
-            faults::expect(moved > 10000, "only " + std::to_string(moved) + " blocks lay at other places");
+            faults::expect(moved > 10000, "only " + std::to_string(moved.load()) + " blocks lay at other places");
             std::printf("%-12s %d runs with %ld blocks at other places; %zu results the same\n", strip.name.c_str(), runs,
-                        moved, calm.transcript.size());
+                        moved.load(), calm.transcript.size());
         } catch (const std::exception& e) {
             std::printf("%-12s failed: %s\n", strip.name.c_str(), e.what());
             ++failures;

@@ -230,12 +230,13 @@ void make_problem(Host& host, Handles& h, const Strip& s) {
         host.change("delam_problem_add_eigenstrain",
                     [&] { return delam_problem_add_eigenstrain(h.problem, heat, 1, strain.data()); });
     }
-    for (const auto& [key, value] : s.texts)
-        host.query("delam_problem_set_text " + key,
-                   [&] { return delam_problem_set_text(h.problem, key.c_str(), value.c_str()); });
-    for (const auto& [key, value] : s.numbers)
-        host.query("delam_problem_set_number " + key,
-                   [&] { return delam_problem_set_number(h.problem, key.c_str(), value); });
+    for (const auto& option : s.texts)
+        host.query("delam_problem_set_text " + option.first, [&] {
+            return delam_problem_set_text(h.problem, option.first.c_str(), option.second.c_str());
+        });
+    for (const auto& option : s.numbers)
+        host.query("delam_problem_set_number " + option.first,
+                   [&] { return delam_problem_set_number(h.problem, option.first.c_str(), option.second); });
     if (s.given) {  // the upper body as a host would hand it over: the stiffness that the library itself assembles
         std::int64_t rows = 0, entries = 0;
         host.query("delam_problem_body_matrix",

@@ -40,7 +40,7 @@ public:
         for (const char* key : {"time", "front", "energy_release_rate"})
             expect(delam_solver_record(solver_, key) == DELAM_OK, "values are recorded", "delam_solver_record");
         states_.push_back(saved(solver_));
-        for (int step = 1; step <= steps; ++step) {
+        for (std::size_t step = 1; step <= steps; ++step) {
             expect(goes_on(step), "a march goes on", "delam_solver_advance");
             delam_solver_commit(solver_);
             states_.push_back(saved(solver_));
@@ -52,7 +52,7 @@ public:
     March(const March&) = delete;
     March& operator=(const March&) = delete;
 
-    static constexpr int steps = 4;
+    static constexpr std::size_t steps = 4;
     const Bytes& state(std::size_t step) const { return states_[step]; }
 
     void try_load(const Bytes& bytes, bool put_right) {
@@ -74,21 +74,28 @@ public:
         expect(again == bytes || !std::equal(again.begin(), again.begin() + 12, bytes.begin()),
                "a state is saved as it was loaded", "delam_solver_save");
         read_everything();
-        if (own == states_.end()) go_on_from_anywhere();
+        const auto found = static_cast<std::size_t>(own - states_.begin());
+        if (own == states_.end())
+            go_on_from_anywhere();
+        else if (found < steps)
+            go_on_from(found);
         // Also after another state's march nothing is left that the next could tell.
-        host_.polls_left = 4000;
-        const std::size_t step = (own != states_.end() ? own - states_.begin() : bytes.size()) % steps;
-        expect(delam_solver_load(solver_, static_cast<std::int64_t>(states_[step].size()), states_[step].data()) == DELAM_OK,
+        const std::size_t next = (own == states_.end() ? bytes.size() : found + 1) % steps;
+        expect(delam_solver_load(solver_, static_cast<std::int64_t>(states_[next].size()), states_[next].data()) == DELAM_OK,
                "another state can be loaded afterwards", "delam_solver_load");
-        expect(goes_on(static_cast<int>(step) + 1), "a march goes on", "delam_solver_advance");
-        delam_solver_commit(solver_);
-        expect(saved(solver_) == states_[step + 1], "the rest is bitwise the same", "delam_solver_load");
+        go_on_from(next);
     }
 
 private:
-    bool goes_on(int step) {
-        const std::int32_t status = delam_solver_advance(solver_, 0.25 * step);
+    bool goes_on(std::size_t step) {
+        const std::int32_t status = delam_solver_advance(solver_, 0.25 * static_cast<double>(step));
         return status == DELAM_OK || status == DELAM_NOT_CONVERGED;
+    }
+    void go_on_from(std::size_t step) {
+        host_.polls_left = 4000;
+        expect(goes_on(step + 1), "a march goes on", "delam_solver_advance");
+        delam_solver_commit(solver_);
+        expect(saved(solver_) == states_[step + 1], "the rest is bitwise the same", "delam_solver_load");
     }
 
     // Values and fields may be of a state that no march has come through; reading them must do no harm.

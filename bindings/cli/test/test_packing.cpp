@@ -50,7 +50,7 @@ double smallest_edge_gap(const cli::Packing& packing) {
 void dense_enough() {
     for (const std::int64_t count : {1, 2, 7, 30, 100})
         for (const double fraction : {0.1, 0.4, 0.55, 0.65})
-            for (const std::uint64_t seed : {1, 2}) {
+            for (const std::uint64_t seed : {1U, 2U}) {
                 cli::PackingRequest request{count, fraction, 0.06, 0.1, count == 7 ? 1.7 : 1.0, seed};
                 const std::string name = std::to_string(count) + " at " + std::to_string(fraction) + ", seed " +
                                          std::to_string(seed) + ": ";

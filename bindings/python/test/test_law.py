@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Laws: by keyword, and by Python functions."""
+import signal
 import unittest
 
 import support
@@ -80,6 +81,34 @@ class Host(unittest.TestCase):
             law.respond([[1e-5, 0.0]], 0.0)
         trouble.clear()
         law.check()
+
+    def test_control_c_ends_it(self):
+        """Also where the library does not look up: the next point is not asked for."""
+        asked = []
+
+        def spy(which):
+            asked.append(which)
+            if len(asked) == 20:
+                signal.raise_signal(signal.SIGINT)
+
+        law = support.host_bilinear(spy=spy)
+        asked.clear()
+        jump = np.full((1000, 2), 5e-5)
+        with self.assertRaises(KeyboardInterrupt):
+            law.respond(jump, 0.0)
+        self.assertEqual(len(asked), 20)
+
+    def test_only_laws_are_laws(self):
+        problem = support.brittle_flexure(30)
+        for other in ("host", None, 3):
+            with self.assertRaises(delam.ArgumentError):
+                problem.set_law(0, other)
+        with self.assertRaises(delam.ArgumentError):
+            problem.set_law(7, support.host_bilinear())
+        self.assertFalse(problem.context.hosted)
+        for make in (delam.Problem, delam.Solver):
+            with self.assertRaises(delam.ArgumentError):
+                make(None)
 
     def test_a_law_that_fails_while_a_step_is_committed(self):
         trouble = []

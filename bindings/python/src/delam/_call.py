@@ -46,6 +46,11 @@ def keep_exception(exception):
         call.exception = exception
 
 
+def stopped():
+    """From a callback: Ctrl-C, or an exception before, has ended this call."""
+    return _thread.call.exception is not None
+
+
 @_raw.delam_progress_callback
 def _on_progress(stage, done, total, _):
     call = _thread.call

@@ -7,7 +7,7 @@ import numpy as np
 
 from . import _raw
 from ._arrays import floats, listed, pointer, spread
-from ._call import Context, Object, keep_exception, number, text
+from ._call import Context, Object, keep_exception, number, stopped, text
 from ._library import library
 from .errors import ArgumentError, error_of
 
@@ -126,6 +126,8 @@ class Law(Object):
 
 def _adhesion_callback(function):
     def adhesion(mixity, driving, value, slope, _):
+        if stopped():
+            return 1
         try:
             value[0], slope[0] = function(mixity, driving)
         except BaseException as exception:
@@ -138,6 +140,8 @@ def _adhesion_callback(function):
 
 def _dissipation_callback(function):
     def dissipation(mixity, adhesion, value, slope, mixity_slope, _):
+        if stopped():
+            return 1
         try:
             value[0], slope[0], mixity_slope[0] = function(mixity, adhesion)
         except BaseException as exception:

@@ -11,8 +11,9 @@ from ._arrays import direction as axis
 from ._arrays import floats, indices, listed, ndim, pointer, spread
 from ._call import Context, Object, integer, number, text
 from ._library import library
-from .errors import ArgumentError
-from .mesh import body_label
+from .errors import ArgumentError, DelamError
+from .law import Law
+from .mesh import Mesh, body_label
 from .options import Options, initial_values
 
 
@@ -71,6 +72,8 @@ class Problem(Object):
     except what only reads, as fields."""
 
     def __init__(self, mesh, plane=None, progress=None):
+        if not isinstance(mesh, Mesh):
+            raise ArgumentError(f"mesh = {mesh!r}, expected a Mesh")
         context = Context()
         self._keep = []
         self._make(context, _raw.delam_problem, library.delam_problem_destroy, library.delam_problem_create,
@@ -170,11 +173,19 @@ class Problem(Object):
 
     def set_law(self, interface, law):
         """The law's parameters are taken as they are now; adhesion 1 everywhere."""
+        if not isinstance(law, Law):
+            raise ArgumentError(f"law = {law!r}, expected a Law")
+        hosted = self.context.hosted
+        # Before the call, which may be interrupted when it is done.
         if law._callbacks:
             self._keep.append(law._callbacks)
             self.context.hosted = True
-        self.context.call(library.delam_problem_set_law, self._handle, integer("interface", interface), law._handle,
-                          other=law.context)
+        try:
+            self.context.call(library.delam_problem_set_law, self._handle, integer("interface", interface),
+                              law._handle, other=law.context)
+        except DelamError:
+            self.context.hosted = hosted
+            raise
 
     def set_bonded(self, interface):
         """Glued perfectly and for ever."""

@@ -17,7 +17,7 @@ from .errors import ArgumentError, NotConverged, NotConvergedWarning
 from .history import History, steps_of
 from .mesh import body_label
 from .options import unknown
-from .problem import Sparse
+from .problem import Problem, Sparse
 
 # What these say takes a recovery of all displacements; a history has them only when they are asked for.
 COSTLY = frozenset(("rotation_max", "kkt_gap", "kkt_pressure", "kkt_complementarity", "kkt_equilibrium"))
@@ -138,6 +138,8 @@ class Solver(Object):
     def __init__(self, problem, time=0.0, not_converged="warn"):
         if not_converged not in ("warn", "raise", "ignore"):
             raise ArgumentError(f"not_converged = {not_converged!r}, expected 'warn', 'raise' or 'ignore'")
+        if not isinstance(problem, Problem):
+            raise ArgumentError(f"problem = {problem!r}, expected a Problem")
         self.not_converged = not_converged
         outcome = self._make(problem.context, _raw.delam_solver, library.delam_solver_destroy,
                              library.delam_solver_create, problem._handle, number("time", time),
