@@ -230,7 +230,7 @@ void aspect(Study& study) {
             t.in_unit = [=](double unit) { return make_graded(2, ratio, unit); };
             t.scene = [in_unit = t.in_unit] { return in_unit(1.0); };
             t.condensed = false;
-            t.left_out = "the scene is that of cells as pieces, which FETI alone has";
+            t.left_out = "as in the flat, plane scene, from which this one differs by the pieces of FETI alone";
             t.limit = flat_limit(ratio);
             t.acceptance_limit = 1e-8;
             t.feti_may_say = ratio > 3.0;  // pieces more than 120 times longer than thick

@@ -14,7 +14,7 @@ namespace {
 constexpr double delta = 1e-12;
 // What a march may differ by: no digit but in the last place; and rounding of the data, 1e-16, through a process zone
 // that nears its instability, 6e-10 measured. The direct reference has the adhesions of the condensed march.
-constexpr double exact = 1e-14, rounded = 3e-9;
+constexpr double exact = 1e-14, rounded = 1e-9;
 
 // Every length and every force of a march times these.
 struct Scale {

@@ -8,10 +8,11 @@ CLAIMS = [
     {"chapter": "b", "text": "Every step books all energies and a two-sided estimate; balance and band shrink with the step, mesh and step "
                              "refined together converge (in mixed mode with the mixity of the step itself; a frozen one "
                              "needs short steps for it), and energetic marches find what an exhaustive scan of crack fronts finds."},
-    {"chapter": "c", "text": "At equal error a march costs a few linear solves of the scene, tens to hundreds of times less than alternate "
+    {"chapter": "c", "text": "At equal error a march costs a few linear solves of the scene, tens of times less than alternate "
                              "minimisation with a factorisation in every iteration; where it costs more, that is listed first."},
     {"chapter": "d", "text": "Over the ranges of stiffness, toughness, contrast, shape, size and tolerance that are listed, the result is right "
-                             "to the stated error, or the library refuses and says why."},
+                             "to the stated error, or the library refuses and says why. Stiffness, moduli, shapes and partitions are shown by "
+                             "elastic bodies with contact, where the solve is what is hard; what damage does to it, by the other cases."},
     {"chapter": "e", "text": "Published coupons and closed forms are met within the uncertainty of their source."},
     {"chapter": "f", "text": "The binary interface stands still, and C, C++, Fortran and Python give the same numbers, in every bit. Julia is "
                              "parsed and its signatures are compared with the header; it runs where it is installed, and Debian 12 has none."},

@@ -146,7 +146,7 @@ def equal_error(points, target):
         if error > target:
             continue
         if i == 0:
-            return seconds, f"met by the coarsest mesh, {h:g} mm: at most"
+            return seconds, f"met by the coarsest mesh, {h:g} mm: its time at most"
         before, time_before, h_before = points[i - 1]
         part = math.log(before / target) / math.log(before / error)
         return math.exp(math.log(time_before) * (1 - part) + math.log(seconds) * part), f"between {h_before:g} and {h:g} mm"
@@ -269,7 +269,7 @@ def ratios_of(points, targets):
         times = [reached(*points[key], target) for key in OTHERS]
         ratios = [base / seconds if base and seconds else None for seconds, _ in times]
         if any(ratios):
-            rows.append([target, *ratios, ", ".join(f"{NAMES[key]}: at most" for key, (_, bound) in zip(OTHERS, times) if bound)])
+            rows.append([target, *ratios, ", ".join(f"{NAMES[key]}: its time at most" for key, (_, bound) in zip(OTHERS, times) if bound)])
     return rows
 
 

@@ -140,7 +140,7 @@ def critical_states(context):
                   [series("brittle law", "first", list(range(len(bars))), [long[name].stored_and_spent for name in bars])], (), "All of them start the last step from one state.")]
     return result(reference("physics", "a critical state is a fixed point of the damage at its own jumps; two alternating ways share theirs; the energetic search keeps the lowest state that it has seen",
                             "damage_tolerance, 1e-12; of the search its own gap, tabled below"),
-                  tables=[{"title": "Brittle law: three long steps, and shorter ones, to 0.75 of the lift", "note": "Stored + dissipated may be compared along the same steps alone. Damage change: what a further damage step would change.",
+                  tables=[{"title": "Brittle law: three long steps, and shorter ones, to 0.75 of the lift", "note": "Stored + dissipated may be compared where the step began at the same state: among the three long steps. Shorter steps have histories of their own, at 20 steps the joint one the lower. Damage change: what a further damage step would change.",
                            "columns": columns(), "rows": rows},
                           {"title": "Law whose process zone is several pairs long, three steps", "note": "By the two rules for the mode mixity of a step: that of the step before (frozen), or its own (converged).",
                            "columns": [column("mixity rule", key=True), *columns(past="free")], "rows": [[rule, *row(name, 3, m)] for (rule, name), m in smooth.items()]},
@@ -151,6 +151,6 @@ def critical_states(context):
 def cases():
     return [Case(id="d-critical-states", chapter="d", title="Several critical states in one long step", run=critical_states, quick=True, expected=5,
                  requirement="Where the process zone is one pair long, a long step has several critical states, and the way of minimising decides where it ends: every end is a fixed point of the damage, alternating ways agree to 1e-9 whichever "
-                             "realisation takes them, none is lower than the energetic search at the same steps, and the library warns. With a zone of several pairs condensed and FETI end in one state.",
+                             "realisation takes them, none is lower than the energetic search in the same three steps, and the library warns. With a zone of several pairs condensed and FETI end at the same adhesions, with a frozen mixity at the same energies, too.",
                  geometry="two arms 40 mm x 2 mm, 40 x 2 cells an arm, notch of 12 mm at the loaded end, plane strain", supports="right end clamped; upper left corner lifted by 1.5 mm at time 1, marched to 0.75; FETI with 4 subdomains",
                  materials="arms E = 70 GPa, nu = 0.3; brittle: kn = 1e13, kt = 2e13 N/m3, Go 50/80, Gc 200/400 J/m2 by mode; zone of several pairs: 1e12, 2e12, 10/16, 200/400", units="SI, per unit thickness; differences relative")]
