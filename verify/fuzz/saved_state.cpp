@@ -131,7 +131,7 @@ private:
         host_.begin();
         host_.settle("delam_solver_front_count", delam_solver_front_count(solver_, 0, &fronts, &points),
                      may::argument | may::problem);
-        for (std::int64_t step = -1; step < March::steps; ++step) {
+        for (std::int64_t step = -1; step < static_cast<std::int64_t>(March::steps); ++step) {
             host_.begin();
             host_.settle("delam_solver_look", delam_solver_look(solver_, step), may::argument);
         }
