@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
 
 namespace delam {
 
@@ -70,7 +71,7 @@ std::optional<double> ZoneEnergies::zone_energy(std::span<const double> adhesion
     }
     // All pairs that violate their side at once; once a set comes back, the one of least index (contact.hpp).
     std::vector<double> unknowns;
-    std::set<std::vector<std::uint8_t>> seen;
+    std::set<std::string> seen;  // held rows, as bytes
     bool settled = false, one_at_a_time = false;
     for (std::int64_t step = 0; step < contact_steps && !settled; ++step) {
         if (!zone_->factor(couplings, held_)) return std::nullopt;
@@ -83,7 +84,7 @@ std::optional<double> ZoneEnergies::zone_energy(std::span<const double> adhesion
         zone_->complete_forces(known_->theta, solution, force);
         const double jump_scale = noise * std::max(largest(jump_), contact_.jump_floor(known_->theta));
         const double force_scale = noise * std::max(largest(force), contact_.force_floor(known_->theta));
-        one_at_a_time = one_at_a_time || !seen.insert(held_).second;
+        one_at_a_time = one_at_a_time || !seen.emplace(held_.begin(), held_.end()).second;
         settled = true;
         for (std::size_t z = 0; z < held_.size() && !(one_at_a_time && !settled); ++z) {
             if (normal_[z] == 0 || (held_[z] != 0 ? force[z] <= force_scale : jump_[z] >= -jump_scale)) continue;

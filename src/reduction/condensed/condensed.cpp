@@ -74,6 +74,7 @@ Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor
     age_.assign(unknowns, forgotten);
     near_.assign(unknowns, 1);
     inside_.assign(unknowns, 1);
+    last_.assign(unknowns, 0.0);
 }
 
 Look Condensed::look() {
@@ -315,7 +316,8 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
         return;
     }
     std::vector<std::uint8_t> wanted(now.size(), 0);
-    for (std::size_t i = 0; i < now.size() && !last_.empty(); ++i) {
+    const bool after_another = std::any_of(last_.begin(), last_.end(), [](double s) { return s != 0.0; });
+    for (std::size_t i = 0; after_another && i < now.size(); ++i) {
         if (now[i] == last_[i]) continue;
         wanted[i] = 1;
         age_[i] = 0;
@@ -457,10 +459,7 @@ std::vector<double> Condensed::memory() const {
     std::vector<double> m;
     m.reserve(4 * unknowns + 64);
     for (std::size_t i = 0; i < unknowns; ++i) m.push_back(age_[i] + 4 * inside_[i] + 8 * near[i]);
-    for (const auto* springs : {&outer_spring_, &spring_, &last_}) {
-        m.insert(m.end(), springs->begin(), springs->end());
-        m.resize(m.size() + unknowns - springs->size(), 0.0);
-    }
+    for (const auto* springs : {&outer_spring_, &spring_, &last_}) m.insert(m.end(), springs->begin(), springs->end());
     m.push_back(spent_);
     for (const auto& group : released_) {
         m.push_back(static_cast<double>(group.size()));
@@ -475,8 +474,9 @@ Condensed::Choice Condensed::parse(std::span<const double> memory) const {
         if (yes) fail(DELAM_ERROR_SNAPSHOT, "the memory of the condensed operator is damaged");
     };
     damaged(memory.size() < 4 * unknowns + 1);
-    Choice choice{std::vector<std::uint8_t>(unknowns), std::vector<std::uint8_t>(unknowns), std::vector<std::uint8_t>(unknowns), {}};
-    auto& [age, inside, near, groups] = choice;
+    Choice choice;
+    auto& [age, inside, near, outer_spring, spring, last, spent, groups] = choice;
+    for (auto* codes : {&age, &inside, &near}) codes->resize(unknowns);
     for (std::size_t i = 0; i < unknowns; ++i) {
         damaged(!(memory[i] >= 0.0 && memory[i] < 16.0) || memory[i] != std::floor(memory[i]));
         const auto code = static_cast<unsigned>(memory[i]);
@@ -502,8 +502,15 @@ Condensed::Choice Condensed::parse(std::span<const double> memory) const {
         damaged(inside[i] != 0 && reached[i] == 0);
         damaged(inside[i] == 0 && always_[i] != 0);
     }
-    for (const double spring : memory.subspan(unknowns, 3 * unknowns)) damaged(!(spring >= 0.0 || spring == -1.0));
-    damaged(!(memory[4 * unknowns] >= 0.0));
+    // A zero with a sign equals one without, but would be saved with it.
+    std::size_t at = unknowns;
+    for (auto* springs : {&outer_spring, &spring, &last})
+        for (std::size_t i = 0; i < unknowns; ++i, ++at) {
+            damaged(!(memory[at] >= 0.0 || memory[at] == -1.0));
+            springs->push_back(memory[at] + 0.0);
+        }
+    damaged(!(memory[at] >= 0.0));
+    spent = memory[at] + 0.0;
     return choice;
 }
 
@@ -515,7 +522,7 @@ void Condensed::recall(std::span<const double> memory) {
         inside_.assign(unknowns, 1);
         outer_spring_.clear();
         spring_.clear();
-        last_.clear();
+        last_.assign(unknowns, 0.0);
         released_.clear();
         spent_ = 0.0;
         zone_.reset();
@@ -524,22 +531,20 @@ void Condensed::recall(std::span<const double> memory) {
         return;
     }
     if (std::ranges::equal(memory, this->memory())) return;
-    auto [age, inside, near, groups] = parse(memory);
-    const auto part = [&](std::size_t k) { return memory.subspan(k * unknowns, unknowns); };
+    auto [age, inside, near, outer_spring, spring, last, spent, groups] = parse(memory);
     zone_.reset();  // as in choose
     age_ = std::move(age);
     inside_ = std::move(inside);
-    last_.assign(part(3).begin(), part(3).end());
-    const bool same_outer =
-        outer_ != nullptr && near == first_near() && std::ranges::equal(part(1), outer_spring_) && groups == released_;
-    spring_.assign(part(1).begin(), part(1).end());
+    last_ = std::move(last);
+    const bool same_outer = outer_ != nullptr && near == first_near() && outer_spring == outer_spring_ && groups == released_;
     if (!same_outer) {
+        spring_ = std::move(outer_spring);
         condense_outer(near);
         for (auto& group : groups) release(std::move(group));
     }
-    spring_.assign(part(2).begin(), part(2).end());
+    spring_ = std::move(spring);
     condense_inner();
-    spent_ = memory[4 * unknowns];
+    spent_ = spent;
 }
 
 std::string Condensed::description() const {

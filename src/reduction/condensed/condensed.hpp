@@ -42,9 +42,11 @@ public:
     void respond(const Springs& springs, std::span<const double> theta, const Zone::Solution* solution, Response& response) const;
 
 private:
-    // What memory() says, apart from the springs.
+    // What memory() says.
     struct Choice {
         std::vector<std::uint8_t> age, inside, near;
+        std::vector<double> outer_spring, spring, last;
+        double spent = 0.0;
         std::vector<std::vector<std::int64_t>> released;
     };
     // Throws Error(DELAM_ERROR_SNAPSHOT) where it contradicts itself or this operator.
@@ -74,7 +76,7 @@ private:
     std::vector<std::uint8_t> inside_;     // in the zone
     std::vector<double> outer_spring_;     // at the time of the first step
     std::vector<double> spring_;           // at which they are minimised out now
-    std::vector<double> last_;             // of the solve before
+    std::vector<double> last_;             // of the solve before; all 0: none, or nothing held then
     std::vector<std::uint8_t> age_;        // choices since it last changed or was asked for, up to `forgotten`
     std::vector<std::vector<std::int64_t>> released_;  // from the first step, group after group
     double spent_ = 0.0;  // multiplications since the first step
