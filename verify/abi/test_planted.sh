@@ -510,7 +510,18 @@ int32_t delam_solver_value_count(const delam_solver *solver, int64_t *count) {
 #ifdef UNRECORDED
 int32_t delam_solver_record(delam_solver *solver, const char *key) {
     BEHIND(delam_solver_record);
-    return strcmp(key, UNRECORDED) == 0 ? DELAM_ERROR_ARGUMENT : behind(solver, key);
+    int64_t rows = 0, dimension = 0;
+    delam_solver_field_shape(solver, "displacement", -1, &rows, &dimension);
+    const int here = strcmp(key, UNRECORDED) == 0 && dimension == IN;
+    return here ? DELAM_ERROR_ARGUMENT : behind(solver, key);
+}
+#endif
+#ifdef UNKNOWN
+int32_t delam_solver_value(delam_solver *solver, const char *key, double *value) {
+    BEHIND(delam_solver_value);
+    const int32_t status = behind(solver, key, value);
+    if (strcmp(key, UNKNOWN) == 0) *value = 0.0 / 0.0;
+    return status;
 }
 #endif
 #ifdef FLAT
@@ -548,7 +559,9 @@ refused '^law trapezoidal normal_stiffness: unit F/L2, in the baseline F/L3' \
     lying '-DPARAMETER="normal_stiffness"' -DPLACE=unit '-DTEXT="F/L2"'
 refused "^law trapezoidal plateau: in the baseline, gone" lying '-DPARAMETER="plateau"' -DPLACE=key '-DTEXT="level"'
 refused '^value reaction:NAME: in the header, delam_solver_value_name does not give it' lying -DFEWER_VALUES
-refused '^value crack_length: is not recorded any more' lying '-DUNRECORDED="crack_length"'
+refused '^value crack_length: is not recorded any more' lying '-DUNRECORDED="crack_length"' -DIN=2
+refused '^value crack_length: is not recorded any more' lying '-DUNRECORDED="crack_length"' -DIN=3
+refused '^value dissipated: is -?nan in 2D' lying '-DUNKNOWN="dissipated"'
 refused '^field stress: shape None, by the header' lying -DFLAT
 
 # table SED MESSAGE: another table in the header.

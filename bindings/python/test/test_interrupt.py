@@ -177,6 +177,19 @@ class Interrupts(unittest.TestCase):
                 signal.signal(signal.SIGINT, previous)
         self.assertEqual(calls, [signal.SIGINT])
 
+    def test_a_handler_that_a_callback_installs_stays(self):
+        def own(number, frame):
+            pass
+
+        previous = signal.getsignal(signal.SIGINT)
+        try:
+            self.problem.progress = at_poll(3, lambda: signal.signal(signal.SIGINT, own) and None)
+            self.solver.advance(0.6)
+            self.solver.rollback()
+            self.assertIs(signal.getsignal(signal.SIGINT), own)
+        finally:
+            signal.signal(signal.SIGINT, previous)
+
     def test_ignored_signals_stay_ignored(self):
         previous = signal.signal(signal.SIGINT, signal.SIG_IGN)
         try:

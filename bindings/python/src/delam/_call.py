@@ -100,7 +100,8 @@ class Interrupt:
             signal.signal(signal.SIGINT, self._handle)
 
     def end(self):
-        if self.previous is not None:
+        # A callback of the host may have installed another one, which stays.
+        if self.previous is not None and signal.getsignal(signal.SIGINT) == self._handle:
             signal.signal(signal.SIGINT, self.previous)
 
     @property
