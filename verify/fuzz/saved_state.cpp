@@ -181,7 +181,6 @@ public:
         Input in(recipe.data(), recipe.size());
         SmallScene scene = small_scene(host_, in);
         if (energetic) delam_problem_set_text(scene.problem, "solution", "energetic");
-        host_.polls_left = patience;
         delam_solver_create(scene.problem, 0.0, &solver_);
         destroy(scene);
     }
@@ -191,7 +190,6 @@ public:
 
     delam_solver* solver() const { return solver_; }
     bool goes_on(std::size_t step) {
-        host_.polls_left = patience;
         const std::int32_t status = delam_solver_advance(solver_, 0.25 * static_cast<double>(step));
         if (status != DELAM_OK && status != DELAM_NOT_CONVERGED) return false;
         delam_solver_commit(solver_);
@@ -200,8 +198,7 @@ public:
     bool out_of_patience() const { return host_.polls_left <= 0; }
 
 private:
-    static constexpr std::int64_t patience = 20000;
-    Host host_;
+    Host host_;  // whose polls are for all that this solver does
     delam_solver* solver_ = nullptr;
 };
 
@@ -217,11 +214,9 @@ void any_march(Input& in) {
         Walker anew(recipe, energetic);
         for (Walker* walker : {&anew, &first}) {
             const Bytes& bytes = states[from];
-            const std::int32_t status =
-                delam_solver_load(walker->solver(), static_cast<std::int64_t>(bytes.size()), bytes.data());
-            expect(status == DELAM_OK, "a state is read", "delam_solver_load");
-            if (!walker->goes_on(from + 1)) {
-                expect(walker->out_of_patience(), "a march goes on", "delam_solver_advance");
+            if (delam_solver_load(walker->solver(), static_cast<std::int64_t>(bytes.size()), bytes.data()) != DELAM_OK ||
+                !walker->goes_on(from + 1)) {
+                expect(walker->out_of_patience(), "a state is read and gone on from", "delam_solver_load");
                 return;
             }
             expect(saved(walker->solver()) == states[from + 1], "the rest is bitwise the same", "delam_solver_load");
