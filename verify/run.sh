@@ -77,7 +77,7 @@ build() {
 }
 
 # Cases that stay quick without optimisation and with every access checked; the long marches are not among them.
-light_cases='capi|snapshot|single_pair|spring|floating|patch|dofs|reference|symmetry_units'
+light_cases='capi|callbacks|snapshot|single_pair|spring|floating|patch|dofs|reference|symmetry_units'
 
 # valgrind does not know AVX-512.
 memory_checked() {

@@ -503,7 +503,8 @@ DELAM_API int32_t delam_problem_set_stiffness(delam_problem *problem, int64_t co
                                               const int64_t *dofs, const int64_t *row_starts, const int64_t *columns,
                                               const double *values, int64_t kernel_count, const double *kernel,
                                               int32_t index_base);
-/* The law of an interface; its parameters are taken as they are now. Initial adhesion 1 everywhere.
+/* The law of an interface; its parameters are taken as they are now. The initial adhesion is as it was: 1
+ * everywhere, or what delam_problem_set_adhesion has set.
  * [status argument, problem; since 0.1] */
 DELAM_API int32_t delam_problem_set_law(delam_problem *problem, int64_t interface_index, const delam_law *law);
 /* The interface is glued perfectly and for ever (zero compliance). Each interface needs a law, this or
@@ -761,7 +762,7 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   linear_residual        worst relative residual of the iterative linear solves of the step; 0 where they are direct
  *   rotation_max           rad: largest rotation of a cell, the skew part of the displacement gradient at its centre
  *                          (recovers the displacements). Small strains miss about half its square: beyond 0.1 a warning
- *                          (level 1) says so, once
+ *                          (level 1) says so, once. NaN where no body has cells
  *   kkt_gap                deepest penetration of the recovered displacements, over the largest jump (0 = none)
  *   kkt_pressure           largest pull of a closed contact, over the largest force of a pair (0 = none)
  *   kkt_complementarity    largest |gap * force| of a closed contact, over (largest jump * largest force)
@@ -832,7 +833,8 @@ DELAM_API int32_t delam_solver_field(delam_solver *solver, const char *key, int6
 /* Strain and stress on average over the volume of a body (label; -1: of all), of the state that values and fields speak
  * of; exact. strain, stress: [6] in the order xx, yy, zz, xy, yz, zx, shear strains doubled (prescribed strains are
  * part of them), stress in F/L2; *volume in L2 or L3. In 2D the rest follows from the plane assumption. What cracks
- * open between bodies is not in it. Bodies without cells have no volume. Recovers the displacements.
+ * open between bodies is not in it. Bodies without cells have no volume; where none has cells all are 0. Recovers the
+ * displacements.
  * [unit volume L2 or L3, strain 1, stress F/L2; null volume, strain, stress; status cancelled, argument; source none;
  * since 0.1] */
 DELAM_API int32_t delam_solver_average(const delam_solver *solver, int32_t body, double *volume, double *strain,

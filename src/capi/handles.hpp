@@ -33,6 +33,28 @@ class Solver;
 struct Context {
     Monitor monitor;
     std::string message;
+    bool busy = false;  // a call is at work
+    struct Ended {
+        void* handle;
+        void (*free)(void*);
+    };
+    std::vector<Ended> ended;  // meanwhile, by a callback
+};
+
+// The time of one call. Handles that a callback destroys live to its end.
+class Busy {
+public:
+    explicit Busy(Context& context) noexcept : context_(context) { context_.busy = true; }
+    ~Busy() {
+        context_.busy = false;
+        const std::vector<Context::Ended> ended = std::exchange(context_.ended, {});
+        for (const Context::Ended& e : ended) e.free(e.handle);
+    }
+    Busy(const Busy&) = delete;
+    Busy& operator=(const Busy&) = delete;
+
+private:
+    Context& context_;
 };
 
 inline constexpr std::uint64_t magic_context = 0x64656c616d637478;
@@ -96,12 +118,24 @@ inline std::int32_t report(Context& context, std::int32_t status, const char* wh
     return status;
 }
 
+// From inside a callback. The log does not hear of it, which may be the one that asks.
+inline std::int32_t refuse_callback(Context& context) noexcept {
+    try {
+        context.message = "called from inside a callback of the same context, where delam_context_cancel alone may be";
+    } catch (...) {
+        context.message.clear();
+    }
+    return DELAM_ERROR_STATE;
+}
+
 // Runs body behind the exception barrier; its error text goes into the context of `self`. body returns void or a
 // status.
 template <class H, class Body>
 std::int32_t guard(const H* self, Body&& body) noexcept {
     if (!alive(self)) return DELAM_ERROR_HANDLE;
     const std::shared_ptr<Context> context = self->context;  // outlives a handle that a callback destroys
+    if (context->busy) return refuse_callback(*context);
+    const Busy busy(*context);
     const DefaultFloats floats;
     const Silence silence;
     try {
@@ -152,8 +186,15 @@ void destroy(H** handle) noexcept {
         return;
     }
     (*handle)->magic = 0;
-    delete *handle;
-    *handle = nullptr;
+    H* const ended = std::exchange(*handle, nullptr);
+    if (!ended->context->busy) {
+        delete ended;
+        return;
+    }
+    try {
+        ended->context->ended.push_back({ended, [](void* h) { delete static_cast<H*>(h); }});
+    } catch (...) {  // no memory to remember it: rather lost than gone while it works
+    }
 }
 
 // Argument checks; each throws Error(DELAM_ERROR_ARGUMENT) naming the argument, its value and its range.

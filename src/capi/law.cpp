@@ -33,6 +33,11 @@ void create(const delam_context& context, Softening shape, delam_law** out) {
 const LawParameter& require_parameter(const Law& law, const std::string& key, const std::string& type) {
     const LawParameter* found = find_parameter(law, key);
     if (found != nullptr && found->type == type) return *found;
+    if (found != nullptr) {
+        const std::string own = found->type;
+        fail(DELAM_ERROR_ARGUMENT, "law parameter '", key, "' is a ",
+             own == "real" ? "number: delam_law_set" : own == "text" ? "text: delam_law_set_text" : "table: delam_law_set_table");
+    }
     const std::string known = known_parameters(law, type);
     for (const LawParameter& p : law_parameters()) {
         if (key != p.key || type != p.type) continue;

@@ -55,7 +55,7 @@ void Solver::judge_balance(const State& state, Outcome& outcome) {
 
 void Solver::require_nothing_pending(double time) const {
     if (pending_) fail(DELAM_ERROR_STATE, "a step is pending: commit it or roll it back first");
-    if (!std::isfinite(time)) fail(DELAM_ERROR_ARGUMENT, "time is not finite");
+    if (!std::isfinite(time)) fail(DELAM_ERROR_ARGUMENT, "time = ", time, " must be finite");
 }
 
 bool Solver::keeps_past() const {
@@ -293,6 +293,7 @@ void Solver::warn_of_unresolved_front(const State& before, const State& after) {
 }
 
 double Solver::largest_rotation() const {
+    if (problem_.mesh->cell_count() == 0) return unknown;
     const double largest = delam::largest_rotation(*problem_.mesh, displacement());
     if (largest > small_rotation && !warned_of_rotation_) {
         monitor_.log(1, text("step ", state().step, " at time ", state().time, ": cells turn by up to ", largest,

@@ -217,7 +217,12 @@ double value(const Solver& solver, const std::string& key) {
         if (key == "load:" + patterns[p].name) return solver.state().theta[p];
         if (key == "reaction:" + patterns[p].name) return solver.state().response.conjugate[p];
     }
-    fail(DELAM_ERROR_ARGUMENT, "unknown value '", key, "'");
+    std::string known;
+    for (const std::string& name : value_names(solver.problem())) {
+        if (!known.empty()) known += ", ";
+        known += name;
+    }
+    fail(DELAM_ERROR_ARGUMENT, "value '", key, "' is not known; known are ", known);
 }
 
 }  // namespace delam

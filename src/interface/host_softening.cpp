@@ -11,6 +11,7 @@ namespace delam {
 namespace {
 
 constexpr double mixity_step = 1e-5;    // of the difference quotient of the onset
+constexpr double rounding = 1e-6;       // of an energy near zero, over the driving energy there
 constexpr double adhesion_step = 1e-6;  // of that of Y(zeta), where the callback's slope says nothing
 
 [[noreturn]] void refuse(const HostSoftening& law, const std::string& what, double mixity, const char* variable,
@@ -38,8 +39,10 @@ HostSoftening::Dissipation HostSoftening::dissipation(double mixity, double zeta
         dissipation_callback(mixity, zeta, &out.value, &out.slope, &out.mixity_slope, user);
     if (failure != 0)
         refuse(*this, text("the dissipation callback failed with ", failure), mixity, "zeta", zeta);
-    if (!std::isfinite(out.value))
-        refuse(*this, text("dissipated energy ", out.value, " must be finite"), mixity, "zeta", zeta);
+    // g falls to 0 at zeta = 1, where what is left may be rounding of either sign.
+    const double slack = std::isfinite(out.slope) ? rounding * std::abs(out.slope) : 0.0;
+    if (!std::isfinite(out.value) || out.value < -slack)
+        refuse(*this, text("dissipated energy ", out.value, " must be finite and >= 0"), mixity, "zeta", zeta);
     if (!(out.slope <= 0.0) || (zeta > 0.0 && !std::isfinite(out.slope)))
         refuse(*this, text("slope of the dissipated energy ", out.slope, " must be finite and <= 0"), mixity, "zeta",
                zeta);

@@ -150,6 +150,12 @@ CASE_TEST(states_as_files) {
     refused(delam_solver_save_file(again.get(), (folder.path / "none" / "a").c_str()), DELAM_ERROR_FILE, "No such file");
     refused(delam_solver_save_file(again.get(), folder.path.c_str()), DELAM_ERROR_FILE, "directory");
     refused(delam_solver_save_file(again.get(), nullptr), DELAM_ERROR_ARGUMENT, "path");
+    refused(delam_solver_save_file(again.get(), ""), DELAM_ERROR_FILE, "the path is empty");
+    // What is no file is not replaced: a host that runs as root has devices at its mercy.
+    const std::string pipe = (folder.path / "pipe").string();
+    cases::expect(mkfifo(pipe.c_str(), 0600) == 0, "mkfifo");
+    refused(delam_solver_save_file(again.get(), pipe.c_str()), DELAM_ERROR_FILE, "a pipe, and only files are replaced");
+    cases::expect(std::filesystem::is_fifo(pipe) && std::filesystem::remove(pipe) && folder.files() == 1, "the pipe is gone, or something was left beside it");
     refused(delam_solver_load_file(again.get(), (folder.path / "none").c_str()), DELAM_ERROR_FILE, "No such file");
     refused(delam_solver_load_file(again.get(), folder.path.c_str()), DELAM_ERROR_FILE, "directory");
     const std::string empty = (folder.path / "empty").string();

@@ -58,7 +58,8 @@ enum Fault {
     g_slope,
     g_concave,
     g_mixity,
-    g_nan
+    g_nan,
+    g_negative
 };
 struct Spoilt {
     laws::Bilinear data;
@@ -87,6 +88,7 @@ std::int32_t spoilt_dissipation(double mixity, double zeta, double* g, double* s
         *slope = -500.0 * zeta;
     }
     if (spoilt.fault == g_mixity) *mixity_slope += 30.0;
+    if (spoilt.fault == g_negative) *g = -1e-3;
     if (spoilt.fault == g_nan && zeta < 0.3) *g = std::numeric_limits<double>::quiet_NaN();
     return status;
 }
@@ -181,7 +183,8 @@ START_TEST(inconsistent_callbacks) {
                  {g_slope, "g is not convex, or its slope is not its derivative"},
                  {g_concave, "the toughness g(0) is below the onset"},
                  {g_mixity, "the derivative of g by the mixity is wrong"},
-                 {g_nan, "dissipated energy nan must be finite"}};
+                 {g_nan, "dissipated energy nan must be finite and >= 0"},
+                 {g_negative, "dissipated energy -0.001 must be finite and >= 0"}};
     for (const auto& c : cases) {
         Spoilt spoilt{{}, c.fault};
         const Law law = given(spoilt_adhesion, spoilt_dissipation, &spoilt);

@@ -95,7 +95,7 @@ end
 
 # ---- interfaces
 
-"The law's parameters are taken as they are now; adhesion 1 everywhere."
+"The law's parameters are taken as they are now. The adhesion is as it was: 1, or what set_adhesion! has set."
 function set_law!(problem::Problem, interface, law::Law)
     if law.host !== nothing
         push!(problem.kept, law.host)

@@ -156,6 +156,54 @@ class Scene(unittest.TestCase):
         with self.assertRaisesRegex(delam.ArgumentError, "must be finite"):
             problem.prescribe_mean([0], [1.0], "x", {"opening": np.inf})
 
+    def test_things_of_another_scene(self):
+        one, other = support.double_cantilever(), support.double_cantilever()
+        cold = other.add_pattern("cold", [0, 1], [0, 1])
+        one.add_eigenstrain(one.add_pattern("heat", [0, 1], [0, 1]), np.zeros(6))
+        before = one.hash
+        for use in (lambda: one.prescribe(0, "x", cold), lambda: one.prescribe(0, "x", {cold: 1.0}),
+                    lambda: one.add_eigenstrain(cold, np.zeros(6)), lambda: one.forces(cold),
+                    lambda: delam.Solver(one).set_history(cold, 1.0, 0.0)):
+            with self.assertRaisesRegex(delam.ArgumentError, "pattern 'cold' given is one of another problem"):
+                use()
+        interface = other.mesh.interfaces[0]
+        for use in (lambda: one.set_law(interface, support.bilinear()), lambda: one.set_bonded(interface),
+                    lambda: one.set_adhesion(interface, [0]), lambda: one.process_zone(interface),
+                    lambda: delam.Solver(one).field("jump", interface), lambda: delam.Solver(one).fronts(interface)):
+            with self.assertRaisesRegex(delam.ArgumentError, "interface 0 given is one of another mesh"):
+                use()
+        self.assertEqual(one.hash, before)
+
+    def test_numbers_that_are_none(self):
+        problem = support.double_cantilever()
+        masked = np.ma.array([0.5, 0.5], mask=[False, True])
+        with self.assertRaisesRegex(delam.ArgumentError, r"adhesion\[1\] is masked"):
+            problem.set_adhesion(0, [0, 1], masked)
+        with self.assertRaisesRegex(delam.ArgumentError, r"pairs\[50\] is masked"):
+            problem.set_adhesion(0, np.ma.array([False] * 51, mask=[False] * 50 + [True]))
+        problem.set_adhesion(0, [0, 1], np.ma.array([0.5, 0.5]))
+        with self.assertRaisesRegex(delam.ArgumentError, "threads does not fit into a float"):
+            problem.options["threads"] = 10**400
+        with self.assertRaisesRegex(delam.ArgumentError, "young = '1e9' is no number"):
+            problem.set_elastic("1e9", 0.3)
+        with self.assertRaisesRegex(delam.ArgumentError, "place"):
+            problem.mesh.find_node(None)
+
+    def test_a_solver_goes_on_when_its_problem_is_closed(self):
+        problem = support.double_cantilever()
+        solver = delam.Solver(problem)
+        opening = delam.problem.Pattern("opening", 0, problem)
+        problem.close()
+        for pattern in ("opening", 0, opening):
+            solver.set_history(pattern, [0.5], [1e-4])
+        solver.advance(0.5)
+        solver.commit()
+        self.assertAlmostEqual(solver.values["load:opening"], 1e-4)
+        with self.assertRaisesRegex(delam.ArgumentError, "'cold' is not known; known are opening"):
+            solver.set_history("cold", [0.6], [1e-4])
+        with self.assertRaises(delam.ArgumentError):
+            solver.load(memoryview(solver.save())[::-1])
+
     def test_assembled(self):
         problem = support.double_cantilever()
         stiffness = problem.body_matrix(0).toarray()

@@ -44,11 +44,17 @@ def _place(name, index):
     return f"{name}[{', '.join(str(int(i)) for i in index)}]"
 
 
+def _refuse_masked(name, value):
+    if np.ma.is_masked(value):
+        raise ArgumentError(f"{_place(name, np.argwhere(np.ma.getmaskarray(value))[0])} is masked")
+
+
 def gate(name, value, dtype, shape):
     """`value` as a contiguous array of `dtype` (float64, int64, int32) and `shape` (None: any size; a tuple: one of
     these), or ArgumentError naming the argument. Integers are taken for floats, not the other way round; all numbers
     must be finite."""
     dtype = np.dtype(dtype)
+    _refuse_masked(name, value)
     try:
         array = np.asarray(value)
     except (ValueError, TypeError) as error:
@@ -82,6 +88,7 @@ def floats(name, value, shape):
 def indices(name, value, shape=(None,), size=None):
     """Indices; a single one where shape is one-dimensional; a boolean mask where `size`, its length, is given."""
     if size is not None and ndim(value) >= 0 and np.asarray(value).dtype == bool:
+        _refuse_masked(name, value)
         mask = np.asarray(value)
         if mask.shape != (size,):
             raise ArgumentError(f"{name} is a mask of shape {_shape_text(mask.shape)}, expected ({size},)")

@@ -294,7 +294,11 @@ def text(name, value):
 
 def number(name, value):
     try:
+        if isinstance(value, (str, bytes, bytearray)):
+            raise TypeError
         return float(value)
+    except OverflowError:
+        raise ArgumentError(f"{name} does not fit into a float") from None
     except (TypeError, ValueError):
         raise ArgumentError(f"{name} = {value!r} is no number") from None
 

@@ -58,6 +58,13 @@ class Ties(NamedTuple):
     weights: np.ndarray
 
 
+def interface_index(value, mesh):
+    """Of an interface of this mesh, itself or its index."""
+    if isinstance(value, Interface) and value.mesh is not mesh:
+        raise ArgumentError(f"interface {value.index} given is one of another mesh")
+    return integer("interface", value)
+
+
 class Interface:
     """An interface of a mesh; stands for its index wherever one is asked for. Its jump is u_b - u_a, its normals point
     from a to b."""
@@ -356,10 +363,11 @@ class Mesh(Object):
 
     def find_node(self, place, body=None):
         """The one node of a body at a place."""
+        place = floats("place", place, (self.dimension,))
         nodes = self.find_nodes(place, body=body)
         if nodes.size != 1:
             of = "" if body is None else f" of body {body}"
-            place = tuple(np.asarray(place).tolist())
+            place = tuple(place.tolist())
             raise ArgumentError(f"place = {place}: {nodes.size} nodes{of} are there, expected 1")
         return int(nodes[0])
 

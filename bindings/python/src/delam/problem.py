@@ -2,6 +2,7 @@
 """The scene: a mesh with materials, laws, supports, loads and options."""
 import collections.abc
 import ctypes
+import weakref
 from typing import NamedTuple
 
 import numpy as np
@@ -13,7 +14,7 @@ from ._call import Context, Object, integer, number, text
 from ._library import library
 from .errors import ArgumentError, DelamError
 from .law import Law
-from .mesh import Mesh, body_label
+from .mesh import Mesh, body_label, interface_index
 from .options import Options, initial_values
 
 
@@ -50,15 +51,27 @@ def _rows_of(matrix):
 class Pattern:
     """A load pattern of a problem; stands for its index wherever one is asked for."""
 
-    def __init__(self, name, index):
+    def __init__(self, name, index, problem):
         self.name = name
         self.index = index
+        self.problem = weakref.ref(problem)
 
     def __index__(self):
         return self.index
 
     def __repr__(self):
         return f"<Pattern {self.index}: {self.name}>"
+
+
+def pattern_index(which, problem, names):
+    """Of a pattern of this problem: itself, one of the names, or its index."""
+    if isinstance(which, str):
+        if which not in names:
+            raise ArgumentError(f"pattern {which!r} is not known; known are {', '.join(names) or 'none'}")
+        return names.index(which)
+    if isinstance(which, Pattern) and which.problem() is not problem:
+        raise ArgumentError(f"pattern {which.name!r} given is one of another problem")
+    return integer("pattern", which)
 
 
 class Problem(Object):
@@ -172,7 +185,7 @@ class Problem(Object):
     # ---- interfaces
 
     def set_law(self, interface, law):
-        """The law's parameters are taken as they are now; adhesion 1 everywhere."""
+        """The law's parameters are taken as they are now. The adhesion is as it was: 1, or what set_adhesion has set."""
         if not isinstance(law, Law):
             raise ArgumentError(f"law = {law!r}, expected a Law")
         hosted = self.context.hosted
@@ -181,7 +194,7 @@ class Problem(Object):
             self._keep.append(law._callbacks)
             self.context.hosted = True
         try:
-            self.context.call(library.delam_problem_set_law, self._handle, integer("interface", interface),
+            self.context.call(library.delam_problem_set_law, self._handle, interface_index(interface, self.mesh),
                               law._handle, other=law.context)
         except DelamError:
             self.context.hosted = hosted
@@ -189,15 +202,15 @@ class Problem(Object):
 
     def set_bonded(self, interface):
         """Glued perfectly and for ever."""
-        self._call(library.delam_problem_set_bonded, integer("interface", interface))
+        self._call(library.delam_problem_set_bonded, interface_index(interface, self.mesh))
 
     def set_contact(self, interface):
         """Faces that may part but not overlap, without adhesion."""
-        self._call(library.delam_problem_set_contact, integer("interface", interface))
+        self._call(library.delam_problem_set_contact, interface_index(interface, self.mesh))
 
     def set_adhesion(self, interface, pairs, adhesion=0.0):
         """Initial adhesion of some pairs, indices or a mask; 0 makes a notch."""
-        interface = integer("interface", interface)
+        interface = interface_index(interface, self.mesh)
         size = self._pair_counts[interface] if 0 <= interface < len(self._pair_counts) else None
         pairs = indices("pairs", pairs, size=size)
         adhesion = spread("adhesion", adhesion, pairs.size)
@@ -212,7 +225,7 @@ class Problem(Object):
         index = ctypes.c_int64()
         self._call(library.delam_problem_add_pattern, text("name", name), times.size, pointer(times), pointer(values),
                    index)
-        return Pattern(name, index.value)
+        return Pattern(name, index.value, self)
 
     @property
     def patterns(self):
@@ -223,12 +236,7 @@ class Problem(Object):
 
     def pattern(self, which):
         """Index of a pattern: itself, its name or its index."""
-        if isinstance(which, str):
-            names = self.patterns
-            if which not in names:
-                raise ArgumentError(f"pattern {which!r} is not known; known are {', '.join(names) or 'none'}")
-            return names.index(which)
-        return integer("pattern", which)
+        return pattern_index(which, self, self.patterns if isinstance(which, str) else ())
 
     def _driven(self, drive, count=None):
         """Patterns and their coefficients, [count][patterns] or [patterns]."""
@@ -317,7 +325,7 @@ class Problem(Object):
     def process_zone(self, interface):
         """Expected length of the process zone, 0 where there is none, and the mean distance of pairs."""
         length, spacing = ctypes.c_double(), ctypes.c_double()
-        self._call(library.delam_problem_process_zone, integer("interface", interface), length, spacing, long=True)
+        self._call(library.delam_problem_process_zone, interface_index(interface, self.mesh), length, spacing, long=True)
         return length.value, spacing.value
 
     def body_matrix(self, body):

@@ -15,9 +15,9 @@ from ._call import Object, integer, number, text
 from ._library import library
 from .errors import ArgumentError, NotConverged, NotConvergedWarning
 from .history import History, steps_of
-from .mesh import body_label
+from .mesh import body_label, interface_index
 from .options import unknown
-from .problem import Problem, Sparse
+from .problem import Problem, Sparse, pattern_index
 
 # What these say takes a recovery of all displacements; a history has them only when they are asked for.
 COSTLY = frozenset(("rotation_max", "kkt_gap", "kkt_pressure", "kkt_complementarity", "kkt_equilibrium"))
@@ -145,6 +145,7 @@ class Solver(Object):
                              library.delam_solver_create, problem._handle, number("time", time),
                              keep=problem._keep, long=True, outcomes=(_raw.DELAM_NOT_CONVERGED,))
         self.problem = problem
+        self._patterns = problem.patterns  # of then: the solver goes on when the problem is closed
         count = ctypes.c_int64()
         self._call(library.delam_solver_value_count, count)
         names = (self.context.text(library.delam_solver_value_name, self._pointer, i) for i in range(count.value))
@@ -225,7 +226,7 @@ class Solver(Object):
         times[0], on through the points, constant beyond the last. It is saved with the state."""
         times = floats("times", listed(times), (None,))
         values = floats("values", listed(values), (times.size,))
-        self._call(library.delam_solver_set_history, self.problem.pattern(pattern), times.size, pointer(times),
+        self._call(library.delam_solver_set_history, pattern_index(pattern, self.problem, self._patterns), times.size, pointer(times),
                    pointer(values))
 
     def march(self, times, values=None, progress=False):
@@ -322,7 +323,7 @@ class Solver(Object):
             return
         try:
             state = np.frombuffer(state, np.uint8)
-        except (TypeError, ValueError) as error:
+        except (TypeError, ValueError, BufferError) as error:
             raise ArgumentError(f"state: {error}") from None
         self._whole(library.delam_solver_load, state.size, pointer(state))
 
@@ -339,7 +340,7 @@ class Solver(Object):
 
         Over nodes: displacement. Cells: stress, rotation. Pairs of an interface, None for all one after another: jump,
         traction, adhesion, mixity, contact. Constraints: reaction."""
-        part = -1 if interface is None else integer("interface", interface)
+        part = -1 if interface is None else interface_index(interface, self.problem.mesh)
         rows, columns = self._shape(name, part)
         out = np.empty((rows, columns) if columns > 1 else rows)
         self._call(library.delam_solver_field, text("name", name), part, out.size, pointer(out), long=True)
@@ -353,7 +354,7 @@ class Solver(Object):
 
     def fronts(self, interface=0):
         """The fronts of the cracks of an interface."""
-        interface = integer("interface", interface)
+        interface = interface_index(interface, self.problem.mesh)
         fronts, points = ctypes.c_int64(), ctypes.c_int64()
         self._call(library.delam_solver_front_count, interface, fronts, points)
         m, n, dimension = fronts.value, points.value, self.problem.dimension
