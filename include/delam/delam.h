@@ -20,7 +20,8 @@
  *              as far as that can be seen.
  *   numbers    non-finite input is refused by name.
  *   threads    one context and the objects made with it belong to one thread at a time; distinct contexts are
- *              independent. delam_context_cancel() alone may be called from any thread.
+ *              independent. delam_context_cancel() alone may be called from any thread, and from inside a callback,
+ *              where other functions of that context return DELAM_ERROR_STATE, or NULL.
  *   promise    nothing is printed, no signal handler is left behind, no exception leaves, the process never ends.
  *   names      out: the handle that is made. interface_index, pattern: as the function that added it gave them; index:
  *              of a list, below its count. body: a label of cells; where -1 is allowed, it means all. capacity: entries
@@ -36,8 +37,9 @@
  *   null       pointers that may be NULL
  *   owns       pointers that outlive the call, and who frees or keeps them. out caller: the caller frees *out by the
  *              object's destroy function. static: valid as long as the library is loaded
- *   status     DELAM_OK aside. Any call with a handle may return DELAM_ERROR_HANDLE, _MEMORY and _INTERNAL: usual,
- *              these alone; otherwise what may come beside them; only: not even those. - : no status is returned
+ *   status     DELAM_OK aside. Any call with a handle may return DELAM_ERROR_HANDLE, _MEMORY and _INTERNAL, and from
+ *              inside a callback _STATE: usual, these alone; otherwise what may come beside them; only: not even those.
+ *              - : no status is returned
  *   thread     any: from any thread at any time; not said: as above
  *   source     where the method is described; none: nothing but what was given, counted or solved for is handed out
  *   since      version of the library

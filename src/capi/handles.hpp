@@ -111,7 +111,8 @@ bool alive(const H* handle) noexcept {
 inline std::int32_t report(Context& context, std::int32_t status, const char* what) noexcept {
     try {
         context.message = what;
-        context.monitor.log(status < 0 ? 0 : 1, context.message);
+        context.monitor.log(status < 0 ? 0 : 1, what);
+        context.message = what;  // also where the log has tried a call
     } catch (...) {
         context.message.clear();
     }

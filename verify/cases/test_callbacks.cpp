@@ -87,6 +87,7 @@ CASE_TEST(in_the_log) {
     scene.require(delam_context_set_log(scene.context(), Log::line, &log), "delam_context_set_log");
     cases::expect(delam_problem_set_number(scene.problem(), "no_such_option", 1.0) == DELAM_ERROR_ARGUMENT, "an option that is none");
     cases::expect(log.lines == 1 && log.status == DELAM_ERROR_STATE, std::to_string(log.lines) + " lines, " + delam_status_name(log.status));
+    cases::expect(std::string(delam_context_message(scene.context())).find("no_such_option") != std::string::npos, "the message is another one's");
     scene.require(delam_context_set_log(scene.context(), nullptr, nullptr), "delam_context_set_log");
     scene.number("damage_tolerance", 1e-7);
 }

@@ -47,6 +47,7 @@ Host::~Host() { delam_context_destroy(&context); }
 
 void Host::log(std::int32_t level, const char* text, void* user) {
     Host& host = *static_cast<Host*>(user);
+    expect(delam_context_set_log(host.context, log, user) == DELAM_ERROR_STATE, "no way in from a callback", "log callback");
     expect(text != nullptr && level >= 0 && level <= 2, "lines of level 0 to 2", "log callback");
     if (level == 2) return;
     host.last_ = text;
@@ -55,6 +56,8 @@ void Host::log(std::int32_t level, const char* text, void* user) {
 
 std::int32_t Host::progress(const char* stage, std::int64_t done, std::int64_t total, void* user) {
     Host& host = *static_cast<Host*>(user);
+    expect(delam_context_set_progress(host.context, progress, user) == DELAM_ERROR_STATE, "no way in from a callback",
+           "progress callback");
     expect(stage != nullptr && *stage != '\0' && done >= 0 && total >= 0, "a stage and counts", "progress callback");
     if (--host.polls_left < 0) return 1;
     if (host.cancel_in < 0 || --host.cancel_in >= 0) return 0;
