@@ -21,7 +21,8 @@
  *   numbers    non-finite input is refused by name.
  *   threads    one context and the objects made with it belong to one thread at a time; distinct contexts are
  *              independent. delam_context_cancel() alone may be called from any thread, and from inside a callback,
- *              where other functions of that context return DELAM_ERROR_STATE, or NULL.
+ *              where what else has a status returns DELAM_ERROR_STATE, and texts are NULL or "". Callbacks return; none
+ *              is left by longjmp or an exception.
  *   promise    nothing is printed, no signal handler is left behind, no exception leaves, the process never ends.
  *   names      out: the handle that is made. interface_index, pattern: as the function that added it gave them; index:
  *              of a list, below its count. body: a label of cells; where -1 is allowed, it means all. capacity: entries
@@ -399,13 +400,13 @@ DELAM_API int32_t delam_law_parameter_info(const char *kind, int64_t index, cons
 
 /* Callbacks of a law that the host computes; non-zero return: failed, the call of the library ends with
  * DELAM_ERROR_PROBLEM. They run inside calls that check or use the law, on the calling thread, must not call back into
- * the library, and must always give the same answers. */
+ * the library (delam_context_cancel aside), and must always give the same answers. */
 /* Gives *adhesion on a first loading at fixed mixity: the minimiser zeta*(B, Y) of zeta Y + g(B, zeta) in [0,1],
  * nonincreasing in driving = Y; *slope: d zeta* / dY, finite (0 where it is not inside).
  * [unit mixity 1 in [0, 1], driving F/L >= 0, adhesion 1 in [0, 1], slope L/F <= 0; null user; status problem; thread
  * call's; since 0.1] */
 typedef int32_t (*delam_adhesion_callback)(double mixity, double driving, double *adhesion, double *slope, void *user);
-/* Gives *dissipated = g(B, zeta) at an adhesion; *slope: dg/dzeta, may be -INFINITY at adhesion 0; *mixity_slope:
+/* Gives *dissipated = g(B, zeta) >= 0 at an adhesion; *slope: dg/dzeta, may be -INFINITY at adhesion 0; *mixity_slope:
  * dg/dB.
  * [unit mixity 1 in [0, 1], adhesion 1 in [0, 1], dissipated F/L, slope F/L <= 0, mixity_slope F/L finite; null user;
  * status problem; thread call's; since 0.1] */
@@ -413,7 +414,7 @@ typedef int32_t (*delam_dissipation_callback)(double mixity, double adhesion, do
                                               double *mixity_slope, void *user);
 /* A law of kind host. adhesion gives zeta*, dissipation g; Go = -dg/dzeta at adhesion 1, Gc = g at adhesion 0. name,
  * not empty, stands for the callbacks in messages and in delam_problem_hash. Callbacks and user must live as long as
- * problems and solvers that took the law. Keys: normal_stiffness, tangential_stiffness, gradient. delam_law_check
+ * problems and solvers that took the law, and to the end of a call at work that destroys these. Keys: normal_stiffness, tangential_stiffness, gradient. delam_law_check
  * samples whether both callbacks belong to one such energy and names the first place where they do not;
  * delam_problem_set_law checks likewise.
  * [null user; owns out caller, callbacks and user: the host, as long as problems and solvers that took the law; status

@@ -55,7 +55,7 @@ void write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
     if (path.empty()) fail(DELAM_ERROR_FILE, "the path is empty");
     // Renaming would put a file in the place of a device, a pipe or a socket that others need.
     struct stat there {};
-    if (::lstat(path.c_str(), &there) == 0 && !S_ISREG(there.st_mode) && !S_ISLNK(there.st_mode))
+    if (::stat(path.c_str(), &there) == 0 && !S_ISREG(there.st_mode))
         fail(DELAM_ERROR_FILE, "'", path, "': is ", kind_of(there.st_mode), ", and only files are replaced");
     // Others may save to the same path at the same time, other threads too: a name that nobody else has.
     std::string part;

@@ -122,7 +122,7 @@ inline std::int32_t report(Context& context, std::int32_t status, const char* wh
 // From inside a callback. The log does not hear of it, which may be the one that asks.
 inline std::int32_t refuse_callback(Context& context) noexcept {
     try {
-        context.message = "called from inside a callback of the same context, where delam_context_cancel alone may be";
+        context.message = "called from inside a callback of the same context, or from another thread while it is at work: delam_context_cancel alone may be";
     } catch (...) {
         context.message.clear();
     }

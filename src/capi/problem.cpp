@@ -189,9 +189,10 @@ int32_t delam_problem_set_law(delam_problem* problem, int64_t interface_index, c
     return guard(problem, [&] {
         InterfaceProperties& interface = problem->core->interfaces[require_interface(*problem->core, interface_index)];
         require_handle(law, "law");
-        law->core->validate();
+        const Law taken = *law->core;  // its callbacks may destroy the handle
+        taken.validate();
         if (interface.contact) std::fill(interface.adhesion.begin(), interface.adhesion.end(), 1.0);
-        interface.law = *law->core;
+        interface.law = taken;
         interface.bonded = interface.contact = false;
     });
 }

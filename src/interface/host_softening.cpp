@@ -11,7 +11,7 @@ namespace delam {
 namespace {
 
 constexpr double mixity_step = 1e-5;    // of the difference quotient of the onset
-constexpr double rounding = 1e-6;       // of an energy near zero, over the driving energy there
+constexpr double close = 1e-6;          // of the toughness: what g may miss 0 by, as in host_check.cpp
 constexpr double adhesion_step = 1e-6;  // of that of Y(zeta), where the callback's slope says nothing
 
 [[noreturn]] void refuse(const HostSoftening& law, const std::string& what, double mixity, const char* variable,
@@ -39,10 +39,8 @@ HostSoftening::Dissipation HostSoftening::dissipation(double mixity, double zeta
         dissipation_callback(mixity, zeta, &out.value, &out.slope, &out.mixity_slope, user);
     if (failure != 0)
         refuse(*this, text("the dissipation callback failed with ", failure), mixity, "zeta", zeta);
-    // g falls to 0 at zeta = 1, where what is left may be rounding of either sign.
-    const double slack = std::isfinite(out.slope) ? rounding * std::abs(out.slope) : 0.0;
-    if (!std::isfinite(out.value) || out.value < -slack)
-        refuse(*this, text("dissipated energy ", out.value, " must be finite and >= 0"), mixity, "zeta", zeta);
+    if (!std::isfinite(out.value))
+        refuse(*this, text("dissipated energy ", out.value, " must be finite"), mixity, "zeta", zeta);
     if (!(out.slope <= 0.0) || (zeta > 0.0 && !std::isfinite(out.slope)))
         refuse(*this, text("slope of the dissipated energy ", out.slope, " must be finite and <= 0"), mixity, "zeta",
                zeta);
@@ -53,8 +51,9 @@ HostSoftening::Dissipation HostSoftening::dissipation(double mixity, double zeta
 }
 
 Toughness HostSoftening::toughness(double mixity) const {
-    const double onset = -dissipation(mixity, 1.0).slope;
-    return {onset, std::max(onset, dissipation(mixity, 0.0).value), mixity};
+    const double onset = -dissipation(mixity, 1.0).slope, total = dissipation(mixity, 0.0).value;
+    if (total < 0.0) refuse(*this, text("dissipated energy ", total, " must be >= 0"), mixity, "zeta", 0.0);
+    return {onset, std::max(onset, total), mixity};
 }
 
 ToughnessSlope HostSoftening::toughness_slope(double mixity) const {
@@ -63,7 +62,11 @@ ToughnessSlope HostSoftening::toughness_slope(double mixity) const {
     return {change / (high - low), dissipation(mixity, 0.0).mixity_slope};
 }
 
-double HostSoftening::dissipated(const Toughness& t, double zeta) const { return dissipation(t.mixity, zeta).value; }
+double HostSoftening::dissipated(const Toughness& t, double zeta) const {
+    const double value = dissipation(t.mixity, zeta).value;
+    if (value < -close * t.total) refuse(*this, text("dissipated energy ", value, " must be >= 0"), t.mixity, "zeta", zeta);
+    return value;
+}
 
 double HostSoftening::driving(const Toughness& t, double zeta) const { return -dissipation(t.mixity, zeta).slope; }
 

@@ -123,6 +123,33 @@ CASE_TEST(in_a_law) {
     cases::expect(asking.refused > 0 && asking.other == 0, std::to_string(asking.refused) + " refused, " + std::to_string(asking.other) + " not");
 }
 
+// A law of another context, which is not at work, ended by its own callback while a problem takes it.
+struct Ending {
+    laws::Bilinear law;
+    delam_law* handle = nullptr;
+    static std::int32_t dissipation(double mixity, double zeta, double* g, double* slope, double* mixity_slope, void* user) {
+        auto& self = *static_cast<Ending*>(user);
+        delam_law_destroy(&self.handle);
+        return laws::dissipation(mixity, zeta, g, slope, mixity_slope, &self.law);
+    }
+    static std::int32_t adhesion(double mixity, double driving, double* zeta, double* slope, void* user) {
+        return laws::adhesion(mixity, driving, zeta, slope, &static_cast<Ending*>(user)->law);
+    }
+};
+
+CASE_TEST(law_that_ends_itself) {
+    (void)loop;
+    const Scene scene = cases::small_enf(0), elsewhere = cases::small_enf(0);
+    Ending ending;
+    scene.require(delam_law_create_host(elsewhere.context(), "ending", Ending::adhesion, Ending::dissipation, &ending, &ending.handle),
+                  "delam_law_create_host");
+    for (const char* key : {"normal_stiffness", "tangential_stiffness"}) scene.require(delam_law_set(ending.handle, key, 1e14), key);
+    scene.require(delam_problem_set_law(scene.problem(), 0, ending.handle), "delam_problem_set_law");
+    cases::expect(ending.handle == nullptr, "it has not ended");
+    Solver solver(scene, 0.0);
+    cases::walk(solver, 1, 2);
+}
+
 // Whatever is destroyed in the midst of a step lives until it has ended.
 CASE_TEST(destroyed_at_work) {
     (void)loop;
@@ -171,6 +198,7 @@ int main() {
     tcase_add_test(tests, in_progress);
     tcase_add_test(tests, in_the_log);
     tcase_add_test(tests, in_a_law);
+    tcase_add_test(tests, law_that_ends_itself);
     tcase_add_test(tests, destroyed_at_work);
     tcase_add_test(tests, another_island);
     suite_add_tcase(suite, tests);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The contracts of delam.hpp; ends with a count, and with 1 where one is broken.
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -321,6 +322,21 @@ void test_callbacks() {
     solver.rollback();
     context.cancel();
     expect(solver.advance(0.5) == delam::Outcome::cancelled, "a request for the next call");
+    // From inside, nothing is switched off or asked; the step is none the worse, and so is the next.
+    int refused = 0;
+    const auto meddle = [&](const std::function<void()>& action) { refused += status_of(action) == DELAM_ERROR_STATE ? 1 : 0; };
+    context.on_progress([&](std::string_view, std::int64_t, std::int64_t) {
+        meddle([&] { context.on_progress({}); });
+        meddle([&] { context.on_log({}); });
+        meddle([&] { (void)solver.value("time"); });
+        return true;
+    });
+    for (int step = 0; step < 2; ++step) {
+        const int before = refused;
+        expect(solver.advance(0.5) == delam::Outcome::done && refused > before && refused % 3 == 0, "a callback that meddles");
+        solver.rollback();
+    }
+    context.on_progress({});
     std::string said;
     context.on_log([&](std::int32_t, std::string_view text) { said = text; });
     context.on_log({});

@@ -77,9 +77,9 @@ contains
       call settle(DELAM_ERROR_HANDLE, self, status, message)
       return
     end if
-    it%observer => observer
     code = delam_context_set_log(it%handle, c_funloc(on_log), c_loc(it))
     if (code == DELAM_OK) code = delam_context_set_progress(it%handle, c_funloc(on_progress), c_loc(it))
+    if (code == DELAM_OK) it%observer => observer
     call settle(code, self, status, message)
   end subroutine context_observe
 
@@ -92,7 +92,7 @@ contains
     code = delam_context_set_log(self%handle(), c_null_funptr, c_null_ptr)
     if (code == DELAM_OK) code = delam_context_set_progress(self%handle(), c_null_funptr, c_null_ptr)
     it => shared_of(self)
-    if (associated(it)) nullify(it%observer)
+    if (code == DELAM_OK .and. associated(it)) nullify(it%observer)
     call settle(code, self, status, message)
   end subroutine context_unobserve
 

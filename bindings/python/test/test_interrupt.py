@@ -178,15 +178,23 @@ class Interrupts(unittest.TestCase):
         self.assertEqual(calls, [signal.SIGINT])
 
     def test_a_handler_that_a_callback_installs_stays(self):
+        former = []
+
         def own(number, frame):
-            pass
+            former[0](number, frame)
+
+        def install():
+            former.append(signal.signal(signal.SIGINT, own))
 
         previous = signal.getsignal(signal.SIGINT)
         try:
-            self.problem.progress = at_poll(3, lambda: signal.signal(signal.SIGINT, own) and None)
+            self.problem.progress = at_poll(3, install)
             self.solver.advance(0.6)
             self.solver.rollback()
             self.assertIs(signal.getsignal(signal.SIGINT), own)
+            # The one that it hands on to was the call's, which is over.
+            with self.assertRaises(KeyboardInterrupt):
+                signal.raise_signal(signal.SIGINT)
         finally:
             signal.signal(signal.SIGINT, previous)
 

@@ -41,7 +41,7 @@ def listed(value):
 
 
 def _place(name, index):
-    return f"{name}[{', '.join(str(int(i)) for i in index)}]"
+    return f"{name}[{', '.join(str(int(i)) for i in index)}]" if len(index) else name
 
 
 def _refuse_masked(name, value):

@@ -78,13 +78,17 @@ _NO_PROGRESS = _raw.delam_progress_callback()
 class Interrupt:
     """Holds SIGINT back while the library works in the main thread."""
 
-    __slots__ = ("call", "previous")
+    __slots__ = ("call", "previous", "over")
 
     def __init__(self, call):
         self.call = call
         self.previous = None
+        self.over = False
 
     def _handle(self, number, frame):
+        if self.over:  # another handler has kept this one, and hands on
+            self.previous(number, frame)
+            return
         try:
             self.previous(number, frame)
         except BaseException as exception:
@@ -100,6 +104,7 @@ class Interrupt:
             signal.signal(signal.SIGINT, self._handle)
 
     def end(self):
+        self.over = True
         # A callback of the host may have installed another one, which stays.
         if self.previous is not None and signal.getsignal(signal.SIGINT) == self._handle:
             signal.signal(signal.SIGINT, self.previous)

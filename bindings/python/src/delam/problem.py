@@ -54,7 +54,10 @@ class Pattern:
     def __init__(self, name, index, problem):
         self.name = name
         self.index = index
-        self.problem = weakref.ref(problem)
+        self.problem = None if problem is None else weakref.ref(problem)
+
+    def __reduce__(self):  # elsewhere it stands for its index alone
+        return Pattern, (self.name, self.index, None)
 
     def __index__(self):
         return self.index
@@ -69,7 +72,7 @@ def pattern_index(which, problem, names):
         if which not in names:
             raise ArgumentError(f"pattern {which!r} is not known; known are {', '.join(names) or 'none'}")
         return names.index(which)
-    if isinstance(which, Pattern) and which.problem() is not problem:
+    if isinstance(which, Pattern) and which.problem is not None and which.problem() is not problem:
         raise ArgumentError(f"pattern {which.name!r} given is one of another problem")
     return integer("pattern", which)
 

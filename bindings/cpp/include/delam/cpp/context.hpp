@@ -31,13 +31,13 @@ public:
     // An empty function switches it off.
     void on_log(LogCallback callback) {
         const bool wanted = static_cast<bool>(callback);
-        shared_->log = std::move(callback);
         shared_->check(delam_context_set_log(get(), wanted ? &Context::say : nullptr, shared_.get()));
+        shared_->log = std::move(callback);
     }
     void on_progress(ProgressCallback callback) {
         const bool wanted = static_cast<bool>(callback);
-        shared_->progress = std::move(callback);
         shared_->check(delam_context_set_progress(get(), wanted ? &Context::tell : nullptr, shared_.get()));
+        shared_->progress = std::move(callback);
     }
     // From any thread.
     void cancel() const noexcept { delam_context_cancel(get()); }
