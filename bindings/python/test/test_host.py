@@ -125,6 +125,18 @@ class Bodies(unittest.TestCase):
             problem.set_stiffness(nodes, self.own.body_matrix(body), kernel=motions.reshape(3, -1))
         self.same_reactions(load(problem))
 
+    def test_what_needs_cells_is_not_known_without(self):
+        mesh = without_cells(self.own.mesh)
+        problem = delam.Problem(mesh)
+        for body in (0, 1):
+            problem.set_stiffness(mesh.node_bodies == body, self.own.body_matrix(body))
+        solver = delam.Solver(load(problem))
+        solver.advance(1.0)
+        self.assertTrue(np.isnan(solver.values["rotation_max"]))
+        own = delam.Solver(self.own)
+        own.advance(1.0)
+        self.assertGreater(own.values["rotation_max"], 0.0)
+
     def test_bodies_with_cells_may_have_it_too(self):
         problem = delam.Problem(strip_mesh())
         problem.set_elastic(1.0, 0.0)

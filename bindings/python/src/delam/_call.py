@@ -105,9 +105,11 @@ class Interrupt:
 
     def end(self):
         self.over = True
-        # A callback of the host may have installed another one, which stays.
-        if self.previous is not None and signal.getsignal(signal.SIGINT) == self._handle:
-            signal.signal(signal.SIGINT, self.previous)
+        if self.previous is None:
+            return
+        found = signal.signal(signal.SIGINT, self.previous)
+        if found != self._handle:  # a callback of the host has installed another one, which stays
+            signal.signal(signal.SIGINT, found)
 
     @property
     def active(self):
