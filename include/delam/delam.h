@@ -82,11 +82,11 @@ extern "C" {
 #define DELAM_ERROR_INTERNAL -9  /* a defect of the library: please report */
 #define DELAM_ERROR_FILE -10     /* a file that cannot be opened, read or written: the message says why */
 
-typedef struct delam_context delam_context;   /* messages, log, progress, cancel; what everything else is made with */
-typedef struct delam_mesh delam_mesh;         /* nodes, cells, bodies, interfaces */
-typedef struct delam_law delam_law;           /* how an interface holds together */
-typedef struct delam_problem delam_problem;   /* mesh, materials, laws, supports, loads, options: the scene */
-typedef struct delam_solver delam_solver;     /* operator, state and history of a march */
+typedef struct delam_context delam_context; /* messages, log, progress, cancel; what everything else is made with */
+typedef struct delam_mesh delam_mesh;       /* nodes, cells, bodies, interfaces */
+typedef struct delam_law delam_law;         /* how an interface holds together */
+typedef struct delam_problem delam_problem; /* mesh, materials, laws, supports, loads, options: the scene */
+typedef struct delam_solver delam_solver;   /* operator, state and history of a march */
 
 /* Product version "major.minor.patch".
  * [owns result static; status -; thread any; since 0.1] */
@@ -165,8 +165,8 @@ DELAM_API int32_t delam_context_cancel(delam_context *context);
 
 /* A mesh of nodes: [node_count][dimension], dimension 2 or 3, node_count >= 1.
  * [unit nodes L finite; null none; owns out caller; status argument; since 0.1] */
-DELAM_API int32_t delam_mesh_create(delam_context *context, int32_t dimension, int64_t node_count,
-                                    const double *nodes, delam_mesh **out);
+DELAM_API int32_t delam_mesh_create(delam_context *context, int32_t dimension, int64_t node_count, const double *nodes,
+                                    delam_mesh **out);
 
 /* Block of layers stacked along the last axis (y in 2D, z in 3D), each layer a body of its own with its own nodes,
  * body 0 at the bottom. The block starts at the origin.

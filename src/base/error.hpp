@@ -23,8 +23,9 @@ private:
     std::string text_;
 };
 
-// Joins its arguments into one message: text("node ", 17, " >= ", 12). Numbers keep all significant digits a person needs (6), in the
-// form of C, whatever the host's global locale is. Without memory it throws: a stream left to itself would cut the text short.
+// Joins its arguments into one message: text("node ", 17, " >= ", 12). Numbers keep all significant digits a person
+// needs (6), in the form of C, whatever the host's global locale is. Without memory it throws: a stream left to itself
+// would cut the text short.
 template <class... Parts>
 std::string text(const Parts&... parts) {
     std::ostringstream out;

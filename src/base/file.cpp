@@ -76,7 +76,8 @@ void write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
         refuse(path, what, number);
     };
     for (std::size_t at = 0; at < bytes.size();) {
-        const ssize_t written = ::write(file.number(), bytes.data() + at, std::min<std::size_t>(bytes.size() - at, std::size_t{1} << 30));
+        const ssize_t written =
+            ::write(file.number(), bytes.data() + at, std::min<std::size_t>(bytes.size() - at, std::size_t{1} << 30));
         if (written < 0 && errno != EINTR) give_up("cannot be written");
         if (written > 0) at += static_cast<std::size_t>(written);
     }

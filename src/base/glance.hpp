@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Looking up from loops over cells, nodes and faces that lie too deep for a Look to be handed down to each: the call that runs on this
-// thread says that it can be stopped, its loops glance at it.
+// Looking up from loops over cells, nodes and faces that lie too deep for a Look to be handed down to each: the call
+// that runs on this thread says that it can be stopped, its loops glance at it.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,9 @@ namespace delam {
 // As long as it lives, loops of this thread look up to the monitor.
 class Listening {
 public:
-    // What may stop the call. marches: the callback's answer and every request; one that was there before, too. builds: that answer and a
-    // request that comes meanwhile. reads: only such a request: who has stopped a march goes on saying so, and wants to read what there is.
+    // What may stop the call. marches: the callback's answer and every request; one that was there before, too. builds:
+    // that answer and a request that comes meanwhile. reads: only such a request: who has stopped a march goes on
+    // saying so, and wants to read what there is.
     enum class Call { marches, builds, reads };
     Listening(Monitor& monitor, Call call);
     ~Listening();
@@ -49,8 +50,9 @@ private:
     Listening* outer_;
 };
 
-// Once for each cell, face or node of a loop, which may be left there by an exception. work: what it costs, in cells' worth of a light loop
-// (a microsecond or less). Where nobody listens (other threads of the library, calls that cannot be stopped) nothing happens.
+// Once for each cell, face or node of a loop, which may be left there by an exception. work: what it costs, in cells'
+// worth of a light loop (a microsecond or less). Where nobody listens (other threads of the library, calls that cannot
+// be stopped) nothing happens.
 inline void glance(const char* stage, std::int64_t work = 1) {
     if (listening != nullptr) listening->pass(stage, work);
 }

@@ -40,7 +40,8 @@ Listening::~Listening() { listening = nullptr; }
 void Listening::look(const char* stage) {
     left_ = interval;
     if (call_ == Call::marches) return monitor_.progress(stage, 0, 0);
-    const bool told = monitor_.progress_callback != nullptr && monitor_.progress_callback(stage, 0, 0, monitor_.progress_user) != 0;
+    const bool told =
+        monitor_.progress_callback != nullptr && monitor_.progress_callback(stage, 0, 0, monitor_.progress_user) != 0;
     const bool asked = monitor_.requests_.load(std::memory_order_relaxed) != before_ && monitor_.asked_to_stop();
     if ((told && call_ == Call::builds) || asked) stop(stage);
 }

@@ -11,7 +11,8 @@
 
 namespace delam {
 
-// Asked for between parts of long work that knows no monitor: leaves by an exception when the host wants to stop. Empty: nobody asks.
+// Asked for between parts of long work that knows no monitor: leaves by an exception when the host wants to stop.
+// Empty: nobody asks.
 using Look = std::function<void()>;
 inline void ask(const Look& look) {
     if (look) look();
@@ -35,8 +36,8 @@ public:
 
 private:
     friend class Listening;
-    // Requests are counted, so that one that waited before a call can be told from one that comes while it runs. The first check that
-    // sees some answers them all; one of several threads that see them.
+    // Requests are counted, so that one that waited before a call can be told from one that comes while it runs. The
+    // first check that sees some answers them all; one of several threads that see them.
     bool asked_to_stop() {
         const std::uint32_t now = requests_.load(std::memory_order_relaxed);
         std::uint32_t answered = answered_.load(std::memory_order_relaxed);

@@ -70,11 +70,13 @@ void Team::serve() {
             begun_.wait(lock, [this] { return leaving_ || (work_ != nullptr && next_ < count_); });
             if (leaving_) return;
         }
-        while (step(false)) {}
+        while (step(false)) {
+        }
     }
 }
 
-void Team::run(std::int64_t count, const std::function<void(std::int64_t)>& work, const std::function<void(std::int64_t)>& before) {
+void Team::run(std::int64_t count, const std::function<void(std::int64_t)>& work,
+               const std::function<void(std::int64_t)>& before) {
     if (members_.empty()) {
         for (std::int64_t i = 0; i < count; ++i) {
             if (before) before(i);

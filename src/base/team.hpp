@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The library's own threads: made where a call needs them, gone when it returns. The caller's thread works too, so that a team of one has none of
-// its own. What is done must not depend on who does it.
+// The library's own threads: made where a call needs them, gone when it returns. The caller's thread works too, so that
+// a team of one has none of its own. What is done must not depend on who does it.
 #pragma once
 
 #include <condition_variable>
@@ -21,9 +21,11 @@ public:
     Team(const Team&) = delete;
     Team& operator=(const Team&) = delete;
 
-    // work(i) for i = 0 .. count-1, each once, in any order; returns when all are done. What the one with the smallest i throws is thrown here, and those
-    // not yet begun may be left out then. before: called on the caller's thread before each of its own pieces (progress, cancel).
-    void run(std::int64_t count, const std::function<void(std::int64_t)>& work, const std::function<void(std::int64_t done)>& before = {});
+    // work(i) for i = 0 .. count-1, each once, in any order; returns when all are done. What the one with the smallest
+    // i throws is thrown here, and those not yet begun may be left out then. before: called on the caller's thread
+    // before each of its own pieces (progress, cancel).
+    void run(std::int64_t count, const std::function<void(std::int64_t)>& work,
+             const std::function<void(std::int64_t done)>& before = {});
 
 private:
     void serve();

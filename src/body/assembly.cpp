@@ -236,7 +236,8 @@ std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> m
             Strain e = eigenstrain.empty() ? Strain{} : eigenstrain[body];
             if (axes != nullptr) e = rotated_strain(e, *axes);
             if (projected) {
-                const double third = dilatation_correction(mesh.cell_type(c), cell_coordinates(mesh, c).view(), u) / 3.0;
+                const double third =
+                    dilatation_correction(mesh.cell_type(c), cell_coordinates(mesh, c).view(), u) / 3.0;
                 for (std::size_t i = 0; i < 3; ++i) e[i] -= third;
             }
             if (dim == 3) {

@@ -17,7 +17,8 @@ constexpr std::size_t in_plane[] = {0, 1, 3}, out_of_plane[] = {2, 4, 5};  // xx
 std::size_t shear(std::size_t i, std::size_t j) { return i + j == 1 ? 3 : i + j == 3 ? 4 : 5; }
 
 // Integral of the strain over a cell, and its volume.
-double integrate(const Mesh& mesh, std::int64_t c, std::span<const double> displacement, std::array<double, 6>& strain) {
+double integrate(const Mesh& mesh, std::int64_t c, std::span<const double> displacement,
+                 std::array<double, 6>& strain) {
     const std::size_t dim = at(mesh.dimension());
     const auto cell = mesh.cell(c);
     std::vector<double> x;
@@ -31,12 +32,14 @@ double integrate(const Mesh& mesh, std::int64_t c, std::span<const double> displ
         for (std::size_t a = 0; a < cell.size(); ++a)
             for (std::size_t i = 0; i < dim; ++i)
                 for (std::size_t j = 0; j < dim; ++j)
-                    strain[i == j ? i : shear(i, j)] += part * g.gradient[a * dim + j] * displacement[at(cell[a]) * dim + i];
+                    strain[i == j ? i : shear(i, j)] +=
+                        part * g.gradient[a * dim + j] * displacement[at(cell[a]) * dim + i];
     }
     return volume;
 }
 
-// Strains out of the plane for which the stresses there vanish: C_oo e_o = -C_oi e_i, by elimination (C_oo is definite).
+// Strains out of the plane for which the stresses there vanish: C_oo e_o = -C_oi e_i, by elimination (C_oo is
+// definite).
 void relax(const SpaceElasticity& c, std::array<double, 6>& strain) {
     double m[3][4];
     for (std::size_t r = 0; r < 3; ++r) {

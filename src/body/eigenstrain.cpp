@@ -17,7 +17,8 @@ EigenstrainLoads eigenstrain_loads(const Mesh& mesh, std::span<const std::int64_
                                    std::span<const Strain> strains) {
     const std::size_t dim = at(mesh.dimension()), count = strains.size();
     constexpr std::size_t plane_row[] = {0, 1, 3};  // of xx, yy, 2xy among all six
-    EigenstrainLoads loads{{count, std::vector<double>(nodes.size() * dim, 0.0)}, std::vector<double>(count * count, 0.0)};
+    EigenstrainLoads loads{{count, std::vector<double>(nodes.size() * dim, 0.0)},
+                           std::vector<double>(count * count, 0.0)};
     if (count == 0) return loads;
     const bool stress_free = dim == 2 && model.plane == Plane::stress;
     CellElasticity elasticity(model, mesh.dimension());
@@ -42,7 +43,8 @@ EigenstrainLoads eigenstrain_loads(const Mesh& mesh, std::span<const std::int64_
             if (!stress_free) continue;
             stress[k] = {};
             for (std::size_t i = 0; i < 3; ++i)
-                for (std::size_t j = 0; j < 3; ++j) stress[k][plane_row[i]] += plane[i * 3 + j] * strain[k][plane_row[j]];
+                for (std::size_t j = 0; j < 3; ++j)
+                    stress[k][plane_row[i]] += plane[i * 3 + j] * strain[k][plane_row[j]];
         }
         for (std::size_t k = 0; k < count; ++k)
             for (std::size_t l = 0; l < count; ++l)
@@ -50,7 +52,8 @@ EigenstrainLoads eigenstrain_loads(const Mesh& mesh, std::span<const std::int64_
         for (std::size_t a = 0; a < cell.size(); ++a) {
             const auto node = std::lower_bound(nodes.begin(), nodes.end(), cell[a]);
             if (node == nodes.end() || *node != cell[a])
-                fail(DELAM_ERROR_INTERNAL, "node ", cell[a], " of cell ", c, " is not among the nodes to assemble over");
+                fail(DELAM_ERROR_INTERNAL, "node ", cell[a], " of cell ", c,
+                     " is not among the nodes to assemble over");
             const double* g = &integral[a * dim];
             double* f = nullptr;
             for (std::size_t k = 0; k < count; ++k) {

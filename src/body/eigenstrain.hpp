@@ -21,8 +21,8 @@ struct EigenstrainLoads {
     std::vector<double> energy;              // [strains][strains]: int e*_i : C : e*_j
 };
 
-// Of some cells of one body over the DOFs of `nodes` (assembly.hpp), for each of the strains (in material axes) alone. Plane stress: out
-// of the plane a strain is free and loads nothing.
+// Of some cells of one body over the DOFs of `nodes` (assembly.hpp), for each of the strains (in material axes) alone.
+// Plane stress: out of the plane a strain is free and loads nothing.
 EigenstrainLoads eigenstrain_loads(const Mesh& mesh, std::span<const std::int64_t> cells,
                                    std::span<const std::int64_t> nodes, const BodyModel& model,
                                    std::span<const Strain> strains);

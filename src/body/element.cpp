@@ -155,13 +155,13 @@ void contract(const Products<nodes, dim>& product, const double* elasticity, dou
     each_pair<nodes, dim>(product, block, k);
 }
 
-// Functions of the projected dilatation: constants for cells whose displacements are linear along their sides and for quadratic simplices,
-// linear functions of x for the other quadratic cells.
+// Functions of the projected dilatation: constants for cells whose displacements are linear along their sides and for
+// quadratic simplices, linear functions of x for the other quadratic cells.
 template <std::size_t nodes, std::size_t dim>
 constexpr std::size_t function_count = dim == 2 ? (nodes >= 8 ? 3 : 1) : (nodes == 20 ? 4 : 1);
 
-// H_m,ai = int p_m dN_a/dx_i dx and the Cholesky factor of M_mn = int p_m p_n dx, in V = L^-1 H:  int (P dN_a/dx_i)(P dN_b/dx_j) = V^T V.
-// p = 1, (x - x_0)/s with the centre x_0 and the size s of the cell.
+// H_m,ai = int p_m dN_a/dx_i dx and the Cholesky factor of M_mn = int p_m p_n dx, in V = L^-1 H:  int (P dN_a/dx_i)(P
+// dN_b/dx_j) = V^T V. p = 1, (x - x_0)/s with the centre x_0 and the size s of the cell.
 template <std::size_t nodes, std::size_t dim, std::size_t functions>
 struct Projection {
     double v[functions][nodes * dim] = {};
@@ -196,7 +196,8 @@ struct Projection {
                 for (std::size_t a = 0; a < nodes; ++a)
                     for (std::size_t i = 0; i < dim; ++i)
                         for (std::size_t c = 0; c < dim; ++c)
-                            v[m][a * dim + i] += gauss.weights[q] * p[m] * cofactor[i * dim + c] * reference[a * dim + c];
+                            v[m][a * dim + i] +=
+                                gauss.weights[q] * p[m] * cofactor[i * dim + c] * reference[a * dim + c];
             }
         }
         for (std::size_t m = 0; m < functions; ++m) {
@@ -226,11 +227,13 @@ struct Projection {
     }
 };
 
-// B-bar (T. Hughes, Int. J. Numer. Meth. Eng. 15, 1980; J. Nagtegaal, D. Parks, J. Rice, CMAME 4, 1974):  eps + 1/3 (P div u - div u) I. With
-// the products T of the gradients, R = T - V^T V of what the projection leaves out of them, c = C I and its trace,
+// B-bar (T. Hughes, Int. J. Numer. Meth. Eng. 15, 1980; J. Nagtegaal, D. Parks, J. Rice, CMAME 4, 1974):  eps + 1/3 (P
+// div u - div u) I. With the products T of the gradients, R = T - V^T V of what the projection leaves out of them, c =
+// C I and its trace,
 //   K_ai,bm = D : T  - 1/3 (c_ij R_aj,bm + R_ai,bl c_lm) + 1/9 (I:C:I) R_ai,bm.
 template <std::size_t nodes, std::size_t dim>
-void mean_dilatation(CellType type, const double* x, const double* elasticity, const Dilatation& dilatation, double* k) {
+void mean_dilatation(CellType type, const double* x, const double* elasticity, const Dilatation& dilatation,
+                     double* k) {
     constexpr std::size_t size = nodes * dim, functions = function_count<nodes, dim>;
     Products<nodes, dim> product{};
     gradient_products<nodes, dim, 0>(type, x, product);
@@ -245,7 +248,8 @@ void mean_dilatation(CellType type, const double* x, const double* elasticity, c
             for (std::size_t i = 0; i < dim; ++i)
                 for (std::size_t m = 0; m < dim; ++m) {
                     r[i][m] = product[(a * dim + i) * size + b * dim + m];
-                    for (std::size_t f = 0; f < functions; ++f) r[i][m] -= projection.v[f][a * dim + i] * projection.v[f][b * dim + m];
+                    for (std::size_t f = 0; f < functions; ++f)
+                        r[i][m] -= projection.v[f][a * dim + i] * projection.v[f][b * dim + m];
                 }
             for (std::size_t i = 0; i < dim; ++i)
                 for (std::size_t m = (a == b ? i : 0); m < dim; ++m) {
@@ -333,15 +337,24 @@ void element_stiffness(CellType type, std::span<const double> coordinates, std::
     double* k = matrix.data();
     const bool modes = formulation == Formulation::incompatible;
     switch (type) {
-        case CellType::tri3: return standard<3, 2>(type, x, d, k);
-        case CellType::quad4: return modes ? incompatible<4, 2>(type, x, d, k) : standard<4, 2>(type, x, d, k);
-        case CellType::tet4: return standard<4, 3>(type, x, d, k);
-        case CellType::hex8: return modes ? incompatible<8, 3>(type, x, d, k) : standard<8, 3>(type, x, d, k);
-        case CellType::tri6: return standard<6, 2>(type, x, d, k);
-        case CellType::quad8: return standard<8, 2>(type, x, d, k);
-        case CellType::quad9: return standard<9, 2>(type, x, d, k);
-        case CellType::tet10: return standard<10, 3>(type, x, d, k);
-        case CellType::hex20: return standard<20, 3>(type, x, d, k);
+        case CellType::tri3:
+            return standard<3, 2>(type, x, d, k);
+        case CellType::quad4:
+            return modes ? incompatible<4, 2>(type, x, d, k) : standard<4, 2>(type, x, d, k);
+        case CellType::tet4:
+            return standard<4, 3>(type, x, d, k);
+        case CellType::hex8:
+            return modes ? incompatible<8, 3>(type, x, d, k) : standard<8, 3>(type, x, d, k);
+        case CellType::tri6:
+            return standard<6, 2>(type, x, d, k);
+        case CellType::quad8:
+            return standard<8, 2>(type, x, d, k);
+        case CellType::quad9:
+            return standard<9, 2>(type, x, d, k);
+        case CellType::tet10:
+            return standard<10, 3>(type, x, d, k);
+        case CellType::hex20:
+            return standard<20, 3>(type, x, d, k);
     }
 }
 
@@ -352,14 +365,22 @@ void mean_dilatation_stiffness(CellType type, std::span<const double> coordinate
     double* k = matrix.data();
     switch (type) {
         case CellType::tri3:
-        case CellType::tet4: return element_stiffness(type, coordinates, elasticity, Formulation::standard, matrix);
-        case CellType::quad4: return mean_dilatation<4, 2>(type, x, d, dilatation, k);
-        case CellType::hex8: return mean_dilatation<8, 3>(type, x, d, dilatation, k);
-        case CellType::tri6: return mean_dilatation<6, 2>(type, x, d, dilatation, k);
-        case CellType::quad8: return mean_dilatation<8, 2>(type, x, d, dilatation, k);
-        case CellType::quad9: return mean_dilatation<9, 2>(type, x, d, dilatation, k);
-        case CellType::tet10: return mean_dilatation<10, 3>(type, x, d, dilatation, k);
-        case CellType::hex20: return mean_dilatation<20, 3>(type, x, d, dilatation, k);
+        case CellType::tet4:
+            return element_stiffness(type, coordinates, elasticity, Formulation::standard, matrix);
+        case CellType::quad4:
+            return mean_dilatation<4, 2>(type, x, d, dilatation, k);
+        case CellType::hex8:
+            return mean_dilatation<8, 3>(type, x, d, dilatation, k);
+        case CellType::tri6:
+            return mean_dilatation<6, 2>(type, x, d, dilatation, k);
+        case CellType::quad8:
+            return mean_dilatation<8, 2>(type, x, d, dilatation, k);
+        case CellType::quad9:
+            return mean_dilatation<9, 2>(type, x, d, dilatation, k);
+        case CellType::tet10:
+            return mean_dilatation<10, 3>(type, x, d, dilatation, k);
+        case CellType::hex20:
+            return mean_dilatation<20, 3>(type, x, d, dilatation, k);
     }
 }
 
@@ -368,15 +389,24 @@ double dilatation_correction(CellType type, std::span<const double> coordinates,
     const double* u = displacement.data();
     const auto projected = [&]() -> double {
         switch (type) {
-            case CellType::tri3: return projected_dilatation<3, 2>(type, x, u);
-            case CellType::tet4: return projected_dilatation<4, 3>(type, x, u);
-            case CellType::quad4: return projected_dilatation<4, 2>(type, x, u);
-            case CellType::hex8: return projected_dilatation<8, 3>(type, x, u);
-            case CellType::tri6: return projected_dilatation<6, 2>(type, x, u);
-            case CellType::quad8: return projected_dilatation<8, 2>(type, x, u);
-            case CellType::quad9: return projected_dilatation<9, 2>(type, x, u);
-            case CellType::tet10: return projected_dilatation<10, 3>(type, x, u);
-            case CellType::hex20: return projected_dilatation<20, 3>(type, x, u);
+            case CellType::tri3:
+                return projected_dilatation<3, 2>(type, x, u);
+            case CellType::tet4:
+                return projected_dilatation<4, 3>(type, x, u);
+            case CellType::quad4:
+                return projected_dilatation<4, 2>(type, x, u);
+            case CellType::hex8:
+                return projected_dilatation<8, 3>(type, x, u);
+            case CellType::tri6:
+                return projected_dilatation<6, 2>(type, x, u);
+            case CellType::quad8:
+                return projected_dilatation<8, 2>(type, x, u);
+            case CellType::quad9:
+                return projected_dilatation<9, 2>(type, x, u);
+            case CellType::tet10:
+                return projected_dilatation<10, 3>(type, x, u);
+            case CellType::hex20:
+                return projected_dilatation<20, 3>(type, x, u);
         }
         return 0.0;
     };
@@ -388,15 +418,24 @@ double integrate_gradients(CellType type, std::span<const double> coordinates, s
     const double* x = coordinates.data();
     double* g = integral.data();
     switch (type) {
-        case CellType::tri3: return gradient_integrals<3, 2>(type, x, g);
-        case CellType::quad4: return gradient_integrals<4, 2>(type, x, g);
-        case CellType::tet4: return gradient_integrals<4, 3>(type, x, g);
-        case CellType::hex8: return gradient_integrals<8, 3>(type, x, g);
-        case CellType::tri6: return gradient_integrals<6, 2>(type, x, g);
-        case CellType::quad8: return gradient_integrals<8, 2>(type, x, g);
-        case CellType::quad9: return gradient_integrals<9, 2>(type, x, g);
-        case CellType::tet10: return gradient_integrals<10, 3>(type, x, g);
-        case CellType::hex20: return gradient_integrals<20, 3>(type, x, g);
+        case CellType::tri3:
+            return gradient_integrals<3, 2>(type, x, g);
+        case CellType::quad4:
+            return gradient_integrals<4, 2>(type, x, g);
+        case CellType::tet4:
+            return gradient_integrals<4, 3>(type, x, g);
+        case CellType::hex8:
+            return gradient_integrals<8, 3>(type, x, g);
+        case CellType::tri6:
+            return gradient_integrals<6, 2>(type, x, g);
+        case CellType::quad8:
+            return gradient_integrals<8, 2>(type, x, g);
+        case CellType::quad9:
+            return gradient_integrals<9, 2>(type, x, g);
+        case CellType::tet10:
+            return gradient_integrals<10, 3>(type, x, g);
+        case CellType::hex20:
+            return gradient_integrals<20, 3>(type, x, g);
     }
     return 0.0;
 }

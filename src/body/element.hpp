@@ -18,8 +18,9 @@ namespace delam {
 void element_stiffness(CellType type, std::span<const double> coordinates, std::span<const double> elasticity,
                        Formulation formulation, std::span<double> matrix);
 
-// The same with the dilatation replaced by its projection (element.cpp). elasticity: of the dimension, plane strain; dilatation: the stresses
-// xx, yy(, zz), xy(, yz, zx) of the strain xx = yy = zz = 1, in the order of elasticity; bulk: their part sigma_xx + sigma_yy + sigma_zz.
+// The same with the dilatation replaced by its projection (element.cpp). elasticity: of the dimension, plane strain;
+// dilatation: the stresses xx, yy(, zz), xy(, yz, zx) of the strain xx = yy = zz = 1, in the order of elasticity; bulk:
+// their part sigma_xx + sigma_yy + sigma_zz.
 struct Dilatation {
     std::array<double, 6> stress{};
     double bulk = 0.0;

@@ -56,7 +56,8 @@ double diagonal(const SparseMatrix& k, std::int64_t row) {
 }
 
 // K Q of some nodes' DOFs; entries to other nodes are zero.
-DenseMatrix forces(const SparseMatrix& k, std::span<const std::int64_t> nodes, std::int64_t dim, const DenseMatrix& motions) {
+DenseMatrix forces(const SparseMatrix& k, std::span<const std::int64_t> nodes, std::int64_t dim,
+                   const DenseMatrix& motions) {
     std::vector<double> u(index(k.rows), 0.0);
     DenseMatrix f(motions.rows, motions.columns);
     for (std::int64_t c = 0; c < motions.columns; ++c) {
@@ -64,7 +65,8 @@ DenseMatrix forces(const SparseMatrix& k, std::span<const std::int64_t> nodes, s
         for (std::int64_t i = 0; i < motions.rows; ++i) {
             const std::int64_t row = nodes[index(i / dim)] * dim + i % dim;
             double sum = 0.0;
-            for (std::int64_t e = k.start[index(row)]; e < k.start[index(row) + 1]; ++e) sum += k.value[index(e)] * u[index(k.column[index(e)])];
+            for (std::int64_t e = k.start[index(row)]; e < k.start[index(row) + 1]; ++e)
+                sum += k.value[index(e)] * u[index(k.column[index(e)])];
             f(i, c) = sum;
         }
     }
@@ -73,12 +75,14 @@ DenseMatrix forces(const SparseMatrix& k, std::span<const std::int64_t> nodes, s
 
 DenseMatrix some_columns(const DenseMatrix& q, const DenseMatrix& combination, std::int64_t first, std::int64_t last) {
     DenseMatrix part(combination.rows, last - first);
-    std::copy(combination.value.begin() + combination.rows * first, combination.value.begin() + combination.rows * last, part.value.begin());
+    std::copy(combination.value.begin() + combination.rows * first, combination.value.begin() + combination.rows * last,
+              part.value.begin());
     return multiply(q, part);
 }
 
 // D Q of some nodes' DOFs, D the diagonal of K: the forces that would be if all else were held.
-DenseMatrix diagonal_forces(const SparseMatrix& k, std::span<const std::int64_t> nodes, std::int64_t dim, const DenseMatrix& motions) {
+DenseMatrix diagonal_forces(const SparseMatrix& k, std::span<const std::int64_t> nodes, std::int64_t dim,
+                            const DenseMatrix& motions) {
     DenseMatrix f = motions;
     for (std::int64_t i = 0; i < f.rows; ++i) {
         const double d = diagonal(k, nodes[index(i / dim)] * dim + i % dim);
@@ -87,7 +91,8 @@ DenseMatrix diagonal_forces(const SparseMatrix& k, std::span<const std::int64_t>
     return f;
 }
 
-// Pieces without a free motion need not be told apart: nodes that the host has cut off for supports of its own may be many.
+// Pieces without a free motion need not be told apart: nodes that the host has cut off for supports of its own may be
+// many.
 void unite_held_pieces(HostStiffness& own, std::int64_t dim) {
     HostPiece united;
     std::vector<HostPiece> pieces;
@@ -105,8 +110,9 @@ void unite_held_pieces(HostStiffness& own, std::int64_t dim) {
     own.pieces = std::move(pieces);
 }
 
-// With as many DOFs held as there are free motions, a solid has no motion without energy left. Judged with a unit diagonal: what one row is soft beside
-// another says nothing (rows that the host has emptied have whatever number it likes).
+// With as many DOFs held as there are free motions, a solid has no motion without energy left. Judged with a unit
+// diagonal: what one row is soft beside another says nothing (rows that the host has emptied have whatever number it
+// likes).
 void refuse_mechanisms(const Mesh& mesh, std::int32_t body, const HostStiffness& own, Monitor& monitor) {
     const std::int64_t dim = mesh.dimension();
     const std::vector<std::int64_t> nodes = mesh.body_nodes(body);
@@ -119,7 +125,8 @@ void refuse_mechanisms(const Mesh& mesh, std::int32_t body, const HostStiffness&
         const PivotedColumns pivots = pivoted_columns(std::move(rows), 1e-12);
         for (std::int64_t c = 0; c < piece.free.columns; ++c) {
             const std::int64_t dof = pivots.order[index(c)];
-            const auto local = std::lower_bound(nodes.begin(), nodes.end(), piece.nodes[index(dof / dim)]) - nodes.begin();
+            const auto local =
+                std::lower_bound(nodes.begin(), nodes.end(), piece.nodes[index(dof / dim)]) - nodes.begin();
             place[index(local * dim + dof % dim)] = -1;
         }
     }
@@ -149,12 +156,15 @@ void refuse_mechanisms(const Mesh& mesh, std::int32_t body, const HostStiffness&
     const SparseCholesky::Pivot pivot = factor.smallest_pivot();
     if (pivot.variable < 0 || pivot.ratio > mechanism) return;
     const std::int64_t dof = kept[index(pivot.variable)];
-    fail(DELAM_ERROR_ARGUMENT, "body ", mesh.body_label(body), ": with its rigid motions held its stiffness is not positive definite (pivot ratio ", pivot.ratio,
-         ", allowed > ", mechanism, ") at node ", nodes[index(dof / dim)], ", component ", dof % dim, ": a mechanism, or an indefinite matrix");
+    fail(DELAM_ERROR_ARGUMENT, "body ", mesh.body_label(body),
+         ": with its rigid motions held its stiffness is not positive definite (pivot ratio ", pivot.ratio,
+         ", allowed > ", mechanism, ") at node ", nodes[index(dof / dim)], ", component ", dof % dim,
+         ": a mechanism, or an indefinite matrix");
 }
 
-// The matrix to judge rigid motions by: in a solid that is free no diagonal entry is larger than the others of its row together. What is more is a support of
-// the host's (a penalty, a number on an emptied row), of which it matters that it is there; were it 1e25, all else would be rounding beside it.
+// The matrix to judge rigid motions by: in a solid that is free no diagonal entry is larger than the others of its row
+// together. What is more is a support of the host's (a penalty, a number on an emptied row), of which it matters that
+// it is there; were it 1e25, all else would be rounding beside it.
 SparseMatrix with_tame_supports(SparseMatrix k, std::int64_t dim) {
     const auto entry = [&](std::int64_t row) -> double& {
         const auto begin = k.column.begin() + k.start[index(row)], end = k.column.begin() + k.start[index(row) + 1];
@@ -177,11 +187,12 @@ SparseMatrix with_tame_supports(SparseMatrix k, std::int64_t dim) {
 
 // The rigid motions of a piece in another basis: those that are free, then those that are held, orthogonal to them.
 struct Split {
-    DenseMatrix combination;      // [rigid motions][rigid motions], of the orthonormal columns of q
+    DenseMatrix combination;  // [rigid motions][rigid motions], of the orthonormal columns of q
     std::int64_t free_count = 0;
 };
 
-// From any vectors that span the free ones; those that are less than told_tolerance of the others' lengths span nothing.
+// From any vectors that span the free ones; those that are less than told_tolerance of the others' lengths span
+// nothing.
 Split split_by(const DenseMatrix& free) {
     DenseMatrix span(free.rows, free.rows);  // less than zero on what they span: its eigenvectors come first
     for (std::int64_t c = 0; c < free.columns; ++c) {
@@ -199,9 +210,12 @@ Split split_by(const DenseMatrix& free) {
 }
 
 // By their energy over that of the diagonal alone: x.A x / x.B x, A = Q^T K Q, B = Q^T D Q = L L^T.
-Split found_split(const SparseMatrix& k, std::span<const std::int64_t> local, std::int64_t dim, const DenseMatrix& q, const std::string& where) {
-    DenseMatrix energy = multiply_transposed(q, forces(k, local, dim, q)), lower = multiply_transposed(q, diagonal_forces(k, local, dim, q));
-    if (!factor_definite(lower)) fail(DELAM_ERROR_ARGUMENT, where, ": diagonal entries that are too far apart, by more than 1e16");
+Split found_split(const SparseMatrix& k, std::span<const std::int64_t> local, std::int64_t dim, const DenseMatrix& q,
+                  const std::string& where) {
+    DenseMatrix energy = multiply_transposed(q, forces(k, local, dim, q)),
+                lower = multiply_transposed(q, diagonal_forces(k, local, dim, q));
+    if (!factor_definite(lower))
+        fail(DELAM_ERROR_ARGUMENT, where, ": diagonal entries that are too far apart, by more than 1e16");
     for (int side = 0; side < 2; ++side) {  // L^-1 A, then L^-1 of its transpose
         solve_lower(lower, energy);
         for (std::int64_t i = 0; i < q.columns; ++i)
@@ -213,12 +227,17 @@ Split found_split(const SparseMatrix& k, std::span<const std::int64_t> local, st
     DenseMatrix free(q.columns, 0);
     for (std::int64_t e = 0; e < q.columns; ++e) {
         const double ratio = eigen.value[index(e)];
-        if (ratio < -resisted) fail(DELAM_ERROR_ARGUMENT, where, ": a rigid motion has an energy < 0, ", ratio, " of the diagonal's: the matrix is indefinite");
+        if (ratio < -resisted)
+            fail(DELAM_ERROR_ARGUMENT, where, ": a rigid motion has an energy < 0, ", ratio,
+                 " of the diagonal's: the matrix is indefinite");
         if (std::abs(ratio) > rounding) {
             if (ratio >= resisted) continue;
-            fail(DELAM_ERROR_ARGUMENT, where, ": a rigid motion costs ", ratio, " of the energy of the diagonal, between ", rounding, " (free) and ", resisted, " (held): tell the kernel");
+            fail(DELAM_ERROR_ARGUMENT, where, ": a rigid motion costs ", ratio,
+                 " of the energy of the diagonal, between ", rounding, " (free) and ", resisted,
+                 " (held): tell the kernel");
         }
-        std::vector<double> x(eigen.vector.value.begin() + e * q.columns, eigen.vector.value.begin() + (e + 1) * q.columns);
+        std::vector<double> x(eigen.vector.value.begin() + e * q.columns,
+                              eigen.vector.value.begin() + (e + 1) * q.columns);
         solve_lower_transposed(lower, x);
         free.value.insert(free.value.end(), x.begin(), x.end());
         ++free.columns;
@@ -227,7 +246,8 @@ Split found_split(const SparseMatrix& k, std::span<const std::int64_t> local, st
 }
 
 // By what the host tells, as far as it moves the piece.
-Split told_split(const SparseMatrix& k, std::span<const std::int64_t> local, std::int64_t dim, const DenseMatrix& q, const DenseMatrix& told, const std::string& where) {
+Split told_split(const SparseMatrix& k, std::span<const std::int64_t> local, std::int64_t dim, const DenseMatrix& q,
+                 const DenseMatrix& told, const std::string& where) {
     DenseMatrix own(q.rows, told.columns);
     for (std::int64_t c = 0; c < own.columns; ++c) {
         double largest_part = 0.0;  // a motion may be told in any size
@@ -248,17 +268,19 @@ Split told_split(const SparseMatrix& k, std::span<const std::int64_t> local, std
             most += held(i, c) * held(i, c);
         }
         if (std::sqrt(off) > told_tolerance * std::sqrt(length))
-            fail(DELAM_ERROR_ARGUMENT, "kernel[", c, "] is no rigid motion of ", where, " (", std::sqrt(off / length), " of it is not; allowed ", told_tolerance, ")");
+            fail(DELAM_ERROR_ARGUMENT, "kernel[", c, "] is no rigid motion of ", where, " (", std::sqrt(off / length),
+                 " of it is not; allowed ", told_tolerance, ")");
         if (std::sqrt(pull) > told_tolerance * std::sqrt(most))
-            fail(DELAM_ERROR_ARGUMENT, "kernel[", c, "] takes forces of ", std::sqrt(pull / most), " of those of the diagonal alone to move ", where, "; allowed ",
-                 told_tolerance);
+            fail(DELAM_ERROR_ARGUMENT, "kernel[", c, "] takes forces of ", std::sqrt(pull / most),
+                 " of those of the diagonal alone to move ", where, "; allowed ", told_tolerance);
     }
     return split_by(share);
 }
 
 }  // namespace
 
-HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix matrix, const ToldKernel& kernel, Monitor& monitor) {
+HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix matrix, const ToldKernel& kernel,
+                             Monitor& monitor) {
     const std::int64_t dim = mesh.dimension(), rigid = dim == 2 ? 3 : 6;
     const std::vector<std::int64_t> nodes = mesh.body_nodes(body);
     HostStiffness made;
@@ -269,14 +291,18 @@ HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix m
         monitor.progress("stiffness", 0, 0);
         HostPiece piece;
         for (const std::int64_t i : local) piece.nodes.push_back(nodes[index(i)]);
-        const std::string where = text("body ", mesh.body_label(body), ", the ", local.size(), " nodes that hang together with node ", piece.nodes.front());
+        const std::string where = text("body ", mesh.body_label(body), ", the ", local.size(),
+                                       " nodes that hang together with node ", piece.nodes.front());
         DenseMatrix q(dim * static_cast<std::int64_t>(local.size()), 0);
         q.value = rigid_modes(mesh, piece.nodes);
         q.columns = static_cast<std::int64_t>(q.value.size()) / q.rows;
-        const Split split = kernel.told ? told_split(judged, local, dim, q, kernel.motions, where) : found_split(judged, local, dim, q, where);
-        // A node alone, whose rows the host has emptied for supports of its own, has translations only; its own diagonal resists them.
+        const Split split = kernel.told ? told_split(judged, local, dim, q, kernel.motions, where)
+                                        : found_split(judged, local, dim, q, where);
+        // A node alone, whose rows the host has emptied for supports of its own, has translations only; its own
+        // diagonal resists them.
         if (split.free_count > 0 && q.columns < rigid)
-            fail(DELAM_ERROR_ARGUMENT, where, ", lie on one ", dim == 2 ? "point" : "line", ": they are no solid, whose rigid motions are ", rigid);
+            fail(DELAM_ERROR_ARGUMENT, where, ", lie on one ", dim == 2 ? "point" : "line",
+                 ": they are no solid, whose rigid motions are ", rigid);
         piece.free = some_columns(q, split.combination, 0, split.free_count);
         piece.held = some_columns(q, split.combination, split.free_count, q.columns);
         free_motions += split.free_count;
@@ -285,11 +311,13 @@ HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix m
     // Motions told of several bodies at once may leave this one at rest.
     std::int64_t moving = 0;
     for (std::int64_t c = 0; c < kernel.motions.columns; ++c) {
-        const auto motion = std::span(kernel.motions.value).subspan(index(c * kernel.motions.rows), index(kernel.motions.rows));
+        const auto motion =
+            std::span(kernel.motions.value).subspan(index(c * kernel.motions.rows), index(kernel.motions.rows));
         moving += std::any_of(motion.begin(), motion.end(), [](double u) { return u != 0.0; }) ? 1 : 0;
     }
     if (kernel.told && free_motions < moving && made.pieces.size() == 1)
-        fail(DELAM_ERROR_ARGUMENT, "kernel: of ", moving, " motions of body ", mesh.body_label(body), " only ", free_motions, " are independent");
+        fail(DELAM_ERROR_ARGUMENT, "kernel: of ", moving, " motions of body ", mesh.body_label(body), " only ",
+             free_motions, " are independent");
     refuse_mechanisms(mesh, body, made, monitor);
     unite_held_pieces(made, dim);
     return made;

@@ -19,7 +19,8 @@ struct Elastic {
 };
 
 // Three planes of symmetry, normal to the material axes 1, 2, 3. nu_ij: contraction along j under tension along i, so
-// nu_ij / E_i = nu_ji / E_j. Transversely isotropic about 1: E3 = E2, nu13 = nu12, G13 = G12, G23 = E2 / (2 (1 + nu23)).
+// nu_ij / E_i = nu_ji / E_j. Transversely isotropic about 1: E3 = E2, nu13 = nu12, G13 = G12, G23 = E2 / (2 (1 +
+// nu23)).
 struct Orthotropic {
     enum Constant { e1, e2, e3, nu12, nu13, nu23, g12, g13, g23 };
     std::array<double, 9> constant{};

@@ -7,9 +7,12 @@ namespace delam {
 
 const char* name_of(Formulation formulation) {
     switch (formulation) {
-        case Formulation::standard: return "standard";
-        case Formulation::incompatible: return "incompatible";
-        case Formulation::mean_dilatation: return "mean-dilatation";
+        case Formulation::standard:
+            return "standard";
+        case Formulation::incompatible:
+            return "incompatible";
+        case Formulation::mean_dilatation:
+            return "mean-dilatation";
     }
     return "";
 }
@@ -24,8 +27,10 @@ void require_formulation(const Mesh& mesh, std::int32_t body, Formulation formul
         const bool has_one_strain = type == CellType::tri3 || type == CellType::tet4;
         if (modes ? has_modes : !has_one_strain) continue;
         fail(status, "formulation '", name_of(formulation), "' of body ", mesh.body_label(body), ": cell ", c, " is a ",
-             topology(type).name, modes ? ", it is for quad4 and hex8 only"
-                                        : ", whose dilatation is constant already: it locks all the same; use quadratic cells, quad4 or hex8");
+             topology(type).name,
+             modes
+                 ? ", it is for quad4 and hex8 only"
+                 : ", whose dilatation is constant already: it locks all the same; use quadratic cells, quad4 or hex8");
     }
 }
 

@@ -11,8 +11,8 @@
 
 namespace delam {
 
-// incompatible: quad4 and hex8 with internal bending modes. mean_dilatation: the dilatation projected onto few functions of the cell,
-// for nearly incompressible bodies (element.cpp).
+// incompatible: quad4 and hex8 with internal bending modes. mean_dilatation: the dilatation projected onto few
+// functions of the cell, for nearly incompressible bodies (element.cpp).
 enum class Formulation { standard, incompatible, mean_dilatation };
 const char* name_of(Formulation formulation);
 

@@ -24,7 +24,8 @@ std::vector<double> centre_rotation(const Mesh& mesh, std::span<const double> di
         std::array<std::array<double, 3>, 3> slope{};  // du_i/dx_j
         for (std::size_t a = 0; a < cell.size(); ++a)
             for (std::size_t i = 0; i < dim; ++i)
-                for (std::size_t j = 0; j < dim; ++j) slope[i][j] += g.gradient[a * dim + j] * displacement[at(cell[a]) * dim + i];
+                for (std::size_t j = 0; j < dim; ++j)
+                    slope[i][j] += g.gradient[a * dim + j] * displacement[at(cell[a]) * dim + i];
         for (std::size_t axis = dim == 2 ? 2 : 0; axis < 3; ++axis) {
             const std::size_t i = (axis + 1) % 3, j = (axis + 2) % 3;
             rotation.push_back(0.5 * (slope[j][i] - slope[i][j]));

@@ -49,7 +49,8 @@ std::vector<std::int64_t> require_indices(const std::int64_t* values, std::int64
     std::vector<std::int64_t> list(values, values + count);
     for (std::int64_t i = 0; i < count; ++i) {
         std::int64_t& value = list[static_cast<std::size_t>(i)];
-        if (value < index_base || value - index_base >= size) require_index(value, size, index_base, text(name, "[", i, "]"));
+        if (value < index_base || value - index_base >= size)
+            require_index(value, size, index_base, text(name, "[", i, "]"));
         value -= index_base;
     }
     return list;

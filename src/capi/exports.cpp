@@ -136,10 +136,12 @@ const char* delam_problem_pattern_name(const delam_problem* problem, int64_t pat
     return name;
 }
 
-int32_t delam_problem_process_zone(const delam_problem* problem, int64_t interface_index, double* length, double* spacing) {
+int32_t delam_problem_process_zone(const delam_problem* problem, int64_t interface_index, double* length,
+                                   double* spacing) {
     return guard_read(problem, [&] {
         const auto count = static_cast<std::int64_t>(problem->core->interfaces.size());
-        const ProcessZone zone = predicted_process_zone(*problem->core, require_index(interface_index, count, 0, "interface_index"));
+        const ProcessZone zone =
+            predicted_process_zone(*problem->core, require_index(interface_index, count, 0, "interface_index"));
         if (length != nullptr) *length = zone.length;
         if (spacing != nullptr) *spacing = zone.spacing;
     });

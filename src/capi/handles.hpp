@@ -97,7 +97,7 @@ struct delam_solver : delam::Handle<delam::magic_solver, delam::Solver> {
     std::vector<std::string> value_names;  // texts that delam_solver_value_name and delam_solver_plan hand out
     std::vector<delam::PlanItem> plan;     // kept likewise for delam_solver_plan_item
     std::string plan_words;
-    mutable std::string option;            // handed out by delam_solver_option
+    mutable std::string option;  // handed out by delam_solver_option
 };
 
 namespace delam {
@@ -122,7 +122,9 @@ inline std::int32_t report(Context& context, std::int32_t status, const char* wh
 // From inside a callback. The log does not hear of it, which may be the one that asks.
 inline std::int32_t refuse_callback(Context& context) noexcept {
     try {
-        context.message = "called from inside a callback of the same context, or from another thread while it is at work: delam_context_cancel alone may be";
+        context.message =
+            "called from inside a callback of the same context, or from another thread while it is at work: "
+            "delam_context_cancel alone may be";
     } catch (...) {
         context.message.clear();
     }

@@ -36,7 +36,9 @@ const LawParameter& require_parameter(const Law& law, const std::string& key, co
     if (found != nullptr) {
         const std::string own = found->type;
         fail(DELAM_ERROR_ARGUMENT, "law parameter '", key, "' is a ",
-             own == "real" ? "number: delam_law_set" : own == "text" ? "text: delam_law_set_text" : "table: delam_law_set_table");
+             own == "real"   ? "number: delam_law_set"
+             : own == "text" ? "text: delam_law_set_text"
+                             : "table: delam_law_set_table");
     }
     const std::string known = known_parameters(law, type);
     for (const LawParameter& p : law_parameters()) {

@@ -65,7 +65,8 @@ public:
     void add(std::int64_t node, std::int64_t component, double coefficient) {
         if (coefficient == 0.0) return;
         const auto& ties = mesh_.ties();
-        const auto tie = std::lower_bound(ties.begin(), ties.end(), node, [](const NodeTie& t, std::int64_t n) { return t.node < n; });
+        const auto tie = std::lower_bound(ties.begin(), ties.end(), node,
+                                          [](const NodeTie& t, std::int64_t n) { return t.node < n; });
         if (tie == ties.end() || tie->node != node) {
             sum_[mesh_.dimension() * node + component] += coefficient;
             return;
@@ -94,10 +95,14 @@ private:
 
 const char* name_of(Pattern::Drives drives) {
     switch (drives) {
-        case Pattern::Drives::nothing: return "nothing";
-        case Pattern::Drives::displacement: return "prescribed displacements";
-        case Pattern::Drives::force: return "forces";
-        case Pattern::Drives::strain: return "eigenstrains";
+        case Pattern::Drives::nothing:
+            return "nothing";
+        case Pattern::Drives::displacement:
+            return "prescribed displacements";
+        case Pattern::Drives::force:
+            return "forces";
+        case Pattern::Drives::strain:
+            return "eigenstrains";
     }
     return "";
 }
@@ -263,16 +268,17 @@ int32_t delam_problem_prescribe_mean(delam_problem* problem, int64_t count, cons
                 fail(DELAM_ERROR_ARGUMENT, "nodes: node ", members[i].first + index_base, " is listed twice");
             }
             glance("loads");
-            for (std::int64_t d = 0; d < dimension; ++d) terms.add(members[i].first, d, members[i].second / sum * unit[size(d)]);
+            for (std::int64_t d = 0; d < dimension; ++d)
+                terms.add(members[i].first, d, members[i].second / sum * unit[size(d)]);
         }
         core.constraints.push_back(terms.constraint(prescribed(core, list, coefficients)));
         mark(core, list, Pattern::Drives::displacement);
     });
 }
 
-int32_t delam_problem_add_equation(delam_problem* problem, int64_t count, const int64_t* nodes, const double* coefficients,
-                                   int64_t pattern_count, const int64_t* patterns, const double* prescribed_values,
-                                   int32_t index_base) {
+int32_t delam_problem_add_equation(delam_problem* problem, int64_t count, const int64_t* nodes,
+                                   const double* coefficients, int64_t pattern_count, const int64_t* patterns,
+                                   const double* prescribed_values, int32_t index_base) {
     return guard_build(problem, [&] {
         Problem& core = *problem->core;
         const std::int64_t dimension = core.mesh->dimension();
@@ -310,24 +316,28 @@ int32_t delam_problem_add_periodic(delam_problem* problem, int64_t period_count,
         const std::int64_t dimension = core.mesh->dimension();
         require_base(index_base);
         require_count(period_count, "period_count", 1);
-        if (period_count > dimension) fail(DELAM_ERROR_ARGUMENT, "period_count = ", period_count, ": must be in 1..", dimension);
+        if (period_count > dimension)
+            fail(DELAM_ERROR_ARGUMENT, "period_count = ", period_count, ": must be in 1..", dimension);
         require_array(periods, period_count, "periods");
         require_array(control_nodes, period_count, "control_nodes");
         require_finite(periods, period_count * dimension, "periods");
-        if (!(tolerance >= 0.0 && tolerance < 0.5)) fail(DELAM_ERROR_ARGUMENT, "tolerance = ", tolerance, ": must be in 0 .. 0.5");
+        if (!(tolerance >= 0.0 && tolerance < 0.5))
+            fail(DELAM_ERROR_ARGUMENT, "tolerance = ", tolerance, ": must be in 0 .. 0.5");
         std::vector<std::int64_t> controls;
         for (std::int64_t k = 0; k < period_count; ++k) {
-            const std::int64_t node = require_node(*core.mesh, control_nodes[k], index_base, text("control_nodes[", k, "]"));
+            const std::int64_t node =
+                require_node(*core.mesh, control_nodes[k], index_base, text("control_nodes[", k, "]"));
             const auto& ties = core.mesh->ties();
             const bool tied = std::any_of(ties.begin(), ties.end(), [&](const NodeTie& t) { return t.node == node; });
             if (core.mesh->node_body(node) >= 0 || tied)
-                fail(DELAM_ERROR_ARGUMENT, "control_nodes[", k, "] = ", control_nodes[k], tied ? " is a tied node" : " belongs to cells",
-                     ": must be a node of its own");
+                fail(DELAM_ERROR_ARGUMENT, "control_nodes[", k, "] = ", control_nodes[k],
+                     tied ? " is a tied node" : " belongs to cells", ": must be a node of its own");
             if (std::find(controls.begin(), controls.end(), node) != controls.end())
                 fail(DELAM_ERROR_ARGUMENT, "control_nodes[", k, "] = ", control_nodes[k], " is listed twice");
             controls.push_back(node);
         }
-        const auto pairs = periodic_pairs(*core.mesh, {periods, size(period_count * dimension)}, tolerance == 0.0 ? 1e-6 : tolerance);
+        const auto pairs =
+            periodic_pairs(*core.mesh, {periods, size(period_count * dimension)}, tolerance == 0.0 ? 1e-6 : tolerance);
         std::vector<Constraint> added;
         for (const PeriodicPair& pair : pairs)
             for (std::int64_t d = 0; d < dimension; ++d) {
@@ -337,7 +347,8 @@ int32_t delam_problem_add_periodic(delam_problem* problem, int64_t period_count,
                 for (const std::size_t k : pair.directions) terms.add(controls[k], d, -1.0);
                 added.push_back(terms.constraint({}));
             }
-        core.constraints.insert(core.constraints.end(), std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()));
+        core.constraints.insert(core.constraints.end(), std::make_move_iterator(added.begin()),
+                                std::make_move_iterator(added.end()));
     });
 }
 

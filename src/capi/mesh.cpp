@@ -208,8 +208,7 @@ int32_t delam_mesh_add_projected_interface(delam_mesh* mesh, int32_t body_a, int
                                            int64_t* out_interface) {
     return guard_build(mesh, [&] {
         require_pointer(out_interface, "out_interface");
-        if (!(gap >= 0.0 && std::isfinite(gap)))
-            fail(DELAM_ERROR_ARGUMENT, "gap = ", gap, " must be >= 0 and finite");
+        if (!(gap >= 0.0 && std::isfinite(gap))) fail(DELAM_ERROR_ARGUMENT, "gap = ", gap, " must be >= 0 and finite");
         require_two_bodies(*mesh->core, body_a, body_b);
         *out_interface = mesh->core->add_projected_interface(body_a, body_b, gap);
     });
@@ -231,7 +230,8 @@ int32_t delam_mesh_add_obstacle(delam_mesh* mesh, int64_t count, const int64_t* 
     });
 }
 
-int32_t delam_mesh_add_host_body(delam_mesh* mesh, int32_t body, int64_t count, const int64_t* nodes, int32_t index_base) {
+int32_t delam_mesh_add_host_body(delam_mesh* mesh, int32_t body, int64_t count, const int64_t* nodes,
+                                 int32_t index_base) {
     return guard_build(mesh, [&] {
         Mesh& core = *mesh->core;
         require_count(count, "count", 1);
@@ -256,10 +256,11 @@ int32_t delam_mesh_add_pairs(delam_mesh* mesh, int32_t body_a, int32_t body_b, i
             fail(DELAM_ERROR_ARGUMENT, "nodes_per_face = ", nodes_per_face, " is outside 2 .. 8");
         require_base(index_base);
         const std::int64_t corners = face_count > 0 ? face_count * nodes_per_face : 0;
-        *out_interface = core.add_pairs(body_a, body_b, require_indices(nodes_a, count, core.node_count(), index_base, "nodes_a"),
-                                        require_indices(nodes_b, count, core.node_count(), index_base, "nodes_b"),
-                                        view(normals, count * core.dimension()), view(weights, count), nodes_per_face,
-                                        require_indices(faces, corners, count, index_base, "faces"));
+        *out_interface =
+            core.add_pairs(body_a, body_b, require_indices(nodes_a, count, core.node_count(), index_base, "nodes_a"),
+                           require_indices(nodes_b, count, core.node_count(), index_base, "nodes_b"),
+                           view(normals, count * core.dimension()), view(weights, count), nodes_per_face,
+                           require_indices(faces, corners, count, index_base, "faces"));
     });
 }
 

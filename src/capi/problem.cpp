@@ -100,7 +100,8 @@ int32_t delam_problem_set_orientation(delam_problem* problem, int32_t body, int6
         if (count > std::numeric_limits<std::int32_t>::max() - mesh.cell_count())
             fail(DELAM_ERROR_ARGUMENT, "count = ", count, ": at most 2^31 - 1 with the cells of the mesh");
         if (cells == nullptr && count != 1)
-            fail(DELAM_ERROR_ARGUMENT, "cells is NULL (one orientation for the whole body), but count = ", count, ", not 1");
+            fail(DELAM_ERROR_ARGUMENT, "cells is NULL (one orientation for the whole body), but count = ", count,
+                 ", not 1");
         require_array(axes, 6 * count, "axes");
         require_finite(axes, 6 * count, "axes");
         std::vector<std::int64_t> list;
@@ -110,13 +111,14 @@ int32_t delam_problem_set_orientation(delam_problem* problem, int32_t body, int6
             const double* own = axes + 6 * i;
             if (!orthonormal_axes(std::span<const double, 3>(own, 3), std::span<const double, 3>(own + 3, 3),
                                   chosen[static_cast<std::size_t>(i)]))
-                fail(DELAM_ERROR_ARGUMENT, "axes[", i, "]: axis 1 = (", own[0], ", ", own[1], ", ", own[2], "), axis 2 = (", own[3],
-                     ", ", own[4], ", ", own[5], "): both must have a length > 0 and not be parallel");
+                fail(DELAM_ERROR_ARGUMENT, "axes[", i, "]: axis 1 = (", own[0], ", ", own[1], ", ", own[2],
+                     "), axis 2 = (", own[3], ", ", own[4], ", ", own[5],
+                     "): both must have a length > 0 and not be parallel");
             if (cells == nullptr) continue;
             const std::int64_t cell = require_index(cells[i], mesh.cell_count(), index_base, text("cells[", i, "]"));
             if (body != -1 && mesh.cell_body(cell) != index)
-                fail(DELAM_ERROR_ARGUMENT, "cells[", i, "] = ", cells[i], " belongs to body ", mesh.body_label(mesh.cell_body(cell)),
-                     ", not to body = ", body);
+                fail(DELAM_ERROR_ARGUMENT, "cells[", i, "] = ", cells[i], " belongs to body ",
+                     mesh.body_label(mesh.cell_body(cell)), ", not to body = ", body);
             list.push_back(cell);
         }
         if (cells == nullptr) {
@@ -137,7 +139,8 @@ int32_t delam_problem_set_formulation(delam_problem* problem, int32_t body, cons
         for (const Formulation f : {Formulation::standard, Formulation::incompatible, Formulation::mean_dilatation})
             if (word == name_of(f)) chosen = f;
         if (!chosen)
-            fail(DELAM_ERROR_ARGUMENT, "formulation = '", word, "' is not known; known are standard, incompatible, mean-dilatation");
+            fail(DELAM_ERROR_ARGUMENT, "formulation = '", word,
+                 "' is not known; known are standard, incompatible, mean-dilatation");
         Problem& core = *problem->core;
         const std::int32_t index = require_body(core, body);
         std::vector<Formulation> changed = core.formulation;
@@ -159,13 +162,14 @@ int32_t delam_problem_set_stiffness(delam_problem* problem, int64_t count, const
         require_base(index_base);
         const std::int64_t rows = count * core.mesh->dimension();
         require_pointer(row_starts, "row_starts");
-        GivenMatrix given{require_indices(nodes, count, core.mesh->node_count(), index_base, "nodes"), {}, {}, {}, {}, {}};
+        GivenMatrix given{
+            require_indices(nodes, count, core.mesh->node_count(), index_base, "nodes"), {}, {}, {}, {}, {}};
         if (dofs != nullptr) given.dofs = require_indices(dofs, rows, rows, index_base, "dofs");
         for (std::int64_t r = 0; r <= rows; ++r) {
             const std::int64_t before = r == 0 ? 0 : given.row_starts.back(), start = row_starts[r];
             if (start < before + index_base || (r == 0 && start != index_base) || start > (std::int64_t{1} << 48))
-                fail(DELAM_ERROR_ARGUMENT, "row_starts[", r, "] = ", row_starts[r], r == 0 ? ": must be " : ": must be at least ",
-                     before + index_base);
+                fail(DELAM_ERROR_ARGUMENT, "row_starts[", r, "] = ", row_starts[r],
+                     r == 0 ? ": must be " : ": must be at least ", before + index_base);
             given.row_starts.push_back(start - index_base);
         }
         const std::int64_t entries = given.row_starts.back();
@@ -173,7 +177,8 @@ int32_t delam_problem_set_stiffness(delam_problem* problem, int64_t count, const
         require_finite(values, entries, "values");
         given.columns = require_indices(columns, entries, rows, index_base, "columns");
         given.values.assign(values, values + entries);
-        if (kernel_count < -1 || kernel_count > 6 * count) fail(DELAM_ERROR_ARGUMENT, "kernel_count = ", kernel_count, " is outside -1 .. ", 6 * count);
+        if (kernel_count < -1 || kernel_count > 6 * count)
+            fail(DELAM_ERROR_ARGUMENT, "kernel_count = ", kernel_count, " is outside -1 .. ", 6 * count);
         given.kernel.told = kernel_count >= 0;
         if (kernel_count > 0) {
             require_array(kernel, kernel_count * rows, "kernel");

@@ -37,7 +37,9 @@ const std::vector<CrackFront>& fronts_of(const delam_solver& solver, std::int64_
 
 const Bulk& bulk_of(const delam_solver& solver) {
     const Bulk* bulk = solver.core->jump_operator().bulk();
-    if (bulk == nullptr) fail(DELAM_ERROR_STATE, "the solver works by FETI, which has no condensed operator: option reduction = condensed");
+    if (bulk == nullptr)
+        fail(DELAM_ERROR_STATE,
+             "the solver works by FETI, which has no condensed operator: option reduction = condensed");
     return *bulk;
 }
 
@@ -82,12 +84,14 @@ int32_t delam_solver_pending(const delam_solver* solver, int32_t* pending) {
     });
 }
 
-int32_t delam_solver_set_history(delam_solver* solver, int64_t pattern, int64_t count, const double* times, const double* values) {
+int32_t delam_solver_set_history(delam_solver* solver, int64_t pattern, int64_t count, const double* times,
+                                 const double* values) {
     return guard(solver, [&] {
         const auto patterns = static_cast<std::int64_t>(solver->core->problem().patterns.size());
         require_index(pattern, patterns, 0, "pattern");
         require_history(count, times, values);
-        solver->core->set_history(pattern, {times, static_cast<std::size_t>(count)}, {values, static_cast<std::size_t>(count)});
+        solver->core->set_history(pattern, {times, static_cast<std::size_t>(count)},
+                                  {values, static_cast<std::size_t>(count)});
     });
 }
 
@@ -118,7 +122,8 @@ const char* delam_solver_value_name(const delam_solver* solver, int64_t index) {
     const char* name = nullptr;
     guard(solver, [&] {
         const auto count = static_cast<int64_t>(solver->value_names.size());
-        if (index < 0 || index >= count) fail(DELAM_ERROR_ARGUMENT, "value index ", index, ", allowed: 0 to ", count - 1);
+        if (index < 0 || index >= count)
+            fail(DELAM_ERROR_ARGUMENT, "value index ", index, ", allowed: 0 to ", count - 1);
         name = solver->value_names[static_cast<std::size_t>(index)].c_str();
     });
     return name;
@@ -147,13 +152,15 @@ int32_t delam_solver_recorded(const delam_solver* solver, const char* key, int64
         if (column == nullptr) {
             std::string kept;
             for (const Record::Column& other : record.columns()) kept += (kept.empty() ? "" : ", ") + other.key;
-            fail(DELAM_ERROR_ARGUMENT, "value '", key, "' is not recorded (delam_solver_record); recorded: ", kept.empty() ? "none" : kept);
+            fail(DELAM_ERROR_ARGUMENT, "value '", key,
+                 "' is not recorded (delam_solver_record); recorded: ", kept.empty() ? "none" : kept);
         }
         copy_out(column->values, capacity, values, "values");
     });
 }
 
-int32_t delam_solver_field_shape(const delam_solver* solver, const char* key, int64_t part, int64_t* rows, int64_t* columns) {
+int32_t delam_solver_field_shape(const delam_solver* solver, const char* key, int64_t part, int64_t* rows,
+                                 int64_t* columns) {
     return guard(solver, [&] {
         require_pointer(key, "key");
         const FieldShape shape = field_shape(*solver->core, key, part);
@@ -171,7 +178,8 @@ int32_t delam_solver_field(delam_solver* solver, const char* key, int64_t part, 
     });
 }
 
-int32_t delam_solver_front_count(const delam_solver* solver, int64_t interface_index, int64_t* fronts, int64_t* points) {
+int32_t delam_solver_front_count(const delam_solver* solver, int64_t interface_index, int64_t* fronts,
+                                 int64_t* points) {
     return guard(solver, [&] {
         const std::vector<CrackFront>& found = fronts_of(*solver, interface_index);
         if (fronts != nullptr) *fronts = static_cast<int64_t>(found.size());
@@ -181,9 +189,9 @@ int32_t delam_solver_front_count(const delam_solver* solver, int64_t interface_i
     });
 }
 
-int32_t delam_solver_front(const delam_solver* solver, int64_t interface_index, int64_t front_capacity, int64_t point_capacity,
-                           int64_t* starts, int32_t* closed, double* places, double* directions, double* lengths, double* rates,
-                           double* zone_lengths, double* zone_pairs) {
+int32_t delam_solver_front(const delam_solver* solver, int64_t interface_index, int64_t front_capacity,
+                           int64_t point_capacity, int64_t* starts, int32_t* closed, double* places, double* directions,
+                           double* lengths, double* rates, double* zone_lengths, double* zone_pairs) {
     return guard(solver, [&] {
         const std::vector<CrackFront>& found = fronts_of(*solver, interface_index);
         const auto dim = static_cast<std::size_t>(solver->core->problem().mesh->dimension());
@@ -214,7 +222,8 @@ int32_t delam_solver_average(const delam_solver* solver, int32_t body, double* v
         const Mesh& mesh = *solver->core->problem().mesh;
         const std::int32_t index = body < 0 ? -1 : mesh.body_of_label(body);
         if (body != -1 && index < 0) fail(DELAM_ERROR_ARGUMENT, "body ", body, ": there is no body of this label");
-        if (index >= 0 && mesh.host_body(index)) fail(DELAM_ERROR_ARGUMENT, "body ", body, " has no cells to average over");
+        if (index >= 0 && mesh.host_body(index))
+            fail(DELAM_ERROR_ARGUMENT, "body ", body, " has no cells to average over");
         const VolumeAverage average = solver->core->average(index);
         if (volume != nullptr) *volume = average.volume;
         if (strain != nullptr) std::copy(average.strain.begin(), average.strain.end(), strain);
@@ -248,8 +257,9 @@ int32_t delam_solver_condensed_size(const delam_solver* solver, int64_t* unknown
     });
 }
 
-int32_t delam_solver_condensed(const delam_solver* solver, int64_t capacity, double* stiffness, double* load, double* constant,
-                               int64_t* row_starts, int64_t* columns, double* values, double* offset) {
+int32_t delam_solver_condensed(const delam_solver* solver, int64_t capacity, double* stiffness, double* load,
+                               double* constant, int64_t* row_starts, int64_t* columns, double* values,
+                               double* offset) {
     return guard_read(solver, [&] {
         const Bulk& bulk = bulk_of(*solver);
         const DenseEnergy& energy = bulk.energy();
@@ -263,7 +273,8 @@ int32_t delam_solver_condensed(const delam_solver* solver, int64_t capacity, dou
             }
         }
         if (load != nullptr) std::copy(energy.load.value.begin(), energy.load.value.end(), load);
-        if (constant != nullptr) std::copy(bulk.pattern_stiffness().value.begin(), bulk.pattern_stiffness().value.end(), constant);
+        if (constant != nullptr)
+            std::copy(bulk.pattern_stiffness().value.begin(), bulk.pattern_stiffness().value.end(), constant);
         std::int64_t entry = 0;
         if (row_starts != nullptr) row_starts[0] = 0;
         for (std::size_t r = 0; r < bulk.rows().size(); ++r) {
@@ -296,7 +307,8 @@ int32_t delam_solver_plan_item(const delam_solver* solver, int64_t index, const 
                                const char** reason, double* cost, double* saving, const char** unit) {
     return guard(solver, [&] {
         const auto count = static_cast<int64_t>(solver->plan.size());
-        if (index < 0 || index >= count) fail(DELAM_ERROR_ARGUMENT, "plan index ", index, ", allowed: 0 to ", count - 1);
+        if (index < 0 || index >= count)
+            fail(DELAM_ERROR_ARGUMENT, "plan index ", index, ", allowed: 0 to ", count - 1);
         const PlanItem& item = solver->plan[static_cast<std::size_t>(index)];
         if (subject != nullptr) *subject = item.subject.c_str();
         if (decision != nullptr) *decision = item.decision.c_str();
@@ -334,12 +346,13 @@ int32_t delam_solver_jump_count(const delam_solver* solver, int64_t* count) {
     });
 }
 
-int32_t delam_solver_jump(const delam_solver* solver, int64_t index, int64_t* step, double* before, double* time, double* stored,
-                          double* dissipated, double* released, double* debonded, int64_t* interface_index, int64_t* first_pair,
-                          int64_t* last_pair) {
+int32_t delam_solver_jump(const delam_solver* solver, int64_t index, int64_t* step, double* before, double* time,
+                          double* stored, double* dissipated, double* released, double* debonded,
+                          int64_t* interface_index, int64_t* first_pair, int64_t* last_pair) {
     return guard(solver, [&] {
         const std::vector<Jump> jumps = solver->core->jumps(true);
-        const Jump& jump = jumps[static_cast<std::size_t>(require_index(index, static_cast<std::int64_t>(jumps.size()), 0, "index"))];
+        const Jump& jump =
+            jumps[static_cast<std::size_t>(require_index(index, static_cast<std::int64_t>(jumps.size()), 0, "index"))];
         const auto give = [](auto* out, auto value) {
             if (out != nullptr) *out = value;
         };

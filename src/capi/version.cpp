@@ -14,7 +14,8 @@ int32_t delam_blas_threads(void) { return delam::blas_threads(); }
 
 const char* delam_status_name(int32_t status) {
 #define DELAM_NAME(status) \
-    case status: return #status
+    case status:           \
+        return #status
     switch (status) {
         DELAM_NAME(DELAM_OK);
         DELAM_NAME(DELAM_NOT_CONVERGED);
@@ -30,7 +31,8 @@ const char* delam_status_name(int32_t status) {
         DELAM_NAME(DELAM_ERROR_SNAPSHOT);
         DELAM_NAME(DELAM_ERROR_INTERNAL);
         DELAM_NAME(DELAM_ERROR_FILE);
-        default: return "unknown status";
+        default:
+            return "unknown status";
     }
 #undef DELAM_NAME
 }

@@ -23,13 +23,14 @@ const State& Chain::at(std::int64_t step) const {
     return step == last_.step ? last_ : past_[static_cast<std::size_t>(step - past_.front().step)];
 }
 
-Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t last_step, double time, const Options& options) {
+Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t last_step, double time,
+                                 const Options& options) {
     const std::int64_t k = last_step + 1;
     Stepper::Result next;
     std::int64_t i = k, returns = 0, revised_from = k;
     bool returning = true, same_before = false;
-    Counts effort;                        // of all that was computed and not kept as step k
-    std::map<std::int64_t, bool> settled; // did the replaced steps converge?
+    Counts effort;                          // of all that was computed and not kept as step k
+    std::map<std::int64_t, bool> settled;   // did the replaced steps converge?
     std::optional<Stepper::Start> carried;  // the state whose lower bound has failed
     while (true) {
         std::vector<Stepper::Start> starts;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Backtracking on the two-sided energy estimate (slides, "Backtracking algorithm"; Mielke, Roubicek, Zeman 2010).
 //
-// When the lower bound of step k fails, the state k, taken back to the time of step k - 1, has less energy there than the state k - 1: that
-// step was not minimal. It is computed anew from state k - 2, from both starts, and the lower of all is kept. Only the lower bound
-// decides (a minimisation from z_{k-1} always meets the upper one), with the mixity of step k - 2: what was minimised is what is
-// bounded. Each return lowers the incremental energy of the step returned to, so it ends; a return that finds nothing lower is the last.
+// When the lower bound of step k fails, the state k, taken back to the time of step k - 1, has less energy there than
+// the state k - 1: that step was not minimal. It is computed anew from state k - 2, from both starts, and the lower of
+// all is kept. Only the lower bound decides (a minimisation from z_{k-1} always meets the upper one), with the mixity
+// of step k - 2: what was minimised is what is bounded. Each return lowers the incremental energy of the step returned
+// to, so it ends; a return that finds nothing lower is the last.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +31,9 @@ private:
     std::map<std::int64_t, State> revised_;
 };
 
-// The step after the chain's last, at `time`; the chain is revised where the estimate asks for it. counts.backtracks says how often.
-Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t last_step, double time, const Options& options);
+// The step after the chain's last, at `time`; the chain is revised where the estimate asks for it. counts.backtracks
+// says how often.
+Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t last_step, double time,
+                                 const Options& options);
 
 }  // namespace delam

@@ -50,11 +50,12 @@ double largest_reaction(const JumpOperator& op, const State& state, double force
     return std::max(force_floor, largest(op.reaction(state.theta, state.response)));
 }
 
-// Parts that have come off move without strain, energy or reaction; all that is left there is rounding, rightly. Else the forces are held
-// against reactions, and their work against the energies, whichever they are less of.
+// Parts that have come off move without strain, energy or reaction; all that is left there is rounding, rightly. Else
+// the forces are held against reactions, and their work against the energies, whichever they are less of.
 double out_of_balance(const Problem& problem, const JumpOperator& op, const State& state, double force_floor) {
     const Ledger& ledger = state.ledger;
-    const double energies = std::max({std::abs(ledger.energy()), std::abs(ledger.work), std::abs(ledger.stored_bulk), ledger.dissipated});
+    const double energies =
+        std::max({std::abs(ledger.energy()), std::abs(ledger.work), std::abs(ledger.stored_bulk), ledger.dissipated});
     if (op.rounding_energy(state.theta, state.response) <= doubtful * energies) return 0.0;
     const std::vector<double> displacement = op.displacement(state.theta, state.response);
     const double motion = largest(displacement);

@@ -9,7 +9,8 @@
 
 namespace delam {
 
-Lift::Lift(JumpOperator& op, std::span<const std::uint8_t> bonded_rows, std::span<const BoundRow> bound, std::size_t patterns)
+Lift::Lift(JumpOperator& op, std::span<const std::uint8_t> bonded_rows, std::span<const BoundRow> bound,
+           std::size_t patterns)
     : a_(static_cast<std::int64_t>(patterns), static_cast<std::int64_t>(patterns)) {
     const std::size_t rows = bonded_rows.size();
     std::vector<std::uint8_t> moving(op.prescribed_rows().begin(), op.prescribed_rows().end());
@@ -17,12 +18,14 @@ Lift::Lift(JumpOperator& op, std::span<const std::uint8_t> bonded_rows, std::spa
     for (const BoundRow& equation : bound) {
         std::int64_t gives = bonded_rows[static_cast<std::size_t>(equation.row)] == 0 ? equation.row : -1;
         for (const std::int64_t other : equation.others)
-            if (gives < 0 && bonded_rows[static_cast<std::size_t>(other)] == 0 && moving[static_cast<std::size_t>(other)] == 0) gives = other;
+            if (gives < 0 && bonded_rows[static_cast<std::size_t>(other)] == 0 &&
+                moving[static_cast<std::size_t>(other)] == 0)
+                gives = other;
         if (gives >= 0)
             moving[static_cast<std::size_t>(gives)] = 1;
         else if (std::any_of(equation.offset.begin(), equation.offset.end(), [](double o) { return o != 0.0; }))
-            fail(DELAM_ERROR_PROBLEM, "prescribed displacements tear jump row ", equation.row, " and ", equation.others.size(),
-                 " others apart, whose interfaces are bonded for ever");
+            fail(DELAM_ERROR_PROBLEM, "prescribed displacements tear jump row ", equation.row, " and ",
+                 equation.others.size(), " others apart, whose interfaces are bonded for ever");
     }
     Springs bonded{std::vector<double>(rows, 0.0), std::vector<std::uint8_t>(rows, 1)};
     for (std::size_t i = 0; i < rows; ++i) {
@@ -37,7 +40,8 @@ Lift::Lift(JumpOperator& op, std::span<const std::uint8_t> bonded_rows, std::spa
         Response response;
         op.solve(bonded, unit, response);
         if (!response.balanced)
-            fail(DELAM_ERROR_PROBLEM, "a dead force acts on a part that no support holds even when all interfaces are bonded");
+            fail(DELAM_ERROR_PROBLEM,
+                 "a dead force acts on a part that no support holds even when all interfaces are bonded");
         for (std::size_t q = 0; q < patterns; ++q)
             a_(static_cast<std::int64_t>(q), static_cast<std::int64_t>(p)) = response.conjugate[q];
         for (std::size_t i = 0; i < prescribed_.size(); ++i) jump_[i][p] = response.jump[prescribed_[i]];

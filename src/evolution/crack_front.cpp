@@ -17,7 +17,8 @@ double mixity_of(const CrackedInterface& interface, std::int64_t pair) {
     const SpaceJump jump = jump_of(interface, pair);
     double shear = 0.0;
     for (const double component : jump.tangential) shear += component * component;
-    return mode_mixity(0.5 * interface.law.normal_stiffness * jump.normal * jump.normal, 0.5 * interface.law.tangential_stiffness * shear);
+    return mode_mixity(0.5 * interface.law.normal_stiffness * jump.normal * jump.normal,
+                       0.5 * interface.law.tangential_stiffness * shear);
 }
 
 }  // namespace
@@ -68,7 +69,8 @@ SpaceJump jump_of(const CrackedInterface& interface, std::int64_t pair) {
     const double* frame = &interface.geometry.frame[at(pair) * dim * dim];
     SpaceJump jump{interface.jump[at(pair) * dim], {}};
     for (std::size_t t = 1; t < dim; ++t)
-        for (std::size_t i = 0; i < dim; ++i) jump.tangential[i] += frame[t * dim + i] * interface.jump[at(pair) * dim + t];
+        for (std::size_t i = 0; i < dim; ++i)
+            jump.tangential[i] += frame[t * dim + i] * interface.jump[at(pair) * dim + t];
     return jump;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fronts of an interface that is a line: the pairs as chains, each walked from the open side of a front to the adhering one.
+// Fronts of an interface that is a line: the pairs as chains, each walked from the open side of a front to the adhering
+// one.
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +20,8 @@ struct Chain {
 
 double distance(const Vector3& p, const Vector3& q) { return std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]); }
 
-// Edges walked from pairs that do not have two of them; what is left are rings. A ring is cut where the adhesion is largest.
+// Edges walked from pairs that do not have two of them; what is left are rings. A ring is cut where the adhesion is
+// largest.
 std::vector<Chain> chains(const CrackedInterface& interface) {
     const std::size_t count = interface.adhesion.size();
     std::vector<std::vector<std::int64_t>> next(count);
@@ -54,8 +56,11 @@ std::vector<Chain> chains(const CrackedInterface& interface) {
     for (Chain& chain : found) {
         if (chain.ring && degree[at(chain.pair.front())] == 2) {
             chain.pair.pop_back();
-            const auto less = [&](std::int64_t p, std::int64_t q) { return interface.adhesion[at(p)] < interface.adhesion[at(q)]; };
-            std::rotate(chain.pair.begin(), std::max_element(chain.pair.begin(), chain.pair.end(), less), chain.pair.end());
+            const auto less = [&](std::int64_t p, std::int64_t q) {
+                return interface.adhesion[at(p)] < interface.adhesion[at(q)];
+            };
+            std::rotate(chain.pair.begin(), std::max_element(chain.pair.begin(), chain.pair.end(), less),
+                        chain.pair.end());
             chain.pair.push_back(chain.pair.front());
         }
         double arc = 0.0;
@@ -98,7 +103,8 @@ public:
 
     FrontPoint point(const Found& front) const {
         FrontPoint out;
-        const auto after = static_cast<std::size_t>(std::upper_bound(chain_.arc.begin(), chain_.arc.end() - 1, front.arc) - chain_.arc.begin());
+        const auto after = static_cast<std::size_t>(
+            std::upper_bound(chain_.arc.begin(), chain_.arc.end() - 1, front.arc) - chain_.arc.begin());
         const std::size_t k = std::max<std::size_t>(after, 1);
         const Vector3 p = place(static_cast<std::int64_t>(k) - 1), q = place(static_cast<std::int64_t>(k));
         const double share = (front.arc - chain_.arc[k - 1]) / (chain_.arc[k] - chain_.arc[k - 1]);
@@ -136,7 +142,8 @@ private:
         while (inside(i + step) && below(i + step) == below(i)) i += step;
         return i;
     }
-    // What belongs to one of two fronts ends where the run from i to end has its extreme adhesion, in the middle if there are many.
+    // What belongs to one of two fronts ends where the run from i to end has its extreme adhesion, in the middle if
+    // there are many.
     std::int64_t share_of(std::int64_t i, std::int64_t end, std::int64_t step) const {
         if (!inside(end + step)) return end;
         double extreme = adhesion(i);
@@ -155,7 +162,8 @@ private:
     Found front(std::int64_t open, std::int64_t adhering) const {
         const std::int64_t step = adhering - open;
         const std::int64_t open_end = run_end(open, -step);
-        Found found{open, adhering, share_of(open, open_end, -step), share_of(adhering, run_end(adhering, step), step), 0.0};
+        Found found{open, adhering, share_of(open, open_end, -step), share_of(adhering, run_end(adhering, step), step),
+                    0.0};
         // Counted from the tip of the notch, else from the end of the chain or the middle of a crack that began inside.
         std::int64_t anchor = open;
         while (anchor != open_end && initial(anchor) > 0.0) anchor -= step;
@@ -174,9 +182,10 @@ private:
         return found;
     }
 
-    // From a pair to the next. The weights of quadratic cells alternate, and with them the tractions: there every pair goes with the next one of its
-    // kind, corners with a third (Simpson's share of an edge), middle nodes with two thirds, so that a sharp tip gives the virtual crack closure of
-    // quadratic cells, 1/(2 l) (F_corner.[u] one cell behind + F_middle.[u] one cell behind).
+    // From a pair to the next. The weights of quadratic cells alternate, and with them the tractions: there every pair
+    // goes with the next one of its kind, corners with a third (Simpson's share of an edge), middle nodes with two
+    // thirds, so that a sharp tip gives the virtual crack closure of quadratic cells, 1/(2 l) (F_corner.[u] one cell
+    // behind + F_middle.[u] one cell behind).
     void add_links(std::int64_t i0, std::int64_t i1, FrontPoint& out) const {
         if (interface_.geometry.nodes_per_face == 2) return add_link(i0, i1, 1.0, out);
         const std::int64_t i2 = 2 * i1 - i0;
@@ -190,7 +199,8 @@ private:
         const SpaceJump u0 = jump_of(interface_, pair(i0)), u1 = jump_of(interface_, pair(i1));
         const double half = 0.5 * share * (adhesion(i1) - adhesion(i0));
         out.rate[0] += half * interface_.law.normal_stiffness * u0.normal * u1.normal;
-        out.rate[1] += half * interface_.law.tangential_stiffness * (u0.tangential[0] * u1.tangential[0] + u0.tangential[1] * u1.tangential[1]);
+        out.rate[1] += half * interface_.law.tangential_stiffness *
+                       (u0.tangential[0] * u1.tangential[0] + u0.tangential[1] * u1.tangential[1]);
     }
 
     const CrackedInterface& interface_;
@@ -203,7 +213,8 @@ private:
 std::vector<CrackFront> crack_fronts_on_lines(const CrackedInterface& interface) {
     const InterfaceGeometry& geometry = interface.geometry;
     std::vector<std::uint8_t> corner(interface.adhesion.size(), 1);
-    for (std::size_t f = 2; geometry.nodes_per_face == 3 && f < geometry.face.size(); f += 3) corner[at(geometry.face[f])] = 0;
+    for (std::size_t f = 2; geometry.nodes_per_face == 3 && f < geometry.face.size(); f += 3)
+        corner[at(geometry.face[f])] = 0;
     std::vector<CrackFront> fronts;
     for (const Chain& chain : chains(interface)) {
         const Walk walk(interface, chain, corner);

@@ -18,7 +18,9 @@ Vector3 operator-(const Vector3& p, const Vector3& q) { return {p[0] - q[0], p[1
 Vector3 operator*(double s, const Vector3& p) { return {s * p[0], s * p[1], s * p[2]}; }
 double dot(const Vector3& p, const Vector3& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
 double norm(const Vector3& p) { return std::sqrt(dot(p, p)); }
-Vector3 cross(const Vector3& p, const Vector3& q) { return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]}; }
+Vector3 cross(const Vector3& p, const Vector3& q) {
+    return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+}
 Vector3 unit(const Vector3& p) {
     const double length = norm(p);
     return length > 0.0 ? (1.0 / length) * p : p;
@@ -33,8 +35,8 @@ struct Crossing {
     std::vector<std::size_t> next;
 };
 
-// A polygon has an even number of crossings on its sides; the contour joins them two by two, and where a quadrilateral has four the mean of its
-// corners says which: those that cut off the corners on the other side of it.
+// A polygon has an even number of crossings on its sides; the contour joins them two by two, and where a quadrilateral
+// has four the mean of its corners says which: those that cut off the corners on the other side of it.
 class Contour {
 public:
     Contour(const CrackedInterface& interface, std::span<const PairPiece> pieces) : interface_(interface) {
@@ -89,7 +91,8 @@ private:
         const Vector3 middle = 0.5 * (crossings[a].place + crossings[b].place);
         Vector3 ahead{};
         for (int k = 0; k < piece.pairs; ++k)
-            ahead = ahead + (below(piece.pair[at(k)]) ? -1.0 : 1.0) * (place_of(interface_, piece.pair[at(k)]) - middle);
+            ahead =
+                ahead + (below(piece.pair[at(k)]) ? -1.0 : 1.0) * (place_of(interface_, piece.pair[at(k)]) - middle);
         crossings[a].ahead = crossings[a].ahead + ahead;
         crossings[b].ahead = crossings[b].ahead + ahead;
     }
@@ -130,9 +133,12 @@ std::vector<Line> lines(std::span<const Crossing> crossings) {
 // Points much nearer to each other than pairs are tell nothing of their own: they go, but for the ends of a line.
 void thin(Line& line, std::span<const Crossing> crossings) {
     double spacing = 0.0;
-    for (const std::size_t c : line.crossing) spacing += norm(crossings[c].between) / static_cast<double>(line.crossing.size());
+    for (const std::size_t c : line.crossing)
+        spacing += norm(crossings[c].between) / static_cast<double>(line.crossing.size());
     std::vector<std::size_t> kept{line.crossing.front()};
-    const auto apart = [&](std::size_t a, std::size_t b) { return norm(crossings[a].place - crossings[b].place) > 0.5 * spacing; };
+    const auto apart = [&](std::size_t a, std::size_t b) {
+        return norm(crossings[a].place - crossings[b].place) > 0.5 * spacing;
+    };
     for (std::size_t k = 1; k < line.crossing.size(); ++k) {
         const std::size_t c = line.crossing[k];
         const bool last = k + 1 == line.crossing.size() && !line.closed;
@@ -184,19 +190,26 @@ void lay_out(CrackFront& front, const Line& line, std::span<const Crossing> cros
     for (std::size_t k = 0; k < n; ++k) front.points[k].place = crossings[line.crossing[k]].place;
     for (std::size_t k = 0; k < n; ++k) {
         FrontPoint& point = front.points[k];
-        const std::size_t before = k > 0 ? k - 1 : line.closed ? n - 1 : k, after = k + 1 < n ? k + 1 : line.closed ? 0 : k;
-        point.length = 0.5 * (norm(point.place - front.points[before].place) + norm(front.points[after].place - point.place));
+        const std::size_t before = k > 0         ? k - 1
+                                   : line.closed ? n - 1
+                                                 : k,
+                          after = k + 1 < n     ? k + 1
+                                  : line.closed ? 0
+                                                : k;
+        point.length =
+            0.5 * (norm(point.place - front.points[before].place) + norm(front.points[after].place - point.place));
         const Crossing& own = crossings[line.crossing[k]];
         const Vector3 across = unit(cross(unit(own.normal), front.points[after].place - front.points[before].place));
         point.direction = dot(across, own.ahead) < 0.0 ? -1.0 * across : across;
     }
 }
 
-// A triangle of pairs. With gradients g_i of its shape functions, grad zeta = sum over its sides (zeta_j - zeta_i)(g_j - g_i)/3: with each side goes
-// the product of the jumps at its ends, as between two pairs of a line.
+// A triangle of pairs. With gradients g_i of its shape functions, grad zeta = sum over its sides (zeta_j - zeta_i)(g_j
+// - g_i)/3: with each side goes the product of the jumps at its ends, as between two pairs of a line.
 class Triangle {
 public:
-    Triangle(const CrackedInterface& interface, const std::array<std::int64_t, 3>& pair) : interface_(interface), pair_(pair) {
+    Triangle(const CrackedInterface& interface, const std::array<std::int64_t, 3>& pair)
+        : interface_(interface), pair_(pair) {
         std::array<Vector3, 3> x;
         for (std::size_t i = 0; i < 3; ++i) x[i] = place_of(interface, pair[i]);
         const Vector3 normal = cross(x[1] - x[0], x[2] - x[0]);
@@ -232,7 +245,8 @@ private:
     bool works(std::size_t side) const {
         const std::size_t p = at(pair_[side]), q = at(pair_[(side + 1) % 3]);
         return interface_.adhesion[p] != interface_.adhesion[q] &&
-               !(undamaged(interface_.initial[p], interface_.adhesion[p]) && undamaged(interface_.initial[q], interface_.adhesion[q]));
+               !(undamaged(interface_.initial[p], interface_.adhesion[p]) &&
+                 undamaged(interface_.initial[q], interface_.adhesion[q]));
     }
 
     const CrackedInterface& interface_;
@@ -266,7 +280,8 @@ std::vector<CrackFront> crack_fronts_on_faces(const CrackedInterface& interface)
     constexpr std::array<std::array<int, 3>, 4> split{{{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {1, 2, 3}}};
     for (const PairPiece& piece : pieces)
         for (std::size_t s = 0; s < (piece.pairs == 3 ? 1U : 4U); ++s) {
-            const Triangle triangle(interface, {piece.pair[at(split[s][0])], piece.pair[at(split[s][1])], piece.pair[at(split[s][2])]});
+            const Triangle triangle(
+                interface, {piece.pair[at(split[s][0])], piece.pair[at(split[s][1])], piece.pair[at(split[s][2])]});
             if (!triangle.works()) continue;
             const double part = piece.pairs == 3 ? 1.0 : 0.5;
             give(triangle.centre(), [&](FrontPoint& point, double share) { triangle.add_to(point, part * share); });

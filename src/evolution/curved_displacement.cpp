@@ -11,8 +11,8 @@ namespace delam {
 namespace {
 
 constexpr int most_steps = 200;
-constexpr double tolerance = 1e-10;   // of the largest force
-constexpr double acceptable = 1e-8;   // where rounding or the limit ends the steps
+constexpr double tolerance = 1e-10;  // of the largest force
+constexpr double acceptable = 1e-8;  // where rounding or the limit ends the steps
 constexpr double rounding = 1e-13;   // of an energy of the whole scene
 
 double largest(std::span<const double> values) {
@@ -27,7 +27,8 @@ double bulk(const Response& r) { return r.stored_bulk + r.load_potential; }
 class Segment {
 public:
     Segment(const Response& from, const Response& to) : from_(from), to_(to) {
-        for (std::size_t i = 0; i < from.jump.size(); ++i) bend_ -= (to.jump[i] - from.jump[i]) * (to.force[i] - from.force[i]);
+        for (std::size_t i = 0; i < from.jump.size(); ++i)
+            bend_ -= (to.jump[i] - from.jump[i]) * (to.force[i] - from.force[i]);
     }
     double bulk_energy(double s) const { return (1.0 - s) * bulk(from_) + s * bulk(to_) - 0.5 * s * (1.0 - s) * bend_; }
     std::vector<double> jump(double s) const { return mean(from_.jump, to_.jump, s); }
@@ -63,7 +64,8 @@ bool CurvedDisplacement::plain() const {
 }
 
 CurvedDisplacement::Model CurvedDisplacement::model(std::span<const double> jump) const {
-    Model m{spring_stiffness(pairs_, adhesion_), std::vector<double>(adhesion_.size() * static_cast<std::size_t>(pairs_.dimension), 0.0)};
+    Model m{spring_stiffness(pairs_, adhesion_),
+            std::vector<double>(adhesion_.size() * static_cast<std::size_t>(pairs_.dimension), 0.0)};
     if (jump.empty()) return m;
     const auto dim = static_cast<std::size_t>(pairs_.dimension);
     const double scale = largest_driving(pairs_, jump);
@@ -129,9 +131,11 @@ bool CurvedDisplacement::run(const Solve& solve, std::vector<std::uint8_t>& clos
         const std::vector<double> image = gather(to.jump), from = gather(at);
         const Segment segment(response, to);
         const double energy = bulk(response) + interface_energy(response.jump);
-        const double slack = rounding * (std::abs(response.stored_bulk) + std::abs(response.load_potential) + std::abs(energy));
+        const double slack =
+            rounding * (std::abs(response.stored_bulk) + std::abs(response.load_potential) + std::abs(energy));
         double s = 1.0;
-        while (s > 1e-3 && segment.bulk_energy(s) + interface_energy(segment.jump(s)) > energy + slack) s *= ahead ? 0.0 : 0.5;
+        while (s > 1e-3 && segment.bulk_energy(s) + interface_energy(segment.jump(s)) > energy + slack)
+            s *= ahead ? 0.0 : 0.5;
         if (s <= 1e-3 && !ahead) return left <= acceptable && converged;  // rounding of the energy
         if (s >= 1.0) {
             closed = std::move(to_closed);
@@ -149,7 +153,8 @@ bool CurvedDisplacement::run(const Solve& solve, std::vector<std::uint8_t>& clos
             continue;
         }
         const std::vector<double> next = extrapolation.next(from, image);
-        for (std::size_t i = 0; i < rows.size(); ++i) at[rows[i]] = rows[i] % dim == 0 ? std::max(0.0, next[i]) : next[i];
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            at[rows[i]] = rows[i] % dim == 0 ? std::max(0.0, next[i]) : next[i];
     }
     return converged && left <= acceptable;
 }

@@ -35,7 +35,8 @@ std::vector<double> Extrapolation::next(std::span<const double> z, std::span<con
     for (std::int64_t j = 0; j < n; ++j) {
         const Difference& a = differences_[static_cast<std::size_t>(j)];
         gamma[static_cast<std::size_t>(j)] = dot(a.residual, residual);
-        for (std::int64_t i = j; i < n; ++i) gram(i, j) = dot(differences_[static_cast<std::size_t>(i)].residual, a.residual);
+        for (std::int64_t i = j; i < n; ++i)
+            gram(i, j) = dot(differences_[static_cast<std::size_t>(i)].residual, a.residual);
         gram(j, j) *= 1.0 + ridge;
     }
     if (n == 0 || !factor_definite(gram)) return out;

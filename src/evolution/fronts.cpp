@@ -59,7 +59,8 @@ PairGraph::PairGraph(std::span<const InterfaceGeometry> interfaces) {
     for (std::size_t p = 0; p + 1 < start_.size(); ++p) start_[p + 1] += start_[p];
 }
 
-std::vector<std::uint8_t> adhering_pairs(const PairLaws& pairs, std::span<const double> adhesion, std::span<const Toughness> toughness) {
+std::vector<std::uint8_t> adhering_pairs(const PairLaws& pairs, std::span<const double> adhesion,
+                                         std::span<const Toughness> toughness) {
     std::vector<std::uint8_t> adhering(adhesion.size(), 0);
     for (std::size_t p = 0; p < adhering.size(); ++p) {
         if (pairs.law[p] == nullptr || !(adhesion[p] > 0.0)) continue;
@@ -91,7 +92,8 @@ std::vector<Front> find_fronts(const PairGraph& graph, const PairLaws& pairs, st
         if (adhering[p] == 0 || front[p] != 0) continue;
         bool peak = load[p] > 0.0, beside_front = false;
         for (const std::int64_t q : graph.neighbours(p)) {
-            peak = peak && (load[p] > load[index(q)] || (load[p] == load[index(q)] && static_cast<std::int64_t>(p) < q));
+            peak =
+                peak && (load[p] > load[index(q)] || (load[p] == load[index(q)] && static_cast<std::int64_t>(p) < q));
             beside_front = beside_front || front[index(q)] != 0;
         }
         if (pairs.dimension == 2 && graph.neighbours(p).size() <= 1)
@@ -110,7 +112,8 @@ std::vector<Front> find_fronts(const PairGraph& graph, const PairLaws& pairs, st
     return found;
 }
 
-std::vector<std::vector<std::int64_t>> rings(const PairGraph& graph, std::span<const std::uint8_t> adhering, const Front& front) {
+std::vector<std::vector<std::int64_t>> rings(const PairGraph& graph, std::span<const std::uint8_t> adhering,
+                                             const Front& front) {
     std::vector<std::vector<std::int64_t>> found{front.pairs};
     std::vector<std::uint8_t> seen(adhering.size(), 0);
     for (const std::int64_t p : front.pairs) seen[index(p)] = 1;

@@ -16,7 +16,7 @@ namespace delam {
 namespace {
 
 constexpr std::int64_t leap_steps = 1000;  // steps within the zone before the plain step looks at all pairs again
-constexpr double rounding = 1e-11;  // of an energy of the whole scene, a sum of large terms
+constexpr double rounding = 1e-11;         // of an energy of the whole scene, a sum of large terms
 
 double largest_change(std::span<const double> from, std::span<const double> to) {
     double change = 0.0;
@@ -28,8 +28,10 @@ double largest_change(std::span<const double> from, std::span<const double> to) 
 
 bool Minimiser::displace(State& state, bool cold) const {
     Counts& counts = state.counts;
-    const auto solve = [&](std::span<const double> stiffness, std::span<const double> row_force, std::vector<std::uint8_t>& closed, Response& response) {
-        const ContactResult result = solve_contact(op, contact, stiffness, state.theta, closed, response, cold, row_force);
+    const auto solve = [&](std::span<const double> stiffness, std::span<const double> row_force,
+                           std::vector<std::uint8_t>& closed, Response& response) {
+        const ContactResult result =
+            solve_contact(op, contact, stiffness, state.theta, closed, response, cold, row_force);
         if (counts.displacement_solves == 0) counts.contact_iterations_first = result.solves;
         ++counts.displacement_solves;
         counts.contact_iterations += result.solves;
@@ -40,12 +42,14 @@ bool Minimiser::displace(State& state, bool cold) const {
         return result.converged;
     };
     if (rule == MixityRule::variational)
-        if (const CurvedDisplacement curved(pairs, state.adhesion, state.mixity); !curved.plain()) return curved.run(solve, state.closed, state.response);
+        if (const CurvedDisplacement curved(pairs, state.adhesion, state.mixity); !curved.plain())
+            return curved.run(solve, state.closed, state.response);
     return solve(spring_stiffness(pairs, state.adhesion), {}, state.closed, state.response);
 }
 
 // What every way to minimise leaves in the state.
-bool Minimiser::record(State& state, std::span<const double> adhesion_old, const StepMixity& mixity, bool converged) const {
+bool Minimiser::record(State& state, std::span<const double> adhesion_old, const StepMixity& mixity,
+                       bool converged) const {
     state.mixity = mixity.recorded();
     state.ledger.mixity_error = mixity.error(adhesion_old, state.adhesion);
     state.counts.mixity_held = mixity.held();
@@ -61,7 +65,8 @@ bool Minimiser::alternate(State& state, std::span<const double> adhesion_old) co
         std::vector<double> next = mixity.damage_step(adhesion_old, state.adhesion, state.response.jump);
         state.counts.damage_change = largest_change(state.adhesion, next);
         ++state.counts.am_iterations;
-        if (state.counts.damage_change <= tolerance && mixity.settled(state, adhesion_old)) return record(state, adhesion_old, mixity, converged);
+        if (state.counts.damage_change <= tolerance && mixity.settled(state, adhesion_old))
+            return record(state, adhesion_old, mixity, converged);
         state.adhesion = std::move(next);
         if (state.counts.am_iterations < limit) continue;
         displace(state);
@@ -71,12 +76,14 @@ bool Minimiser::alternate(State& state, std::span<const double> adhesion_old) co
 
 // E + D of a state whose displacements belong to its adhesion, up to a constant of the step.
 double Minimiser::energy(const State& state, std::span<const double> adhesion_old, const StepMixity& mixity) const {
-    return state.response.stored_bulk + state.response.load_potential + mixity.energy(adhesion_old, state.adhesion, state.response.jump);
+    return state.response.stored_bulk + state.response.load_potential +
+           mixity.energy(adhesion_old, state.adhesion, state.response.jump);
 }
 
-// Each round is a step of alternate minimisation, which is also the stopping test; between rounds the adhesion leaps ahead. A leap that raised
-// the energy of the whole is taken back, and the plain step made instead. Where the mixity follows the iterate, energies are compared at equal B: what a
-// new B alone adds goes onto the level that is compared with.
+// Each round is a step of alternate minimisation, which is also the stopping test; between rounds the adhesion leaps
+// ahead. A leap that raised the energy of the whole is taken back, and the plain step made instead. Where the mixity
+// follows the iterate, energies are compared at equal B: what a new B alone adds goes onto the level that is compared
+// with.
 bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) const {
     StepMixity mixity(pairs, rule, tolerance, state.mixity);
     // The leap eliminates the damage pair by pair, which a gradient term forbids.
@@ -106,7 +113,8 @@ bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) c
         plain = mixity.damage_step(adhesion_old, state.adhesion, state.response.jump);
         state.counts.damage_change = largest_change(state.adhesion, plain);
         ++state.counts.am_iterations;
-        if (state.counts.damage_change <= tolerance && mixity.settled(state, adhesion_old)) return record(state, adhesion_old, mixity, converged);
+        if (state.counts.damage_change <= tolerance && mixity.settled(state, adhesion_old))
+            return record(state, adhesion_old, mixity, converged);
         if (state.counts.am_iterations >= limit) {
             state.adhesion = plain;
             displace(state);
@@ -129,7 +137,8 @@ bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) c
             leapt = state.adhesion != plain;
             continue;
         }
-        level += ZoneNewton{*condensed, pairs, contact, monitor, tolerance, std::min(leap_steps, limit)}.leap(state, mixity, adhesion_old);
+        level += ZoneNewton{*condensed, pairs, contact, monitor, tolerance, std::min(leap_steps, limit)}.leap(
+            state, mixity, adhesion_old);
         leapt = state.adhesion != before->adhesion;
         if (!leapt) state.adhesion = plain;
     }

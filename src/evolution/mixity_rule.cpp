@@ -12,8 +12,8 @@ namespace delam {
 
 namespace {
 
-// A mixity that swings to and fro goes half as far with each swing that does not shrink to half, and rests once it is down to `least` of the way, or
-// after so many turns: a step ends.
+// A mixity that swings to and fro goes half as far with each swing that does not shrink to half, and rests once it is
+// down to `least` of the way, or after so many turns: a step ends.
 constexpr double least = 1.0 / 64.0;
 constexpr std::int64_t most_turns = 100;
 
@@ -41,8 +41,10 @@ std::vector<double> starting_mixity(const PairLaws& pairs, MixityRule rule, cons
 
 void warn_of_snap(const Monitor& monitor, MixityRule rule, const State& next) {
     if (rule != MixityRule::frozen || !(next.ledger.mixity_error > snapped)) return;
-    monitor.log(1, text("step ", next.step, " at time ", next.time, ": the mode mixity changed so much within the step that the frozen one misses the toughness by ",
-                        100.0 * next.ledger.mixity_error, " %; smaller steps or mixity_rule = converged cure it"));
+    monitor.log(1,
+                text("step ", next.step, " at time ", next.time,
+                     ": the mode mixity changed so much within the step that the frozen one misses the toughness by ",
+                     100.0 * next.ledger.mixity_error, " %; smaller steps or mixity_rule = converged cure it"));
 }
 
 StepMixity::StepMixity(const PairLaws& pairs, MixityRule rule, double tolerance, std::span<const double> start)
@@ -111,23 +113,28 @@ bool StepMixity::settled(const State& state, std::span<const double> adhesion_ol
 }
 
 std::int64_t StepMixity::held() const {
-    return std::count_if(swing_.begin(), swing_.end(), [&](const Swing& s) { return s.share <= 0.0 && s.open > tolerance_; });
+    return std::count_if(swing_.begin(), swing_.end(),
+                         [&](const Swing& s) { return s.share <= 0.0 && s.open > tolerance_; });
 }
 
 std::vector<double> StepMixity::damage_step(std::span<const double> adhesion_old, std::span<const double> adhesion,
                                             std::span<const double> jump) const {
-    if (rule_ != MixityRule::variational) return delam::damage_step(pairs_, now_.toughness, adhesion_old, adhesion, jump);
+    if (rule_ != MixityRule::variational)
+        return delam::damage_step(pairs_, now_.toughness, adhesion_old, adhesion, jump);
     const auto dim = static_cast<std::size_t>(pairs_.dimension);
     std::vector<Toughness> toughness = now_.toughness;
     std::vector<double> driving(adhesion.size(), 0.0);
     for (std::size_t p = 0; p < driving.size(); ++p) {
-        if (pairs_.mixed(p)) std::tie(toughness[p], driving[p]) = variational(p).damaging(jump.subspan(p * dim, dim));
-        else if (pairs_.law[p] != nullptr) driving[p] = driving_energy(pairs_, p, jump).total();
+        if (pairs_.mixed(p))
+            std::tie(toughness[p], driving[p]) = variational(p).damaging(jump.subspan(p * dim, dim));
+        else if (pairs_.law[p] != nullptr)
+            driving[p] = driving_energy(pairs_, p, jump).total();
     }
     return damage_at(pairs_, toughness, driving, adhesion_old, adhesion);
 }
 
-double StepMixity::energy(std::span<const double> adhesion_old, std::span<const double> adhesion, std::span<const double> jump) const {
+double StepMixity::energy(std::span<const double> adhesion_old, std::span<const double> adhesion,
+                          std::span<const double> jump) const {
     if (rule_ != MixityRule::variational)
         return stored_energy(pairs_, adhesion, jump) + dissipation(pairs_, now_.used, adhesion_old, adhesion);
     const std::vector<double> shown = mixities(pairs_, jump, now_.used);

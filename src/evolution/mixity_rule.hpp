@@ -2,11 +2,15 @@
 // Whose mixity the toughness of a step has (option mixity_rule).
 //
 //   frozen       B of the state before, throughout the step: what the slides minimise
-//   converged    B of the iterate that is looked at, in the end of the step's own solution. A pair that breaks keeps the B of the iterate in which it
-//                broke: the last one whose displacements it still took part in. B has no traction of its own; energies are compared at equal B.
-//   variational  f(B(u), zeta) in the stored energy, Gc of the state before in the dissipated one (interface/variational.hpp)
+//   converged    B of the iterate that is looked at, in the end of the step's own solution. A pair that breaks keeps
+//   the B of the iterate in which it
+//                broke: the last one whose displacements it still took part in. B has no traction of its own; energies
+//                are compared at equal B.
+//   variational  f(B(u), zeta) in the stored energy, Gc of the state before in the dissipated one
+//   (interface/variational.hpp)
 //
-// Under every rule the mixities that the iterates show are kept beside those in use; their difference is the step's `error`.
+// Under every rule the mixities that the iterates show are kept beside those in use; their difference is the step's
+// `error`.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +32,8 @@ MixityRule mixity_rule(const PairLaws& pairs, const std::string& word);
 // What a step starts with: B of the committed displacements, [pairs]. converged: pairs that are broken keep theirs.
 std::vector<double> starting_mixity(const PairLaws& pairs, MixityRule rule, const State& committed);
 
-// Warns the host when a step with frozen mixities snapped: its toughness misses that of the mode in which the damage came about.
+// Warns the host when a step with frozen mixities snapped: its toughness misses that of the mode in which the damage
+// came about.
 void warn_of_snap(const Monitor& monitor, MixityRule rule, const State& next);
 
 class StepMixity {
@@ -48,17 +53,22 @@ public:
     bool look(std::span<const double> adhesion, std::span<const double> jump);
     // The same for one adhering pair of it.
     bool look(std::size_t pair, const Driving& y);
-    // Is the iterate that was looked at last, whose damage rests at the B in use, at rest at the B that it shows too? That B is then the one in use.
+    // Is the iterate that was looked at last, whose damage rests at the B in use, at rest at the B that it shows too?
+    // That B is then the one in use.
     bool settled(const State& state, std::span<const double> adhesion_old);
     // Pairs whose mixity is held because it would not settle.
     std::int64_t held() const;
 
     // The pair under the variational rule.
-    VariationalPair variational(std::size_t pair) const { return {*pairs_.law[pair], now_.used[pair], now_.toughness[pair].total, largest_}; }
+    VariationalPair variational(std::size_t pair) const {
+        return {*pairs_.law[pair], now_.used[pair], now_.toughness[pair].total, largest_};
+    }
     // argmin over 0 <= zeta <= adhesion_old at these displacements, [pairs]; adhesion: where it is now.
-    std::vector<double> damage_step(std::span<const double> adhesion_old, std::span<const double> adhesion, std::span<const double> jump) const;
+    std::vector<double> damage_step(std::span<const double> adhesion_old, std::span<const double> adhesion,
+                                    std::span<const double> jump) const;
     // What is minimised of the interfaces, stored and dissipated, at the B in use.
-    double energy(std::span<const double> adhesion_old, std::span<const double> adhesion, std::span<const double> jump) const;
+    double energy(std::span<const double> adhesion_old, std::span<const double> adhesion,
+                  std::span<const double> jump) const;
     // sum w |dzeta| |Gc(own) - Gc(used)| / sum w |dzeta| Gc(used); 0 when nothing was damaged.
     double error(std::span<const double> adhesion_old, std::span<const double> adhesion) const;
     // B for the records: in use; variational: of the last iterate.

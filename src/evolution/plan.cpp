@@ -50,7 +50,8 @@ void add_reduction(std::vector<PlanItem>& items, const Solver& solver) {
     const std::int64_t own = solver.problem().options.threads, blas = blas_threads();
     const std::string of_blas = blas > 0 ? text(blas) : std::string("an unknown number");
     items.push_back({"threads", own > 1 && !choice.condensed ? used : left_out,
-                     choice.condensed ? text("the condensed operator works by BLAS, which has ", of_blas, own > 1 ? text(" (", own, " of the library asked for)") : std::string())
+                     choice.condensed ? text("the condensed operator works by BLAS, which has ", of_blas,
+                                             own > 1 ? text(" (", own, " of the library asked for)") : std::string())
                                       : text(own, " of the library (option threads), BLAS uses ", of_blas),
                      0.0, 0.0, "-"});
     const double longest = choice.condensed ? c.longest : f.longest;
@@ -104,12 +105,15 @@ PlanItem mixity_of(const Solver& solver, std::size_t interface) {
     if (problem.interfaces[interface].bonded) return {subject, left_out, "bonded for ever: no damage", 0.0, work, unit};
     if (problem.interfaces[interface].contact) return {subject, left_out, "contact alone: no damage", 0.0, work, unit};
     if (problem.interfaces[interface].law->depends_on_mixity())
-        return {subject, used, text("onset and toughness of the law depend on it; option mixity_rule = ", problem.options.mixity_rule),
-                work,    0.0,  unit};
+        return {subject,
+                used,
+                text("onset and toughness of the law depend on it; option mixity_rule = ", problem.options.mixity_rule),
+                work,
+                0.0,
+                unit};
     if (problem.options.mixity == "always")
         return {subject, used, "option mixity = always, although the law does not depend on it", work, 0.0, unit};
-    return {subject, left_out, "onset and toughness of the law are the same at every mixity",
-            0.0,     work,     unit};
+    return {subject, left_out, "onset and toughness of the law are the same at every mixity", 0.0, work, unit};
 }
 
 // Factorisations of a coupled damage step, as seen in marches.
@@ -118,9 +122,12 @@ constexpr double nominal_factorisations = 5.0;
 PlanItem gradient_term(const Solver& solver) {
     const char* unit = "flop/damage step";
     const auto& terms = solver.pairs().gradient;
-    if (terms.empty()) return {"gradient term", left_out, "no law has kappa > 0: the damage step is pointwise", 0.0, 0.0, unit};
-    std::string reason = "one bound-constrained problem for each interface with kappa > 0 instead of the pointwise damage step, and no leaps of the "
-                         "process zone;";
+    if (terms.empty())
+        return {"gradient term", left_out, "no law has kappa > 0: the damage step is pointwise", 0.0, 0.0, unit};
+    std::string reason =
+        "one bound-constrained problem for each interface with kappa > 0 instead of the pointwise damage step, and no "
+        "leaps of the "
+        "process zone;";
     double work = 0.0;
     for (const auto& term : terms) {
         reason += text(" kappa = ", term->kappa(), " couples ", term->coupled_pairs(), " of ", term->pairs(),
@@ -131,9 +138,7 @@ PlanItem gradient_term(const Solver& solver) {
     return {"gradient term", used, reason, work, 0.0, unit};
 }
 
-std::string figure(double value, const std::string& unit) {
-    return unit == "-" ? text(value) : text(value, " ", unit);
-}
+std::string figure(double value, const std::string& unit) { return unit == "-" ? text(value) : text(value, " ", unit); }
 
 }  // namespace
 
@@ -165,14 +170,16 @@ std::vector<PlanItem> Solver::plan() const {
                      0.0, recovery, "flop/step"});
     const bool energetic = options.solution == "energetic";
     items.push_back({"energetic search", energetic ? used : left_out,
-                     energetic ? text("every front and new cracks, at most ", options.search_limit, " candidates a step")
-                               : std::string("option solution = local: critical points reached from the state before"),
+                     energetic
+                         ? text("every front and new cracks, at most ", options.search_limit, " candidates a step")
+                         : std::string("option solution = local: critical points reached from the state before"),
                      0.0, 0.0, "-"});
-    items.push_back({"backtracking", keeps_past() ? used : left_out,
-                     keeps_past() ? text("option backtracking = ", options.backtracking, ", eta = ", options.backtracking_tolerance, ", at most ",
-                                         options.backtracking_limit, " returns a step")
-                                  : std::string("the two-sided energy estimate is reported, not acted on"),
-                     0.0, 0.0, "-"});
+    items.push_back(
+        {"backtracking", keeps_past() ? used : left_out,
+         keeps_past() ? text("option backtracking = ", options.backtracking, ", eta = ", options.backtracking_tolerance,
+                             ", at most ", options.backtracking_limit, " returns a step")
+                      : std::string("the two-sided energy estimate is reported, not acted on"),
+         0.0, 0.0, "-"});
     return items;
 }
 

@@ -11,9 +11,9 @@ struct PlanItem {
     std::string subject;   // "contact of interface 0"
     std::string decision;  // "used" or "left out"
     std::string reason;
-    double cost = 0.0;     // predicted, of what is used; 0 for what is left out
-    double saving = 0.0;   // predicted, against the other decision
-    std::string unit;      // of both
+    double cost = 0.0;    // predicted, of what is used; 0 for what is left out
+    double saving = 0.0;  // predicted, against the other decision
+    std::string unit;     // of both
 };
 
 // One line each: subject: decision, reason (cost ..., saves ...)

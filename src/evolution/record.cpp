@@ -14,7 +14,8 @@ std::vector<std::string> Record::keys() const {
 }
 
 const Record::Column* Record::find(const std::string& key) const {
-    const auto found = std::find_if(columns_.begin(), columns_.end(), [&](const Column& column) { return column.key == key; });
+    const auto found =
+        std::find_if(columns_.begin(), columns_.end(), [&](const Column& column) { return column.key == key; });
     return found == columns_.end() ? nullptr : &*found;
 }
 

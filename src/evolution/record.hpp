@@ -22,7 +22,9 @@ public:
 
     // The first of the steps; the rows after it are of the steps that follow, one each.
     std::int64_t first() const { return first_; }
-    std::int64_t steps() const { return columns_.empty() ? 0 : static_cast<std::int64_t>(columns_.front().values.size()); }
+    std::int64_t steps() const {
+        return columns_.empty() ? 0 : static_cast<std::int64_t>(columns_.front().values.size());
+    }
     const std::vector<Column>& columns() const { return columns_; }
     std::vector<std::string> keys() const;
     // nullptr: the key is not recorded.

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <memory>
 #include <map>
+#include <memory>
 #include <optional>
 
 #include "base/error.hpp"
@@ -17,12 +17,12 @@ namespace delam {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr std::size_t seeds = 2;           // places per interface where a new crack is tried besides the ends of lines
+constexpr std::size_t seeds = 2;  // places per interface where a new crack is tried besides the ends of lines
 constexpr std::ptrdiff_t most_contacts = 64;  // of the bound E_all
-constexpr std::size_t fine = 16;           // rings that are all sampled; of longer sweeps about as many
-constexpr std::size_t largest_zone = 1500; // rows in which sweeps of a condensed scene live
-constexpr std::size_t largest_crack = 32;  // rings of a new crack, and of the zone about it
-constexpr int rounds = 3;                  // of sweeps with the other fronts where they were best
+constexpr std::size_t fine = 16;              // rings that are all sampled; of longer sweeps about as many
+constexpr std::size_t largest_zone = 1500;    // rows in which sweeps of a condensed scene live
+constexpr std::size_t largest_crack = 32;     // rings of a new crack, and of the zone about it
+constexpr int rounds = 3;                     // of sweeps with the other fronts where they were best
 
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
@@ -38,14 +38,21 @@ std::uint64_t key_of(std::span<const double> adhesion) {
 
 }  // namespace
 
-Search::Search(const Problem& problem, const PairLaws& pairs, const ContactScene& contact, Monitor& monitor, JumpOperator& op)
-    : problem_(problem), pairs_(pairs), contact_(contact), monitor_(monitor), op_(op), graph_(problem.mesh->interfaces()),
-      rule_(mixity_rule(pairs, problem.options.mixity_rule)), follow_mixity_(rule_ == MixityRule::converged) {
+Search::Search(const Problem& problem, const PairLaws& pairs, const ContactScene& contact, Monitor& monitor,
+               JumpOperator& op)
+    : problem_(problem),
+      pairs_(pairs),
+      contact_(contact),
+      monitor_(monitor),
+      op_(op),
+      graph_(problem.mesh->interfaces()),
+      rule_(mixity_rule(pairs, problem.options.mixity_rule)),
+      follow_mixity_(rule_ == MixityRule::converged) {
     if (auto* condensed = dynamic_cast<Condensed*>(&op)) zone_.emplace(*condensed, pairs, contact);
 }
 
-// What a search finds depends on its step alone: a march that was saved, rolled back or cancelled goes on with the same bits. So nothing is
-// kept from other steps but E_all of the same load, computed from nothing else.
+// What a search finds depends on its step alone: a march that was saved, rolled back or cancelled goes on with the same
+// bits. So nothing is kept from other steps but E_all of the same load, computed from nothing else.
 void Search::aim(const State& from) {
     size_ = 0.0;
     for (const double t : from.theta) size_ = std::max(size_, std::abs(t));
@@ -69,15 +76,20 @@ double Search::debonded_energy(const State& from) const {
     for (std::size_t p = 0; p < nothing.size(); ++p)
         if (pairs_.law[p] != nullptr) nothing[p] = 0.0;
     ContactScene coarse = contact_;
-    const auto members = [&](std::uint8_t level) { return std::ranges::count_if(coarse.level, [&](std::uint8_t l) { return l >= level; }); };
-    while (members(coarse.least_level) > most_contacts && members(static_cast<std::uint8_t>(coarse.least_level + 1)) > 0) ++coarse.least_level;
+    const auto members = [&](std::uint8_t level) {
+        return std::ranges::count_if(coarse.level, [&](std::uint8_t l) { return l >= level; });
+    };
+    while (members(coarse.least_level) > most_contacts &&
+           members(static_cast<std::uint8_t>(coarse.least_level + 1)) > 0)
+        ++coarse.least_level;
     const std::unique_ptr<JumpOperator> twin = op_.twin();
     JumpOperator& op = twin ? *twin : op_;
     op.recall({});
     std::vector<std::uint8_t> closed(nothing.size(), 0);
     Response response;
     try {
-        const bool settled = solve_contact(op, coarse, spring_stiffness(pairs_, nothing), direction_, closed, response, false).converged;
+        const bool settled =
+            solve_contact(op, coarse, spring_stiffness(pairs_, nothing), direction_, closed, response, false).converged;
         if (settled && response.balanced) return response.stored_bulk + response.load_potential;
     } catch (const Error& error) {
         if (error.status() != DELAM_LIMIT && error.status() != DELAM_ERROR_NUMERICAL) throw;
@@ -100,12 +112,14 @@ void Search::focus(std::span<const std::uint8_t> wanted) {
 const Search::Energy& Search::energy(const std::vector<double>& adhesion, std::span<const std::int64_t> next,
                                      std::span<const double> known) {
     const std::uint64_t key = key_of(adhesion);
-    if (const auto it = known_.find(key); it != known_.end() && (!follow_mixity_ || next.empty() || std::ranges::equal(it->second.next, next)))
+    if (const auto it = known_.find(key);
+        it != known_.end() && (!follow_mixity_ || next.empty() || std::ranges::equal(it->second.next, next)))
         return it->second;
     monitor_.progress("search", result_ != nullptr ? result_->candidates : 0, 0);
     Energy e{infinite, {next.begin(), next.end()}, {}};
     bool within = focused_;
-    for (std::size_t p = 0; within && p < adhesion.size(); ++p) within = adhesion[p] == from_->adhesion[p] || zone_->inside(p);
+    for (std::size_t p = 0; within && p < adhesion.size(); ++p)
+        within = adhesion[p] == from_->adhesion[p] || zone_->inside(p);
     for (std::size_t i = 0; within && follow_mixity_ && i < next.size(); ++i) within = zone_->inside(index(next[i]));
     if (within) {
         if (const std::optional<double> value = zone_->energy(adhesion)) {
@@ -119,7 +133,8 @@ const Search::Energy& Search::energy(const std::vector<double>& adhesion, std::s
         return known_[key] = std::move(e);
     }
     try {
-        if (!solve_contact(op_, contact_, spring_stiffness(pairs_, adhesion), direction_, closed_, response_, false).converged)
+        if (!solve_contact(op_, contact_, spring_stiffness(pairs_, adhesion), direction_, closed_, response_, false)
+                 .converged)
             return known_[key] = std::move(e);
         e.value = response_.stored_bulk + response_.load_potential + stored_energy(pairs_, adhesion, response_.jump) -
                   gradient_energy(pairs_, adhesion);  // which does not grow with the load
@@ -136,7 +151,8 @@ const Search::Energy& Search::energy(const std::vector<double>& adhesion, std::s
 // What is minimised besides bodies and springs: g, or in the slides' split f + Gc (zeta_before - zeta).
 double Search::spent(const Candidate& c) const {
     if (rule_ != MixityRule::variational) return dissipation(pairs_, c.mixity, before_->adhesion, c.adhesion);
-    return dissipation_slides(pairs_, c.mixity, before_->adhesion, c.adhesion) + stored_slides(pairs_, c.mixity, c.adhesion);
+    return dissipation_slides(pairs_, c.mixity, before_->adhesion, c.adhesion) +
+           stored_slides(pairs_, c.mixity, c.adhesion);
 }
 
 double Search::energy_before() const {
@@ -148,7 +164,8 @@ double Search::compare(Candidate& candidate, std::span<const std::int64_t> next,
     ++result_->candidates;
     const Energy& e = energy(candidate.adhesion, next, candidate.mixity);
     if (next_mixity != nullptr) *next_mixity = e.next_mixity;
-    candidate.incremental = size_ * size_ * e.value - energy_before() + gradient_energy(pairs_, candidate.adhesion) + spent(candidate);
+    candidate.incremental =
+        size_ * size_ * e.value - energy_before() + gradient_energy(pairs_, candidate.adhesion) + spent(candidate);
     result_->lowest = std::min(result_->lowest, candidate.incremental);
     best_ = std::min(best_, candidate.incremental);
     return candidate.incremental;
@@ -186,9 +203,9 @@ private:
     std::vector<std::uint8_t> adhering_;
     std::vector<std::vector<std::int64_t>> ring_;
     bool nucleation_;
-    std::map<std::size_t, Candidate> value_;          // by rings; adhesion is left out: only I and D are needed
-    std::map<std::size_t, double> spent_;             // D
-    std::vector<std::vector<double>> mixity_;         // B of a ring, from the nearest sample before it
+    std::map<std::size_t, Candidate> value_;   // by rings; adhesion is left out: only I and D are needed
+    std::map<std::size_t, double> spent_;      // D
+    std::vector<std::vector<double>> mixity_;  // B of a ring, from the nearest sample before it
     std::size_t best_at_ = 0;
     std::size_t all_ = 0;  // rings of the front; those kept may matter and fit
     bool stopped_ = false;
@@ -204,7 +221,11 @@ bool Search::Sweep::touches_debonded(std::span<const std::int64_t> ring) const {
 
 // Keeps the rings whose dissipation alone does not yet exceed what could be gained.
 Search::Sweep::Sweep(Search& search, const Front& front, const Candidate& base)
-    : search_(search), base_(base), adhering_(search.adhering(base)), ring_(rings(search.graph_, adhering_, front)), nucleation_(front.nucleation),
+    : search_(search),
+      base_(base),
+      adhering_(search.adhering(base)),
+      ring_(rings(search.graph_, adhering_, front)),
+      nucleation_(front.nucleation),
       all_(ring_.size()) {
     double spent = search.spent(base);
     std::vector<std::uint8_t> wanted(base.adhesion.size(), 0);
@@ -214,11 +235,13 @@ Search::Sweep::Sweep(Search& search, const Front& front, const Candidate& base)
     std::size_t keep = 0;
     while (keep < ring_.size() && (keep < 2 || search.floor_ + spent < search.best_)) {
         rows += ring_[keep].size();
-        if (keep > 0 && (search.zone_ && rows * static_cast<std::size_t>(search.pairs_.dimension) > largest_zone)) break;
+        if (keep > 0 && (search.zone_ && rows * static_cast<std::size_t>(search.pairs_.dimension) > largest_zone))
+            break;
         if (nucleation_ && (keep == largest_crack || touches_debonded(ring_[keep]))) break;
         for (const std::int64_t p : ring_[keep]) {
             const Toughness t = search.pairs_.toughness(index(p), base.mixity[index(p)]);
-            spent += search.pairs_.weight[index(p)] * (t.total - search.pairs_.law[index(p)]->dissipated(t, base.adhesion[index(p)]));
+            spent += search.pairs_.weight[index(p)] *
+                     (t.total - search.pairs_.law[index(p)]->dissipated(t, base.adhesion[index(p)]));
             wanted[index(p)] = 1;
         }
         ++keep;
@@ -248,7 +271,8 @@ Candidate Search::Sweep::candidate(std::size_t n) const {
 void Search::Sweep::sample(std::size_t n) {
     if (value_.contains(n)) return;
     Candidate c = candidate(n);
-    const std::span<const std::int64_t> next = n < ring_.size() ? std::span<const std::int64_t>(ring_[n]) : std::span<const std::int64_t>();
+    const std::span<const std::int64_t> next =
+        n < ring_.size() ? std::span<const std::int64_t>(ring_[n]) : std::span<const std::int64_t>();
     std::vector<double> next_mixity;
     search_.compare(c, next, &next_mixity);
     if (n < ring_.size()) mixity_[n] = std::move(next_mixity);
@@ -259,7 +283,8 @@ void Search::Sweep::sample(std::size_t n) {
 double Search::Sweep::between(std::size_t low, std::size_t high) const {
     const double first = search_.spent(candidate(low + 1));
     // The gradient energy is not monotone along the front: what is left of it in between is bounded by 0.
-    const double gradient = search_.pairs_.gradient.empty() ? 0.0 : gradient_energy(search_.pairs_, candidate(high).adhesion);
+    const double gradient =
+        search_.pairs_.gradient.empty() ? 0.0 : gradient_energy(search_.pairs_, candidate(high).adhesion);
     return value_.at(high).incremental - gradient - spent_.at(high) + first;
 }
 
@@ -278,7 +303,8 @@ double Search::Sweep::bound() const {
 // Halves the intervals on both sides of the lowest sample until its neighbours are sampled.
 void Search::Sweep::refine_minimum() {
     while (search_.left_ > 0) {
-        // The lowest sample to which I falls: beyond the first pairs' resistance it may lie above the start and still be worth relaxing.
+        // The lowest sample to which I falls: beyond the first pairs' resistance it may lie above the start and still
+        // be worth relaxing.
         auto lowest = value_.end();
         for (auto it = std::next(value_.begin()); it != value_.end(); ++it)
             if (it->second.incremental < std::prev(it)->second.incremental &&
@@ -355,7 +381,8 @@ SearchResult Search::run(const State& before, const State& from, std::span<const
     left_ = problem_.options.search_limit;
     const double level = from.ledger.increment;
     best_ = level;
-    tolerance_ = problem_.options.search_tolerance * std::max(std::abs(from.ledger.energy()), std::abs(from.ledger.work));
+    tolerance_ =
+        problem_.options.search_tolerance * std::max(std::abs(from.ledger.energy()), std::abs(from.ledger.work));
     floor_ = size_ * size_ * unit_floor_ - energy_before();
 
     const Candidate start{before.adhesion, {mixity.begin(), mixity.end()}, 0.0};
@@ -366,20 +393,23 @@ SearchResult Search::run(const State& before, const State& from, std::span<const
     const auto look = [&](const Front& front, const Candidate& base, const char* with) {
         if (left_ <= 0) {
             if (!front.nucleation) result.bound = std::min(result.bound, floor_ + spent(base));
-            result.words += text(front.nucleation ? "new crack" : "front", " of interface ", front.interface, with, ": left out by search_limit\n");
+            result.words += text(front.nucleation ? "new crack" : "front", " of interface ", front.interface, with,
+                                 ": left out by search_limit\n");
             return;
         }
         Sweep sweep(*this, front, base);
         sweep.run();
         const std::int64_t pair = front.pairs.front() - graph_.first_pair(front.interface);
-        result.words += text(front.nucleation ? "new crack" : "front", " of interface ", front.interface, " at pair ", pair, with, ": ",
-                             sweep.sampled(), " of ", sweep.rings_swept(), " rings compared", sweep.stopped() ? ", stopped by search_limit" : "");
+        result.words += text(front.nucleation ? "new crack" : "front", " of interface ", front.interface, " at pair ",
+                             pair, with, ": ", sweep.sampled(), " of ", sweep.rings_swept(), " rings compared",
+                             sweep.stopped() ? ", stopped by search_limit" : "");
         if (front.nucleation)
             result.words += ", sizes 1, 2, 4 ... and around the lowest";
         else
             result.words += text(", the others lie at most ", std::max(0.0, best_ - sweep.bound()), " below the best");
         if (auto best = sweep.best()) {
-            result.words += text("; lowest at ", sweep.best_at(), ", by ", best->incremental - level, " above the step");
+            result.words +=
+                text("; lowest at ", sweep.best_at(), ", by ", best->incremental - level, " above the step");
             found.push_back(std::move(*best));
         }
         result.words += "\n";
@@ -391,7 +421,8 @@ SearchResult Search::run(const State& before, const State& from, std::span<const
         for (int round = 0; round < rounds && !found.empty() && left_ > 0; ++round) {
             const Candidate base = *std::min_element(found.begin(), found.end(), lower);
             if (base.incremental >= level) break;
-            for (const Front& front : find_fronts(graph_, pairs_, adhering(base), toughnesses(pairs_, base.mixity), from.response.jump, 0))
+            for (const Front& front :
+                 find_fronts(graph_, pairs_, adhering(base), toughnesses(pairs_, base.mixity), from.response.jump, 0))
                 if (!front.nucleation) look(front, base, " from the lowest so far");
             if (std::min_element(found.begin(), found.end(), lower)->incremental >= base.incremental) break;
         }
@@ -428,26 +459,30 @@ void Search::advance_together(const Candidate& start, std::span<const Front> fro
     if (lowest) found.push_back(std::move(*lowest));
 }
 
-// One interface debonded altogether, and all of them: whatever their length, which bounds the cracks that begin somewhere.
+// One interface debonded altogether, and all of them: whatever their length, which bounds the cracks that begin
+// somewhere.
 void Search::break_everything(const Candidate& start, std::vector<Candidate>& found) {
     std::int64_t interfaces = 0;
     for (std::size_t p = 0; p < start.adhesion.size(); ++p)
         if (pairs_.law[p] != nullptr) interfaces = std::max(interfaces, graph_.interface_of(p) + 1);
-    for (std::int64_t i = interfaces > 1 ? 0 : interfaces; i <= interfaces && left_ > 0; ++i) {  // the last: all of them
+    for (std::int64_t i = interfaces > 1 ? 0 : interfaces; i <= interfaces && left_ > 0;
+         ++i) {  // the last: all of them
         Candidate all = start;
         std::vector<std::uint8_t> wanted(all.adhesion.size(), 0);
         for (std::size_t p = 0; p < all.adhesion.size(); ++p) {
-            if (pairs_.law[p] == nullptr || all.adhesion[p] == 0.0 || (i < interfaces && graph_.interface_of(p) != i)) continue;
+            if (pairs_.law[p] == nullptr || all.adhesion[p] == 0.0 || (i < interfaces && graph_.interface_of(p) != i))
+                continue;
             all.adhesion[p] = 0.0;
             wanted[p] = 1;
         }
-        const auto rows = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}) * pairs_.dimension);
+        const auto rows =
+            static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}) * pairs_.dimension);
         if (rows == 0 || floor_ + spent(all) >= best_) continue;
         focused_ = false;
         if (rows <= largest_zone) focus(wanted);
         if (!std::isfinite(compare(all, {}, nullptr))) continue;
-        result_->words += text(i == interfaces ? "everything" : text("interface ", i), " debonded: ", all.incremental - from_->ledger.increment,
-                               " above the step\n");
+        result_->words += text(i == interfaces ? "everything" : text("interface ", i),
+                               " debonded: ", all.incremental - from_->ledger.increment, " above the step\n");
         found.push_back(std::move(all));
     }
 }

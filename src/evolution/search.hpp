@@ -3,15 +3,18 @@
 //
 // A candidate is the adhesion before the step with a set R of pairs debonded at once:
 //   I(R) = E(t, z_R) + D(z_before, z_R).
-// Sets grow by rings from every front and from places where a crack may begin (fronts.hpp), from all fronts together, and from each
-// front again with the others where they were best; and an interface may come off altogether. E falls as R grows and D grows with it. So nothing between two sets R1 < R2 of a sweep
-// lies below  E(R2) + D(R1),  nor anything beyond R below  E_all + D(R),  E_all: everything debonded. A sweep samples rings far apart, then
-// around its minima, then wherever these bounds leave room for a state that is lower by more than search_tolerance.
+// Sets grow by rings from every front and from places where a crack may begin (fronts.hpp), from all fronts together,
+// and from each front again with the others where they were best; and an interface may come off altogether. E falls as
+// R grows and D grows with it. So nothing between two sets R1 < R2 of a sweep lies below  E(R2) + D(R1),  nor anything
+// beyond R below  E_all + D(R),  E_all: everything debonded. A sweep samples rings far apart, then around its minima,
+// then wherever these bounds leave room for a state that is lower by more than search_tolerance.
 //
-// Contact without friction and springs are homogeneous, E(theta) = |theta|^2 E(theta/|theta|): under a proportional load E_all is solved for once.
+// Contact without friction and springs are homogeneous, E(theta) = |theta|^2 E(theta/|theta|): under a proportional
+// load E_all is solved for once.
 //
-// Where the operator is condensed the energies come from a zone about each front (zone_energies.hpp), with the contact outside as it is in the
-// step; else from whole displacement solves. They choose what is minimised from; the energy of a result never comes from here.
+// Where the operator is condensed the energies come from a zone about each front (zone_energies.hpp), with the contact
+// outside as it is in the step; else from whole displacement solves. They choose what is minimised from; the energy of
+// a result never comes from here.
 #pragma once
 
 #include <cstdint>
@@ -50,19 +53,21 @@ struct SearchResult {
 class Search {
 public:
     // op: any operator of the scene whose memory may be disturbed; it must outlive the search.
-    Search(const Problem& problem, const PairLaws& pairs, const ContactScene& contact, Monitor& monitor, JumpOperator& op);
+    Search(const Problem& problem, const PairLaws& pairs, const ContactScene& contact, Monitor& monitor,
+           JumpOperator& op);
     // from: the step as far as it is known, booked; mixity: that of its start.
     SearchResult run(const State& before, const State& from, std::span<const double> mixity);
 
 private:
     struct Energy {
-        double value;  // at the unit load; infinite: nothing balances the load
+        double value;                     // at the unit load; infinite: nothing balances the load
         std::vector<std::int64_t> next;   // pairs that may break next
         std::vector<double> next_mixity;  // which they show
     };
     class Sweep;
 
-    const Energy& energy(const std::vector<double>& adhesion, std::span<const std::int64_t> next, std::span<const double> known);
+    const Energy& energy(const std::vector<double>& adhesion, std::span<const std::int64_t> next,
+                         std::span<const double> known);
     void aim(const State& from);
     double debonded_energy(const State& from) const;
     std::vector<std::uint8_t> adhering(const Candidate& base) const;

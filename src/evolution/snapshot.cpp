@@ -58,7 +58,8 @@ public:
     void item(std::vector<T>& v) {
         std::uint64_t size = 0;
         item(size);
-        if (size > (bytes_.size() - at_) / sizeof(T)) fail(DELAM_ERROR_SNAPSHOT, "snapshot ends early at byte ", bytes_.size());
+        if (size > (bytes_.size() - at_) / sizeof(T))
+            fail(DELAM_ERROR_SNAPSHOT, "snapshot ends early at byte ", bytes_.size());
         v.resize(size);
         if (size > 0) std::memcpy(v.data(), take(size * sizeof(T)), size * sizeof(T));
     }
@@ -105,24 +106,29 @@ void check(const State& state, const Solver& solver) {
     const State& mine = solver.committed();
     const Response &a = state.response, &b = mine.response;
     const bool sizes = state.theta.size() == mine.theta.size() && state.adhesion.size() == mine.adhesion.size() &&
-                       state.mixity.size() == mine.mixity.size() && state.mixity_before.size() == mine.mixity_before.size() &&
+                       state.mixity.size() == mine.mixity.size() &&
+                       state.mixity_before.size() == mine.mixity_before.size() &&
                        state.closed.size() == mine.closed.size() && a.jump.size() == b.jump.size() &&
-                       a.force.size() == b.force.size() &&
-                       a.conjugate.size() == b.conjugate.size() && a.multipliers.size() == b.multipliers.size() &&
-                       a.rigid.size() == b.rigid.size();
+                       a.force.size() == b.force.size() && a.conjugate.size() == b.conjugate.size() &&
+                       a.multipliers.size() == b.multipliers.size() && a.rigid.size() == b.rigid.size();
     if (!sizes) fail(DELAM_ERROR_SNAPSHOT, "snapshot has other sizes than this solver");
     for (const auto* fractions : {&state.adhesion, &state.mixity, &state.mixity_before})
         for (const double v : *fractions)
-            if (!(v >= 0.0 && v <= 1.0)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds an adhesion or mixity of ", v, ", allowed: 0 to 1");
-    for (const auto* values : {&state.theta, &a.jump, &a.force, &a.conjugate, &a.multipliers, &a.rigid, &state.memory, &state.search_memory})
+            if (!(v >= 0.0 && v <= 1.0))
+                fail(DELAM_ERROR_SNAPSHOT, "snapshot holds an adhesion or mixity of ", v, ", allowed: 0 to 1");
+    for (const auto* values :
+         {&state.theta, &a.jump, &a.force, &a.conjugate, &a.multipliers, &a.rigid, &state.memory, &state.search_memory})
         for (const double v : *values)
             if (!std::isfinite(v)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a number that is not finite");
     const Ledger& l = state.ledger;
-    for (const double v : {a.stored_bulk, a.load_potential, a.residual, l.stored_bulk, l.stored_interface, l.load_potential, l.stored_interface_slides, l.dissipated,
-                           l.dissipated_slides, l.work, l.lower, l.increment, l.upper, l.increment_lower, l.initial, l.initial_slides, l.mixity_error})
+    for (const double v :
+         {a.stored_bulk, a.load_potential, a.residual, l.stored_bulk, l.stored_interface, l.load_potential,
+          l.stored_interface_slides, l.dissipated, l.dissipated_slides, l.work, l.lower, l.increment, l.upper,
+          l.increment_lower, l.initial, l.initial_slides, l.mixity_error})
         if (!std::isfinite(v)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds an energy or residual that is not finite");
     if (!std::isfinite(state.time)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a time of ", state.time);
-    if (state.step < 0 || state.step > most_steps) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", state.step, ", allowed: 0 to 2^53");
+    if (state.step < 0 || state.step > most_steps)
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", state.step, ", allowed: 0 to 2^53");
     solver.jump_operator().require_memory(state.memory);
     solver.jump_operator().require_memory(state.search_memory);  // of its twin
 }
@@ -131,10 +137,13 @@ void check(const Jump& jump, const Solver& solver) {
     const auto& interfaces = solver.problem().mesh->interfaces();
     const bool named = jump.interface >= 0 && jump.interface < static_cast<std::int64_t>(interfaces.size());
     const std::int64_t pairs = named ? interfaces[static_cast<std::size_t>(jump.interface)].pair_count() : 0;
-    bool sound = named && jump.first_pair >= -1 && jump.first_pair < pairs && jump.last_pair >= -1 && jump.last_pair < pairs && jump.step >= 0 && jump.before <= jump.time;
-    for (const double v : {jump.before, jump.time, jump.stored, jump.dissipated, jump.released, jump.debonded}) sound = sound && std::isfinite(v);
-    if (!sound) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a jump at time ", jump.time, " of interface ", jump.interface, ", pairs ", jump.first_pair, " to ", jump.last_pair,
-                     ", that no march can have");
+    bool sound = named && jump.first_pair >= -1 && jump.first_pair < pairs && jump.last_pair >= -1 &&
+                 jump.last_pair < pairs && jump.step >= 0 && jump.before <= jump.time;
+    for (const double v : {jump.before, jump.time, jump.stored, jump.dissipated, jump.released, jump.debonded})
+        sound = sound && std::isfinite(v);
+    if (!sound)
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a jump at time ", jump.time, " of interface ", jump.interface,
+             ", pairs ", jump.first_pair, " to ", jump.last_pair, ", that no march can have");
 }
 
 // Histories that the host has changed since the solver was made: pattern, times, values.
@@ -164,8 +173,11 @@ std::vector<Pattern> read_histories(Reader& r, std::vector<Pattern> patterns) {
         r.item(pattern.values);
         bool sound = !pattern.times.empty() && pattern.times.size() == pattern.values.size();
         for (std::size_t k = 0; sound && k < pattern.times.size(); ++k)
-            sound = std::isfinite(pattern.times[k]) && std::isfinite(pattern.values[k]) && (k == 0 || pattern.times[k] > pattern.times[k - 1]);
-        if (!sound) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a history of pattern '", pattern.name, "' whose times do not increase");
+            sound = std::isfinite(pattern.times[k]) && std::isfinite(pattern.values[k]) &&
+                    (k == 0 || pattern.times[k] > pattern.times[k - 1]);
+        if (!sound)
+            fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a history of pattern '", pattern.name,
+                 "' whose times do not increase");
     }
     return patterns;
 }
@@ -193,19 +205,24 @@ Record read_record(Reader& r, const Solver& solver) {
         r.item(letters);
         r.item(values);
         const std::string key(letters.begin(), letters.end());
-        if (std::find(names.begin(), names.end(), key) == names.end() || why_unrecorded(key) != nullptr || record.find(key) != nullptr)
-            fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a record of '", key, "', which is no value of this solver that is recorded, or comes twice");
+        if (std::find(names.begin(), names.end(), key) == names.end() || why_unrecorded(key) != nullptr ||
+            record.find(key) != nullptr)
+            fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a record of '", key,
+                 "', which is no value of this solver that is recorded, or comes twice");
         record.add({key, std::move(values)}, first);
     }
-    if (columns == 0 && first != 0) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a record from step ", first, " on that has no values");
+    if (columns == 0 && first != 0)
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a record from step ", first, " on that has no values");
     return record;
 }
 
 // A row for every step from the first to that of the state.
 void check(const Record& record, const State& state) {
     for (const Record::Column& column : record.columns())
-        if (record.first() < 0 || record.first() > state.step || static_cast<std::int64_t>(column.values.size()) != state.step - record.first() + 1)
-            fail(DELAM_ERROR_SNAPSHOT, "snapshot holds ", column.values.size(), " recorded values of '", column.key, "' from step ", record.first(), " on, its state is of step ", state.step);
+        if (record.first() < 0 || record.first() > state.step ||
+            static_cast<std::int64_t>(column.values.size()) != state.step - record.first() + 1)
+            fail(DELAM_ERROR_SNAPSHOT, "snapshot holds ", column.values.size(), " recorded values of '", column.key,
+                 "' from step ", record.first(), " on, its state is of step ", state.step);
 }
 
 }  // namespace
@@ -233,7 +250,8 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
     if (found_magic != magic) fail(DELAM_ERROR_SNAPSHOT, "not a snapshot of a libdelam solver");
     r.item(found_version);
     if (found_version < oldest || found_version > version)
-        fail(DELAM_ERROR_SNAPSHOT, "snapshot version ", found_version, ", this library reads ", oldest, " to ", version);
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot version ", found_version, ", this library reads ", oldest, " to ",
+             version);
     if (bytes.size() < sizeof(found_sum)) fail(DELAM_ERROR_SNAPSHOT, "snapshot ends early");
     std::memcpy(&found_sum, bytes.data() + bytes.size() - sizeof(found_sum), sizeof(found_sum));
     if (found_sum != checksum(bytes.first(bytes.size() - sizeof(found_sum))))
@@ -261,11 +279,13 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
     std::int64_t step = state.step - static_cast<std::int64_t>(kept);
     for (const State& earlier : past) {
         check(earlier, solver);
-        if (earlier.step != step++) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", earlier.step, " instead of ", step - 1);
+        if (earlier.step != step++)
+            fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", earlier.step, " instead of ", step - 1);
     }
     for (std::size_t i = 0; i < past.size(); ++i)
         if (const double next = i + 1 < past.size() ? past[i + 1].time : state.time; !(past[i].time < next))
-            fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", past[i].step, " at time ", past[i].time, ", the step after it at ", next);
+            fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", past[i].step, " at time ", past[i].time,
+                 ", the step after it at ", next);
     for (const Jump& jump : jumps) check(jump, solver);
     check(record, state);
     solver.restore(std::move(state), std::move(past), std::move(jumps), std::move(patterns), std::move(record));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The committed state as bytes: magic, version, hash of the scene, the state, checksum. Little-endian doubles as they are, so that a restored
-// march goes on bit for bit.
+// The committed state as bytes: magic, version, hash of the scene, the state, checksum. Little-endian doubles as they
+// are, so that a restored march goes on bit for bit.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,8 @@
 namespace delam {
 
 std::vector<std::uint8_t> save(const Solver& solver);
-// Throws Error(DELAM_ERROR_SNAPSHOT) for bytes that are damaged, of another version or of another scene; the solver is then unchanged.
+// Throws Error(DELAM_ERROR_SNAPSHOT) for bytes that are damaged, of another version or of another scene; the solver is
+// then unchanged.
 void load(Solver& solver, std::span<const std::uint8_t> bytes);
 
 }  // namespace delam

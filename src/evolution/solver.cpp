@@ -26,7 +26,12 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 }  // namespace
 
 Solver::Solver(const Problem& problem, Monitor& monitor, double time)
-    : problem_(problem), first_patterns_(problem.patterns), scene_hash_(hash(problem)), monitor_(monitor), stepper_(problem_, monitor), graph_(problem_.mesh->interfaces()) {
+    : problem_(problem),
+      first_patterns_(problem.patterns),
+      scene_hash_(hash(problem)),
+      monitor_(monitor),
+      stepper_(problem_, monitor),
+      graph_(problem_.mesh->interfaces()) {
     Stepper::Result first = stepper_.initial(time);
     committed_ = std::move(first.state);
     if (!first.converged) initial_outcome_ = unconverged_displacement(committed_);
@@ -34,19 +39,21 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time)
 }
 
 Outcome Solver::unconverged_displacement(const State& state) const {
-    return {DELAM_NOT_CONVERGED,
-            text("displacement step at time ", state.time, ": worst linear residual ", state.counts.linear_residual, ", tolerance ",
-                 problem_.options.linear_tolerance, "; ", state.counts.contact_iterations, " active-set steps")};
+    return {DELAM_NOT_CONVERGED, text("displacement step at time ", state.time, ": worst linear residual ",
+                                      state.counts.linear_residual, ", tolerance ", problem_.options.linear_tolerance,
+                                      "; ", state.counts.contact_iterations, " active-set steps")};
 }
 
 void Solver::judge_balance(const State& state, Outcome& outcome) {
     const double off = out_of_balance(problem_, stepper_.op(), state, stepper_.contact().force_floor(state.theta));
     if (!(off > poor_balance)) return;
-    const std::string what = text("step ", state.step, " at time ", state.time, ": forces at nodes are out of balance by ", off,
-                                  " of the largest reaction: stiffnesses cancel to rounding (plies very much longer than thick, or moduli "
-                                  "that differ very much)");
+    const std::string what =
+        text("step ", state.step, " at time ", state.time, ": forces at nodes are out of balance by ", off,
+             " of the largest reaction: stiffnesses cancel to rounding (plies very much longer than thick, or moduli "
+             "that differ very much)");
     if (off > no_balance) {
-        outcome = {DELAM_NOT_CONVERGED, text(outcome.text, outcome.text.empty() ? "" : "; ", what, "; allowed is ", no_balance)};
+        outcome = {DELAM_NOT_CONVERGED,
+                   text(outcome.text, outcome.text.empty() ? "" : "; ", what, "; allowed is ", no_balance)};
     } else if (!warned_of_balance_) {
         monitor_.log(1, text(what, " (said once)"));
         warned_of_balance_ = true;
@@ -73,7 +80,8 @@ Outcome Solver::advance(double time) {
                                           : stepper_.step(committed_, time);
     Pending pending;
     if (controls_steps(options)) {
-        ControlledStep controlled = controlled_step(stepper_, graph_, chain.at(committed_.step), std::move(result), options);
+        ControlledStep controlled =
+            controlled_step(stepper_, graph_, chain.at(committed_.step), std::move(result), options);
         result = std::move(controlled.result);
         pending.jumps = std::move(controlled.jumps);
     }
@@ -87,8 +95,8 @@ Outcome Solver::advance(double time) {
         outcome.status = DELAM_NOT_CONVERGED;
         outcome.text = text("step ", next.step, " at time ", time, ": not converged after ", next.counts.am_iterations,
                             " alternations (last change of adhesion ", next.counts.damage_change, ", tolerance ",
-                            options.damage_tolerance, "; worst linear residual ", next.counts.linear_residual, ", tolerance ",
-                            options.linear_tolerance, ")");
+                            options.damage_tolerance, "; worst linear residual ", next.counts.linear_residual,
+                            ", tolerance ", options.linear_tolerance, ")");
         if (next.counts.mixity_held > 0)
             outcome.text += text("; the mixity of ", next.counts.mixity_held, " pairs would not settle and was held");
     }
@@ -153,7 +161,8 @@ void Solver::rollback() {
 void Solver::set_history(std::int64_t pattern, std::span<const double> times, std::span<const double> values) {
     if (pending_) fail(DELAM_ERROR_STATE, "a step is pending: commit it or roll it back before a history changes");
     const double now = committed_.time;
-    if (times.front() <= now) fail(DELAM_ERROR_ARGUMENT, "times[0] = ", times.front(), " is not after the committed time ", now);
+    if (times.front() <= now)
+        fail(DELAM_ERROR_ARGUMENT, "times[0] = ", times.front(), " is not after the committed time ", now);
     Pattern& changed = problem_.patterns[static_cast<std::size_t>(pattern)];
     std::vector<double> t, v;
     for (std::size_t i = 0; i < changed.times.size() && changed.times[i] < now; ++i) {
@@ -197,17 +206,21 @@ std::vector<double> Solver::values_of(const State& state, const std::vector<std:
 std::vector<std::int64_t> Solver::changed_histories() const {
     std::vector<std::int64_t> changed;
     for (std::size_t p = 0; p < first_patterns_.size(); ++p)
-        if (problem_.patterns[p].times != first_patterns_[p].times || problem_.patterns[p].values != first_patterns_[p].values)
+        if (problem_.patterns[p].times != first_patterns_[p].times ||
+            problem_.patterns[p].values != first_patterns_[p].values)
             changed.push_back(static_cast<std::int64_t>(p));
     return changed;
 }
 
 std::vector<double> Solver::step_tangent() const {
-    if (!pending_ || pending_->state.step == committed_.step) fail(DELAM_ERROR_STATE, "step tangent: no step is pending");
+    if (!pending_ || pending_->state.step == committed_.step)
+        fail(DELAM_ERROR_STATE, "step tangent: no step is pending");
     if (!pending_->revised.empty())
-        fail(DELAM_ERROR_STATE, "step tangent: a return has replaced steps from ", pending_->revised.front().step, " on");
+        fail(DELAM_ERROR_STATE, "step tangent: a return has replaced steps from ", pending_->revised.front().step,
+             " on");
     if (const std::int64_t parts = pending_->state.counts.substeps; parts > 1)
-        fail(DELAM_ERROR_STATE, "step tangent: the step was walked in ", parts, " parts (step_control, jump_tolerance or mixity_step_tolerance), each from the one before");
+        fail(DELAM_ERROR_STATE, "step tangent: the step was walked in ", parts,
+             " parts (step_control, jump_tolerance or mixity_step_tolerance), each from the one before");
     return stepper_.step_tangent(committed_, pending_->state);
 }
 
@@ -223,7 +236,8 @@ void Solver::look(std::int64_t step) {
             for (const State& state : pending_->revised)
                 if (state.step == step) found = &state;
         }
-        if (found == nullptr) found = step == committed_.step ? &committed_ : &past_[static_cast<std::size_t>(step - past_.front().step)];
+        if (found == nullptr)
+            found = step == committed_.step ? &committed_ : &past_[static_cast<std::size_t>(step - past_.front().step)];
     }
     looked_ = found;
     forget();
@@ -239,7 +253,8 @@ std::vector<Jump> Solver::jumps(bool pending) const {
     return all;
 }
 
-void Solver::restore(State restored, std::vector<State> past, std::vector<Jump> jumps, std::vector<Pattern> patterns, Record record) {
+void Solver::restore(State restored, std::vector<State> past, std::vector<Jump> jumps, std::vector<Pattern> patterns,
+                     Record record) {
     stepper_.op().recall(restored.memory);
     problem_.patterns = std::move(patterns);
     committed_ = std::move(restored);
@@ -261,15 +276,20 @@ std::optional<CrackedInterface> Solver::cracked(const State& state, std::int64_t
     const InterfaceProperties& properties = problem_.interfaces[static_cast<std::size_t>(interface)];
     if (properties.bonded || !properties.law) return std::nullopt;
     const InterfaceGeometry& geometry = mesh.interfaces()[static_cast<std::size_t>(interface)];
-    const auto first = static_cast<std::size_t>(graph_.first_pair(interface)), count = static_cast<std::size_t>(geometry.pair_count());
+    const auto first = static_cast<std::size_t>(graph_.first_pair(interface)),
+               count = static_cast<std::size_t>(geometry.pair_count());
     const auto dim = static_cast<std::size_t>(mesh.dimension());
-    return CrackedInterface{mesh, geometry, *properties.law, std::span(properties.adhesion), std::span(state.adhesion).subspan(first, count),
+    return CrackedInterface{mesh,
+                            geometry,
+                            *properties.law,
+                            std::span(properties.adhesion),
+                            std::span(state.adhesion).subspan(first, count),
                             std::span(state.response.jump).subspan(first * dim, count * dim)};
 }
 
-// A front has grown where a pair broke: until the first one does, the zone is still forming. A zone that is cut short where a front comes
-// to rest was longer before it ran: the better of both states counts. The energetic solution knows the
-// front by its energy, which needs no resolved zone; Griffith's law has none.
+// A front has grown where a pair broke: until the first one does, the zone is still forming. A zone that is cut short
+// where a front comes to rest was longer before it ran: the better of both states counts. The energetic solution knows
+// the front by its energy, which needs no resolved zone; Griffith's law has none.
 void Solver::warn_of_unresolved_front(const State& before, const State& after) {
     if (warned_of_front_ || problem_.options.solution == "energetic") return;
     for (std::int64_t i = 0; i < static_cast<std::int64_t>(problem_.interfaces.size()); ++i) {
@@ -284,9 +304,10 @@ void Solver::warn_of_unresolved_front(const State& before, const State& after) {
             for (const CrackFront& front : delam::crack_fronts(*state))
                 for (const FrontPoint& point : front.points) pairs = std::max(pairs, point.zone_pairs);
         if (pairs < 0.0 || pairs >= resolving_pairs) continue;
-        monitor_.log(1, text("step ", after.step, " at time ", after.time, ": a front of interface ", i, " grew with ", std::floor(pairs),
-                             " pairs in its process zone, which takes ", resolving_pairs,
-                             ": when and how far it grows depends on the mesh; finer cells or solution = energetic cure it (said once)"));
+        monitor_.log(1, text("step ", after.step, " at time ", after.time, ": a front of interface ", i, " grew with ",
+                             std::floor(pairs), " pairs in its process zone, which takes ", resolving_pairs,
+                             ": when and how far it grows depends on the mesh; finer cells or solution = energetic "
+                             "cure it (said once)"));
         warned_of_front_ = true;
         return;
     }
@@ -297,7 +318,8 @@ double Solver::largest_rotation() const {
     const double largest = delam::largest_rotation(*problem_.mesh, displacement());
     if (largest > small_rotation && !warned_of_rotation_) {
         monitor_.log(1, text("step ", state().step, " at time ", state().time, ": cells turn by up to ", largest,
-                             " rad; strains are small ones, off by about half the square of that, ", 0.5 * largest * largest, " (said once)"));
+                             " rad; strains are small ones, off by about half the square of that, ",
+                             0.5 * largest * largest, " (said once)"));
         warned_of_rotation_ = true;
     }
     return largest;
@@ -306,7 +328,8 @@ double Solver::largest_rotation() const {
 std::vector<BodyModel> Solver::models() const {
     std::vector<BodyModel> models;
     for (std::int32_t body = 0; body < problem_.mesh->body_count(); ++body)
-        models.push_back(known(body) ? problem_.model(body) : BodyModel{Elastic{1.0, 0.0}, problem_.plane, Formulation::standard, nullptr});
+        models.push_back(known(body) ? problem_.model(body)
+                                     : BodyModel{Elastic{1.0, 0.0}, problem_.plane, Formulation::standard, nullptr});
     return models;
 }
 
@@ -331,7 +354,8 @@ VolumeAverage Solver::average(std::int32_t body) const {
     for (std::int32_t b = 0; b < problem_.mesh->body_count(); ++b) {
         if ((body >= 0 && b != body) || known(b) || problem_.mesh->host_body(b)) continue;
         average.stress.fill(unknown);
-        if (problem_.mesh->dimension() == 2 && problem_.plane == Plane::stress) std::fill(average.strain.begin() + 2, average.strain.end(), unknown);
+        if (problem_.mesh->dimension() == 2 && problem_.plane == Plane::stress)
+            std::fill(average.strain.begin() + 2, average.strain.end(), unknown);
     }
     return average;
 }

@@ -45,7 +45,8 @@ public:
     const Record& recorded() const { return record_; }
     // Hash of the scene as the solver was made with it.
     std::uint64_t scene_hash() const { return scene_hash_; }
-    // state() is then that of an earlier step which is still kept, of the pending chain or the committed one; -1: the present.
+    // state() is then that of an earlier step which is still kept, of the pending chain or the committed one; -1: the
+    // present.
     void look(std::int64_t step);
     // Steps that can be looked at and returned to: from this one on.
     std::int64_t first_kept() const { return past_.empty() ? committed_.step : past_.front().step; }
@@ -61,7 +62,8 @@ public:
     // Jumps of the march up to the committed state, and with `pending` those of the pending step.
     std::vector<Jump> jumps(bool pending) const;
     // Replaces the committed states (of the same scene); drops a pending one.
-    void restore(State state, std::vector<State> past, std::vector<Jump> jumps, std::vector<Pattern> patterns, Record record);
+    void restore(State state, std::vector<State> past, std::vector<Jump> jumps, std::vector<Pattern> patterns,
+                 Record record);
     // Of the scene as the solver was made with it.
     const std::vector<Pattern>& first_patterns() const { return first_patterns_; }
     bool keeps_past() const;
@@ -135,7 +137,7 @@ private:
     std::optional<Pending> pending_;
     const State* looked_ = nullptr;
     std::string searched_;
-    mutable std::vector<double> displacement_;  // of state(), empty: not recovered
+    mutable std::vector<double> displacement_;                            // of state(), empty: not recovered
     mutable std::vector<std::optional<std::vector<CrackFront>>> fronts_;  // likewise, [interfaces]
     bool warned_of_front_ = false;
     bool warned_of_balance_ = false;

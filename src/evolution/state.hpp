@@ -24,12 +24,15 @@ struct Ledger {
     double lower = 0.0;
     double increment = 0.0;  // E_k - E_{k-1} + D_k
     double upper = 0.0;
-    double increment_lower = 0.0;  // increment with the mixity of the step before (the one the lower bound is provable with)
+    double increment_lower =
+        0.0;  // increment with the mixity of the step before (the one the lower bound is provable with)
 
-    // Energies of the state from which the cumulative columns count; a state that is set rather than marched to moves them along.
+    // Energies of the state from which the cumulative columns count; a state that is set rather than marched to moves
+    // them along.
     double initial = 0.0;
     double initial_slides = 0.0;
-    double mixity_error = 0.0;  // of the step: by how much the toughness in use misses that of the iterates' own mixities
+    double mixity_error =
+        0.0;  // of the step: by how much the toughness in use misses that of the iterates' own mixities
 
     double energy_slides() const { return stored_bulk + stored_interface_slides + load_potential; }
     // What does not close, in either split.
@@ -46,19 +49,20 @@ struct Counts {
     std::int64_t contact_iterations_max = 0;
     std::int64_t contact_fallbacks = 0;
     std::int64_t linear_iterations = 0;
-    std::int64_t newton_solves = 0;   // dense solves within the process zone
-    std::int64_t debond_moves = 0;    // unstable pairs taken to their debonded branch
-    std::int64_t mixity_held = 0;     // pairs whose mixity would not settle and was held
+    std::int64_t newton_solves = 0;      // dense solves within the process zone
+    std::int64_t debond_moves = 0;       // unstable pairs taken to their debonded branch
+    std::int64_t mixity_held = 0;        // pairs whose mixity would not settle and was held
     std::int64_t backtracks = 0;         // returns to an earlier step
     std::int64_t revisions = 0;          // how often this step was computed anew after a return
     std::int64_t revised_from = 0;       // first step that these returns replaced
     std::int64_t search_candidates = 0;  // states whose energy a search has compared
     double search_margin = 0.0;          // lowest candidate minus the state kept, F L
-    double search_gap = 0.0;             // state kept minus what bounds the candidates left out, F L; 0: nothing left out can be lower
-    std::int64_t substeps = 1;           // steps that this one was cut into
-    std::int64_t refused_steps = 0;      // that were too long and not kept
-    std::int64_t jumps = 0;              // instants of this step at which the state jumps
-    double released = 0.0;               // energy that these set free and nothing stores or dissipates, F L
+    double search_gap =
+        0.0;  // state kept minus what bounds the candidates left out, F L; 0: nothing left out can be lower
+    std::int64_t substeps = 1;       // steps that this one was cut into
+    std::int64_t refused_steps = 0;  // that were too long and not kept
+    std::int64_t jumps = 0;          // instants of this step at which the state jumps
+    double released = 0.0;           // energy that these set free and nothing stores or dissipates, F L
     double damage_change = 0.0;
     double linear_residual = 0.0;
 
@@ -82,15 +86,15 @@ struct Counts {
 struct State {
     std::int64_t step = 0;
     double time = 0.0;
-    std::vector<double> theta;                // [patterns]
-    std::vector<double> adhesion;             // [pairs]
-    std::vector<double> mixity;               // [pairs] B that this step's damage was computed with
-    std::vector<double> mixity_before;        // [pairs] B of the step before
-    std::vector<std::uint8_t> closed;         // [pairs]
-    std::uint8_t loaded = 0;                  // 1 once any pair has had a jump: the mixities mean something
+    std::vector<double> theta;          // [patterns]
+    std::vector<double> adhesion;       // [pairs]
+    std::vector<double> mixity;         // [pairs] B that this step's damage was computed with
+    std::vector<double> mixity_before;  // [pairs] B of the step before
+    std::vector<std::uint8_t> closed;   // [pairs]
+    std::uint8_t loaded = 0;            // 1 once any pair has had a jump: the mixities mean something
     Response response;
-    std::vector<double> memory;               // of the jump operator
-    std::vector<double> search_memory;        // of the one that a search uses
+    std::vector<double> memory;         // of the jump operator
+    std::vector<double> search_memory;  // of the one that a search uses
     Ledger ledger;
     Counts counts;
 };

@@ -10,7 +10,7 @@ namespace delam {
 namespace {
 
 constexpr double sharp_share = 0.75;  // of the change, in half of the time: a jump rather than growth
-constexpr int smooth_levels = 2;  // halvings in a row that halve the change: the change is continuous
+constexpr int smooth_levels = 2;      // halvings in a row that halve the change: the change is continuous
 
 // Sum of w |z - z_before| in mean weights of a pair.
 double change_in_pairs(const PairLaws& pairs, const State& before, const State& after) {
@@ -26,7 +26,16 @@ double change_in_pairs(const PairLaws& pairs, const State& before, const State& 
 
 Jump describe(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after) {
     const Ledger &a = before.ledger, &b = after.ledger;
-    Jump jump{after.step, before.time, after.time, b.energy() - a.energy(), b.dissipated - a.dissipated, b.upper - b.increment, 0.0, 0, -1, -1};
+    Jump jump{after.step,
+              before.time,
+              after.time,
+              b.energy() - a.energy(),
+              b.dissipated - a.dissipated,
+              b.upper - b.increment,
+              0.0,
+              0,
+              -1,
+              -1};
     std::vector<double> changed;
     for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
         const auto interface = static_cast<std::size_t>(graph.interface_of(p));
@@ -37,7 +46,8 @@ Jump describe(const PairLaws& pairs, const PairGraph& graph, const State& before
     }
     jump.interface = std::max_element(changed.begin(), changed.end()) - changed.begin();
     for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
-        if (graph.interface_of(p) != jump.interface || before.adhesion[p] - after.adhesion[p] <= debonded_below) continue;
+        if (graph.interface_of(p) != jump.interface || before.adhesion[p] - after.adhesion[p] <= debonded_below)
+            continue;
         const std::int64_t local = static_cast<std::int64_t>(p) - graph.first_pair(jump.interface);
         if (jump.first_pair < 0) jump.first_pair = local;
         jump.last_pair = local;
@@ -68,7 +78,8 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
     const auto too_long = [&](const Stepper::Result& r, double change) {
         const Ledger& l = r.state.ledger;
         const double scale = std::max(std::abs(l.energy()), std::abs(l.work));
-        return (options.step_control == "adaptive" && (!r.converged || (change > 0.0 && l.upper - l.lower > options.step_tolerance * scale))) ||
+        return (options.step_control == "adaptive" &&
+                (!r.converged || (change > 0.0 && l.upper - l.lower > options.step_tolerance * scale))) ||
                (options.mixity_step_tolerance > 0.0 && r.state.ledger.mixity_error > options.mixity_step_tolerance);
     };
     ControlledStep out;
@@ -92,7 +103,8 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
         sum.upper += next.ledger.upper;
         sum.increment_lower += next.ledger.increment_lower;
         effort.search_gap = std::max(effort.search_gap, next.counts.search_gap);
-        effort.search_margin = parts == 0 ? next.counts.search_margin : std::min(effort.search_margin, next.counts.search_margin);
+        effort.search_margin =
+            parts == 0 ? next.counts.search_margin : std::min(effort.search_margin, next.counts.search_margin);
         sum.mixity_error = std::max(sum.mixity_error, next.ledger.mixity_error);
         converged = converged && goal.reached->converged;
         ++parts;
@@ -131,7 +143,8 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
         }
         const double length = goal.time - at.time;
         const bool jumps = locate && goal.change >= options.jump_size;
-        const bool halve = (jumps && (length > options.jump_tolerance * asked || (!goal.sharp && length > options.smallest_step * asked))) ||
+        const bool halve = (jumps && (length > options.jump_tolerance * asked ||
+                                      (!goal.sharp && length > options.smallest_step * asked))) ||
                            (too_long(*goal.reached, goal.change) && length > options.smallest_step * asked);
         const double middle = at.time + 0.5 * length;
         if (halve && middle > at.time && middle < goal.time) {

@@ -19,7 +19,10 @@ constexpr double mixity_difference = 1e-6;
 }  // namespace
 
 Linearised::Linearised(JumpOperator& op, const PairLaws& pairs, const ContactScene& contact, const State& state)
-    : op_(op), pairs_(pairs), state_(state), dim_(static_cast<std::size_t>(contact.dimension)),
+    : op_(op),
+      pairs_(pairs),
+      state_(state),
+      dim_(static_cast<std::size_t>(contact.dimension)),
       springs_{spring_stiffness(pairs, state.adhesion), {}, {}} {
     op.recall(state.memory);
     springs_.held.assign(springs_.stiffness.size(), 0);
@@ -43,8 +46,10 @@ std::vector<double> Linearised::tangent(std::span<const Pattern> patterns) {
         columns_.push_back(unit(theta, {}));
         theta[q] = 0.0;
         if (!columns_.back().balanced)
-            fail(DELAM_ERROR_STATE, "tangent: pattern '", patterns[q].name, "' acts along a motion that nothing holds at this contact set");
-        for (std::size_t p = 0; p < patterns.size(); ++p) matrix[p * patterns.size() + q] = columns_.back().conjugate[p];
+            fail(DELAM_ERROR_STATE, "tangent: pattern '", patterns[q].name,
+                 "' acts along a motion that nothing holds at this contact set");
+        for (std::size_t p = 0; p < patterns.size(); ++p)
+            matrix[p * patterns.size() + q] = columns_.back().conjugate[p];
     }
     return matrix;
 }
@@ -58,7 +63,8 @@ void Linearised::add_mixity(Direction& direction, double zeta) const {
     if (!tells_mixity(law, y, largest_driving(pairs_, state_.response.jump))) return;
     const double b = mode_mixity(y.normal, y.tangential);
     const double below = std::max(0.0, b - mixity_difference), above = std::min(1.0, b + mixity_difference);
-    const double slope = (law.driving(law.toughness(above), zeta) - law.driving(law.toughness(below), zeta)) / (above - below);
+    const double slope =
+        (law.driving(law.toughness(above), zeta) - law.driving(law.toughness(below), zeta)) / (above - below);
     for (std::size_t c = 0; c < dim_; ++c) {
         const double k = c == 0 ? law.normal_stiffness : law.tangential_stiffness;
         direction.form[c] -= slope * (c == 0 ? -b : 1.0 - b) * k * jump[c] / y.total();
@@ -66,7 +72,8 @@ void Linearised::add_mixity(Direction& direction, double zeta) const {
 }
 
 // A pair damages where its adhesion has fallen in the step and is the minimiser at its load, strictly inside.
-std::vector<Linearised::Direction> Linearised::damaging(MixityRule rule, std::span<const double> adhesion_old, double tolerance) const {
+std::vector<Linearised::Direction> Linearised::damaging(MixityRule rule, std::span<const double> adhesion_old,
+                                                        double tolerance) const {
     std::vector<std::uint8_t> coupled(state_.adhesion.size(), 0);
     for (const auto& term : pairs_.gradient)
         for (std::size_t p = 0; p < term->pairs(); ++p) coupled[term->first() + p] = term->coupled(p) ? 1 : 0;
@@ -82,7 +89,8 @@ std::vector<Linearised::Direction> Linearised::damaging(MixityRule rule, std::sp
         if (!std::isfinite(slope)) continue;
         if (coupled[p] == 0) {
             if (!(law->slope(toughness, y, adhesion_old[p]) < 0.0)) continue;
-            if (std::abs(law->minimiser(toughness, y, adhesion_old[p]) - zeta) > 10.0 * tolerance) continue;  // broken earlier in the step, at rest now
+            if (std::abs(law->minimiser(toughness, y, adhesion_old[p]) - zeta) > 10.0 * tolerance)
+                continue;  // broken earlier in the step, at rest now
         }
         Direction direction{p, std::vector<double>(dim_, 0.0), std::vector<double>(dim_, 0.0), slope};
         for (std::size_t c = 0; c < dim_; ++c) {
@@ -106,7 +114,8 @@ std::vector<Linearised::Direction> Linearised::variational(std::span<const doubl
         const Law& law = *pairs_.law[p];
         const double before = state_.mixity_before[p];
         const VariationalPair pair{law, before, law.toughness(before).total, largest};
-        const std::array<double, 9> tangent = pair.tangent(std::span(state_.response.jump).subspan(p * dim_, dim_), adhesion_old[p]);
+        const std::array<double, 9> tangent =
+            pair.tangent(std::span(state_.response.jump).subspan(p * dim_, dim_), adhesion_old[p]);
         for (std::size_t r = 0; r < dim_; ++r) {
             if (r == 0 && state_.closed[p] != 0) continue;
             Direction direction{p, std::vector<double>(dim_, 0.0), std::vector<double>(dim_, 0.0), 1.0};
@@ -114,7 +123,8 @@ std::vector<Linearised::Direction> Linearised::variational(std::span<const doubl
             double size = 0.0;
             for (std::size_t c = 0; c < dim_; ++c) {
                 if (c == 0 && state_.closed[p] != 0) continue;
-                direction.form[c] = pairs_.weight[p] * tangent[r * dim_ + c] - (c == r ? springs_.stiffness[p * dim_ + r] : 0.0);
+                direction.form[c] =
+                    pairs_.weight[p] * tangent[r * dim_ + c] - (c == r ? springs_.stiffness[p * dim_ + r] : 0.0);
                 size = std::max(size, std::abs(direction.form[c]));
             }
             if (size > 1e-12 * springs_.stiffness[p * dim_ + r]) found.push_back(std::move(direction));
@@ -129,12 +139,14 @@ double Linearised::along(const Direction& direction, std::span<const double> jum
     return sum;
 }
 
-std::vector<double> Linearised::step_tangent(std::span<const Pattern> patterns, MixityRule rule, std::span<const double> adhesion_old, double tolerance) {
+std::vector<double> Linearised::step_tangent(std::span<const Pattern> patterns, MixityRule rule,
+                                             std::span<const double> adhesion_old, double tolerance) {
     const auto count = static_cast<std::int64_t>(patterns.size());
     std::vector<double> matrix = tangent(patterns);
     if (rule == MixityRule::variational && !pairs_.gradient.empty())
         fail(DELAM_ERROR_STATE, "step tangent: mixity_rule = variational together with a gradient term has none");
-    const std::vector<Direction> directions = rule == MixityRule::variational ? variational(adhesion_old) : damaging(rule, adhesion_old, tolerance);
+    const std::vector<Direction> directions =
+        rule == MixityRule::variational ? variational(adhesion_old) : damaging(rule, adhesion_old, tolerance);
     const auto n = static_cast<std::int64_t>(directions.size());
     if (n == 0) return matrix;
 
@@ -149,11 +161,13 @@ std::vector<double> Linearised::step_tangent(std::span<const Pattern> patterns, 
         std::copy(direction.force.begin(), direction.force.end(), first);
         answers.push_back(unit(still, force));
         std::fill_n(first, dim_, 0.0);
-        for (std::int64_t a = 0; a < n; ++a) system(a, b) = along(directions[static_cast<std::size_t>(a)], answers.back().jump);
+        for (std::int64_t a = 0; a < n; ++a)
+            system(a, b) = along(directions[static_cast<std::size_t>(a)], answers.back().jump);
         system(b, b) += direction.own;
     }
     for (std::int64_t a = 0; a < n; ++a)
-        for (std::int64_t q = 0; q < count; ++q) right(a, q) = along(directions[static_cast<std::size_t>(a)], columns_[static_cast<std::size_t>(q)].jump);
+        for (std::int64_t q = 0; q < count; ++q)
+            right(a, q) = along(directions[static_cast<std::size_t>(a)], columns_[static_cast<std::size_t>(q)].jump);
     for (const auto& term : pairs_.gradient) {
         for (std::int64_t a = 0; a < n; ++a) {
             const std::size_t pair = directions[static_cast<std::size_t>(a)].pair;
@@ -175,7 +189,8 @@ std::vector<double> Linearised::step_tangent(std::span<const Pattern> patterns, 
     for (std::int64_t q = 0; q < count; ++q)
         for (std::int64_t p = 0; p < count; ++p)
             for (std::int64_t a = 0; a < n; ++a)
-                matrix[static_cast<std::size_t>(p * count + q)] -= answers[static_cast<std::size_t>(a)].conjugate[static_cast<std::size_t>(p)] * right(a, q);
+                matrix[static_cast<std::size_t>(p * count + q)] -=
+                    answers[static_cast<std::size_t>(a)].conjugate[static_cast<std::size_t>(p)] * right(a, q);
     return matrix;
 }
 

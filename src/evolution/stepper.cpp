@@ -14,9 +14,10 @@ namespace delam {
 
 namespace {
 
-constexpr double rounding = 1e-10;     // of the larger of energy and work: two states that differ by less are as good
-constexpr std::size_t most_starts = 2; // candidates of a search that a step is minimised from
-constexpr double promising = 0.5;      // of its dissipation: by how much a candidate may lie above the step and still be relaxed
+constexpr double rounding = 1e-10;      // of the larger of energy and work: two states that differ by less are as good
+constexpr std::size_t most_starts = 2;  // candidates of a search that a step is minimised from
+constexpr double promising =
+    0.5;  // of its dissipation: by how much a candidate may lie above the step and still be relaxed
 
 double scale_of(const Ledger& ledger) { return std::max(std::abs(ledger.energy()), std::abs(ledger.work)); }
 
@@ -33,11 +34,12 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
         const InterfaceProperties& properties = problem_.interfaces[i];
         std::optional<Toughness> fixed;
         const Law* law = properties.law ? &*properties.law : nullptr;  // none: bonded for ever, or contact alone
-        if (law != nullptr && problem_.options.mixity == "auto" && !law->depends_on_mixity()) fixed = law->toughness(0.0);
+        if (law != nullptr && problem_.options.mixity == "auto" && !law->depends_on_mixity())
+            fixed = law->toughness(0.0);
         if (law != nullptr && law->gradient > 0.0)
-            pairs_.gradient.push_back(std::make_shared<const GradientTerm>(law->gradient,
-                                                                           surface_stiffness(mesh, mesh.interfaces()[i], properties.adhesion),
-                                                                           mesh.interfaces()[i].weight, pairs_.weight.size()));
+            pairs_.gradient.push_back(std::make_shared<const GradientTerm>(
+                law->gradient, surface_stiffness(mesh, mesh.interfaces()[i], properties.adhesion),
+                mesh.interfaces()[i].weight, pairs_.weight.size()));
         for (const double weight : mesh.interfaces()[i].weight) {
             pairs_.weight.push_back(weight);
             pairs_.law.push_back(law);
@@ -58,19 +60,23 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
     operator_ = std::move(chosen.op);
     reduction_ = std::move(chosen.choice);
     std::vector<std::uint8_t> bonded_rows;
-    for (const std::uint8_t b : contact_.bonded) bonded_rows.insert(bonded_rows.end(), static_cast<std::size_t>(mesh.dimension()), b);
+    for (const std::uint8_t b : contact_.bonded)
+        bonded_rows.insert(bonded_rows.end(), static_cast<std::size_t>(mesh.dimension()), b);
     lift_ = Lift(*operator_, bonded_rows, bound_rows(problem_), problem_.patterns.size());
     double largest = 0.0;
     for (const double c : problem_.prescribed_matrix()) largest = std::max(largest, std::abs(c));
     for (const std::size_t row : lift_.driven_rows(1e-9 * largest)) {
         const std::size_t pair = row / static_cast<std::size_t>(mesh.dimension());
         if (contact_.bonded[pair] != 0)
-            fail(DELAM_ERROR_PROBLEM, "prescribed displacements tear pair ", pair, " apart, whose interface is bonded for ever");
+            fail(DELAM_ERROR_PROBLEM, "prescribed displacements tear pair ", pair,
+                 " apart, whose interface is bonded for ever");
     }
 }
 
 Minimiser Stepper::minimiser() const {
-    return {*operator_, pairs_, contact_, monitor_, problem_.options.damage_tolerance, problem_.options.minimisation_limit, rule_};
+    return {
+        *operator_, pairs_, contact_, monitor_, problem_.options.damage_tolerance, problem_.options.minimisation_limit,
+        rule_};
 }
 
 Stepper::Result Stepper::initial(double time) {
@@ -82,7 +88,8 @@ Stepper::Result Stepper::initial(double time) {
     const auto dim = static_cast<std::size_t>(problem_.mesh->dimension());
     // A notch starts closed: that is where it stays unless something opens it.
     for (std::size_t p = 0; p < state.adhesion.size(); ++p)
-        state.closed.push_back(contact_.bonded[p] == 0 && state.adhesion[p] == 0.0 && operator_->prescribed_rows()[p * dim] == 0 ? 1 : 0);
+        state.closed.push_back(
+            contact_.bonded[p] == 0 && state.adhesion[p] == 0.0 && operator_->prescribed_rows()[p * dim] == 0 ? 1 : 0);
     result.converged = minimiser().displace(state);
     state.mixity = mixities(pairs_, state.response.jump, std::vector<double>(state.adhesion.size(), 0.0));
     state.mixity_before = state.mixity;
@@ -123,7 +130,8 @@ void Stepper::book_step(State& next, const State& before) const {
     std::vector<double> d(next.theta.size());
     for (std::size_t p = 0; p < d.size(); ++p) d[p] = next.theta[p] - before.theta[p];
     ledger.lower = dot(d, next.response.conjugate) - lift_.half_quadratic(d, spring_stiffness(pairs_, next.adhesion));
-    ledger.upper = dot(d, before.response.conjugate) + lift_.half_quadratic(d, spring_stiffness(pairs_, before.adhesion));
+    ledger.upper =
+        dot(d, before.response.conjugate) + lift_.half_quadratic(d, spring_stiffness(pairs_, before.adhesion));
     ledger.work = last.work + 0.5 * (ledger.lower + ledger.upper);
     ledger.dissipated = last.dissipated + dissipated;
     ledger.dissipated_slides = last.dissipated_slides;
@@ -150,15 +158,18 @@ bool Stepper::minimise(State& next, const State& before) const {
     return converged;
 }
 
-// Beyond the limit of a dead load alternation takes adhesion to zero by ever smaller steps, and displacements to infinity: what holds a part by no more
-// adhesion than the tolerance does not hold it. Without that adhesion the displacement step finds nothing that balances (DELAM_LIMIT).
+// Beyond the limit of a dead load alternation takes adhesion to zero by ever smaller steps, and displacements to
+// infinity: what holds a part by no more adhesion than the tolerance does not hold it. Without that adhesion the
+// displacement step finds nothing that balances (DELAM_LIMIT).
 void Stepper::refuse_runaway(const State& state) const {
     bool dead = false, faint = false;
     for (std::size_t p = 0; p < state.theta.size(); ++p)
         dead = dead || (problem_.patterns[p].drives == Pattern::Drives::force && state.theta[p] != 0.0);
     State without;
     for (std::size_t p = 0; dead && p < state.adhesion.size(); ++p) {
-        if (pairs_.law[p] == nullptr || !(state.adhesion[p] > 0.0) || state.adhesion[p] > problem_.options.damage_tolerance) continue;
+        if (pairs_.law[p] == nullptr || !(state.adhesion[p] > 0.0) ||
+            state.adhesion[p] > problem_.options.damage_tolerance)
+            continue;
         if (!faint) without = state;
         faint = true;
         without.adhesion[p] = 0.0;
@@ -221,8 +232,8 @@ void Stepper::keep_lower(Result& best, State other, const State& before) const {
     best.state.counts.mixity_held = kept.mixity_held;
 }
 
-// A zone's energy takes the contact outside as it was and may be too low: candidates that seem to lie below the state kept are held against it by
-// displacements of their own. Returns the lowest candidate.
+// A zone's energy takes the contact outside as it was and may be too low: candidates that seem to lie below the state
+// kept are held against it by displacements of their own. Returns the lowest candidate.
 double Stepper::hold_against(Result& best, const SearchResult& found, const State& before) const {
     double lowest = std::numeric_limits<double>::infinity();
     bool held = false;
@@ -272,9 +283,11 @@ void Stepper::search(Result& best, const State& before, const State& start) {
     counts.search_candidates += found.candidates;
     counts.search_margin = std::isfinite(lowest) ? lowest - kept : 0.0;
     // Candidates under the variational rule are energies at the mixities of the start: no bound.
-    counts.search_gap = rule_ == MixityRule::variational ? std::numeric_limits<double>::infinity() : std::max(0.0, kept - found.bound);
-    searched_ = text("step ", best.state.step, " at time ", best.state.time, ": ", found.candidates, " candidates, ", minimised,
-                     " of them minimised from; lowest candidate less the state kept: ", counts.search_margin, "\n", found.words);
+    counts.search_gap =
+        rule_ == MixityRule::variational ? std::numeric_limits<double>::infinity() : std::max(0.0, kept - found.bound);
+    searched_ = text("step ", best.state.step, " at time ", best.state.time, ": ", found.candidates, " candidates, ",
+                     minimised, " of them minimised from; lowest candidate less the state kept: ", counts.search_margin,
+                     "\n", found.words);
 }
 
 Stepper::Result Stepper::equilibrate(const State& before, double time, std::span<const double> adhesion) {

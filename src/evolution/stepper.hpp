@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One load step: from the state before it to a state at a later time, under the solution concept asked for.
 //
-// A step minimises  I(z, u) = E(t, u, z) + D(z_before, z)  over 0 <= z <= z_before from one or several starts and keeps the
-// lowest; `local` starts from z_before, `energetic` also from the best states of a search (search.hpp).
+// A step minimises  I(z, u) = E(t, u, z) + D(z_before, z)  over 0 <= z <= z_before from one or several starts and keeps
+// the lowest; `local` starts from z_before, `energetic` also from the best states of a search (search.hpp).
 #pragma once
 
 #include <memory>

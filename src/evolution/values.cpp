@@ -12,7 +12,9 @@ namespace delam {
 namespace {
 
 double count(std::int64_t n) { return static_cast<double>(n); }
-std::int64_t count_of_interfaces(const Problem& problem) { return static_cast<std::int64_t>(problem.interfaces.size()); }
+std::int64_t count_of_interfaces(const Problem& problem) {
+    return static_cast<std::int64_t>(problem.interfaces.size());
+}
 
 double largest(std::span<const double> values) {
     double m = 0.0;
@@ -46,8 +48,9 @@ std::vector<double> gaps(const Solver& solver) {
         for (std::size_t p = 0; p < interface.weight.size(); ++p) {
             double gap = 0.0;
             for (std::size_t c = 0; c < dim; ++c)
-                gap += interface.frame[p * dim * dim + c] * (u[static_cast<std::size_t>(interface.node_b[p]) * dim + c] -
-                                                             u[static_cast<std::size_t>(interface.node_a[p]) * dim + c]);
+                gap +=
+                    interface.frame[p * dim * dim + c] * (u[static_cast<std::size_t>(interface.node_b[p]) * dim + c] -
+                                                          u[static_cast<std::size_t>(interface.node_a[p]) * dim + c]);
             found.push_back(gap);
         }
     return found;
@@ -81,7 +84,8 @@ double kkt_complementarity(const Solver& s) {
     return ratio(product, largest(state.response.jump) * largest(state.response.force));
 }
 
-// The point of an interface's fronts (-1: of all) with the largest energy release rate; a point of zeros where there is no front.
+// The point of an interface's fronts (-1: of all) with the largest energy release rate; a point of zeros where there is
+// no front.
 FrontPoint leading_point(const Solver& s, std::int64_t interface) {
     FrontPoint leading;
     bool found = false;

@@ -10,7 +10,7 @@ namespace delam {
 
 namespace {
 
-constexpr double noise = 1e-11;             // of the largest jump or force in the zone: rounding
+constexpr double noise = 1e-11;              // of the largest jump or force in the zone: rounding
 constexpr std::int64_t contact_steps = 200;  // beyond them the energy is not told
 
 double largest(std::span<const double> values) {
@@ -42,7 +42,8 @@ bool ZoneEnergies::focus(const State& known, std::span<const std::uint8_t> wante
         const bool given = op_.prescribed_rows()[row] != 0;  // by the device: neither held nor let go
         held_[z] = given ? 0 : springs.held[row];
         normal_[z] = row % dim == 0 && contact_.bonded[row / dim] == 0 && !given ? 1 : 0;
-        if (row % dim == 0 && z + dim <= members.size() && static_cast<std::size_t>(members[z + dim - 1]) == row + dim - 1)
+        if (row % dim == 0 && z + dim <= members.size() &&
+            static_cast<std::size_t>(members[z + dim - 1]) == row + dim - 1)
             place_[row / dim] = static_cast<std::int64_t>(z);
     }
     const std::optional<double> energy = zone_energy(known.adhesion);
@@ -67,7 +68,8 @@ std::optional<double> ZoneEnergies::zone_energy(std::span<const double> adhesion
         if (pairs_.law[p] == nullptr) continue;
         const Law& law = *pairs_.law[p];
         spring[z] = pairs_.weight[p] * adhesion[p] * (row % dim == 0 ? law.normal_stiffness : law.tangential_stiffness);
-        if (spring[z] > 0.0) couplings.push_back({static_cast<std::int64_t>(z), static_cast<std::int64_t>(z), spring[z]});
+        if (spring[z] > 0.0)
+            couplings.push_back({static_cast<std::int64_t>(z), static_cast<std::int64_t>(z), spring[z]});
     }
     // All pairs that violate their side at once; once a set comes back, the one of least index (contact.hpp).
     std::vector<double> unknowns;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Energies of many states that differ from one known state in a few pairs, where the operator is condensed: the other pairs and their contact
-// stay as they are in the known state, so that each energy is a small dense solve with contact inside the zone.
+// Energies of many states that differ from one known state in a few pairs, where the operator is condensed: the other
+// pairs and their contact stay as they are in the known state, so that each energy is a small dense solve with contact
+// inside the zone.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +18,10 @@ namespace delam {
 
 class ZoneEnergies {
 public:
-    ZoneEnergies(Condensed& op, const PairLaws& pairs, const ContactScene& contact) : op_(op), pairs_(pairs), contact_(contact) {}
-    // known: a state with displacements and booked energy. wanted: [pairs] that may differ; those of a floating zone fail.
-    // False: the zone cannot tell its energy from its neighbours'.
+    ZoneEnergies(Condensed& op, const PairLaws& pairs, const ContactScene& contact)
+        : op_(op), pairs_(pairs), contact_(contact) {}
+    // known: a state with displacements and booked energy. wanted: [pairs] that may differ; those of a floating zone
+    // fail. False: the zone cannot tell its energy from its neighbours'.
     bool focus(const State& known, std::span<const std::uint8_t> wanted);
     // May this pair differ?
     bool inside(std::size_t pair) const { return place_[pair] >= 0; }
@@ -27,7 +29,8 @@ public:
     std::optional<double> energy(std::span<const double> adhesion);
     // Local jump of a pair inside, of the last energy().
     std::span<const double> jump(std::size_t pair) const {
-        return std::span<const double>(jump_).subspan(static_cast<std::size_t>(place_[pair]), static_cast<std::size_t>(pairs_.dimension));
+        return std::span<const double>(jump_).subspan(static_cast<std::size_t>(place_[pair]),
+                                                      static_cast<std::size_t>(pairs_.dimension));
     }
 
 private:

@@ -11,13 +11,13 @@ namespace delam {
 
 namespace {
 
-constexpr double noise = 1e-11;            // of the largest jump or force in the zone: rounding
-// Of the terms of the zone's energy: what it changes by when the jumps of one state are found from all bodies or within the zone. A plain step
-// never adds energy, but on a stiff interface an avalanche begins with steps that free less than this. Rises cannot add up: the
-// caller compares the energy of the whole before and after.
+constexpr double noise = 1e-11;  // of the largest jump or force in the zone: rounding
+// Of the terms of the zone's energy: what it changes by when the jumps of one state are found from all bodies or within
+// the zone. A plain step never adds energy, but on a stiff interface an avalanche begins with steps that free less than
+// this. Rises cannot add up: the caller compares the energy of the whole before and after.
 constexpr double energy_noise = 1e-11;
-constexpr std::int64_t longest_wait = 8;   // plain steps between two attempts of what has failed
-constexpr std::int64_t contact_steps = 30; // active-set steps of one Newton step; beyond them the step is not taken
+constexpr std::int64_t longest_wait = 8;    // plain steps between two attempts of what has failed
+constexpr std::int64_t contact_steps = 30;  // active-set steps of one Newton step; beyond them the step is not taken
 // A pair joins the zone when its driving energy is above this part of what damages it.
 constexpr double nearly_loaded = 0.7;
 
@@ -55,7 +55,12 @@ private:
 class Leap {
 public:
     Leap(const ZoneNewton& newton, State& state, StepMixity& mixity, std::span<const double> adhesion_old)
-        : newton_(newton), state_(state), mixity_(mixity), toughness_(mixity.toughness()), old_(adhesion_old), dim_(static_cast<std::size_t>(newton.pairs.dimension)),
+        : newton_(newton),
+          state_(state),
+          mixity_(mixity),
+          toughness_(mixity.toughness()),
+          old_(adhesion_old),
+          dim_(static_cast<std::size_t>(newton.pairs.dimension)),
           zone_(find_zone()) {
         const std::vector<std::int64_t>& rows = newton_.op.zone_rows();
         const std::span<const std::uint8_t> prescribed = newton_.op.prescribed_rows();
@@ -94,17 +99,21 @@ private:
 
     Zone& find_zone();
     Point point(std::vector<double> unknowns) const;
-    // Model about a point: tangents of the members scaled between secant (0) and full (1), with one of them debonded (or none: -1).
+    // Model about a point: tangents of the members scaled between secant (0) and full (1), with one of them debonded
+    // (or none: -1).
     bool model(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded);
     // Minimiser of the model under contact; false: indefinite, or the contact set did not settle.
-    bool minimise(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded, Point& out);
+    bool minimise(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded,
+                  Point& out);
     // The point between `at` and `to` on which the energy falls; false: none.
     bool descend(const Point& at, Point& to) const;
     std::int64_t weakest(const Point& at) const;
-    // The point shows its mixities: those of members that took part in its displacements, adhesion `carried` > 0. True: the toughness in use, and with it
-    // energy and adhesions of the point, have changed.
+    // The point shows its mixities: those of members that took part in its displacements, adhesion `carried` > 0. True:
+    // the toughness in use, and with it energy and adhesions of the point, have changed.
     bool look(Point& at, std::span<const double> carried);
-    bool curved(const ZonePair& m) const { return mixity_.rule() == MixityRule::variational && newton_.pairs.mixed(m.pair); }
+    bool curved(const ZonePair& m) const {
+        return mixity_.rule() == MixityRule::variational && newton_.pairs.mixed(m.pair);
+    }
     std::array<double, 9> tangent(const ZonePair& m, const Point& at, double zeta, double fraction) const;
 
     const ZoneNewton& newton_;
@@ -130,11 +139,13 @@ Zone& Leap::find_zone() {
     std::vector<std::uint8_t> wanted(springs_.stiffness.size(), 0);
     for (std::size_t p = 0; p < old_.size(); ++p) {
         const bool bonded = newton_.contact.bonded[p] != 0;
-        for (std::size_t c = 0; c < dim_; ++c) springs_.held[p * dim_ + c] = bonded || (c == 0 && state_.closed[p] != 0) ? 1 : 0;
+        for (std::size_t c = 0; c < dim_; ++c)
+            springs_.held[p * dim_ + c] = bonded || (c == 0 && state_.closed[p] != 0) ? 1 : 0;
         if (bonded || newton_.pairs.law[p] == nullptr || old_[p] <= 0.0) continue;
         const double driving = driving_energy(newton_.pairs, p, state_.response.jump).total();
         const bool partly = mixity_.rule() == MixityRule::variational && old_[p] < 1.0;
-        if (partly || state_.adhesion[p] < old_[p] || newton_.pairs.law[p]->minimiser(toughness_[p], driving / nearly_loaded, old_[p]) < old_[p])
+        if (partly || state_.adhesion[p] < old_[p] ||
+            newton_.pairs.law[p]->minimiser(toughness_[p], driving / nearly_loaded, old_[p]) < old_[p])
             for (std::size_t c = 0; c < dim_; ++c) wanted[p * dim_ + c] = 1;
     }
     return newton_.op.zone(springs_, wanted);
@@ -191,7 +202,8 @@ bool Leap::model(const Point& at, std::span<const double> adhesion, double fract
             } else {
                 const Law& law = *newton_.pairs.law[m.pair];
                 const double scale = adhesion[i] + pair.proximal(local, adhesion[i]);
-                for (std::size_t r = 0; r < dim_; ++r) c[r * dim_ + r] = scale * (r == 0 ? law.normal_stiffness : law.tangential_stiffness);
+                for (std::size_t r = 0; r < dim_; ++r)
+                    c[r * dim_ + r] = scale * (r == 0 ? law.normal_stiffness : law.tangential_stiffness);
             }
             const std::array<double, 3> force = pair.force(local, adhesion[i]);
             for (std::size_t r = 0; r < dim_; ++r) {
@@ -204,7 +216,8 @@ bool Leap::model(const Point& at, std::span<const double> adhesion, double fract
             }
             continue;
         }
-        const std::array<double, 9> full = tangent(m, at, adhesion[i], fraction), secant = tangent(m, at, adhesion[i], 0.0);
+        const std::array<double, 9> full = tangent(m, at, adhesion[i], fraction),
+                                    secant = tangent(m, at, adhesion[i], 0.0);
         for (std::size_t r = 0; r < dim_; ++r)
             for (std::size_t q = 0; q < dim_; ++q) {
                 if (full[r * dim_ + q] == 0.0) continue;
@@ -215,7 +228,8 @@ bool Leap::model(const Point& at, std::span<const double> adhesion, double fract
     return zone_.factor(couplings_, held_);
 }
 
-bool Leap::minimise(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded, Point& out) {
+bool Leap::minimise(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded,
+                    Point& out) {
     const std::vector<std::uint8_t> before = held_;
     for (std::int64_t step = 0; step < contact_steps; ++step) {
         newton_.monitor.progress("minimise", state_.counts.am_iterations, 0);
@@ -295,7 +309,8 @@ bool Leap::look(Point& at, std::span<const double> carried) {
     for (std::size_t i = 0; i < members_.size(); ++i) {
         const ZonePair& m = members_[i];
         if (!(carried[i] > 0.0) || !newton_.pairs.mixed(m.pair)) continue;
-        const Driving y = driving_energy(*newton_.pairs.law[m.pair], std::span<const double>(at.jump).subspan(m.first, dim_));
+        const Driving y =
+            driving_energy(*newton_.pairs.law[m.pair], std::span<const double>(at.jump).subspan(m.first, dim_));
         const Toughness before = toughness_[m.pair];
         if (!mixity_.look(m.pair, y)) continue;
         changed = true;
@@ -315,8 +330,10 @@ double Leap::run() {
         std::vector<double> x(static_cast<std::size_t>(zone_.energy().rows()), 0.0);
         const std::vector<std::int64_t>& rows = newton_.op.zone_rows();
         for (std::size_t z = 0; z < rows.size(); ++z)
-            if (const Bulk::Row& row = zone_.rows()[z]; row.offset.empty() && row.unknowns.size() == 1 && row.unknowns.front().second == 1.0)
-                x[static_cast<std::size_t>(row.unknowns.front().first)] = state_.response.jump[static_cast<std::size_t>(rows[z])];
+            if (const Bulk::Row& row = zone_.rows()[z];
+                row.offset.empty() && row.unknowns.size() == 1 && row.unknowns.front().second == 1.0)
+                x[static_cast<std::size_t>(row.unknowns.front().first)] =
+                    state_.response.jump[static_cast<std::size_t>(rows[z])];
         return x;
     }());
     Extrapolation extrapolation;
@@ -326,12 +343,14 @@ double Leap::run() {
         Point next;
         std::vector<double> carried = at.adhesion;
         const std::vector<std::uint8_t> before = held_;
-        const bool newton = newton_patience.try_now() && newton_patience.report(minimise(at, at.adhesion, 1.0, -1, next) && descend(at, next));
+        const bool newton = newton_patience.try_now() &&
+                            newton_patience.report(minimise(at, at.adhesion, 1.0, -1, next) && descend(at, next));
         bool taken = newton;
         if (!taken && move_patience.try_now()) {
             held_ = before;
             const std::int64_t pair = weakest(at);
-            taken = move_patience.report(pair >= 0 && minimise(at, at.adhesion, 0.0, pair, next) && next.energy < at.energy);
+            taken = move_patience.report(pair >= 0 && minimise(at, at.adhesion, 0.0, pair, next) &&
+                                         next.energy < at.energy);
             if (taken) {
                 ++state_.counts.debond_moves;
                 carried[static_cast<std::size_t>(pair)] = 0.0;
@@ -359,7 +378,8 @@ double Leap::run() {
         }
         const bool renewed = look(next, carried);
         double change = 0.0;
-        for (std::size_t i = 0; i < members_.size(); ++i) change = std::max(change, std::abs(next.adhesion[i] - at.adhesion[i]));
+        for (std::size_t i = 0; i < members_.size(); ++i)
+            change = std::max(change, std::abs(next.adhesion[i] - at.adhesion[i]));
         at = std::move(next);
         // Newton's method squares the error: the next one would be far below delta.
         if (newton && !renewed ? change * change <= 0.01 * newton_.tolerance : change <= newton_.tolerance) break;
@@ -369,7 +389,8 @@ double Leap::run() {
     for (std::size_t z = 0; z < rows.size(); ++z)
         if (normal_[z] != 0) state_.closed[static_cast<std::size_t>(rows[z]) / dim_] = held_[z];
     if (mixity_.rule() == MixityRule::variational)
-        for (std::size_t z = 0; z < rows.size(); ++z) state_.response.jump[static_cast<std::size_t>(rows[z])] = held_[z] != 0 ? 0.0 : at.jump[z];
+        for (std::size_t z = 0; z < rows.size(); ++z)
+            state_.response.jump[static_cast<std::size_t>(rows[z])] = held_[z] != 0 ? 0.0 : at.jump[z];
     return added_;
 }
 

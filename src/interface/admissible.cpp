@@ -73,8 +73,10 @@ std::pair<double, double> least_excess(const Law& law) {
             const double fd = excess(law, d);
             least =
                 std::min({least, {c, fc}, {d, fd}}, [](const auto& u, const auto& v) { return u.second < v.second; });
-            if (fc < fd) b = d;
-            else a = c;
+            if (fc < fd)
+                b = d;
+            else
+                a = c;
         }
     }
     return least;

@@ -12,7 +12,8 @@ namespace delam {
 
 namespace {
 
-// Violations below this part of the largest jump or force are rounding of the linear solve. Acceptance is ten times wider.
+// Violations below this part of the largest jump or force are rounding of the linear solve. Acceptance is ten times
+// wider.
 constexpr double noise = 1e-11;
 
 double largest(std::span<const double> values) {
@@ -23,15 +24,16 @@ double largest(std::span<const double> values) {
 
 // Pairs that sit on the wrong side of the complementarity condition.
 std::vector<std::size_t> violators(const ContactScene& scene, std::span<const std::uint8_t> prescribed,
-                                   const std::vector<std::uint8_t>& closed, const Response& response, std::uint8_t level,
-                                   std::span<const double> theta) {
+                                   const std::vector<std::uint8_t>& closed, const Response& response,
+                                   std::uint8_t level, std::span<const double> theta) {
     const auto dim = static_cast<std::size_t>(scene.dimension);
     const double jump_scale = noise * std::max(largest(response.jump), scene.jump_floor(theta));
     const double force_scale = noise * std::max(largest(response.force), scene.force_floor(theta));
     std::vector<std::size_t> found;
     for (std::size_t p = 0; p < closed.size(); ++p) {
         if (scene.bonded[p] != 0 || prescribed[p * dim] != 0 || scene.level[p] < level) continue;
-        const bool wrong = closed[p] != 0 ? response.force[p * dim] > force_scale : response.jump[p * dim] < -jump_scale;
+        const bool wrong =
+            closed[p] != 0 ? response.force[p * dim] > force_scale : response.jump[p * dim] < -jump_scale;
         if (wrong) found.push_back(p);
     }
     return found;
@@ -43,23 +45,25 @@ void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> pre
     const double deepest = -1e-9 * std::max(largest(response.jump), scene.jump_floor(theta));
     for (std::size_t p = 0; p < scene.bonded.size(); ++p)
         if (prescribed[p * dim] != 0 && scene.bonded[p] == 0 && response.jump[p * dim] < deepest)
-            fail(DELAM_ERROR_PROBLEM, "prescribed displacements press two faces into each other at pair ", p, " (normal jump ",
-                 response.jump[p * dim], " < 0)");
+            fail(DELAM_ERROR_PROBLEM, "prescribed displacements press two faces into each other at pair ", p,
+                 " (normal jump ", response.jump[p * dim], " < 0)");
 }
 
 }  // namespace
 
 ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
-                            std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response, bool cold,
-                            std::span<const double> row_force) {
+                            std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response,
+                            bool cold, std::span<const double> row_force) {
     const auto dim = static_cast<std::size_t>(scene.dimension);
     const auto prescribed = op.prescribed_rows();
-    Springs springs{{stiffness.begin(), stiffness.end()}, std::vector<std::uint8_t>(stiffness.size(), 0),
+    Springs springs{{stiffness.begin(), stiffness.end()},
+                    std::vector<std::uint8_t>(stiffness.size(), 0),
                     {row_force.begin(), row_force.end()}};
     ContactResult result;
     std::set<std::string> seen;  // contact sets, as bytes
     bool all_closed_tried = false, one_at_a_time = false;
-    std::uint8_t level = cold && !scene.level.empty() ? *std::max_element(scene.level.begin(), scene.level.end()) : scene.least_level;
+    std::uint8_t level =
+        cold && !scene.level.empty() ? *std::max_element(scene.level.begin(), scene.level.end()) : scene.least_level;
     if (level > scene.least_level) std::fill(closed.begin(), closed.end(), std::uint8_t{0});
     while (true) {
         for (std::size_t p = 0; p < closed.size(); ++p)
@@ -70,7 +74,8 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
         if (!response.balanced) {
             // Nothing holds a loaded part. Contact may: start once more from everything closed that can close.
             if (all_closed_tried)
-                fail(DELAM_LIMIT, "no equilibrium: a dead force acts on a part that neither bonds, supports nor contact hold");
+                fail(DELAM_LIMIT,
+                     "no equilibrium: a dead force acts on a part that neither bonds, supports nor contact hold");
             all_closed_tried = true;
             level = scene.least_level;
             for (std::size_t p = 0; p < closed.size(); ++p)

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Nested coarse sets of pairs for a contact search from cold.
 //
-// An active set changes by whole regions at first and then, on a fine interface, by one pair at each end of a region: its steps grow with
-// 1/h. Searched first among pairs far apart, then among twice as many, and so on, every level starts near its answer.
+// An active set changes by whole regions at first and then, on a fine interface, by one pair at each end of a region:
+// its steps grow with 1/h. Searched first among pairs far apart, then among twice as many, and so on, every level
+// starts near its answer.
 #pragma once
 
 #include <cstdint>

@@ -9,21 +9,23 @@ namespace delam {
 namespace {
 
 constexpr std::int64_t limit = 300;
-// Steps at a residual of rounding, for kappa so large that rounding hides the law (beyond some 1e10 times its curvature).
+// Steps at a residual of rounding, for kappa so large that rounding hides the law (beyond some 1e10 times its
+// curvature).
 constexpr std::int64_t idle_limit = 8;
 // Newton's method squares the error: after a whole step as small as this the next one would be rounding.
 constexpr double small_step = 1e-9;
 // A pair counts as pressed against a bound within this part of its range, or within the residual where that is less.
 constexpr double near_bound = 1e-6;
-constexpr double sufficient = 1e-4;      // part of the predicted fall that a step has to reach
-constexpr double rounding = 1e-14;       // of the energy of all pairs, or of an adhesion
+constexpr double sufficient = 1e-4;  // part of the predicted fall that a step has to reach
+constexpr double rounding = 1e-14;   // of the energy of all pairs, or of an adhesion
 constexpr int halvings = 50;
-constexpr double least = 1e-12;          // adhesion below which a law that never debonds for good is not followed
-constexpr double tiny = 1e-12;           // of a diagonal entry: keeps a part that nothing curves definite
+constexpr double least = 1e-12;  // adhesion below which a law that never debonds for good is not followed
+constexpr double tiny = 1e-12;   // of a diagonal entry: keeps a part that nothing curves definite
 
 class Problem {
 public:
-    Problem(const GradientTerm& term, const Law& law, std::span<const Toughness> toughness, std::span<const double> driving, std::span<const double> upper)
+    Problem(const GradientTerm& term, const Law& law, std::span<const Toughness> toughness,
+            std::span<const double> driving, std::span<const double> upper)
         : term_(term), law_(law), toughness_(toughness), driving_(driving), upper_(upper), free_(upper.size(), 0) {
         for (std::size_t i = 0; i < upper.size(); ++i) free_[i] = term.coupled(i) && upper[i] > 0.0 ? 1 : 0;
         for (std::size_t i = 0; i < upper.size(); ++i)
@@ -70,7 +72,8 @@ double Problem::change(const Values& from, const Values& to) const {
     double sum = term_.energy(to) - term_.energy(from);
     for (std::size_t i = 0; i < from.size(); ++i)
         if (free_[i] != 0 && to[i] != from[i])
-            sum += term_.weight()[i] * ((to[i] - from[i]) * driving_[i] + (law_.dissipated(toughness_[i], to[i]) - law_.dissipated(toughness_[i], from[i])));
+            sum += term_.weight()[i] * ((to[i] - from[i]) * driving_[i] + (law_.dissipated(toughness_[i], to[i]) -
+                                                                           law_.dissipated(toughness_[i], from[i])));
     return sum;
 }
 
@@ -84,8 +87,8 @@ double Problem::curvature(std::size_t i, double z, double slope) const {
     return -weight * law_.driving_slope(toughness_[i], std::max(z, least));
 }
 
-// The pointwise solution blurred over the length that balances kappa against the law's own curvature: it lies between the bounds nearly everywhere,
-// so that the first Newton steps see all pairs.
+// The pointwise solution blurred over the length that balances kappa against the law's own curvature: it lies between
+// the bounds nearly everywhere, so that the first Newton steps see all pairs.
 Problem::Values Problem::smoothed(std::span<const double> pointwise) const {
     Values diag(pointwise.size(), 0.0), right(pointwise.size(), 0.0), z(pointwise.begin(), pointwise.end());
     std::vector<std::uint8_t> held(pointwise.size(), 1);
@@ -93,8 +96,8 @@ Problem::Values Problem::smoothed(std::span<const double> pointwise) const {
         diag[i] = term_.diagonal(i) > 0.0 ? tiny * term_.diagonal(i) : 1.0;
         if (free_[i] == 0) continue;
         held[i] = 0;
-        diag[i] += term_.weight()[i] *
-                   (std::abs(excess(i, pointwise[i])) / upper_[i] - law_.driving_slope(toughness_[i], std::max(pointwise[i], least)));
+        diag[i] += term_.weight()[i] * (std::abs(excess(i, pointwise[i])) / upper_[i] -
+                                        law_.driving_slope(toughness_[i], std::max(pointwise[i], least)));
         right[i] = diag[i] * pointwise[i];
     }
     if (!term_.solve(diag, held, right, z)) return {pointwise.begin(), pointwise.end()};
@@ -105,7 +108,8 @@ Problem::Values Problem::smoothed(std::span<const double> pointwise) const {
 double Problem::residual(const Values& z, const Values& slope, const Values& curvature) const {
     double worst = 0.0;
     for (std::size_t i = 0; i < z.size(); ++i)
-        if (free_[i] != 0) worst = std::max(worst, std::abs(clamped(i, z[i] - slope[i] / (curvature[i] + term_.diagonal(i))) - z[i]));
+        if (free_[i] != 0)
+            worst = std::max(worst, std::abs(clamped(i, z[i] - slope[i] / (curvature[i] + term_.diagonal(i))) - z[i]));
     return worst;
 }
 
@@ -190,8 +194,9 @@ CoupledDamage Problem::solve(std::span<const double> pointwise, std::span<const 
 
 }  // namespace
 
-CoupledDamage coupled_damage(const GradientTerm& term, const Law& law, std::span<const Toughness> toughness, std::span<const double> driving,
-                             std::span<const double> adhesion_old, std::span<const double> pointwise, std::span<const double> start) {
+CoupledDamage coupled_damage(const GradientTerm& term, const Law& law, std::span<const Toughness> toughness,
+                             std::span<const double> driving, std::span<const double> adhesion_old,
+                             std::span<const double> pointwise, std::span<const double> start) {
     return Problem(term, law, toughness, driving, adhesion_old).solve(pointwise, start);
 }
 

@@ -27,8 +27,10 @@ double decay(double rho, double p, double q) {
         const double first = std::expm1(-p * t);
         const double phi = first + second;
         const double slope = p * (first + 1.0) + q * second;
-        if (phi >= 0.0) left = t;
-        else right = t;
+        if (phi >= 0.0)
+            left = t;
+        else
+            right = t;
         double next = t + phi / slope;
         if (!(next >= left && next <= right)) next = left + (right - left) / 2.0;
         if (std::abs(next - t) <= std::numeric_limits<double>::epsilon() * t) return next;

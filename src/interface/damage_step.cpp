@@ -53,7 +53,8 @@ std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump
 
 bool any_jump(const PairLaws& pairs, std::span<const double> jump) {
     for (std::size_t p = 0; p < pairs.law.size(); ++p)
-        if (pairs.law[p] != nullptr && driving_energy(pairs, p, jump).total() > rounding * pairs.law[p]->least_onset()) return true;
+        if (pairs.law[p] != nullptr && driving_energy(pairs, p, jump).total() > rounding * pairs.law[p]->least_onset())
+            return true;
     return false;
 }
 
@@ -62,7 +63,8 @@ std::vector<double> spring_stiffness(const PairLaws& pairs, std::span<const doub
     std::vector<double> s(pairs.law.size() * dim, 0.0);
     for (std::size_t p = 0; p < pairs.law.size(); ++p) {
         if (pairs.law[p] == nullptr) continue;
-        const double scale = pairs.weight[p] * adhesion[p] + 0.0;  // never -0: springs that are equal have the same bits
+        const double scale =
+            pairs.weight[p] * adhesion[p] + 0.0;  // never -0: springs that are equal have the same bits
         s[p * dim] = scale * pairs.law[p]->normal_stiffness;
         for (std::size_t c = 1; c < dim; ++c) s[p * dim + c] = scale * pairs.law[p]->tangential_stiffness;
     }
@@ -76,19 +78,22 @@ std::vector<Toughness> toughnesses(const PairLaws& pairs, std::span<const double
     return t;
 }
 
-std::vector<double> damage_step(const PairLaws& pairs, std::span<const Toughness> toughness, std::span<const double> adhesion_old,
-                                std::span<const double> adhesion, std::span<const double> jump) {
+std::vector<double> damage_step(const PairLaws& pairs, std::span<const Toughness> toughness,
+                                std::span<const double> adhesion_old, std::span<const double> adhesion,
+                                std::span<const double> jump) {
     std::vector<double> driving(adhesion.size(), 0.0);
     for (std::size_t p = 0; p < driving.size(); ++p)
         if (pairs.law[p] != nullptr) driving[p] = driving_energy(pairs, p, jump).total();
     return damage_at(pairs, toughness, driving, adhesion_old, adhesion);
 }
 
-std::vector<double> damage_at(const PairLaws& pairs, std::span<const Toughness> toughness, std::span<const double> driving,
-                              std::span<const double> adhesion_old, std::span<const double> adhesion) {
+std::vector<double> damage_at(const PairLaws& pairs, std::span<const Toughness> toughness,
+                              std::span<const double> driving, std::span<const double> adhesion_old,
+                              std::span<const double> adhesion) {
     std::vector<double> zeta(adhesion_old.begin(), adhesion_old.end());
     for (std::size_t p = 0; p < zeta.size(); ++p)
-        if (pairs.law[p] != nullptr && zeta[p] > 0.0) zeta[p] = pairs.law[p]->minimiser(toughness[p], driving[p], zeta[p]);
+        if (pairs.law[p] != nullptr && zeta[p] > 0.0)
+            zeta[p] = pairs.law[p]->minimiser(toughness[p], driving[p], zeta[p]);
     for (const auto& term : pairs.gradient) {
         const std::size_t first = term->first(), count = term->pairs();
         const std::span<double> own = std::span(zeta).subspan(first, count);
@@ -117,7 +122,8 @@ double stored_energy(const PairLaws& pairs, std::span<const double> adhesion, st
 double stored_slides(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion) {
     double sum = 0.0;
     for (std::size_t p = 0; p < adhesion.size(); ++p)
-        if (pairs.law[p] != nullptr) sum += pairs.weight[p] * pairs.law[p]->stored_slides(pairs.toughness(p, mixity[p]), adhesion[p]);
+        if (pairs.law[p] != nullptr)
+            sum += pairs.weight[p] * pairs.law[p]->stored_slides(pairs.toughness(p, mixity[p]), adhesion[p]);
     return sum;
 }
 
@@ -127,7 +133,8 @@ double dissipation(const PairLaws& pairs, std::span<const double> mixity, std::s
     for (std::size_t p = 0; p < adhesion.size(); ++p) {
         if (pairs.law[p] == nullptr || adhesion[p] == adhesion_old[p]) continue;
         const Toughness t = pairs.toughness(p, mixity[p]);
-        sum += pairs.weight[p] * (pairs.law[p]->dissipated(t, adhesion[p]) - pairs.law[p]->dissipated(t, adhesion_old[p]));
+        sum +=
+            pairs.weight[p] * (pairs.law[p]->dissipated(t, adhesion[p]) - pairs.law[p]->dissipated(t, adhesion_old[p]));
     }
     return sum;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Damage over all pairs: driving energies, mixities, the damage step (pointwise, or coupled on interfaces with a gradient term), and interface
-// energies.
+// Damage over all pairs: driving energies, mixities, the damage step (pointwise, or coupled on interfaces with a
+// gradient term), and interface energies.
 #pragma once
 
 #include <memory>
@@ -51,17 +51,22 @@ bool any_jump(const PairLaws& pairs, std::span<const double> jump);
 std::vector<double> spring_stiffness(const PairLaws& pairs, std::span<const double> adhesion);
 // Go and Gc at the mixities, [pairs]; zero where there is no law.
 std::vector<Toughness> toughnesses(const PairLaws& pairs, std::span<const double> mixity);
-// zeta = argmin over 0 <= zeta <= adhesion_old at the frozen mixity of `toughness`; returns [pairs]. adhesion: [pairs] where coupled interfaces
-// start their search (coupled_damage.hpp); the problem is convex, so it decides no more than the last digits.
-std::vector<double> damage_step(const PairLaws& pairs, std::span<const Toughness> toughness, std::span<const double> adhesion_old,
-                                std::span<const double> adhesion, std::span<const double> jump);
+// zeta = argmin over 0 <= zeta <= adhesion_old at the frozen mixity of `toughness`; returns [pairs]. adhesion: [pairs]
+// where coupled interfaces start their search (coupled_damage.hpp); the problem is convex, so it decides no more than
+// the last digits.
+std::vector<double> damage_step(const PairLaws& pairs, std::span<const Toughness> toughness,
+                                std::span<const double> adhesion_old, std::span<const double> adhesion,
+                                std::span<const double> jump);
 // The same at given driving energies, [pairs].
-std::vector<double> damage_at(const PairLaws& pairs, std::span<const Toughness> toughness, std::span<const double> driving,
-                              std::span<const double> adhesion_old, std::span<const double> adhesion);
+std::vector<double> damage_at(const PairLaws& pairs, std::span<const Toughness> toughness,
+                              std::span<const double> driving, std::span<const double> adhesion_old,
+                              std::span<const double> adhesion);
 
-double stored_energy(const PairLaws& pairs, std::span<const double> adhesion, std::span<const double> jump);       // sum w zeta Y + gradient
+double stored_energy(const PairLaws& pairs, std::span<const double> adhesion,
+                     std::span<const double> jump);                               // sum w zeta Y + gradient
 double gradient_energy(const PairLaws& pairs, std::span<const double> adhesion);  // its second part alone
-double stored_slides(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion);     // sum w f
+double stored_slides(const PairLaws& pairs, std::span<const double> mixity,
+                     std::span<const double> adhesion);  // sum w f
 // sum w (g(B, zeta) - g(B, zeta_old)), the ledger whose stored part does not depend on the mixity
 double dissipation(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
                    std::span<const double> adhesion);

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gradient regularisation of the adhesion: the stored energy  kappa/2 int |grad_s zeta|^2  over an interface (slides, "Stored energy").
+// Gradient regularisation of the adhesion: the stored energy  kappa/2 int |grad_s zeta|^2  over an interface (slides,
+// "Stored energy").
 //
 // zeta is interpolated by the shape functions of the faces between its values at the pairs, on the geometry of face a:
 //   energy = kappa/2 zeta^T A zeta,   A_ij = int grad_s N_i . grad_s N_j,   grad_s N_i . grad_s N_j = g_i^T G^-1 g_j,
-// with g = dN/dxi and the metric G = (dx/dxi)^T (dx/dxi) of a line or a surface in space, by Gauss quadrature. A is the stiffness of the surface
-// Laplacian (Dziuk, 1988): symmetric, its rows sum to zero.
+// with g = dN/dxi and the metric G = (dx/dxi)^T (dx/dxi) of a line or a surface in space, by Gauss quadrature. A is the
+// stiffness of the surface Laplacian (Dziuk, 1988): symmetric, its rows sum to zero.
 //
-// The field lives on the part of the interface that adhered at first. A function with square-integrable gradient has no jump, so
-// faces that touch a pair of initial adhesion 0 (a notch) are left out, and the border of what remains carries the natural condition, no flux.
+// The field lives on the part of the interface that adhered at first. A function with square-integrable gradient has no
+// jump, so faces that touch a pair of initial adhesion 0 (a notch) are left out, and the border of what remains carries
+// the natural condition, no flux.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +22,8 @@
 
 namespace delam {
 
-// A of an interface, [pairs][pairs], L^0 in 3D and L^-1 in 2D; every diagonal entry is stored. adhesion: initial, [pairs].
+// A of an interface, [pairs][pairs], L^0 in 3D and L^-1 in 2D; every diagonal entry is stored. adhesion: initial,
+// [pairs].
 SparseMatrix surface_stiffness(const Mesh& mesh, const InterfaceGeometry& interface, std::span<const double> adhesion);
 
 // Of one interface; all arrays are over its own pairs.
@@ -44,9 +47,11 @@ public:
     // kappa A zeta. From differences of zeta, so that a uniform adhesion has none, to the last digit.
     std::vector<double> force(std::span<const double> zeta) const;
 
-    // x = (kappa A + diag)^-1 b over the pairs that are not held; x = b/(kappa A_ii + diag) at those that are. diag >= 0. The pattern is that of A
-    // whatever is held: one symbolic analysis serves all. False: not positive definite to rounding.
-    bool solve(std::span<const double> diag, std::span<const std::uint8_t> held, std::span<const double> b, std::span<double> x) const;
+    // x = (kappa A + diag)^-1 b over the pairs that are not held; x = b/(kappa A_ii + diag) at those that are. diag >=
+    // 0. The pattern is that of A whatever is held: one symbolic analysis serves all. False: not positive definite to
+    // rounding.
+    bool solve(std::span<const double> diag, std::span<const std::uint8_t> held, std::span<const double> b,
+               std::span<double> x) const;
     // Operations of one such solve.
     double operations() const { return factor_.size().flops + 4.0 * factor_.size().entries; }
 

@@ -14,8 +14,8 @@ namespace {
 constexpr int mixities = 8;
 constexpr int adhesions = 64;
 constexpr int drivings = 96;
-constexpr double close = 1e-6;      // relative, of energies and of driving energies
-constexpr double step = 1e-4;       // of zeta, relative of Y, of B, for difference quotients
+constexpr double close = 1e-6;        // relative, of energies and of driving energies
+constexpr double step = 1e-4;         // of zeta, relative of Y, of B, for difference quotients
 constexpr double differences = 1e-2;  // relative accuracy of those
 
 class Samples {

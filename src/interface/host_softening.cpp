@@ -28,17 +28,14 @@ HostSoftening::Adhesion HostSoftening::adhesion(double mixity, double driving) c
     if (!(out.value >= 0.0 && out.value <= 1.0))
         refuse(*this, text("adhesion ", out.value, " is outside 0 .. 1"), mixity, "Y", driving);
     if (!(out.slope <= 0.0 && std::isfinite(out.slope)))
-        refuse(*this, text("slope of the adhesion ", out.slope, " must be finite and <= 0"), mixity, "Y",
-               driving);
+        refuse(*this, text("slope of the adhesion ", out.slope, " must be finite and <= 0"), mixity, "Y", driving);
     return out;
 }
 
 HostSoftening::Dissipation HostSoftening::dissipation(double mixity, double zeta) const {
     Dissipation out{NAN, NAN, NAN};
-    const std::int32_t failure =
-        dissipation_callback(mixity, zeta, &out.value, &out.slope, &out.mixity_slope, user);
-    if (failure != 0)
-        refuse(*this, text("the dissipation callback failed with ", failure), mixity, "zeta", zeta);
+    const std::int32_t failure = dissipation_callback(mixity, zeta, &out.value, &out.slope, &out.mixity_slope, user);
+    if (failure != 0) refuse(*this, text("the dissipation callback failed with ", failure), mixity, "zeta", zeta);
     if (!std::isfinite(out.value))
         refuse(*this, text("dissipated energy ", out.value, " must be finite"), mixity, "zeta", zeta);
     if (!(out.slope <= 0.0) || (zeta > 0.0 && !std::isfinite(out.slope)))
@@ -64,7 +61,8 @@ ToughnessSlope HostSoftening::toughness_slope(double mixity) const {
 
 double HostSoftening::dissipated(const Toughness& t, double zeta) const {
     const double value = dissipation(t.mixity, zeta).value;
-    if (value < -close * t.total) refuse(*this, text("dissipated energy ", value, " must be >= 0"), t.mixity, "zeta", zeta);
+    if (value < -close * t.total)
+        refuse(*this, text("dissipated energy ", value, " must be >= 0"), t.mixity, "zeta", zeta);
     return value;
 }
 

@@ -34,14 +34,18 @@ void Law::validate() const {
     for (const LawParameter& p : law_parameters()) {
         if (!applies(p, *this) || p.type != std::string("real")) continue;
         double value = 0.0;
-        if (p.value != nullptr) value = this->*p.value;
-        else if (const auto* trapezium = std::get_if<TrapezoidalSoftening>(&softening)) value = trapezium->plateau();
+        if (p.value != nullptr)
+            value = this->*p.value;
+        else if (const auto* trapezium = std::get_if<TrapezoidalSoftening>(&softening))
+            value = trapezium->plateau();
         if (!p.allows(value)) fail(DELAM_ERROR_PROBLEM, "law: ", p.key, " ", value, ": must be ", p.range);
     }
     if (const auto* table = std::get_if<TabulatedSoftening>(&softening); table != nullptr && table->corners().empty())
         fail(DELAM_ERROR_PROBLEM, "law: softening is missing: a tabulated law needs its table (delam_law_set_table)");
-    if (const HostSoftening* given = host()) require_consistent(*given);
-    else require_admissible(*this);
+    if (const HostSoftening* given = host())
+        require_consistent(*given);
+    else
+        require_admissible(*this);
 }
 
 bool Law::depends_on_mixity() const {
@@ -81,8 +85,10 @@ double Law::dissipated(const Toughness& t, double zeta) const {
 double Law::stored_slides(const Toughness& t, double zeta) const {
     return std::visit(
         [&](const auto& shape) {
-            if constexpr (requires { shape.stored_slides(t, zeta); }) return shape.stored_slides(t, zeta);
-            else return std::min(0.0, shape.dissipated(t, zeta) - t.total * (1.0 - zeta));
+            if constexpr (requires { shape.stored_slides(t, zeta); })
+                return shape.stored_slides(t, zeta);
+            else
+                return std::min(0.0, shape.dissipated(t, zeta) - t.total * (1.0 - zeta));
         },
         softening);
 }
@@ -115,7 +121,8 @@ double Law::dissipated_slope_mixity(double mixity, double zeta) const {
                 const double share = shape.total_share(t, zeta);
                 const double rest = (shape.dissipated(t, zeta) - t.total * share) / t.onset;
                 return share * by_mixity.total + rest * by_mixity.onset;
-            } else return 0.0;
+            } else
+                return 0.0;
         },
         softening);
 }

@@ -10,7 +10,7 @@ namespace {
 constexpr unsigned bit(std::size_t index) { return 1u << index; }
 constexpr unsigned any = ~0u;
 constexpr unsigned trapezoidal = bit(2), tabulated = bit(3), griffith = bit(4), host = bit(5);
-constexpr unsigned own = any & ~host;         // all that the library computes
+constexpr unsigned own = any & ~host;  // all that the library computes
 constexpr unsigned softening = own & ~griffith;
 constexpr unsigned two_exponents = bit(static_cast<std::size_t>(Criterion::valoroso_champaney));
 constexpr unsigned one_exponent = any & ~two_exponents;

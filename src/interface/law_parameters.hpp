@@ -16,10 +16,10 @@ struct LawParameter {
     const char* initial;  // "": must be given
     const char* range;
     const char* meaning;
-    unsigned kinds;                  // bit i: softening i has it
-    unsigned criteria;               // bit i: criterion i has it
-    double Law::*value = nullptr;    // null: it belongs to the shape
-    double Law::*second = nullptr;   // set along with it
+    unsigned kinds;                 // bit i: softening i has it
+    unsigned criteria;              // bit i: criterion i has it
+    double Law::*value = nullptr;   // null: it belongs to the shape
+    double Law::*second = nullptr;  // set along with it
     bool (*allows)(double) = nullptr;
 };
 std::span<const LawParameter> law_parameters();

@@ -15,7 +15,8 @@ namespace delam {
 std::int32_t blas_threads() {
     if (openblas_get_num_threads != nullptr) return openblas_get_num_threads();
     if (MKL_Get_Max_Threads != nullptr) return MKL_Get_Max_Threads();
-    if (bli_thread_get_num_threads != nullptr) return static_cast<std::int32_t>(std::max(0L, bli_thread_get_num_threads()));
+    if (bli_thread_get_num_threads != nullptr)
+        return static_cast<std::int32_t>(std::max(0L, bli_thread_get_num_threads()));
     return 0;
 }
 

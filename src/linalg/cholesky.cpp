@@ -14,13 +14,14 @@
 #include "delam/delam.h"
 #include "linalg/room.hpp"
 
-// Only modules under the LGPL are called by name (Core, Cholesky, Partition/CAMD); the supernodal kernels (GPL) are reached
-// through cholmod_l_factorize where the CHOLMOD at hand has them, and never when DELAM_CHOLMOD_SIMPLICIAL is defined.
+// Only modules under the LGPL are called by name (Core, Cholesky, Partition/CAMD); the supernodal kernels (GPL) are
+// reached through cholmod_l_factorize where the CHOLMOD at hand has them, and never when DELAM_CHOLMOD_SIMPLICIAL is
+// defined.
 
 // CHOLMOD 3 asks OpenMP for four threads wherever it runs; on fewer cores they wait for each other at every supernode
-// (measured: twice the time of one thread). "Dynamic", a property of the calling thread, lets the runtime give fewer: GNU's gives
-// as many as there are processors, less the load of the last 15 minutes. The threads share out the scatter of blocks, no
-// sums, so that no digit depends on them. Weak: a CHOLMOD without OpenMP has no such functions.
+// (measured: twice the time of one thread). "Dynamic", a property of the calling thread, lets the runtime give fewer:
+// GNU's gives as many as there are processors, less the load of the last 15 minutes. The threads share out the scatter
+// of blocks, no sums, so that no digit depends on them. Weak: a CHOLMOD without OpenMP has no such functions.
 extern "C" {
 int omp_get_dynamic() __attribute__((weak));
 void omp_set_dynamic(int) __attribute__((weak));
@@ -67,7 +68,8 @@ struct SparseCholesky::Impl {
         common.print = 0;
         common.error_handler = nullptr;
         common.final_ll = 1;
-        // Larger supernodes than CHOLMOD's own: with trailing variables every column is long, and few columns at a time waste it.
+        // Larger supernodes than CHOLMOD's own: with trailing variables every column is long, and few columns at a time
+        // waste it.
         common.nrelax[0] = 8;
         common.nrelax[1] = 32;
         common.nrelax[2] = 96;
@@ -89,7 +91,8 @@ struct SparseCholesky::Impl {
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    // One solve. The buffers are made here, of the sizes that CHOLMOD would ask for: CHOLMOD 3 does not look whether it got its own.
+    // One solve. The buffers are made here, of the sizes that CHOLMOD would ask for: CHOLMOD 3 does not look whether it
+    // got its own.
     const double* solve(int system, cholmod_dense& rhs) const {
         const bool super = factor->is_super != 0;
         const std::size_t n = factor->n, rows = super ? n : 4;
@@ -143,8 +146,9 @@ cholmod_dense view(std::span<const double> b) {
     return d;
 }
 
-// Few large dense blocks that overlap: an order by minimum degree takes longer to find, entry by entry, than the factor itself. What only
-// one block has comes first, as its rows are the shortest; rows with the same columns stay together (by a checksum).
+// Few large dense blocks that overlap: an order by minimum degree takes longer to find, entry by entry, than the factor
+// itself. What only one block has comes first, as its rows are the shortest; rows with the same columns stay together
+// (by a checksum).
 constexpr double well_filled = 0.1;
 constexpr std::int64_t few_rows = 500;
 
@@ -152,7 +156,8 @@ std::vector<SuiteSparse_long> shortest_first(const SparseMatrix& m) {
     std::vector<std::array<std::uint64_t, 3>> rows;  // length, checksum, number
     for (std::size_t r = 0; r < static_cast<std::size_t>(m.rows); ++r) {
         std::uint64_t sum = 0;
-        for (std::int64_t e = m.start[r]; e < m.start[r + 1]; ++e) sum = sum * 1099511628211u + static_cast<std::uint64_t>(m.column[static_cast<std::size_t>(e)]);
+        for (std::int64_t e = m.start[r]; e < m.start[r + 1]; ++e)
+            sum = sum * 1099511628211u + static_cast<std::uint64_t>(m.column[static_cast<std::size_t>(e)]);
         rows.push_back({static_cast<std::uint64_t>(m.start[r + 1] - m.start[r]), sum, r});
     }
     std::sort(rows.begin(), rows.end());
@@ -163,7 +168,8 @@ std::vector<SuiteSparse_long> shortest_first(const SparseMatrix& m) {
 
 }  // namespace
 
-SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing, const Look& look) : impl_(std::make_unique<Impl>()) {
+SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing, const Look& look)
+    : impl_(std::make_unique<Impl>()) {
     Impl& impl = *impl_;
     impl.size = matrix.rows;
     impl.trailing = trailing;
@@ -178,7 +184,8 @@ SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing
         std::vector<SuiteSparse_long> group(static_cast<std::size_t>(matrix.rows), 0);
         std::fill(group.begin() + static_cast<std::ptrdiff_t>(interior), group.end(), 1);
         if (cholmod_l_camd(&a, nullptr, 0, group.data(), order.data(), &impl.common) == 0) impl.check("ordering");
-        std::iota(order.begin() + static_cast<std::ptrdiff_t>(interior), order.end(), static_cast<SuiteSparse_long>(interior));
+        std::iota(order.begin() + static_cast<std::ptrdiff_t>(interior), order.end(),
+                  static_cast<SuiteSparse_long>(interior));
     }
     ask(look);
     impl.common.nmethods = 1;

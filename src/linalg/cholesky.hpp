@@ -20,9 +20,9 @@ struct FactorSize {
 
 class SparseCholesky {
 public:
-    // Symbolic analysis of a symmetric matrix (both triangles stored). The last `trailing` variables are eliminated last, in
-    // their given order, the others before them by (constrained) minimum degree.
-    // look: asked for between ordering and analysis.
+    // Symbolic analysis of a symmetric matrix (both triangles stored). The last `trailing` variables are eliminated
+    // last, in their given order, the others before them by (constrained) minimum degree. look: asked for between
+    // ordering and analysis.
     explicit SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing = 0, const Look& look = {});
     ~SparseCholesky();
     SparseCholesky(SparseCholesky&&) noexcept;
@@ -31,11 +31,13 @@ public:
     // Numeric factorisation of a matrix with the pattern that was analysed. False: not positive definite.
     bool factorise(const SparseMatrix& matrix);
     void solve(std::span<const double> b, std::span<double> x) const;
-    // x = A_ll^-1 b over the leading variables alone (all but the trailing ones): forward, drop the trailing part, backward.
+    // x = A_ll^-1 b over the leading variables alone (all but the trailing ones): forward, drop the trailing part,
+    // backward.
     void solve_leading(std::span<const double> b, std::span<double> x) const;
     // Lower factor L_tt of the trailing variables: L_tt L_tt^T is the Schur complement onto them.
     DenseMatrix trailing_factor() const;
-    // After factorise(), whether it succeeded or not: the variable with the smallest pivot, and that over the largest; 0 where it broke down.
+    // After factorise(), whether it succeeded or not: the variable with the smallest pivot, and that over the largest;
+    // 0 where it broke down.
     struct Pivot {
         std::int64_t variable = -1;
         double ratio = 1.0;

@@ -43,7 +43,8 @@ constexpr int one = 1;
 
 // LAPACK's integers are 32 bit: a block with more entries than they count has no business being dense.
 int narrow(std::int64_t n) {
-    if (n < 0 || n > std::numeric_limits<int>::max()) fail(DELAM_ERROR_MEMORY, "a dense block of ", n, " rows is too large");
+    if (n < 0 || n > std::numeric_limits<int>::max())
+        fail(DELAM_ERROR_MEMORY, "a dense block of ", n, " rows is too large");
     return static_cast<int>(n);
 }
 
@@ -56,12 +57,14 @@ constexpr double part = 5e8;
 // So many columns a part, of `cost` multiplications each, in steps that the kernels like.
 std::int64_t columns_a_part(double cost, std::int64_t all) {
     if (cost * static_cast<double>(all) <= part) return std::max<std::int64_t>(all, 1);
-    return std::clamp<std::int64_t>(static_cast<std::int64_t>(part / cost) / 64 * 64, 64, std::max<std::int64_t>(all, 64));
+    return std::clamp<std::int64_t>(static_cast<std::int64_t>(part / cost) / 64 * 64, 64,
+                                    std::max<std::int64_t>(all, 64));
 }
 
 int leading(const DenseMatrix& a) {
     if (a.columns > 0 && a.rows > std::numeric_limits<int>::max() / a.columns)
-        fail(DELAM_ERROR_MEMORY, "a dense block of ", a.rows, " rows and ", a.columns, " columns is too large; more subdomains make smaller ones");
+        fail(DELAM_ERROR_MEMORY, "a dense block of ", a.rows, " rows and ", a.columns,
+             " columns is too large; more subdomains make smaller ones");
     return std::max(1, narrow(a.rows));
 }
 
@@ -99,7 +102,8 @@ DenseMatrix multiply_transposed(const DenseMatrix& a, const DenseMatrix& b, std:
     const int lda = leading(a), ldb = leading(b), ldc = leading(c);
     const double alpha = 1.0, beta = 0.0;
     if (m > 0 && n > 0 && k > 0)
-        dgemm_("T", "N", &m, &n, &k, &alpha, a.value.data() + first, &lda, b.value.data() + first, &ldb, &beta, c.value.data(), &ldc);
+        dgemm_("T", "N", &m, &n, &k, &alpha, a.value.data() + first, &lda, b.value.data() + first, &ldb, &beta,
+               c.value.data(), &ldc);
     return c;
 }
 
@@ -146,7 +150,8 @@ void multiply_transposed(const DenseMatrix& a, std::span<const double> x, std::s
         std::fill(y.begin(), y.end(), 0.0);
 }
 
-// Beyond `small` a panel of columns after the other: its own triangle, the rows below, and what it takes from the columns behind it.
+// Beyond `small` a panel of columns after the other: its own triangle, the rows below, and what it takes from the
+// columns behind it.
 bool factor_definite(DenseMatrix& a, const Look& look) {
     const int n = narrow(a.rows), lda = leading(a);
     int info = 0;
@@ -157,7 +162,8 @@ bool factor_definite(DenseMatrix& a, const Look& look) {
     const double unit = 1.0, minus = -1.0;
     const auto at = [&a](std::int64_t i, std::int64_t j) { return a.value.data() + i + j * a.rows; };
     for (std::int64_t k = 0; k < n; k += width) {
-        const int panel = static_cast<int>(std::min<std::int64_t>(width, n - k)), below = static_cast<int>(n - k - panel);
+        const int panel = static_cast<int>(std::min<std::int64_t>(width, n - k)),
+                  below = static_cast<int>(n - k - panel);
         dpotrf_("L", &panel, at(k, k), &lda, &info);
         if (info != 0) return false;
         if (below == 0) break;
@@ -165,10 +171,12 @@ bool factor_definite(DenseMatrix& a, const Look& look) {
         dtrsm_("R", "L", "T", "N", &below, &panel, &unit, at(k, k), &lda, at(behind, k), &lda);
         const std::int64_t step = columns_a_part(static_cast<double>(below) * panel, below);
         for (std::int64_t j = behind; j < n; j += step) {
-            const int columns = static_cast<int>(std::min<std::int64_t>(step, n - j)), rest = static_cast<int>(n - j - columns);
+            const int columns = static_cast<int>(std::min<std::int64_t>(step, n - j)),
+                      rest = static_cast<int>(n - j - columns);
             dsyrk_("L", "N", &columns, &panel, &minus, at(j, k), &lda, &unit, at(j, j), &lda);
             if (rest > 0)
-                dgemm_("N", "T", &rest, &columns, &panel, &minus, at(j + columns, k), &lda, at(j, k), &lda, &unit, at(j + columns, j), &lda);
+                dgemm_("N", "T", &rest, &columns, &panel, &minus, at(j + columns, k), &lda, at(j, k), &lda, &unit,
+                       at(j + columns, j), &lda);
             ask(look);
         }
     }
@@ -182,8 +190,8 @@ void solve_lower(const DenseMatrix& lower, DenseMatrix& b, std::int64_t first, c
     const std::int64_t step = columns_a_part(0.5 * m * m, b.columns);
     for (std::int64_t j = 0; j < b.columns; j += step) {
         const int columns = narrow(std::min(step, b.columns - j));
-        dtrsm_("L", "L", "N", "N", &m, &columns, &alpha, lower.value.data() + first * (lower.rows + 1), &lda, b.value.data() + first + j * b.rows,
-               &ldb);
+        dtrsm_("L", "L", "N", "N", &m, &columns, &alpha, lower.value.data() + first * (lower.rows + 1), &lda,
+               b.value.data() + first + j * b.rows, &ldb);
         ask(look);
     }
 }
@@ -207,10 +215,13 @@ void accumulate_gram(DenseMatrix& c, const DenseMatrix& v, double sign, const Lo
     const std::int64_t step = columns_a_part(0.5 * n * k, n);
     const auto column = [&v](std::int64_t j) { return v.value.data() + j * v.rows; };
     for (std::int64_t j = 0; j < n; j += step) {
-        const int columns = static_cast<int>(std::min<std::int64_t>(step, n - j)), rest = static_cast<int>(n - j - columns);
+        const int columns = static_cast<int>(std::min<std::int64_t>(step, n - j)),
+                  rest = static_cast<int>(n - j - columns);
         double* corner = c.value.data() + j * (c.rows + 1);
         dsyrk_("L", "T", &columns, &k, &sign, column(j), &ldv, &beta, corner, &ldc);
-        if (rest > 0) dgemm_("T", "N", &rest, &columns, &k, &sign, column(j + columns), &ldv, column(j), &ldv, &beta, corner + columns, &ldc);
+        if (rest > 0)
+            dgemm_("T", "N", &rest, &columns, &k, &sign, column(j + columns), &ldv, column(j), &ldv, &beta,
+                   corner + columns, &ldc);
         ask(look);
     }
 }
@@ -258,12 +269,15 @@ void lower_transpose_times_lower(DenseMatrix& a, const Look& look) {
     const double unit = 1.0;
     const auto at = [&a](std::int64_t i, std::int64_t j) { return a.value.data() + i + j * a.rows; };
     for (std::int64_t k = 0; k < n; k += width) {
-        const int panel = static_cast<int>(std::min(width, n - k)), below = static_cast<int>(n - k - panel), before = static_cast<int>(k);
+        const int panel = static_cast<int>(std::min(width, n - k)), below = static_cast<int>(n - k - panel),
+                  before = static_cast<int>(k);
         int info = 0;
         if (before > 0) dtrmm_("L", "L", "T", "N", &panel, &before, &unit, at(k, k), &lda, at(k, 0), &lda);
         dlauum_("L", &panel, at(k, k), &lda, &info);
         if (below > 0) {
-            if (before > 0) dgemm_("T", "N", &panel, &before, &below, &unit, at(k + panel, k), &lda, at(k + panel, 0), &lda, &unit, at(k, 0), &lda);
+            if (before > 0)
+                dgemm_("T", "N", &panel, &before, &below, &unit, at(k + panel, k), &lda, at(k + panel, 0), &lda, &unit,
+                       at(k, 0), &lda);
             dsyrk_("L", "T", &panel, &below, &unit, at(k + panel, k), &lda, &unit, at(k, k), &lda);
         }
         ask(look);
@@ -275,7 +289,8 @@ void lower_transpose_times_lower(DenseMatrix& a, const Look& look) {
 DenseMatrix inverse_definite(DenseMatrix a, const Look& look) {
     const int n = narrow(a.rows), lda = leading(a);
     int info = 0;
-    if (!factor_definite(a, look)) fail(DELAM_ERROR_NUMERICAL, "a dense block of ", n, " rows is not positive definite");
+    if (!factor_definite(a, look))
+        fail(DELAM_ERROR_NUMERICAL, "a dense block of ", n, " rows is not positive definite");
     ask(look);
     if (n > small) {
         info = invert_lower(a, look);
@@ -283,7 +298,8 @@ DenseMatrix inverse_definite(DenseMatrix a, const Look& look) {
     } else if (n > 0) {
         dpotri_("L", &n, a.value.data(), &lda, &info);
     }
-    if (info != 0) fail(DELAM_ERROR_NUMERICAL, "a dense block of ", n, " rows is not positive definite (row ", info, ")");
+    if (info != 0)
+        fail(DELAM_ERROR_NUMERICAL, "a dense block of ", n, " rows is not positive definite (row ", info, ")");
     ask(look);
     mirror_lower(a);
     return a;
@@ -319,7 +335,8 @@ Eigen eigen_symmetric(DenseMatrix a) {
 
 PivotedColumns pivoted_columns(DenseMatrix a, double tolerance) {
     const int m = narrow(a.rows), lda = leading(a);
-    if (a.columns > 2000000000) fail(DELAM_ERROR_MEMORY, "too many columns in a rank-revealing factorisation: ", a.columns);
+    if (a.columns > 2000000000)
+        fail(DELAM_ERROR_MEMORY, "too many columns in a rank-revealing factorisation: ", a.columns);
     const int n = static_cast<int>(a.columns);
     PivotedColumns result{std::vector<std::int64_t>(static_cast<std::size_t>(n)), 0};
     if (m == 0 || n == 0) {
@@ -389,7 +406,8 @@ SemidefiniteFactor::SemidefiniteFactor(const DenseMatrix& a, std::span<const std
     for (std::size_t i = 0; i < rows_.size(); ++i) scale_[i] = 1.0 / std::sqrt(a(rows_[i], rows_[i]));
     for (std::size_t j = 0; j < rows_.size(); ++j)
         for (std::size_t i = 0; i < rows_.size(); ++i)
-            factor_(static_cast<std::int64_t>(i), static_cast<std::int64_t>(j)) = scale_[i] * scale_[j] * a(rows_[i], rows_[j]);
+            factor_(static_cast<std::int64_t>(i), static_cast<std::int64_t>(j)) =
+                scale_[i] * scale_[j] * a(rows_[i], rows_[j]);
     int info = 0;
     dpotrf_("L", &n, factor_.value.data(), &lda, &info);
     if (info != 0) fail(DELAM_ERROR_NUMERICAL, "the coarse problem is not positive definite at row ", info, " of ", n);

@@ -39,7 +39,8 @@ void multiply(const DenseMatrix& a, std::span<const double> x, std::span<double>
 void multiply_transposed(const DenseMatrix& a, std::span<const double> x, std::span<double> y);
 // Copies the lower triangle to the upper one.
 void mirror_lower(DenseMatrix& a);
-// A = L L^T in its lower triangle (LAPACK dpotrf, of large ones panel by panel). False: not positive definite; A is then spoilt.
+// A = L L^T in its lower triangle (LAPACK dpotrf, of large ones panel by panel). False: not positive definite; A is
+// then spoilt.
 bool factor_definite(DenseMatrix& a, const Look& look = {});
 // L^-1 B, L^-1 x, L^-T x in place (BLAS dtrsm, dtrsv); only the lower triangle is read.
 // first: the rows of B above it are zero.
@@ -53,8 +54,8 @@ void add_gram(DenseMatrix& c, const DenseMatrix& v, const Look& look = {});
 void subtract_product(DenseMatrix& c, const DenseMatrix& v, const DenseMatrix& w);
 // A^-1, full symmetric, of a positive definite A (LAPACK dpotrf, dpotri; beyond 1024 rows the same in panels).
 DenseMatrix inverse_definite(DenseMatrix a, const Look& look = {});
-// A X = B in place of B, A spoilt, by LU with its rows scaled to 1 (LAPACK dgetrf, dgetrs). False: singular, no pivot larger than `tolerance` of the
-// largest; B is then not set.
+// A X = B in place of B, A spoilt, by LU with its rows scaled to 1 (LAPACK dgetrf, dgetrs). False: singular, no pivot
+// larger than `tolerance` of the largest; B is then not set.
 bool solve_general(DenseMatrix& a, DenseMatrix& b, double tolerance);
 // Orthonormal basis of the columns' span (modified Gram-Schmidt, twice); they must be independent.
 DenseMatrix orthonormalised(DenseMatrix a);
@@ -65,20 +66,20 @@ struct Eigen {
 };
 Eigen eigen_symmetric(DenseMatrix a);
 
-// Columns of A in the order of a rank-revealing QR (LAPACK dgeqp3), and its numerical rank for a relative tolerance on the
-// diagonal of R.
+// Columns of A in the order of a rank-revealing QR (LAPACK dgeqp3), and its numerical rank for a relative tolerance on
+// the diagonal of R.
 struct PivotedColumns {
     std::vector<std::int64_t> order;
     std::int64_t rank;
 };
 PivotedColumns pivoted_columns(DenseMatrix a, double tolerance);
 
-// Largest set of rows of a positive semi-definite matrix that is independent (LAPACK dpstrf); pivots below tolerance times the
-// largest diagonal entry count as zero.
+// Largest set of rows of a positive semi-definite matrix that is independent (LAPACK dpstrf); pivots below tolerance
+// times the largest diagonal entry count as zero.
 std::vector<std::int64_t> independent_rows(DenseMatrix a, double tolerance);
 
-// Cholesky factor of the principal block of a positive semi-definite matrix on an independent set of rows. solve() gives the
-// solution of a consistent system that is zero elsewhere: a generalised inverse.
+// Cholesky factor of the principal block of a positive semi-definite matrix on an independent set of rows. solve()
+// gives the solution of a consistent system that is zero elsewhere: a generalised inverse.
 class SemidefiniteFactor {
 public:
     SemidefiniteFactor() = default;

@@ -87,7 +87,8 @@ SparseMatrix transpose(const SparseMatrix& a) {
     std::vector<std::int64_t> next(t.start.begin(), t.start.end() - 1);
     for (std::int64_t r = 0; r < a.rows; ++r) {
         for (std::int64_t e = a.start[static_cast<std::size_t>(r)]; e < a.start[static_cast<std::size_t>(r) + 1]; ++e) {
-            const auto at = static_cast<std::size_t>(next[static_cast<std::size_t>(a.column[static_cast<std::size_t>(e)])]++);
+            const auto at =
+                static_cast<std::size_t>(next[static_cast<std::size_t>(a.column[static_cast<std::size_t>(e)])]++);
             t.column[at] = r;
             t.value[at] = a.value[static_cast<std::size_t>(e)];
         }
@@ -95,7 +96,8 @@ SparseMatrix transpose(const SparseMatrix& a) {
     return t;
 }
 
-// Row i of T^T K T gathers the rows of K that variable i moves; distinct columns meet in a marker (Gustavson, as above).
+// Row i of T^T K T gathers the rows of K that variable i moves; distinct columns meet in a marker (Gustavson, as
+// above).
 SparseMatrix congruence(const SparseMatrix& k, const SparseMatrix& t, const Look& look) {
     const auto at = [](std::int64_t i) { return static_cast<std::size_t>(i); };
     const SparseMatrix tt = transpose(t);

@@ -53,11 +53,13 @@ void SparseElimination::solve(const Row& row, std::int64_t pivot) {
     solution_.push_back(std::move(solution));
 }
 
-// What a solution refers to was free when it was found: the last one is final already, and walking back so is all that follows.
+// What a solution refers to was free when it was found: the last one is final already, and walking back so is all that
+// follows.
 void SparseElimination::close() {
     for (std::size_t k = solution_.size(); k-- > 0;) {
         Solution& solution = solution_[k];
-        if (std::none_of(solution.terms.begin(), solution.terms.end(), [&](const auto& t) { return solved(t.first); })) continue;
+        if (std::none_of(solution.terms.begin(), solution.terms.end(), [&](const auto& t) { return solved(t.first); }))
+            continue;
         Row row;
         for (const auto& [variable, c] : solution.terms) row.terms[variable] += c;
         row.right = solution.right;

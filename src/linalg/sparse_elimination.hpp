@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sparse linear equations, each solved for one of its variables:  sum a_j x_j = b . theta   ->   x_p = sum c_j x_j + d . theta.
+// Sparse linear equations, each solved for one of its variables:  sum a_j x_j = b . theta   ->   x_p = sum c_j x_j + d
+// . theta.
 //
-// Rows come one after another; a new one is first reduced by those that are solved. A row that depends on them reduces to nothing. As long as
-// rows are short and do not hang together much, thousands of them cost little more than reading them.
+// Rows come one after another; a new one is first reduced by those that are solved. A row that depends on them reduces
+// to nothing. As long as rows are short and do not hang together much, thousands of them cost little more than reading
+// them.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +25,9 @@ public:
         std::vector<double> right;
     };
 
-    // Replaces variables that are solved by what they are solved to. Terms below 1e-10 of the largest coefficient that took part are what is
-    // left of a cancellation and go. Returns the largest magnitude that took part on the right, to measure what is left there by.
+    // Replaces variables that are solved by what they are solved to. Terms below 1e-10 of the largest coefficient that
+    // took part are what is left of a cancellation and go. Returns the largest magnitude that took part on the right,
+    // to measure what is left there by.
     double reduce(Row& row) const;
     // Solves a reduced row for one of its variables.
     void solve(const Row& row, std::int64_t pivot);

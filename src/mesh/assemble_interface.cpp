@@ -25,7 +25,9 @@ std::vector<std::size_t> spatial_order(const Mesh& mesh, std::span<const NodePai
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::vector<std::array<std::int64_t, 3>> rank(pairs.size(), {0, 0, 0});
     for (std::size_t axis = 0; axis < at(mesh.dimension()); ++axis) {
-        const auto x = [&](std::size_t i) { return mesh.node(side == FaceSide::a ? pairs[i].first : pairs[i].second)[axis]; };
+        const auto x = [&](std::size_t i) {
+            return mesh.node(side == FaceSide::a ? pairs[i].first : pairs[i].second)[axis];
+        };
         std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return x(i) < x(j); });
         for (std::size_t k = 1; k < order.size(); ++k)
             rank[order[k]][axis] = rank[order[k - 1]][axis] + (x(order[k]) - x(order[k - 1]) > distance ? 1 : 0);
@@ -85,7 +87,14 @@ void write_frame(int dimension, const Point& along, double* frame) {
     for (std::size_t i = 0; i < 3; ++i) t[i] = (i == axis ? 1.0 : 0.0) - n[axis] * n[i];
     const double norm = std::hypot(t[0], t[1], t[2]);
     for (double& component : t) component /= norm;
-    const double rows[] = {n[0], n[1], n[2], t[0], t[1], t[2], n[1] * t[2] - n[2] * t[1], n[2] * t[0] - n[0] * t[2],
+    const double rows[] = {n[0],
+                           n[1],
+                           n[2],
+                           t[0],
+                           t[1],
+                           t[2],
+                           n[1] * t[2] - n[2] * t[1],
+                           n[2] * t[0] - n[0] * t[2],
                            n[0] * t[1] - n[1] * t[0]};
     std::copy(std::begin(rows), std::end(rows), frame);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A conforming mesh of touching bodies has one node where a body of its own needs one each. Copies of a node form a list
-// that starts at the original, so that a body finds its own again in whatever call its next cell comes.
+// A conforming mesh of touching bodies has one node where a body of its own needs one each. Copies of a node form a
+// list that starts at the original, so that a body finds its own again in whatever call its next cell comes.
 #include <algorithm>
 #include <numeric>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Bodies that the library knows by their nodes alone, and interfaces whose pairs the host gives: what an obstacle is to one side, with both sides
-// free to deform.
+// Bodies that the library knows by their nodes alone, and interfaces whose pairs the host gives: what an obstacle is to
+// one side, with both sides free to deform.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -28,7 +28,8 @@ void Mesh::add_host_body(std::int32_t label, std::span<const std::int64_t> nodes
             fail(DELAM_ERROR_ARGUMENT, "nodes[", i, "] = ", node, ": must be in 0..", node_count() - 1);
         if (!listed.insert(node).second) fail(DELAM_ERROR_ARGUMENT, "nodes[", i, "] = ", node, " is there twice");
         if (node_label_[at(node)] == reserved)
-            fail(DELAM_ERROR_MESH, "nodes[", i, "] = ", node, " is tied to an interface or the control node of an obstacle");
+            fail(DELAM_ERROR_MESH, "nodes[", i, "] = ", node,
+                 " is tied to an interface or the control node of an obstacle");
         if (node_label_[at(node)] >= 0)
             fail(DELAM_ERROR_MESH, "nodes[", i, "] = ", node, " belongs to body ", node_label_[at(node)]);
     }
@@ -84,15 +85,18 @@ std::int64_t Mesh::add_pairs(std::int32_t label_a, std::int32_t label_b, std::sp
 
     made.nodes_per_face = dimension_;
     if (!face.empty()) {
-        const bool known = dimension_ == 2 ? nodes_per_face == 2 || nodes_per_face == 3
-                                           : nodes_per_face == 3 || nodes_per_face == 4 || nodes_per_face == 6 || nodes_per_face == 8;
+        const bool known =
+            dimension_ == 2 ? nodes_per_face == 2 || nodes_per_face == 3
+                            : nodes_per_face == 3 || nodes_per_face == 4 || nodes_per_face == 6 || nodes_per_face == 8;
         if (!known)
-            fail(DELAM_ERROR_ARGUMENT, "nodes_per_face = ", nodes_per_face, ": must be ", dimension_ == 2 ? "2 or 3" : "3, 4, 6 or 8");
+            fail(DELAM_ERROR_ARGUMENT, "nodes_per_face = ", nodes_per_face, ": must be ",
+                 dimension_ == 2 ? "2 or 3" : "3, 4, 6 or 8");
         made.nodes_per_face = nodes_per_face;
         const auto per_face = static_cast<std::size_t>(nodes_per_face);
         for (std::size_t i = 0; i < face.size(); ++i) {
             if (face[i] < 0 || face[i] >= made.pair_count())
-                fail(DELAM_ERROR_ARGUMENT, "faces[", i / per_face, "][", i % per_face, "] = ", face[i], ": must be in 0..", made.pair_count() - 1);
+                fail(DELAM_ERROR_ARGUMENT, "faces[", i / per_face, "][", i % per_face, "] = ", face[i],
+                     ": must be in 0..", made.pair_count() - 1);
             // Corners differ but for the last of a triangle among quadrilaterals.
             const std::size_t corners = dimension_ == 2 ? 2 : per_face == 3 || per_face == 6 ? 3 : 4, k = i % per_face;
             for (std::size_t j = 0; j < k && k < corners; ++j)

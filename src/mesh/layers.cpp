@@ -24,14 +24,18 @@ constexpr int one_cube[] = {0, 1, 2, 3, 4, 5, 6, 7};
 std::span<const int> split(CellType type) {
     switch (type) {
         case CellType::tri3:
-        case CellType::tri6: return two_triangles;
+        case CellType::tri6:
+            return two_triangles;
         case CellType::quad4:
         case CellType::quad8:
-        case CellType::quad9: return one_square;
+        case CellType::quad9:
+            return one_square;
         case CellType::tet4:
-        case CellType::tet10: return six_tetrahedra;
+        case CellType::tet10:
+            return six_tetrahedra;
         case CellType::hex8:
-        case CellType::hex20: break;
+        case CellType::hex20:
+            break;
     }
     return one_cube;
 }

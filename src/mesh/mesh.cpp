@@ -65,7 +65,8 @@ void Mesh::add_cells(CellType type, std::span<const std::int64_t> connectivity, 
         const std::int32_t label = label_of(c);
         if (label < 0) fail(DELAM_ERROR_ARGUMENT, "cell ", number, ": body ", label, ": must be >= 0");
         if (std::binary_search(host_labels_.begin(), host_labels_.end(), label))
-            fail(DELAM_ERROR_MESH, "cell ", number, ": body ", label, " was made without cells (delam_mesh_add_host_body)");
+            fail(DELAM_ERROR_MESH, "cell ", number, ": body ", label,
+                 " was made without cells (delam_mesh_add_host_body)");
         if (std::binary_search(joined.begin(), joined.end(), label))
             fail(DELAM_ERROR_STATE, "cell ", number, ": body ", label,
                  " has an interface already; add all its cells before");

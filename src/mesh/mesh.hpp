@@ -14,7 +14,15 @@ namespace delam {
 
 // Values of DELAM_TRI3 ...
 enum class CellType : std::int32_t {
-    tri3 = 1, quad4 = 2, tet4 = 3, hex8 = 4, tri6 = 5, quad8 = 6, quad9 = 7, tet10 = 8, hex20 = 9
+    tri3 = 1,
+    quad4 = 2,
+    tet4 = 3,
+    hex8 = 4,
+    tri6 = 5,
+    quad8 = 6,
+    quad9 = 7,
+    tet10 = 8,
+    hex20 = 9
 };
 inline constexpr std::size_t most_cell_nodes = 20;
 inline constexpr std::size_t most_face_nodes = 8;
@@ -46,14 +54,14 @@ public:
 
     // Labels >= 0; checks indices, orientation and that no node serves two bodies. Leaves the mesh unchanged on error.
     void add_cells(CellType type, std::span<const std::int64_t> connectivity, std::span<const std::int32_t> labels);
-    // The same, but a node that another body has is doubled: a node of this body's own is appended at its place, one for
-    // each body and original node (conforming.cpp).
+    // The same, but a node that another body has is doubled: a node of this body's own is appended at its place, one
+    // for each body and original node (conforming.cpp).
     void add_conforming_cells(CellType type, std::span<const std::int64_t> connectivity,
                               std::span<const std::int32_t> labels);
     // Pairs matching boundary faces of two bodies (pairing.cpp); returns the index of the interface.
     std::int64_t add_interface(std::int32_t label_a, std::int32_t label_b, double tolerance);
-    // Of every two bodies that share matching faces and have no interface yet, in the order of their labels; returns how
-    // many were added.
+    // Of every two bodies that share matching faces and have no interface yet, in the order of their labels; returns
+    // how many were added.
     std::int64_t add_all_interfaces(double tolerance);
     // Ties the nodes of b's faces to their projections on a's faces, within `gap`; appends a tied node for each
     // (projected_interface.cpp).
@@ -63,7 +71,8 @@ public:
     std::int64_t add_obstacle(std::span<const std::int64_t> nodes, std::span<const double> normals,
                               std::span<const double> weights, std::int64_t control);
 
-    // A body without cells, whose stiffness the host gives, and interfaces of pairs that the host knows (host_body.cpp).
+    // A body without cells, whose stiffness the host gives, and interfaces of pairs that the host knows
+    // (host_body.cpp).
     void add_host_body(std::int32_t label, std::span<const std::int64_t> nodes);
     // normals: [pairs][dimension] from a to b, any length; face: indices of pairs, [faces][nodes_per_face].
     std::int64_t add_pairs(std::int32_t label_a, std::int32_t label_b, std::span<const std::int64_t> nodes_a,
@@ -125,12 +134,12 @@ private:
     std::vector<std::int32_t> cell_label_;
     std::vector<std::int64_t> cell_offset_{0};
     std::vector<std::int64_t> connectivity_;
-    std::vector<std::int32_t> labels_;      // distinct labels, ascending
-    std::vector<std::int32_t> host_labels_; // of bodies without cells, ascending
+    std::vector<std::int32_t> labels_;       // distinct labels, ascending
+    std::vector<std::int32_t> host_labels_;  // of bodies without cells, ascending
     static constexpr std::int32_t reserved = -2;
     std::vector<std::int32_t> node_label_;  // -1: none; reserved: tied, or the control node of an obstacle
     std::vector<std::int64_t> node_origin_;
-    std::vector<std::int64_t> next_copy_;   // of the same origin, -1: none
+    std::vector<std::int64_t> next_copy_;  // of the same origin, -1: none
     std::vector<InterfaceGeometry> interfaces_;
     std::vector<NodeTie> ties_;
 };

@@ -11,7 +11,7 @@
 namespace delam {
 
 struct NodalRule {
-    std::array<double, most_face_nodes> weight{};                // L (2D) or L2 (3D), > 0
+    std::array<double, most_face_nodes> weight{};               // L (2D) or L2 (3D), > 0
     std::array<std::array<double, 3>, most_face_nodes> area{};  // the normal at each node, as long as what it rules
 };
 

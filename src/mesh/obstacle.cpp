@@ -42,8 +42,8 @@ std::int64_t Mesh::add_obstacle(std::span<const std::int64_t> nodes, std::span<c
         if (body < 0) fail(DELAM_ERROR_ARGUMENT, "nodes[", p, "] = ", node, " has no cells");
         if (p == 0) made.body_b = body;
         if (body != made.body_b)
-            fail(DELAM_ERROR_ARGUMENT, "nodes[", p, "] = ", node, " belongs to body ", body_label(body), ", nodes[0] to ",
-                 body_label(made.body_b), ": each body needs an obstacle of its own");
+            fail(DELAM_ERROR_ARGUMENT, "nodes[", p, "] = ", node, " belongs to body ", body_label(body),
+                 ", nodes[0] to ", body_label(made.body_b), ": each body needs an obstacle of its own");
         if (!listed.emplace(node, p).second) fail(DELAM_ERROR_ARGUMENT, "nodes[", p, "] = ", node, " is there twice");
         Point normal{};
         for (std::size_t i = 0; i < dim; ++i) {

@@ -3,8 +3,8 @@
 // From two bodies to an interface: their boundary nodes are matched in space, then their boundary faces through the
 // nodes, and what the faces know (area, normal) is brought to the node pairs.
 #include <algorithm>
-#include <limits>
 #include <iterator>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -37,8 +37,8 @@ BoxTree tree_of(const Mesh& mesh, std::span<const std::int64_t> nodes) {
     return BoxTree(std::move(boxes));
 }
 
-// Nodes of b with the node of a that each coincides with, ascending. As large as the two lists of nodes, not as the mesh:
-// a mesh may have thousands of small interfaces.
+// Nodes of b with the node of a that each coincides with, ascending. As large as the two lists of nodes, not as the
+// mesh: a mesh may have thousands of small interfaces.
 class Partners {
 public:
     Partners(const Mesh& mesh, std::span<const std::int64_t> a, std::span<const std::int64_t> b, double distance) {
@@ -69,15 +69,14 @@ FaceKey sorted_key(std::span<const std::int64_t> nodes) {
 }
 
 struct Matching {
-    std::vector<BoundaryFace> on_a;                             // matched faces, as body a has them
-    std::vector<NodePair> node;                                 // matched nodes, ascending
-    std::vector<BoundaryFace> left_a, left_b;                   // faces without a match
+    std::vector<BoundaryFace> on_a;            // matched faces, as body a has them
+    std::vector<NodePair> node;                // matched nodes, ascending
+    std::vector<BoundaryFace> left_a, left_b;  // faces without a match
 };
 
 // Two faces whose corners coincide are one face. A mid-side node of either that meets none of the other is an error:
 // named here, since such faces lie on each other as they should.
-void require_same_middle(const Mesh& mesh, const BoundaryFace& a, const BoundaryFace& b,
-                         const Partners& partner) {
+void require_same_middle(const Mesh& mesh, const BoundaryFace& a, const BoundaryFace& b, const Partners& partner) {
     std::vector<std::int64_t> met;
     const auto refuse = [&](std::int64_t node) {
         fail(DELAM_ERROR_MESH, "the face that cells ", a.cell, " and ", b.cell, " of the two bodies share at ",
@@ -190,7 +189,8 @@ std::pair<std::int32_t, std::int32_t> Mesh::require_unjoined(std::int32_t label_
 
 void Mesh::require_cells(std::int32_t body) const {
     if (host_body(body))
-        fail(DELAM_ERROR_MESH, "body ", body_label(body), " has no cells and so no faces: give its pairs (delam_mesh_add_pairs)");
+        fail(DELAM_ERROR_MESH, "body ", body_label(body),
+             " has no cells and so no faces: give its pairs (delam_mesh_add_pairs)");
 }
 
 std::int64_t Mesh::add_interface(std::int32_t label_a, std::int32_t label_b, double tolerance) {
@@ -248,7 +248,8 @@ std::int64_t Mesh::add_all_interfaces(double tolerance) {
               [](const Meeting& x, const Meeting& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
 
     std::set<std::pair<std::int32_t, std::int32_t>> joined;
-    for (const InterfaceGeometry& i : interfaces_) joined.insert(std::minmax(i.body_a, i.body_b));  // obstacles: none such
+    for (const InterfaceGeometry& i : interfaces_)
+        joined.insert(std::minmax(i.body_a, i.body_b));  // obstacles: none such
     const auto those = [&](std::vector<std::size_t> list) {
         std::sort(list.begin(), list.end());
         list.erase(std::unique(list.begin(), list.end()), list.end());

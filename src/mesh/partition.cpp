@@ -65,9 +65,11 @@ private:
     std::array<struct sigaction, 2> handlers_{};
 };
 
-// METIS prints where it gets no memory. What it takes at most was measured on grids: up to 43 bytes a vertex or neighbour, in small parts,
-// and 100 KiB at least.
-void require_room_for_metis(const Graph& graph) { require_room((std::size_t{1} << 17) + 48 * (graph.size() + graph.neighbour.size())); }
+// METIS prints where it gets no memory. What it takes at most was measured on grids: up to 43 bytes a vertex or
+// neighbour, in small parts, and 100 KiB at least.
+void require_room_for_metis(const Graph& graph) {
+    require_room((std::size_t{1} << 17) + 48 * (graph.size() + graph.neighbour.size()));
+}
 
 Parts cut_with_metis(Graph& graph, idx_t parts) {
     require_room_for_metis(graph);

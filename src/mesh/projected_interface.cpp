@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Two bodies whose meshes do not match: each node of b's faces is paired with its projection on a's faces, a tied node
-// whose displacement is the one that a has there, sum_i N_i u_i. Weights and normals are those of b's faces, so that the
-// tractions of b are its own nodal rule; a receives them through the N_i.
+// whose displacement is the one that a has there, sum_i N_i u_i. Weights and normals are those of b's faces, so that
+// the tractions of b are its own nodal rule; a receives them through the N_i.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -98,8 +98,8 @@ std::int64_t Mesh::add_projected_interface(std::int32_t label_a, std::int32_t la
 
     // A face of b lies on a as a whole or not at all.
     const auto refuse_partial = [&](const BoundaryFace& face, const Point& off) {
-        fail(DELAM_ERROR_MESH, "bodies ", label_a, " and ", label_b, ": the face of cell ", face.cell,
-             " (body ", label_b, ") with a corner at ", place(*this, face.node[0]), " lies on faces of body ", label_a,
+        fail(DELAM_ERROR_MESH, "bodies ", label_a, " and ", label_b, ": the face of cell ", face.cell, " (body ",
+             label_b, ") with a corner at ", place(*this, face.node[0]), " lies on faces of body ", label_a,
              " in part only: at ", place(dimension_, off), " there is none within ", reach);
     };
     Split faces;
@@ -122,9 +122,9 @@ std::int64_t Mesh::add_projected_interface(std::int32_t label_a, std::int32_t la
         for (const FacePoint& p : inner_points(*this, face)) {
             if (const auto found = apart.under(p.place, p.normal)) {
                 const BoundaryFace& other = apart.face(found->face);
-                fail(DELAM_ERROR_MESH, "bodies ", label_a, " and ", label_b, ": the face of cell ", other.cell, " (body ",
-                     label_b, ") with a corner at ", place(*this, other.node[0]), " lies on faces of body ", label_a,
-                     " in part only, about ", place(dimension_, p.place));
+                fail(DELAM_ERROR_MESH, "bodies ", label_a, " and ", label_b, ": the face of cell ", other.cell,
+                     " (body ", label_b, ") with a corner at ", place(*this, other.node[0]), " lies on faces of body ",
+                     label_a, " in part only, about ", place(dimension_, p.place));
             }
         }
     }

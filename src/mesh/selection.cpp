@@ -180,8 +180,13 @@ public:
             const std::array<std::int64_t, 3> corner{nodes[at(local[0])], nodes[at(local[1])], nodes[at(local[2])]};
             clipped_fan(corner, [&](const Vertex& a, const Vertex& b, const Vertex& c, double area) {
                 // Exact to degree 3: 3/60 of each corner, 8/60 of each middle, 27/60 of the centre.
-                const double rule[7][4] = {{1, 0, 0, 3}, {0, 1, 0, 3}, {0, 0, 1, 3}, {0.5, 0.5, 0, 8},
-                                           {0, 0.5, 0.5, 8}, {0.5, 0, 0.5, 8}, {1.0 / 3, 1.0 / 3, 1.0 / 3, 27}};
+                const double rule[7][4] = {{1, 0, 0, 3},
+                                           {0, 1, 0, 3},
+                                           {0, 0, 1, 3},
+                                           {0.5, 0.5, 0, 8},
+                                           {0, 0.5, 0.5, 8},
+                                           {0.5, 0, 0.5, 8},
+                                           {1.0 / 3, 1.0 / 3, 1.0 / 3, 27}};
                 for (const auto& r : rule) {
                     std::array<double, 3> share;
                     for (std::size_t i = 0; i < 3; ++i)
@@ -260,7 +265,8 @@ Patch find_patch(const Mesh& mesh, std::int32_t body, std::span<const double> lo
     double length = 0.0;
     for (const double d : direction) length = std::hypot(length, d);
     if (!(length > 0.0)) fail(DELAM_ERROR_ARGUMENT, "direction: its length is ", length, ", must be > 0");
-    if (body >= 0 && mesh.host_body(body)) fail(DELAM_ERROR_ARGUMENT, "body ", mesh.body_label(body), " has no cells and so no faces");
+    if (body >= 0 && mesh.host_body(body))
+        fail(DELAM_ERROR_ARGUMENT, "body ", mesh.body_label(body), " has no cells and so no faces");
 
     std::vector<double> weight(at(mesh.node_count()), 0.0);
     Window window(mesh, lower, upper);

@@ -65,9 +65,12 @@ Quadrature rule_of(CellType type) {
     const double s = 1.0 / 6.0;
     const double t = 1.0 / 3.0;
     switch (type) {
-        case CellType::tri3: return {{triangle_centre}, {0.5}, {}};
-        case CellType::tet4: return {{tetrahedron_centre}, {s}, {}};
-        case CellType::tri6: return {{{s, s, 0}, {4 * s, s, 0}, {s, 4 * s, 0}}, {s, s, s}, {}};
+        case CellType::tri3:
+            return {{triangle_centre}, {0.5}, {}};
+        case CellType::tet4:
+            return {{tetrahedron_centre}, {s}, {}};
+        case CellType::tri6:
+            return {{{s, s, 0}, {4 * s, s, 0}, {s, 4 * s, 0}}, {s, s, s}, {}};
         case CellType::tet10: {
             const double vertex = s / 40.0;
             const double face = 9.0 * s / 40.0;
@@ -75,11 +78,15 @@ Quadrature rule_of(CellType type) {
                     {vertex, vertex, vertex, vertex, face, face, face, face},
                     {}};
         }
-        case CellType::quad4: return gauss_product(2, 2);
+        case CellType::quad4:
+            return gauss_product(2, 2);
         case CellType::quad8:
-        case CellType::quad9: return gauss_product(2, 3);
-        case CellType::hex8: return gauss_product(3, 2);
-        case CellType::hex20: break;
+        case CellType::quad9:
+            return gauss_product(2, 3);
+        case CellType::hex8:
+            return gauss_product(3, 2);
+        case CellType::hex20:
+            break;
     }
     return gauss_product(3, 3);
 }

@@ -10,7 +10,8 @@ std::vector<BoundRow> bound_rows(const Problem& problem) {
     const JumpVariables v = make_jump_variables(problem);
     std::vector<std::int64_t> row_of(static_cast<std::size_t>(v.jumps), -1);
     for (std::size_t r = 0; r < v.row.size(); ++r)
-        if (v.row[r].size() == 1 && v.row[r].front().second == 1.0 && v.row_offset[r].empty() && row_of[static_cast<std::size_t>(v.row[r].front().first)] < 0)
+        if (v.row[r].size() == 1 && v.row[r].front().second == 1.0 && v.row_offset[r].empty() &&
+            row_of[static_cast<std::size_t>(v.row[r].front().first)] < 0)
             row_of[static_cast<std::size_t>(v.row[r].front().first)] = static_cast<std::int64_t>(r);
     for (const std::int64_t r : v.bound) {
         const auto at = static_cast<std::size_t>(r);

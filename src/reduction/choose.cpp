@@ -24,11 +24,11 @@ double cube(double x) { return x * x * x; }
 constexpr double dense_copies = 4.0;  // m^2 matrices at the peak of a condensed march: S, its condensations, a release
 constexpr double condensed_start = 0.7;  // of m^3 operations until the first zone is there
 constexpr double condensed_step = 0.2;   // and a load step (0.06 to 0.4)
-constexpr double free_order = 0.65;  // entries of a free order, of those left of the trailing triangle (0.53 to 0.69)
-constexpr double supernodes = 1.25;      // numbers stored per entry of a factor
-constexpr double series_bytes = 32.0;    // per square of a subdomain's jumps: the series preconditioner while it is built
-constexpr double feti_solves = 16.0;     // displacement solves a load step
-constexpr double feti_iterations = 20.0; // Krylov iterations a solve
+constexpr double free_order = 0.65;    // entries of a free order, of those left of the trailing triangle (0.53 to 0.69)
+constexpr double supernodes = 1.25;    // numbers stored per entry of a factor
+constexpr double series_bytes = 32.0;  // per square of a subdomain's jumps: the series preconditioner while it is built
+constexpr double feti_solves = 16.0;   // displacement solves a load step
+constexpr double feti_iterations = 20.0;  // Krylov iterations a solve
 constexpr double from_memory =
     5.0;  // a matrix-vector product waits for memory: so many times slower than a factorisation
 
@@ -150,8 +150,8 @@ void choose(ReductionChoice& choice) {
         choice.reason = std::move(reason);
     };
     if (!c.possible && !f.possible)
-        fail(DELAM_ERROR_MEMORY, "the dense operator would have ", choice.unknowns, " rows and a subdomain's boundary ", choice.boundary,
-             ", LAPACK addresses ", dense_limit, ": set the option subdomains to more");
+        fail(DELAM_ERROR_MEMORY, "the dense operator would have ", choice.unknowns, " rows and a subdomain's boundary ",
+             choice.boundary, ", LAPACK addresses ", dense_limit, ": set the option subdomains to more");
     if (!c.possible)
         return decide(false,
                       text("the dense operator would have ", choice.unknowns, " rows, LAPACK addresses ", dense_limit));

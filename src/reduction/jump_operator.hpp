@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one question that the evolution asks of the mechanics: which jump minimises the energy of bodies and springs at given
-// loads?  E(theta, u) = 1/2 u^T K u - f(theta)^T u + 1/2 theta^T W theta + sum_i (1/2 s_i j_i^2 - h_i j_i)  over u with B_e u = j, j_i = 0 on held rows, B_d u = c(theta).
+// The one question that the evolution asks of the mechanics: which jump minimises the energy of bodies and springs at
+// given loads?  E(theta, u) = 1/2 u^T K u - f(theta)^T u + 1/2 theta^T W theta + sum_i (1/2 s_i j_i^2 - h_i j_i)  over
+// u with B_e u = j, j_i = 0 on held rows, B_d u = c(theta).
 //
-// Rows of the jump: interface after interface, pair after pair, normal first (Problem::jump_count of them). Nothing here
-// knows about damage or contact.
+// Rows of the jump: interface after interface, pair after pair, normal first (Problem::jump_count of them). Nothing
+// here knows about damage or contact.
 #pragma once
 
 #include <cstdint>
@@ -21,9 +22,11 @@ class Bulk;
 
 // What an interface row is at the moment.
 struct Springs {
-    std::vector<double> stiffness;    // [rows] s = weight k zeta >= 0, F/L; 0: debonded (no force)
-    std::vector<std::uint8_t> held;   // [rows] 1: jump held at zero (perfect bond, closed contact); stiffness is then ignored
-    std::vector<double> force{};      // [rows] h, F: the spring pulls with s j - h; only where s > 0 or the row is held. Empty: none
+    std::vector<double> stiffness;  // [rows] s = weight k zeta >= 0, F/L; 0: debonded (no force)
+    std::vector<std::uint8_t>
+        held;  // [rows] 1: jump held at zero (perfect bond, closed contact); stiffness is then ignored
+    std::vector<double>
+        force{};  // [rows] h, F: the spring pulls with s j - h; only where s > 0 or the row is held. Empty: none
 };
 
 struct Response {
@@ -49,19 +52,24 @@ public:
     virtual std::vector<double> reaction(std::span<const double> theta, const Response& response) const = 0;
     // Displacements [mesh DOFs] of a response of this operator.
     virtual std::vector<double> displacement(std::span<const double> theta, const Response& response) const = 0;
-    // Largest out-of-balance force at a node of the displacements above, with the response's interface forces and reactions, F.
+    // Largest out-of-balance force at a node of the displacements above, with the response's interface forces and
+    // reactions, F.
     virtual double equilibrium_defect(std::span<const double> theta, const Response& response) const = 0;
-    // Energy, F L, that rounding may add or take where the stiffness of the response is a small difference of large ones; an estimate
-    // from what is at hand. 0: none, or one that the solver's own residual shows.
-    virtual double rounding_energy(std::span<const double> /*theta*/, const Response& /*response*/) const { return 0.0; }
+    // Energy, F L, that rounding may add or take where the stiffness of the response is a small difference of large
+    // ones; an estimate from what is at hand. 0: none, or one that the solver's own residual shows.
+    virtual double rounding_energy(std::span<const double> /*theta*/, const Response& /*response*/) const {
+        return 0.0;
+    }
     // Rows whose jump the prescribed displacements alone determine, [rows].
     virtual std::span<const std::uint8_t> prescribed_rows() const = 0;
-    // What of the past the last digits of the next solve depend on (empty: nothing); a recalled memory gives them again.
+    // What of the past the last digits of the next solve depend on (empty: nothing); a recalled memory gives them
+    // again.
     virtual std::vector<double> memory() const { return {}; }
     virtual void recall(std::span<const double> /*memory*/) {}
     // Throws Error(DELAM_ERROR_SNAPSHOT) for what memory() cannot have given.
     virtual void require_memory(std::span<const double> memory) const {
-        if (!memory.empty()) fail(DELAM_ERROR_SNAPSHOT, "a memory of ", memory.size(), " numbers, this operator has none");
+        if (!memory.empty())
+            fail(DELAM_ERROR_SNAPSHOT, "a memory of ", memory.size(), " numbers, this operator has none");
     }
     // Another operator over the same condensed bodies, with a memory of its own; null: there is none that is cheap.
     virtual std::unique_ptr<JumpOperator> twin() const { return nullptr; }

@@ -18,15 +18,16 @@ constexpr std::size_t short_equation = 32;
 
 using Row = SparseElimination::Row;
 
-// Modulus of a body as far as it ranks bodies; 0 where nothing is given. Entries of a given matrix are about E, in space E times an edge; its diagonal may hold
-// supports of the host's, of any size.
+// Modulus of a body as far as it ranks bodies; 0 where nothing is given. Entries of a given matrix are about E, in
+// space E times an edge; its diagonal may hold supports of the host's, of any size.
 double modulus(const Problem& problem, std::int32_t body) {
     const auto b = static_cast<std::size_t>(body);
     if (problem.stiffness[b] != nullptr) {
         const SparseMatrix& k = problem.stiffness[b]->matrix;
         double largest = 0.0;
         for (std::int64_t row = 0; row < k.rows; ++row)
-            for (auto e = static_cast<std::size_t>(k.start[static_cast<std::size_t>(row)]); e < static_cast<std::size_t>(k.start[static_cast<std::size_t>(row) + 1]); ++e)
+            for (auto e = static_cast<std::size_t>(k.start[static_cast<std::size_t>(row)]);
+                 e < static_cast<std::size_t>(k.start[static_cast<std::size_t>(row) + 1]); ++e)
                 if (k.column[e] != row) largest = std::max(largest, std::abs(k.value[e]));
         const double rows = static_cast<double>(std::max<std::int64_t>(1, k.rows / 3));
         return problem.mesh->dimension() == 2 ? largest : largest * std::cbrt(rows) / problem.mesh->size();
@@ -43,7 +44,11 @@ constexpr std::int64_t steps_a_look = 1024;
 class Builder {
 public:
     Builder(const Problem& problem, const Look& look)
-        : problem_(problem), look_(look), carriers_(problem), dim_(problem.mesh->dimension()), dofs_(problem.mesh->node_count() * dim_) {
+        : problem_(problem),
+          look_(look),
+          carriers_(problem),
+          dim_(problem.mesh->dimension()),
+          dofs_(problem.mesh->node_count() * dim_) {
         find_pairs();
         hang_nodes();
         for (const std::size_t p : closing_) close_ring(pairs_[p]);
@@ -67,8 +72,8 @@ private:
     std::vector<Pair> pairs_;
     std::vector<std::size_t> closing_;  // pairs outside the spanning trees: they close rings, or have a tied node
     SparseElimination solved_;
-    std::vector<std::int64_t> bound_;   // jump rows that constraints solve for
-    std::vector<Row> open_;             // long constraints
+    std::vector<std::int64_t> bound_;  // jump rows that constraints solve for
+    std::vector<Row> open_;            // long constraints
 
     bool displacement(std::int64_t id) const { return id < dofs_; }
     std::vector<double> nothing() const { return std::vector<double>(problem_.patterns.size(), 0.0); }
@@ -87,11 +92,13 @@ void Builder::find_pairs() {
     std::int64_t row = 0;
     for (const InterfaceGeometry& face : problem_.mesh->interfaces())
         for (std::size_t p = 0; p < face.node_a.size(); ++p, row += dim_)
-            pairs_.push_back({face.node_a[p], face.node_b[p], row, &face.frame[p * static_cast<std::size_t>(dim_ * dim_)]});
+            pairs_.push_back(
+                {face.node_a[p], face.node_b[p], row, &face.frame[p * static_cast<std::size_t>(dim_ * dim_)]});
 }
 
-// Control nodes are roots first, so that what they move hangs on them; then the stiffest bodies' nodes. Where soft meets stiff the jump thus moves
-// the soft side alone: on the stiff side its condensed stiffness, that of the soft body, would be a small difference of large numbers.
+// Control nodes are roots first, so that what they move hangs on them; then the stiffest bodies' nodes. Where soft
+// meets stiff the jump thus moves the soft side alone: on the stiff side its condensed stiffness, that of the soft
+// body, would be a small difference of large numbers.
 void Builder::hang_nodes() {
     std::map<std::int64_t, std::vector<std::size_t>> pairs_of;
     const auto tied = [this](std::int64_t node) { return carriers_.kind(node) == Carriers::Kind::tied; };
@@ -135,7 +142,8 @@ void Builder::hang_nodes() {
                     // u_other - u_node -+ Q^T j = 0
                     Row row{{{node * dim_ + k, -1.0}}, nothing()};
                     for (std::int64_t r = 0; r < dim_; ++r)
-                        if (const double q = pair.frame[r * dim_ + k]; q != 0.0) row.terms[dofs_ + pair.first_row + r] -= sign * q;
+                        if (const double q = pair.frame[r * dim_ + k]; q != 0.0)
+                            row.terms[dofs_ + pair.first_row + r] -= sign * q;
                     solved_.reduce(row);
                     row.terms[other * dim_ + k] = 1.0;
                     solved_.solve(row, other * dim_ + k);
@@ -148,8 +156,8 @@ void Builder::hang_nodes() {
         if (in_tree[p] == 0) closing_.push_back(p);
 }
 
-// What is left of u_b - u_a - Q^T j = 0 once hanging nodes are replaced: where displacements are left (tied nodes, control nodes) one of them
-// hangs on the rest; where none is, the jump of this pair is made up of the ring's others.
+// What is left of u_b - u_a - Q^T j = 0 once hanging nodes are replaced: where displacements are left (tied nodes,
+// control nodes) one of them hangs on the rest; where none is, the jump of this pair is made up of the ring's others.
 void Builder::close_ring(const Pair& pair) {
     std::vector<Row> apart;
     for (std::int64_t k = 0; k < dim_; ++k) {
@@ -159,7 +167,8 @@ void Builder::close_ring(const Pair& pair) {
         solved_.reduce(row);
         apart.push_back(std::move(row));
     }
-    const bool moves = std::any_of(apart[0].terms.begin(), apart[0].terms.end(), [this](const auto& t) { return displacement(t.first); });
+    const bool moves = std::any_of(apart[0].terms.begin(), apart[0].terms.end(),
+                                   [this](const auto& t) { return displacement(t.first); });
     for (std::int64_t i = 0; i < dim_; ++i) {
         Row row{{}, nothing()};
         if (moves) {
@@ -171,15 +180,16 @@ void Builder::close_ring(const Pair& pair) {
             continue;
         }
         for (std::int64_t k = 0; k < dim_; ++k)
-            for (const auto& [id, c] : apart[static_cast<std::size_t>(k)].terms) row.terms[id] -= pair.frame[i * dim_ + k] * c;
+            for (const auto& [id, c] : apart[static_cast<std::size_t>(k)].terms)
+                row.terms[id] -= pair.frame[i * dim_ + k] * c;
         solved_.reduce(row);
         row.terms[dofs_ + pair.first_row + i] = 1.0;
         solved_.solve(row, dofs_ + pair.first_row + i);
     }
 }
 
-// The largest coefficient among displacements of bodies, else of control nodes, else of jumps. The preferred node comes first where its
-// coefficient is no small one.
+// The largest coefficient among displacements of bodies, else of control nodes, else of jumps. The preferred node comes
+// first where its coefficient is no small one.
 std::int64_t Builder::choose_pivot(const Row& row, std::int64_t preferred_node) const {
     const auto rank = [this](std::int64_t id) {
         if (!displacement(id)) return 2;
@@ -196,11 +206,13 @@ std::int64_t Builder::choose_pivot(const Row& row, std::int64_t preferred_node) 
         if (pivot < 0) pivot = id;
     }
     for (const auto& [id, c] : row.terms)
-        if (displacement(id) && id / dim_ == preferred_node && rank(id) == lowest && std::abs(c) > 0.5 * largest) pivot = id;
+        if (displacement(id) && id / dim_ == preferred_node && rank(id) == lowest && std::abs(c) > 0.5 * largest)
+            pivot = id;
     return pivot;
 }
 
-// Constraints on one displacement each are resolved first, since they leave others with fewer; then short ones; what is long stays open.
+// Constraints on one displacement each are resolved first, since they leave others with fewer; then short ones; what is
+// long stays open.
 void Builder::take_constraints() {
     for (const Constraint& constraint : problem_.constraints) {
         Row row{{}, constraint.prescribed};
@@ -227,8 +239,10 @@ void Builder::take_constraints() {
         std::erase_if(open_, [](const Row& row) { return row.terms.empty(); });
         return any;
     };
-    for (int sweep = 0; sweep < 4 && pass(1, false); ++sweep) {}
-    while (pass(short_equation, true)) {}
+    for (int sweep = 0; sweep < 4 && pass(1, false); ++sweep) {
+    }
+    while (pass(short_equation, true)) {
+    }
 }
 
 JumpVariables Builder::build() const {
@@ -261,7 +275,8 @@ JumpVariables Builder::build() const {
             continue;
         }
         SparseVector entries;
-        for (const auto& [id, value] : solution->terms) entries.emplace_back(jump[static_cast<std::size_t>(id - dofs_)], value);
+        for (const auto& [id, value] : solution->terms)
+            entries.emplace_back(jump[static_cast<std::size_t>(id - dofs_)], value);
         v.row.push_back(std::move(entries));
         if (std::any_of(solution->right.begin(), solution->right.end(), [](double d) { return d != 0.0; }))
             v.row_offset[static_cast<std::size_t>(r)] = solution->right;
@@ -269,7 +284,8 @@ JumpVariables Builder::build() const {
     v.bound = bound_;
     const std::int64_t first_jump = v.leading + v.kept;
     const auto variable = [&](std::int64_t id) {
-        return displacement(id) ? index[static_cast<std::size_t>(id)] : first_jump + jump[static_cast<std::size_t>(id - dofs_)];
+        return displacement(id) ? index[static_cast<std::size_t>(id)]
+                                : first_jump + jump[static_cast<std::size_t>(id - dofs_)];
     };
 
     v.lift.assign(patterns, std::vector<double>(static_cast<std::size_t>(dofs_), 0.0));
@@ -286,7 +302,8 @@ JumpVariables Builder::build() const {
             const std::int64_t at = carrier * dim_ + dof % dim_;
             if (const SparseElimination::Solution* solution = solved_.find(at); solution != nullptr) {
                 for (const auto& [id, value] : solution->terms) entries[variable(id)] += weight * value;
-                for (std::size_t p = 0; p < patterns; ++p) v.lift[p][static_cast<std::size_t>(dof)] += weight * solution->right[p];
+                for (std::size_t p = 0; p < patterns; ++p)
+                    v.lift[p][static_cast<std::size_t>(dof)] += weight * solution->right[p];
             } else if (index[static_cast<std::size_t>(at)] >= 0) {
                 entries[index[static_cast<std::size_t>(at)]] += weight;
             }
@@ -322,10 +339,12 @@ std::vector<SolvedEquation> solve_equations(const JumpVariables& variables) {
 
     const auto equations = static_cast<std::int64_t>(variables.equations.size());
     const std::size_t patterns = variables.equations.front().prescribed.size();
-    DenseMatrix q(equations, static_cast<std::int64_t>(column.size())), value(equations, static_cast<std::int64_t>(patterns));
+    DenseMatrix q(equations, static_cast<std::int64_t>(column.size())),
+        value(equations, static_cast<std::int64_t>(patterns));
     for (std::int64_t i = 0; i < equations; ++i) {
         const JumpVariables::Equation& e = variables.equations[static_cast<std::size_t>(i)];
-        for (const auto& [t, c] : e.entries) q(i, std::lower_bound(column.begin(), column.end(), t) - column.begin()) += c;
+        for (const auto& [t, c] : e.entries)
+            q(i, std::lower_bound(column.begin(), column.end(), t) - column.begin()) += c;
         for (std::size_t p = 0; p < patterns; ++p) value(i, static_cast<std::int64_t>(p)) = e.prescribed[p];
     }
     const Echelon echelon = reduced_echelon(std::move(q), kept, dependent_equation);
@@ -335,9 +354,11 @@ std::vector<SolvedEquation> solve_equations(const JumpVariables& variables) {
         SolvedEquation equation{column[static_cast<std::size_t>(echelon.pivot[i])], {}, {}};
         for (std::size_t j = 0; j < column.size(); ++j) {
             const double c = echelon.rows(row, static_cast<std::int64_t>(j));
-            if (column[j] != equation.pivot && std::abs(c) > dependent_equation) equation.entries.emplace_back(column[j], -c);
+            if (column[j] != equation.pivot && std::abs(c) > dependent_equation)
+                equation.entries.emplace_back(column[j], -c);
         }
-        for (std::size_t p = 0; p < patterns; ++p) equation.prescribed.push_back(prescribed(row, static_cast<std::int64_t>(p)));
+        for (std::size_t p = 0; p < patterns; ++p)
+            equation.prescribed.push_back(prescribed(row, static_cast<std::int64_t>(p)));
         solved.push_back(std::move(equation));
     }
     return solved;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Displacements in variables of which the jumps are a part: u = T v + U theta.
 //
-// The two nodes of a pair become one displacement and one jump, u_b = u_a + Q^T j (Q: the pair's frame). Nodes that several pairs join
-// (a triple junction) hang on one root along a spanning tree; the jump of a pair that closes a ring depends on the ring's others. Tied nodes
-// are what they are tied to. A constraint on few variables hangs one of them on the others, exactly and sparsely: a displacement where there is
-// one (u_p = sum of c u + U theta), else a jump. So thousands of periodic pairs cost no unknown. Variables of longer constraints (means over
-// a patch) are kept for the dense stage, and so are control nodes, on which many others hang.
+// The two nodes of a pair become one displacement and one jump, u_b = u_a + Q^T j (Q: the pair's frame). Nodes that
+// several pairs join (a triple junction) hang on one root along a spanning tree; the jump of a pair that closes a ring
+// depends on the ring's others. Tied nodes are what they are tied to. A constraint on few variables hangs one of them
+// on the others, exactly and sparsely: a displacement where there is one (u_p = sum of c u + U theta), else a jump. So
+// thousands of periodic pairs cost no unknown. Variables of longer constraints (means over a patch) are kept for the
+// dense stage, and so are control nodes, on which many others hang.
 //
-// With all jumps and kept displacements zero this is the structure bonded everywhere, whose stiffness is definite: so they can be eliminated
-// last.
+// With all jumps and kept displacements zero this is the structure bonded everywhere, whose stiffness is definite: so
+// they can be eliminated last.
 #pragma once
 
 #include <cstdint>
@@ -30,13 +31,14 @@ struct JumpVariables {
     std::int64_t count() const { return leading + kept + jumps; }
     std::int64_t trailing() const { return kept + jumps; }
 
-    SparseMatrix transform;                  // T, [mesh DOFs][count]
-    std::vector<std::vector<double>> lift;   // U, [patterns][mesh DOFs]
-    std::vector<SparseVector> row;           // [jump rows] each in independent jumps, 0-based among the jumps
+    SparseMatrix transform;                       // T, [mesh DOFs][count]
+    std::vector<std::vector<double>> lift;        // U, [patterns][mesh DOFs]
+    std::vector<SparseVector> row;                // [jump rows] each in independent jumps, 0-based among the jumps
     std::vector<std::vector<double>> row_offset;  // [jump rows][patterns] what the device adds to them; empty: nothing
-    std::vector<std::int64_t> bound;         // jump rows that constraints, not rings, express by others
+    std::vector<std::int64_t> bound;              // jump rows that constraints, not rings, express by others
 
-    // Constraints left for the dense stage: sum over trailing variables (kept first, then jumps) = sum_p prescribed[p] theta_p.
+    // Constraints left for the dense stage: sum over trailing variables (kept first, then jumps) = sum_p prescribed[p]
+    // theta_p.
     struct Equation {
         SparseVector entries;
         std::vector<double> prescribed;  // [patterns]
@@ -49,8 +51,8 @@ inline constexpr double dependent_equation = 1e-10;
 
 JumpVariables make_jump_variables(const Problem& problem, const Look& look = {});
 
-// An equation solved for one trailing variable, displacements before jumps: t_pivot = sum of entries t + prescribed . theta, where no entry is
-// another one's pivot.
+// An equation solved for one trailing variable, displacements before jumps: t_pivot = sum of entries t + prescribed .
+// theta, where no entry is another one's pivot.
 struct SolvedEquation {
     std::int64_t pivot;
     SparseVector entries;

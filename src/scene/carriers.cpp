@@ -31,7 +31,9 @@ Carriers::Carriers(const Problem& problem) : mesh_(*problem.mesh) {
 std::span<const std::pair<std::int64_t, double>> Carriers::of(std::int64_t node) const {
     if (kind(node) != Kind::tied) return {&self_[static_cast<std::size_t>(node)], 1};
     const auto& ties = mesh_.ties();
-    return std::lower_bound(ties.begin(), ties.end(), node, [](const NodeTie& tie, std::int64_t n) { return tie.node < n; })->of;
+    return std::lower_bound(ties.begin(), ties.end(), node,
+                            [](const NodeTie& tie, std::int64_t n) { return tie.node < n; })
+        ->of;
 }
 
 }  // namespace delam

@@ -17,14 +17,16 @@ public:
 
     enum class Kind : std::uint8_t { nothing, body, control, tied };
     Kind kind(std::int64_t node) const { return kind_[static_cast<std::size_t>(node)]; }
-    // Nodes of no body that a constraint, a force or a pair refers to, ascending. Their displacements are unknowns without stiffness.
+    // Nodes of no body that a constraint, a force or a pair refers to, ascending. Their displacements are unknowns
+    // without stiffness.
     const std::vector<std::int64_t>& controls() const { return controls_; }
-    // The displacement of a node is the sum of weight u over these: of a tied node what it is tied to, of any other itself.
+    // The displacement of a node is the sum of weight u over these: of a tied node what it is tied to, of any other
+    // itself.
     std::span<const std::pair<std::int64_t, double>> of(std::int64_t node) const;
 
 private:
     const Mesh& mesh_;
-    std::vector<Kind> kind_;             // [nodes]
+    std::vector<Kind> kind_;  // [nodes]
     std::vector<std::int64_t> controls_;
     std::vector<std::pair<std::int64_t, double>> self_;  // [nodes]
 };

@@ -31,32 +31,37 @@ SparseMatrix symmetric(const Mesh& mesh, std::int32_t body, std::int64_t rows, s
     const SparseMatrix turned = transpose(k);
     const std::vector<std::int64_t> nodes = mesh.body_nodes(body);
     const std::int64_t dim = mesh.dimension();
-    const auto name = [&](std::int64_t dof) { return text("component ", dof % dim, " of node ", nodes[index(dof / dim)]); };
+    const auto name = [&](std::int64_t dof) {
+        return text("component ", dof % dim, " of node ", nodes[index(dof / dim)]);
+    };
     std::vector<double> diagonal(index(rows), 0.0);
     for (std::int64_t r = 0; r < rows; ++r)
         for (std::int64_t e = k.start[index(r)]; e < k.start[index(r) + 1]; ++e)
             if (k.column[index(e)] == r) diagonal[index(r)] = k.value[index(e)];
     for (std::int64_t r = 0; r < rows; ++r)
         if (!(diagonal[index(r)] > 0.0 && diagonal[index(r)] <= largest_stiffness))
-            fail(DELAM_ERROR_ARGUMENT, "the stiffness of body ", mesh.body_label(body), " has ", diagonal[index(r)], " on the diagonal at ", name(r),
-                 ": must be > 0 and <= ", largest_stiffness);
+            fail(DELAM_ERROR_ARGUMENT, "the stiffness of body ", mesh.body_label(body), " has ", diagonal[index(r)],
+                 " on the diagonal at ", name(r), ": must be > 0 and <= ", largest_stiffness);
     std::vector<Triplet> mean;
     mean.reserve(k.value.size());
     for (std::int64_t r = 0; r < rows; ++r) {
         std::int64_t e = k.start[index(r)], f = turned.start[index(r)];
         while (e < k.start[index(r) + 1] || f < turned.start[index(r) + 1]) {
             constexpr std::int64_t none = INT64_MAX;
-            const std::int64_t c = e < k.start[index(r) + 1] ? k.column[index(e)] : none, d = f < turned.start[index(r) + 1] ? turned.column[index(f)] : none;
+            const std::int64_t c = e < k.start[index(r) + 1] ? k.column[index(e)] : none,
+                               d = f < turned.start[index(r) + 1] ? turned.column[index(f)] : none;
             const double a = c <= d ? k.value[index(e++)] : 0.0, b = d <= c ? turned.value[index(f++)] : 0.0;
             const std::int64_t column = std::min(c, d);
             const double scale = std::sqrt(diagonal[index(r)]) * std::sqrt(diagonal[index(column)]);
             if (!(std::abs(a - b) <= asymmetry * scale))
-                fail(DELAM_ERROR_ARGUMENT, "the stiffness of body ", mesh.body_label(body), " is not symmetric: ", a, " and ", b, " between ", name(r), " and ",
-                     name(column), ", allowed difference ", asymmetry * scale);
+                fail(DELAM_ERROR_ARGUMENT, "the stiffness of body ", mesh.body_label(body), " is not symmetric: ", a,
+                     " and ", b, " between ", name(r), " and ", name(column), ", allowed difference ",
+                     asymmetry * scale);
             // Of a matrix without negative energies none is beyond the mean; twice that is no rounding.
             if (!(std::abs(a) <= 2.0 * scale))
-                fail(DELAM_ERROR_ARGUMENT, "the stiffness of body ", mesh.body_label(body), " has ", a, " between ", name(r), " and ", name(column), ", beyond ",
-                     scale, ", the geometric mean of their diagonal entries: the matrix is indefinite");
+                fail(DELAM_ERROR_ARGUMENT, "the stiffness of body ", mesh.body_label(body), " has ", a, " between ",
+                     name(r), " and ", name(column), ", beyond ", scale,
+                     ", the geometric mean of their diagonal entries: the matrix is indefinite");
             mean.push_back({r, column, 0.5 * a + 0.5 * b});
         }
     }
@@ -75,7 +80,8 @@ void take_stiffness(Problem& problem, const GivenMatrix& given, Monitor& monitor
         if (listed[index(node)] >= 0) fail(DELAM_ERROR_ARGUMENT, "nodes[", i, "] = ", node, " is there twice");
         listed[index(node)] = static_cast<std::int64_t>(i);
         const std::int32_t body = mesh.node_body(node);
-        if (body < 0) fail(DELAM_ERROR_ARGUMENT, "nodes[", i, "] = ", node, " belongs to no body (delam_mesh_add_host_body)");
+        if (body < 0)
+            fail(DELAM_ERROR_ARGUMENT, "nodes[", i, "] = ", node, " belongs to no body (delam_mesh_add_host_body)");
         nodes_of.try_emplace(body);
     }
     std::vector<Place> place(index(rows));  // of each row of the host's
@@ -83,10 +89,14 @@ void take_stiffness(Problem& problem, const GivenMatrix& given, Monitor& monitor
         nodes = mesh.body_nodes(body);
         for (std::size_t local = 0; local < nodes.size(); ++local) {
             const std::int64_t i = listed[index(nodes[local])];
-            if (i < 0) fail(DELAM_ERROR_ARGUMENT, "nodes: node ", nodes[local], " of body ", mesh.body_label(body), " is missing; a stiffness has whole bodies");
+            if (i < 0)
+                fail(DELAM_ERROR_ARGUMENT, "nodes: node ", nodes[local], " of body ", mesh.body_label(body),
+                     " is missing; a stiffness has whole bodies");
             for (std::int64_t c = 0; c < dim; ++c) {
                 const std::int64_t row = given.dofs.empty() ? i * dim + c : given.dofs[index(i * dim + c)];
-                if (place[index(row)].body >= 0) fail(DELAM_ERROR_ARGUMENT, "dofs[", i, "][", c, "] = ", row, " is the row of another displacement already");
+                if (place[index(row)].body >= 0)
+                    fail(DELAM_ERROR_ARGUMENT, "dofs[", i, "][", c, "] = ", row,
+                         " is the row of another displacement already");
                 place[index(row)] = {body, static_cast<std::int64_t>(local) * dim + c};
             }
         }
@@ -99,8 +109,9 @@ void take_stiffness(Problem& problem, const GivenMatrix& given, Monitor& monitor
             if (other.body == at.body) {
                 entries[at.body].push_back({at.dof, other.dof, given.values[index(e)]});
             } else if (given.values[index(e)] != 0.0) {
-                fail(DELAM_ERROR_ARGUMENT, "values[", e, "] = ", given.values[index(e)], " in row ", r, " couples bodies ", mesh.body_label(at.body), " and ",
-                     mesh.body_label(other.body), ": they meet at interfaces alone");
+                fail(DELAM_ERROR_ARGUMENT, "values[", e, "] = ", given.values[index(e)], " in row ", r,
+                     " couples bodies ", mesh.body_label(at.body), " and ", mesh.body_label(other.body),
+                     ": they meet at interfaces alone");
             }
         }
     }
@@ -113,8 +124,8 @@ void take_stiffness(Problem& problem, const GivenMatrix& given, Monitor& monitor
         for (std::int64_t r = 0; r < rows; ++r)
             for (std::int64_t c = 0; c < own.motions.columns && place[index(r)].body == body; ++c)
                 own.motions(place[index(r)].dof, c) = given.kernel.motions(r, c);
-        taken[index(body)] =
-            std::make_shared<const HostStiffness>(host_stiffness(mesh, body, symmetric(mesh, body, own_rows, std::move(entries[body])), own, monitor));
+        taken[index(body)] = std::make_shared<const HostStiffness>(
+            host_stiffness(mesh, body, symmetric(mesh, body, own_rows, std::move(entries[body])), own, monitor));
     }
     problem.stiffness = std::move(taken);
 }

@@ -12,12 +12,12 @@
 namespace delam {
 
 struct GivenMatrix {
-    std::vector<std::int64_t> nodes;       // mesh nodes of one or several whole bodies
-    std::vector<std::int64_t> dofs;        // [nodes][dimension] row of each displacement; empty: dimension*i + component
+    std::vector<std::int64_t> nodes;  // mesh nodes of one or several whole bodies
+    std::vector<std::int64_t> dofs;   // [nodes][dimension] row of each displacement; empty: dimension*i + component
     std::vector<std::int64_t> row_starts;  // CSR, from 0
     std::vector<std::int64_t> columns;
     std::vector<double> values;
-    ToldKernel kernel;                     // by row
+    ToldKernel kernel;  // by row
 };
 
 // Error(DELAM_ERROR_ARGUMENT) names what is wrong; the problem is then unchanged.

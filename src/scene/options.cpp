@@ -24,7 +24,7 @@ struct Row {
     double upper = 0.0;
 };
 
-constexpr double below = 1e-300;  // makes an end of an open interval a member
+constexpr double below = 1e-300;             // makes an end of an open interval a member
 constexpr double most = 9007199254740992.0;  // 2^53: beyond it a double no longer holds every whole number
 
 const std::array<Row, 28>& rows() {
@@ -40,13 +40,16 @@ const std::array<Row, 28>& rows() {
          1.0,
          most},
         {{"solution", "text", "-", "local", "local | energetic",
-          "solution concept: local, critical points of the incremental problem reached from the state before; energetic, the lowest state that a "
+          "solution concept: local, critical points of the incremental problem reached from the state before; "
+          "energetic, the lowest state that a "
           "search over fronts and new cracks and the two-sided estimate have found"},
          &Options::solution},
         {{"backtracking", "text", "-", "auto", "auto | off | on",
-          "return to earlier steps when the two-sided estimate shows that they were not minimal; auto: on for energetic solutions"},
+          "return to earlier steps when the two-sided estimate shows that they were not minimal; auto: on for "
+          "energetic solutions"},
          &Options::backtracking},
-        {{"backtracking_limit", "integer", "-", "100", "0 <= value <= 2^53", "returns to earlier steps within one load step at most"},
+        {{"backtracking_limit", "integer", "-", "100", "0 <= value <= 2^53",
+          "returns to earlier steps within one load step at most"},
          &Options::backtracking_limit,
          0.0,
          most},
@@ -61,13 +64,15 @@ const std::array<Row, 28>& rows() {
          0.0,
          most},
         {{"search_tolerance", "real", "-", "1e-2", "0 < value <= 1",
-          "the search samples front positions until none between two samples can be lower than the best by more, relative to the larger of "
+          "the search samples front positions until none between two samples can be lower than the best by more, "
+          "relative to the larger of "
           "energy and work; a small value compares all"},
          &Options::search_tolerance,
          0.0,
          1.0000000000000002},
         {{"step_control", "text", "-", "fixed", "fixed | adaptive",
-          "adaptive: a step that does not converge, or damages something while its two-sided estimate is wider than step_tolerance, is refused and "
+          "adaptive: a step that does not converge, or damages something while its two-sided estimate is wider than "
+          "step_tolerance, is refused and "
           "halved within; it never grows beyond what the host asks for"},
          &Options::step_control},
         {{"step_tolerance", "real", "-", "1e-2", "0 < value < 1",
@@ -80,7 +85,8 @@ const std::array<Row, 28>& rows() {
          &Options::mixity_step_tolerance,
          -below,
          1.0},
-        {{"smallest_step", "real", "-", "1e-4", "0 < value <= 1", "shortest step that a refusal may lead to, as a part of the step asked for"},
+        {{"smallest_step", "real", "-", "1e-4", "0 < value <= 1",
+          "shortest step that a refusal may lead to, as a part of the step asked for"},
          &Options::smallest_step,
          0.0,
          1.0000000000000002},
@@ -100,24 +106,30 @@ const std::array<Row, 28>& rows() {
          0.0,
          1.0},
         {{"minimisation", "text", "-", "auto", "auto | alternate | accelerated",
-          "how a load step is minimised: plain alternate minimisation, or sped up by Newton steps and moves of unstable pairs to their debonded "
+          "how a load step is minimised: plain alternate minimisation, or sped up by Newton steps and moves of "
+          "unstable pairs to their debonded "
           "branch, each checked by the energy, to the same stopping test; auto: accelerated"},
          &Options::minimisation},
         {{"reduction", "text", "-", "auto", "auto | condensed | feti",
-          "how the bodies are reduced to their interfaces: condensed once into a dense operator, or total FETI; auto: by predicted cost and "
+          "how the bodies are reduced to their interfaces: condensed once into a dense operator, or total FETI; auto: "
+          "by predicted cost and "
           "memory, feti where subdomains are asked for"},
          &Options::reduction},
         {{"contact", "text", "-", "auto", "auto | always",
-          "where pairs are tested for contact: auto leaves out those that cannot close (bonded, or their normal jump is prescribed); always "
+          "where pairs are tested for contact: auto leaves out those that cannot close (bonded, or their normal jump "
+          "is prescribed); always "
           "tests every pair that is not bonded"},
          &Options::contact},
         {{"mixity", "text", "-", "auto", "auto | always",
-          "where the mode mixity is computed: auto leaves it out of laws whose onset and toughness do not depend on it (their field mixity "
+          "where the mode mixity is computed: auto leaves it out of laws whose onset and toughness do not depend on it "
+          "(their field mixity "
           "is 0); always computes it"},
          &Options::mixity},
         {{"mixity_rule", "text", "-", "frozen", "frozen | converged | variational",
-          "whose mixity a step's toughness takes: that of the state before (frozen), that of the step's own solution as a fixed point, for a pair "
-          "that breaks that of the iterate in which it broke (converged), or the energy with f(B(u), zeta) and its extra traction (variational)"},
+          "whose mixity a step's toughness takes: that of the state before (frozen), that of the step's own solution "
+          "as a fixed point, for a pair "
+          "that breaks that of the iterate in which it broke (converged), or the energy with f(B(u), zeta) and its "
+          "extra traction (variational)"},
          &Options::mixity_rule},
         {{"contact_limit", "integer", "-", "200", "1 <= value <= 2^53",
           "active-set steps of a displacement solve at most, least-index exchanges included"},
@@ -139,7 +151,8 @@ const std::array<Row, 28>& rows() {
           "how the preconditioner shares a node out among its subdomains"},
          &Options::scaling},
         {{"linear_tolerance", "real", "-", "1e-13", "0 < value < 1",
-          "relative residual at which the projected conjugate gradients stop; where rounding ends them earlier, up to 100 times as much is accepted"},
+          "relative residual at which the projected conjugate gradients stop; where rounding ends them earlier, up to "
+          "100 times as much is accepted"},
          &Options::linear_tolerance,
          0.0,
          1.0},
@@ -149,7 +162,8 @@ const std::array<Row, 28>& rows() {
          1.0,
          most},
         {{"threads", "integer", "-", "1", "1 <= value <= 1024",
-          "threads of the library's own, within a call: subdomains of FETI side by side; no digit depends on it. Set BLAS's (delam_blas_threads) to one "
+          "threads of the library's own, within a call: subdomains of FETI side by side; no digit depends on it. Set "
+          "BLAS's (delam_blas_threads) to one "
           "where this is more"},
          &Options::threads,
          1.0,

@@ -40,12 +40,14 @@ std::vector<Point> dual_basis(const std::vector<Point>& periods) {
     double determinant = 1.0;
     const bool definite = factor_definite(factor);
     for (std::int64_t k = 0; k < n; ++k) determinant *= factor(k, k) * factor(k, k);
-    if (!definite || !(determinant > 1e-12 * volume)) fail(DELAM_ERROR_ARGUMENT, "periods: they depend on each other, or one has length 0");
+    if (!definite || !(determinant > 1e-12 * volume))
+        fail(DELAM_ERROR_ARGUMENT, "periods: they depend on each other, or one has length 0");
     const DenseMatrix inverse = inverse_definite(std::move(gram));
     std::vector<Point> dual(periods.size(), Point{});
     for (std::size_t k = 0; k < periods.size(); ++k)
         for (std::size_t l = 0; l < periods.size(); ++l)
-            for (std::size_t d = 0; d < 3; ++d) dual[k][d] += inverse(static_cast<std::int64_t>(k), static_cast<std::int64_t>(l)) * periods[l][d];
+            for (std::size_t d = 0; d < 3; ++d)
+                dual[k][d] += inverse(static_cast<std::int64_t>(k), static_cast<std::int64_t>(l)) * periods[l][d];
     return dual;
 }
 
@@ -107,7 +109,9 @@ std::vector<PeriodicPair> periodic_pairs(const Mesh& mesh, std::span<const doubl
         if (mesh.node_body(n) >= 0) nodes.push_back(n);
     double size = 0.0;  // largest extent of the cells: control nodes may lie anywhere
     for (std::size_t d = 0; d < at(dim); ++d) {
-        const auto [low, high] = std::minmax_element(nodes.begin(), nodes.end(), [&](std::int64_t a, std::int64_t b) { return mesh.node(a)[d] < mesh.node(b)[d]; });
+        const auto [low, high] = std::minmax_element(nodes.begin(), nodes.end(), [&](std::int64_t a, std::int64_t b) {
+            return mesh.node(a)[d] < mesh.node(b)[d];
+        });
         if (!nodes.empty()) size = std::max(size, mesh.node(*high)[d] - mesh.node(*low)[d]);
     }
     const double distance = tolerance * size;
@@ -145,8 +149,8 @@ std::vector<PeriodicPair> periodic_pairs(const Mesh& mesh, std::span<const doubl
     std::int64_t missing_count = 0;
     const auto miss = [&](std::int64_t node, const char* why) {
         if (++missing_count > 8) return;
-        missing += text(missing_count == 1 ? "" : "; ", "node ", node, " of body ", mesh.body_label(mesh.node_body(node)), " at ",
-                        words(place(node), dim), why);
+        missing += text(missing_count == 1 ? "" : "; ", "node ", node, " of body ",
+                        mesh.body_label(mesh.node_body(node)), " at ", words(place(node), dim), why);
     };
     std::vector<std::uint8_t> met(at(mesh.node_count()), 0);
     for (const std::int64_t n : nodes) {
@@ -175,7 +179,8 @@ std::vector<PeriodicPair> periodic_pairs(const Mesh& mesh, std::span<const doubl
             std::vector<std::int64_t> own;
             for (const std::int64_t base : left)
                 if (mesh.node_body(base) == mesh.node_body(node)) own.push_back(base);
-            const auto twins = std::count_if(group.begin(), group.end(), [&](std::int64_t n) { return mesh.node_body(n) == mesh.node_body(node); });
+            const auto twins = std::count_if(group.begin(), group.end(),
+                                             [&](std::int64_t n) { return mesh.node_body(n) == mesh.node_body(node); });
             if (own.size() > 1 || twins > 1)
                 miss(node, " (several nodes of this body at one place)");
             else if (own.empty())
@@ -194,10 +199,12 @@ std::vector<PeriodicPair> periodic_pairs(const Mesh& mesh, std::span<const doubl
         for (const std::int64_t n : nodes) low = std::min(low, dot(dual[k], place(n)));
         const double margin = 2.0 * distance * std::sqrt(dot(dual[k], dual[k]));
         for (const std::int64_t n : nodes)
-            if (upper[at(n)] == 0 && dot(dual[k], place(n)) <= low + margin && (met[at(n)] >> (1u << k) & 1u) == 0) miss(n, "");
+            if (upper[at(n)] == 0 && dot(dual[k], place(n)) <= low + margin && (met[at(n)] >> (1u << k) & 1u) == 0)
+                miss(n, "");
     }
     if (missing_count > 0)
-        fail(DELAM_ERROR_MESH, "periods: no partner for ", missing, missing_count > 8 ? text("; and ", missing_count - 8, " more") : "");
+        fail(DELAM_ERROR_MESH, "periods: no partner for ", missing,
+             missing_count > 8 ? text("; and ", missing_count - 8, " more") : "");
     std::sort(pairs.begin(), pairs.end(), [](const PeriodicPair& a, const PeriodicPair& b) { return a.node < b.node; });
     return pairs;
 }

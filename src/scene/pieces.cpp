@@ -47,11 +47,13 @@ Pieces rigid_pieces(const Problem& problem) {
     for (std::size_t b = 0; b < problem.stiffness.size(); ++b) {
         if (problem.stiffness[b] == nullptr) continue;
         for (const HostPiece& own : problem.stiffness[b]->pieces) {
-            for (const std::int64_t node : own.nodes) pieces.of_node[index(node)] = static_cast<std::int64_t>(pieces.count());
+            for (const std::int64_t node : own.nodes)
+                pieces.of_node[index(node)] = static_cast<std::int64_t>(pieces.count());
             pieces.fixed.push_back(own.fixed() ? 1 : 0);
             for (std::int64_t c = 0; c < own.held.columns; ++c) {
                 Pieces::Row row;
-                for (std::int64_t i = 0; i < own.held.rows; ++i) row.emplace_back(own.nodes[index(i / dim)] * dim + i % dim, own.held(i, c));
+                for (std::int64_t i = 0; i < own.held.rows; ++i)
+                    row.emplace_back(own.nodes[index(i / dim)] * dim + i % dim, own.held(i, c));
                 pieces.resisted.push_back(std::move(row));
             }
             pieces.nodes.push_back(own.nodes);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What moves rigidly: parts of bodies that hang together through whole faces, and parts of a stiffness that the host gave.
+// What moves rigidly: parts of bodies that hang together through whole faces, and parts of a stiffness that the host
+// gave.
 #pragma once
 
 #include <cstdint>

@@ -28,8 +28,9 @@ struct Pattern {
     double at(double time) const;
 };
 
-// sum_j coefficient[j] u[dof[j]] = sum_p prescribed[p] factor_p(t), of bodies and control nodes, never of tied ones. Prescribed nodes are scaled so that
-// the coefficients' squares sum to 1, means so that they sum to 1 along the direction, equations are taken as they come.
+// sum_j coefficient[j] u[dof[j]] = sum_p prescribed[p] factor_p(t), of bodies and control nodes, never of tied ones.
+// Prescribed nodes are scaled so that the coefficients' squares sum to 1, means so that they sum to 1 along the
+// direction, equations are taken as they come.
 struct Constraint {
     std::vector<std::int64_t> dof;  // mesh DOFs: dimension*node + component
     std::vector<double> coefficient;
@@ -61,9 +62,10 @@ struct Problem {
 
     std::shared_ptr<const Mesh> mesh;
     Plane plane = Plane::strain;
-    std::vector<std::optional<Material>> material;   // [bodies]
-    std::vector<Formulation> formulation;            // [bodies]
-    std::vector<std::shared_ptr<const HostStiffness>> stiffness;  // [bodies] given by the host; null: from cells and material
+    std::vector<std::optional<Material>> material;  // [bodies]
+    std::vector<Formulation> formulation;           // [bodies]
+    std::vector<std::shared_ptr<const HostStiffness>>
+        stiffness;                                   // [bodies] given by the host; null: from cells and material
     std::shared_ptr<const Orientation> orientation;  // of the cells; null: none
     std::vector<InterfaceProperties> interfaces;
     std::vector<Pattern> patterns;

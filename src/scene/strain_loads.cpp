@@ -55,14 +55,16 @@ StrainLoads strain_loads(const Problem& problem) {
 StrainSizes strain_sizes(const Problem& problem) {
     const Mesh& mesh = *problem.mesh;
     const auto dim = static_cast<std::size_t>(mesh.dimension());
-    std::vector<double> low(dim, std::numeric_limits<double>::infinity()), high(dim, -std::numeric_limits<double>::infinity());
+    std::vector<double> low(dim, std::numeric_limits<double>::infinity()),
+        high(dim, -std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < mesh.nodes().size(); ++i) {
         low[i % dim] = std::min(low[i % dim], mesh.nodes()[i]);
         high[i % dim] = std::max(high[i % dim], mesh.nodes()[i]);
     }
     double extent = 0.0;
     for (std::size_t d = 0; d < dim; ++d) extent = std::max(extent, high[d] - low[d]);
-    StrainSizes sizes{std::vector<double>(problem.patterns.size(), 0.0), std::vector<double>(problem.patterns.size(), 0.0)};
+    StrainSizes sizes{std::vector<double>(problem.patterns.size(), 0.0),
+                      std::vector<double>(problem.patterns.size(), 0.0)};
     for (const Eigenstrain& e : problem.eigenstrains)
         for (const double component : e.strain) {
             double& size = sizes.displacement[static_cast<std::size_t>(e.pattern)];

@@ -20,8 +20,8 @@ StrainLoads strain_loads(const Problem& problem);
 // Of some cells of a body, over the DOFs of `nodes` (ascending).
 StrainLoads strain_loads(const Problem& problem, std::int32_t body, std::span<const std::int64_t> cells,
                          std::span<const std::int64_t> nodes);
-// How far and how hard the eigenstrains act where nothing cancels, per pattern at factor 1: strain times the extent of the mesh (L), and the
-// largest nodal force (F).
+// How far and how hard the eigenstrains act where nothing cancels, per pattern at factor 1: strain times the extent of
+// the mesh (L), and the largest nodal force (F).
 struct StrainSizes {
     std::vector<double> displacement, force;  // [patterns]
 };

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The search runs on rigid pieces, not on nodes. Face-connected cells are one piece (pieces.hpp); pieces that enough tied pairs join
-// become one as well. What is left are a few pieces, hinges between them (a single pair, say), control nodes, which move by
-// translations, and rows: constraints, pairs that join control nodes, and what the host's own supports resist. Rows act on three or six motions per piece, and the
-// null space of their small Gram matrix is what nothing resists.
+// The search runs on rigid pieces, not on nodes. Face-connected cells are one piece (pieces.hpp); pieces that enough
+// tied pairs join become one as well. What is left are a few pieces, hinges between them (a single pair, say), control
+// nodes, which move by translations, and rows: constraints, pairs that join control nodes, and what the host's own
+// supports resist. Rows act on three or six motions per piece, and the null space of their small Gram matrix is what
+// nothing resists.
 #include "scene/supports.hpp"
 
 #include <algorithm>
@@ -164,14 +165,15 @@ private:
 
 void Search::take_pieces() {
     node_piece_ = pieces_.of_node;
-    for (const Pieces::Hinge& hinge : pieces_.hinges) ties_.push_back({at(hinge.piece_a), at(hinge.piece_b), place(hinge.node)});
+    for (const Pieces::Hinge& hinge : pieces_.hinges)
+        ties_.push_back({at(hinge.piece_a), at(hinge.piece_b), place(hinge.node)});
     rows_ = pieces_.resisted;
     for (std::size_t c = 0; c < carriers_.controls().size(); ++c)
         node_piece_[at(carriers_.controls()[c])] = static_cast<std::int64_t>(pieces_.count() + c);
 }
 
-// A tied node moves with the piece that it is tied to: its combination is exact in rigid motions. A control node is nowhere: pairs with one are
-// rows.
+// A tied node moves with the piece that it is tied to: its combination is exact in rigid motions. A control node is
+// nowhere: pairs with one are rows.
 void Search::find_ties(bool tied) {
     for (std::size_t i = 0; i < problem_.interfaces.size(); ++i) {
         const InterfaceGeometry& face = mesh_.interfaces()[i];
@@ -180,7 +182,8 @@ void Search::find_ties(bool tied) {
             glance("check");
             const bool glued = tied || interface.bonded || (!interface.contact && interface.adhesion[p] > 0.0);
             if (!glued && !interface.contact) continue;
-            const std::int64_t a = carriers_.of(face.node_a[p]).front().first, b = carriers_.of(face.node_b[p]).front().first;
+            const std::int64_t a = carriers_.of(face.node_a[p]).front().first,
+                               b = carriers_.of(face.node_b[p]).front().first;
             if (glued && !control(a) && !control(b)) {
                 ties_.push_back({at(node_piece_[at(a)]), at(node_piece_[at(b)]), place(face.node_a[p])});
                 continue;
@@ -202,7 +205,8 @@ void Search::find_ties(bool tied) {
     for (const Constraint& constraint : problem_.constraints) {
         glance("check");
         Row row;
-        for (std::size_t i = 0; i < constraint.dof.size(); ++i) row.emplace_back(constraint.dof[i], constraint.coefficient[i]);
+        for (std::size_t i = 0; i < constraint.dof.size(); ++i)
+            row.emplace_back(constraint.dof[i], constraint.coefficient[i]);
         rows_.push_back(std::move(row));
     }
 }
@@ -304,11 +308,13 @@ std::vector<double> Search::gram(const std::vector<std::size_t>& cluster) {
     for (const Row& constraint : rows_) {
         if (offset.find(group(constraint.front().first / mesh_.dimension())) == offset.end()) continue;
         for (const auto& [dof, coefficient] : constraint)
-            add(group(dof / mesh_.dimension()), at(dof % mesh_.dimension()), place(dof / mesh_.dimension()), coefficient);
+            add(group(dof / mesh_.dimension()), at(dof % mesh_.dimension()), place(dof / mesh_.dimension()),
+                coefficient);
         close();
     }
     for (std::size_t i = 0; i < cluster.size(); ++i)
-        for (std::size_t m = dimension_; control_group(cluster[i]) && m < modes_; ++m) g[(i * modes_ + m) * (n + 1)] = 1.0;
+        for (std::size_t m = dimension_; control_group(cluster[i]) && m < modes_; ++m)
+            g[(i * modes_ + m) * (n + 1)] = 1.0;
     for (std::size_t piece = 0; piece < pieces_.count(); ++piece) {
         const auto held = pieces_.fixed[piece] != 0 ? offset.find(groups_.find(piece)) : offset.end();
         for (std::size_t m = 0; held != offset.end() && m < modes_; ++m) g[(held->second + m) * (n + 1)] += 1.0;
@@ -362,7 +368,8 @@ FreeMotion Search::describe(const std::vector<std::size_t>& cluster, const std::
         for (std::size_t m = 0; m < modes_; ++m) size[i] = std::max(size[i], std::abs(motion[i * modes_ + m]));
         largest = std::max(largest, size[i]);
         // Bodies say more than control nodes, which follow them.
-        const bool tells = control_group(cluster[mover]) == control_group(cluster[i]) ? size[i] > size[mover] : control_group(cluster[mover]);
+        const bool tells = control_group(cluster[mover]) == control_group(cluster[i]) ? size[i] > size[mover]
+                                                                                      : control_group(cluster[mover]);
         if (tells && size[i] > 1e-6 * largest) mover = i;
     }
     for (std::size_t i = 0; i < cluster.size(); ++i)
@@ -375,7 +382,8 @@ FreeMotion Search::describe(const std::vector<std::size_t>& cluster, const std::
         }
     }
     for (std::size_t i = 0; i < cluster.size(); ++i)
-        if (control_group(cluster[i]) && size[i] > 1e-6 * largest) free.controls.push_back(carriers_.controls()[cluster[i] - pieces_.count()]);
+        if (control_group(cluster[i]) && size[i] > 1e-6 * largest)
+            free.controls.push_back(carriers_.controls()[cluster[i] - pieces_.count()]);
     std::sort(free.bodies.begin(), free.bodies.end());
     free.bodies.erase(std::unique(free.bodies.begin(), free.bodies.end()), free.bodies.end());
 
@@ -444,7 +452,8 @@ std::vector<FreeMotion> Search::run() {
     Sets clusters(pieces_.count() + carriers_.controls().size());
     for (const Tie& tie : ties_) clusters.join(groups_.find(tie.piece_a), groups_.find(tie.piece_b));
     for (const Row& row : rows_)
-        for (const auto& [dof, coefficient] : row) clusters.join(group(row.front().first / mesh_.dimension()), group(dof / mesh_.dimension()));
+        for (const auto& [dof, coefficient] : row)
+            clusters.join(group(row.front().first / mesh_.dimension()), group(dof / mesh_.dimension()));
     std::map<std::size_t, std::vector<std::size_t>> members;
     for (const auto& [g, f] : frame_) members[clusters.find(g)].push_back(g);
     std::vector<FreeMotion> list;

@@ -25,13 +25,18 @@ void check_bodies(const Problem& problem) {
         if (problem.stiffness[static_cast<std::size_t>(body)] != nullptr) {
             for (const Eigenstrain& e : problem.eigenstrains)
                 if (e.body == body)
-                    fail(DELAM_ERROR_PROBLEM, "body ", mesh.body_label(body), " has the host's stiffness and an eigenstrain of pattern '",
-                         problem.patterns[static_cast<std::size_t>(e.pattern)].name, "': give its forces instead (delam_problem_add_forces)");
+                    fail(DELAM_ERROR_PROBLEM, "body ", mesh.body_label(body),
+                         " has the host's stiffness and an eigenstrain of pattern '",
+                         problem.patterns[static_cast<std::size_t>(e.pattern)].name,
+                         "': give its forces instead (delam_problem_add_forces)");
             continue;
         }
-        if (mesh.host_body(body)) fail(DELAM_ERROR_PROBLEM, "body ", mesh.body_label(body), ": no cells and no stiffness (delam_problem_set_stiffness)");
+        if (mesh.host_body(body))
+            fail(DELAM_ERROR_PROBLEM, "body ", mesh.body_label(body),
+                 ": no cells and no stiffness (delam_problem_set_stiffness)");
         if (!problem.material[static_cast<std::size_t>(body)]) {
-            fail(DELAM_ERROR_PROBLEM, "body ", mesh.body_label(body), ": no material (delam_problem_set_elastic or delam_problem_set_orthotropic)");
+            fail(DELAM_ERROR_PROBLEM, "body ", mesh.body_label(body),
+                 ": no material (delam_problem_set_elastic or delam_problem_set_orthotropic)");
         }
         require_formulation(mesh, body, problem.formulation[static_cast<std::size_t>(body)], DELAM_ERROR_PROBLEM);
         (void)problem.model(body);
@@ -51,8 +56,8 @@ void check_interfaces(const Problem& problem) {
         } else if (interface.contact) {
             for (std::size_t p = 0; p < interface.adhesion.size(); ++p)
                 if (interface.adhesion[p] > 0.0)
-                    fail(DELAM_ERROR_PROBLEM, "interface ", i, " has contact alone, but pair ", p, " has an adhesion of ",
-                         interface.adhesion[p], ", not 0");
+                    fail(DELAM_ERROR_PROBLEM, "interface ", i, " has contact alone, but pair ", p,
+                         " has an adhesion of ", interface.adhesion[p], ", not 0");
         } else if (!interface.law) {
             fail(DELAM_ERROR_PROBLEM, "interface ", i,
                  ": no law (delam_problem_set_law, delam_problem_set_bonded or delam_problem_set_contact)");
@@ -63,7 +68,8 @@ void check_interfaces(const Problem& problem) {
                 fail(e.status(), "interface ", i, ": ", e.what());
             }
             if (interface.law->gradient > 0.0 && problem.mesh->interfaces()[i].face.empty())
-                fail(DELAM_ERROR_PROBLEM, "interface ", i, ": its law has a gradient term, but it has no faces (delam_mesh_add_pairs)");
+                fail(DELAM_ERROR_PROBLEM, "interface ", i,
+                     ": its law has a gradient term, but it has no faces (delam_mesh_add_pairs)");
         }
     }
 }
@@ -71,18 +77,20 @@ void check_interfaces(const Problem& problem) {
 void check_loads(const Problem& problem) {
     for (const Pattern& pattern : problem.patterns) {
         if (pattern.drives == Pattern::Drives::nothing) {
-            fail(DELAM_ERROR_PROBLEM, "pattern '", pattern.name, "' drives neither a displacement nor a force or strain");
+            fail(DELAM_ERROR_PROBLEM, "pattern '", pattern.name,
+                 "' drives neither a displacement nor a force or strain");
         }
     }
 }
 
-// No constraint may follow from others, nor contradict them. Short ones are reduced first: they fill little. Pairs are not asked: where they are
-// bonded, supports on both sides are harmless.
+// No constraint may follow from others, nor contradict them. Short ones are reduced first: they fill little. Pairs are
+// not asked: where they are bonded, supports on both sides are harmless.
 void check_constraints(const Problem& problem) {
     std::vector<std::size_t> order(problem.constraints.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return problem.constraints[a].dof.size() < problem.constraints[b].dof.size(); });
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return problem.constraints[a].dof.size() < problem.constraints[b].dof.size();
+    });
     SparseElimination known;
     for (const std::size_t i : order) {
         const Constraint& c = problem.constraints[i];
@@ -92,12 +100,15 @@ void check_constraints(const Problem& problem) {
         for (std::size_t k = 0; k < c.dof.size(); ++k) row.terms[c.dof[k]] += c.coefficient[k];
         const double scale = known.reduce(row);
         if (row.terms.empty()) {
-            const bool agrees = std::all_of(row.right.begin(), row.right.end(), [&](double r) { return std::abs(r) <= 1e-9 * scale; });
+            const bool agrees =
+                std::all_of(row.right.begin(), row.right.end(), [&](double r) { return std::abs(r) <= 1e-9 * scale; });
             fail(DELAM_ERROR_PROBLEM, "constraint ", i, " (of ", c.dof.size(), " displacements, the first at node ",
-                 c.dof.front() / problem.mesh->dimension(), ") ", agrees ? "prescribes what other constraints do already" : "contradicts other constraints");
+                 c.dof.front() / problem.mesh->dimension(), ") ",
+                 agrees ? "prescribes what other constraints do already" : "contradicts other constraints");
         }
-        const auto largest = std::max_element(row.terms.begin(), row.terms.end(),
-                                              [](const auto& a, const auto& b) { return std::abs(a.second) < std::abs(b.second); });
+        const auto largest = std::max_element(row.terms.begin(), row.terms.end(), [](const auto& a, const auto& b) {
+            return std::abs(a.second) < std::abs(b.second);
+        });
         known.solve(row, largest->first);
     }
 }
@@ -112,7 +123,8 @@ std::string names(const Mesh& mesh, const FreeMotion& motion) {
 
 void check_supports(const Problem& problem) {
     const bool held_by_host = std::any_of(problem.stiffness.begin(), problem.stiffness.end(), [](const auto& own) {
-        return own != nullptr && std::any_of(own->pieces.begin(), own->pieces.end(), [](const HostPiece& p) { return p.fixed() || p.held.columns > 0; });
+        return own != nullptr && std::any_of(own->pieces.begin(), own->pieces.end(),
+                                             [](const HostPiece& p) { return p.fixed() || p.held.columns > 0; });
     });
     if (problem.constraints.empty() && !held_by_host)
         fail(DELAM_ERROR_PROBLEM, "missing support: no displacement is prescribed anywhere");
@@ -126,8 +138,8 @@ void check_supports(const Problem& problem) {
     }
     for (const FreeMotion& motion : free_motions(problem, false)) {
         if (motion.force_work > 1e-9) {
-            fail(DELAM_ERROR_PROBLEM, "missing support: ", names(*problem.mesh, motion), " can ",
-                 motion.description, " where nothing adheres, and the dead forces of pattern '",
+            fail(DELAM_ERROR_PROBLEM, "missing support: ", names(*problem.mesh, motion), " can ", motion.description,
+                 " where nothing adheres, and the dead forces of pattern '",
                  problem.patterns[static_cast<std::size_t>(motion.force_pattern)].name, "' act along");
         }
     }

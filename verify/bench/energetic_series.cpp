@@ -17,10 +17,21 @@ constexpr double violation = 1e-3;  // eta, of max(|stored|, work)
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Energies in J/m, lengths in m. Names of values whose columns a history has.
-constexpr const char* columns[] = {"reaction",      "stored_bulk", "stored_interface", "dissipated",
-                                   "work",          "lower",       "increment",        "upper",
-                                   "increment_lower", "defect",    "debonded_length",  "search_candidates",
-                                   "search_gap",    "search_margin", "revisions"};
+constexpr const char* columns[] = {"reaction",
+                                   "stored_bulk",
+                                   "stored_interface",
+                                   "dissipated",
+                                   "work",
+                                   "lower",
+                                   "increment",
+                                   "upper",
+                                   "increment_lower",
+                                   "defect",
+                                   "debonded_length",
+                                   "search_candidates",
+                                   "search_gap",
+                                   "search_margin",
+                                   "revisions"};
 constexpr const char* effort[] = {"am_iterations", "displacement_solves", "newton_solves", "search_candidates"};
 
 // A value by key; NaN where this library does not have it.

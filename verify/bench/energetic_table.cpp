@@ -54,9 +54,9 @@ void add_findings(std::vector<Row>& rows, const Json& series) {
         const auto spent = [&of = m["spent"]](const char* name) { return number(value_of(of[name]), "%.0f"); };
         Row row{scene, key};
         if (const Json& jump = m["jump"]; jump.is_object()) {
-            row.insert(row.end(), {number(value_of(jump["step"]), "%.0f"), number(1e3 * value_of(jump["load"]), "%.2f"),
-                                   number(1e3 * value_of(jump["advance"]), "%.1f"),
-                                   number(value_of(jump["released"]))});
+            row.insert(row.end(),
+                       {number(value_of(jump["step"]), "%.0f"), number(1e3 * value_of(jump["load"]), "%.2f"),
+                        number(1e3 * value_of(jump["advance"]), "%.1f"), number(value_of(jump["released"]))});
         } else {
             row.insert(row.end(), {"-", "-", "-", "-"});
         }
@@ -115,9 +115,8 @@ Json energetic_table(const Settings& settings) {
         }
         result["scenes"][name] = std::move(scene);
     }
-    print_rows({"scene", "thr", "march", "total_s", "q1..q3", "LSE", "by round", "LSE_cpu",
-                "/local", "setup_s", "steps_s",
-                "peak_MB", "note"},
+    print_rows({"scene", "thr", "march", "total_s", "q1..q3", "LSE", "by round", "LSE_cpu", "/local", "setup_s",
+                "steps_s", "peak_MB", "note"},
                costs);
     std::printf("\n");
     print_rows({"scene", "march", "jump_step", "load_mm", "advance_mm", "released", "defect_end", "violated", "excess",

@@ -57,7 +57,8 @@ Json machine() {
     m["blas_core"] = ask_blas<char*>("openblas_get_corename", const_cast<char*>("unknown BLAS"));
     m["blas_config"] = ask_blas<char*>("openblas_get_config", const_cast<char*>("unknown BLAS"));
     m["blas_threads"] = ask_blas<int>("openblas_get_num_threads", 0);
-    for (const char* name : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "OMP_THREAD_LIMIT", "OPENBLAS_CORETYPE", "DELAM_BENCH_AS_SHIPPED"})
+    for (const char* name :
+         {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "OMP_THREAD_LIMIT", "OPENBLAS_CORETYPE", "DELAM_BENCH_AS_SHIPPED"})
         m["environment"][name] = environment(name);
     double load[1] = {0.0};
     m["load_average"] = getloadavg(load, 1) == 1 ? load[0] : -1.0;

@@ -56,15 +56,12 @@ int main(int argc, char** argv) {
     const struct {
         const char* name;
         bench::Json (*make)(const bench::Settings&);
-    } tables[] = {
-        {"march", bench::march_table},
-        {"precision", bench::precision_table},
-        {"methods", bench::methods_table},
-        {"growth", bench::growth_table},
+    } tables[] = {{"march", bench::march_table},           {"precision", bench::precision_table},
+                  {"methods", bench::methods_table},       {"growth", bench::growth_table},
 #ifdef DELAM_SCENE_FILES
-        {"scene-file", bench::scene_file_table},
+                  {"scene-file", bench::scene_file_table},
 #endif
-        {"energetic", bench::energetic_table}};
+                  {"energetic", bench::energetic_table}};
     for (const auto& t : tables) {
         if (!understood || table != t.name) continue;
         try {

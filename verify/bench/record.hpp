@@ -27,9 +27,9 @@ struct StepRecord {
 
 struct March {
     std::vector<StepRecord> steps;
-    double setup = 0.0;    // s, problem and its checks
-    double factor = 0.0;   // s, everything that is done once: assembly, analysis, condensation, first factors
-    double iterate = 0.0;  // s, the steps
+    double setup = 0.0;      // s, problem and its checks
+    double factor = 0.0;     // s, everything that is done once: assembly, analysis, condensation, first factors
+    double iterate = 0.0;    // s, the steps
     double processor = 0.0;  // s, processor time of all three, all threads; library marches only
     double bulk_factorisations = -1.0;  // -1: not counted by this library
     double field_recoveries = -1.0;

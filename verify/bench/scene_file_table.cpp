@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scene files marched by the library's own choice and by FETI: time in linear-solve equivalents, counts, peak memory. In this process, with the
-// threads it has. The LSE's matrix is the direct reference's at the undamaged initial state: all constraints eliminated.
+// Scene files marched by the library's own choice and by FETI: time in linear-solve equivalents, counts, peak memory.
+// In this process, with the threads it has. The LSE's matrix is the direct reference's at the undamaged initial state:
+// all constraints eliminated.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -21,7 +22,8 @@ UpperMatrix upper_of(std::size_t n, const reference::Triplets& lower) {
     // By columns of the upper triangle: entry (i, j), i >= j, of the lower one is row j of column i.
     std::vector<std::vector<std::pair<std::int32_t, double>>> columns(n);
     for (std::size_t e = 0; e < lower.value.size(); ++e)
-        columns[static_cast<std::size_t>(lower.row[e])].emplace_back(static_cast<std::int32_t>(lower.column[e]), lower.value[e]);
+        columns[static_cast<std::size_t>(lower.row[e])].emplace_back(static_cast<std::int32_t>(lower.column[e]),
+                                                                     lower.value[e]);
     UpperMatrix out;
     for (auto& column : columns) {
         std::sort(column.begin(), column.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -130,14 +132,16 @@ Json scene_file_table(const Settings& settings) {
                               {"dissipated", out.dissipated},
                               {"peak_MB", 1e-6 * out.peak},
                               {"lse_MB", 1e-6 * factor_bytes}});
-            rows.push_back({path.substr(path.find_last_of('/') + 1), reduction, std::to_string(matrix.size()), std::to_string(file.scene.pair_count()),
-                            std::to_string(out.steps) + (whole ? "" : " (cap)"), number(unit), number(median(marches)), number(out.setup / unit),
-                            number(median(marches) / unit), number(out.alternations), number(out.solves), number(out.linear),
-                            number(1e-6 * out.peak), number(1e-6 * factor_bytes), number(out.dissipated, "%.8g")});
+            rows.push_back({path.substr(path.find_last_of('/') + 1), reduction, std::to_string(matrix.size()),
+                            std::to_string(file.scene.pair_count()),
+                            std::to_string(out.steps) + (whole ? "" : " (cap)"), number(unit), number(median(marches)),
+                            number(out.setup / unit), number(median(marches) / unit), number(out.alternations),
+                            number(out.solves), number(out.linear), number(1e-6 * out.peak),
+                            number(1e-6 * factor_bytes), number(out.dissipated, "%.8g")});
         }
     }
-    print_rows({"scene", "reduction", "unknowns", "pairs", "steps", "LSE_s", "march_s", "setup/LSE", "march/LSE", "alternations", "solves", "linear",
-                "peak_MB", "LSE_MB", "dissipated"},
+    print_rows({"scene", "reduction", "unknowns", "pairs", "steps", "LSE_s", "march_s", "setup/LSE", "march/LSE",
+                "alternations", "solves", "linear", "peak_MB", "LSE_MB", "dissipated"},
                rows);
     return result;
 }

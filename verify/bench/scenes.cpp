@@ -147,7 +147,8 @@ SceneData find_scene(const std::string& name) {
         data.steps = 10;
         return data;
     }
-    throw reference::Failure(0, "scene '" + name + "' is not known: enf-ductile-H, enf-brittle-H, enf-patch-H, block-H, "
+    throw reference::Failure(0, "scene '" + name +
+                                    "' is not known: enf-ductile-H, enf-brittle-H, enf-patch-H, block-H, "
                                     "H in mm");
 }
 

@@ -11,10 +11,10 @@ namespace bench {
 
 struct Settings {
     bool quick = false;
-    int repeat = 0;                   // 0: the table's own choice
-    double cap = 0.0;                 // s; 0: the table's own choice
-    std::vector<std::string> scenes;  // empty: the table's own
-    std::vector<int> threads;         // empty: 1 and 2
+    int repeat = 0;                     // 0: the table's own choice
+    double cap = 0.0;                   // s; 0: the table's own choice
+    std::vector<std::string> scenes;    // empty: the table's own
+    std::vector<int> threads;           // empty: 1 and 2
     std::vector<std::string> settings;  // KEY=VALUE for scene files
 };
 

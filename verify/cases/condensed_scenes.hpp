@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small scenes in all shapes for the reductions: blocks that meet along lines and in points, means, inclined and redundant supports,
-// prescribed jumps, new elements. Loads go from -1 to 1 with time.
+// Small scenes in all shapes for the reductions: blocks that meet along lines and in points, means, inclined and
+// redundant supports, prescribed jumps, new elements. Loads go from -1 to 1 with time.
 #pragma once
 
 #include <array>
@@ -44,7 +44,8 @@ inline Scene make_blocks(int d, const std::vector<Block>& blocks, const Map& map
         for (int z = 0; z <= nz; ++z)
             for (int y = 0; y <= ny; ++y)
                 for (int x = 0; x <= nx; ++x)
-                    push({k.lower[0] + (k.upper[0] - k.lower[0]) * x / nx, k.lower[1] + (k.upper[1] - k.lower[1]) * y / ny,
+                    push({k.lower[0] + (k.upper[0] - k.lower[0]) * x / nx,
+                          k.lower[1] + (k.upper[1] - k.lower[1]) * y / ny,
                           d == 3 ? k.lower[2] + (k.upper[2] - k.lower[2]) * z / nz : 0.0});
         const auto at = [&](int x, int y, int z) {
             return first + x + static_cast<std::int64_t>(nx + 1) * (y + static_cast<std::int64_t>(ny + 1) * z);
@@ -53,7 +54,8 @@ inline Scene make_blocks(int d, const std::vector<Block>& blocks, const Map& map
             for (int y = 0; y < ny; ++y)
                 for (int x = 0; x < nx; ++x) {
                     for (int up = 0; up < d - 1; ++up)
-                        cells.insert(cells.end(), {at(x, y, z + up), at(x + 1, y, z + up), at(x + 1, y + 1, z + up), at(x, y + 1, z + up)});
+                        cells.insert(cells.end(), {at(x, y, z + up), at(x + 1, y, z + up), at(x + 1, y + 1, z + up),
+                                                   at(x, y + 1, z + up)});
                     bodies.push_back(static_cast<std::int32_t>(b));
                 }
     }
@@ -61,7 +63,8 @@ inline Scene make_blocks(int d, const std::vector<Block>& blocks, const Map& map
 }
 
 // Nodes of a body (-1: all) that satisfy a condition on their coordinates before the map.
-inline std::vector<std::int64_t> nodes_where(const Scene& scene, std::int32_t body, const std::function<bool(const double*)>& wanted) {
+inline std::vector<std::int64_t> nodes_where(const Scene& scene, std::int32_t body,
+                                             const std::function<bool(const double*)>& wanted) {
     const std::vector<double> far(static_cast<std::size_t>(scene.dimension()), 1e3);
     std::vector<double> low(far);
     for (double& v : low) v = -v;
@@ -77,26 +80,33 @@ inline std::vector<double> unit(int d, int k, double sign = 1.0) {
     return e;
 }
 
-inline void mean(Scene& scene, const std::vector<std::int64_t>& nodes, const std::vector<double>& weights, const std::vector<double>& direction,
-                 std::int64_t pattern, double coefficient) {
-    scene.require(delam_problem_prescribe_mean(scene.problem(), static_cast<std::int64_t>(nodes.size()), nodes.data(), weights.data(),
-                                               direction.data(), pattern < 0 ? 0 : 1, &pattern, &coefficient, 0),
-                  "delam_problem_prescribe_mean");
+inline void mean(Scene& scene, const std::vector<std::int64_t>& nodes, const std::vector<double>& weights,
+                 const std::vector<double>& direction, std::int64_t pattern, double coefficient) {
+    scene.require(
+        delam_problem_prescribe_mean(scene.problem(), static_cast<std::int64_t>(nodes.size()), nodes.data(),
+                                     weights.data(), direction.data(), pattern < 0 ? 0 : 1, &pattern, &coefficient, 0),
+        "delam_problem_prescribe_mean");
 }
 
-inline void forces(Scene& scene, std::int64_t pattern, const std::vector<std::int64_t>& nodes, const std::vector<double>& values) {
-    scene.require(delam_problem_add_forces(scene.problem(), pattern, static_cast<std::int64_t>(nodes.size()), nodes.data(), values.data(), 0),
+inline void forces(Scene& scene, std::int64_t pattern, const std::vector<std::int64_t>& nodes,
+                   const std::vector<double>& values) {
+    scene.require(delam_problem_add_forces(scene.problem(), pattern, static_cast<std::int64_t>(nodes.size()),
+                                           nodes.data(), values.data(), 0),
                   "delam_problem_add_forces");
 }
 
-inline std::int64_t to_and_fro(Scene& scene, const char* name, double size) { return scene.pattern(name, {-1.0, 0.0, 1.0}, {-size, 0.0, size}); }
+inline std::int64_t to_and_fro(Scene& scene, const char* name, double size) {
+    return scene.pattern(name, {-1.0, 0.0, 1.0}, {-size, 0.0, size});
+}
 
 // Two or more plies, held at the left end, their right end moved along and across: opens, slides and presses.
-inline Scene make_plies(int d, int count, std::int32_t cell, const char* formulation, const LawData& law, int along = 12, int through = 1) {
+inline Scene make_plies(int d, int count, std::int32_t cell, const char* formulation, const LawData& law,
+                        int along = 12, int through = 1) {
     constexpr double length = 0.04, width = 0.01, ply = 0.003;
     Scene scene(d, d == 2 ? std::vector<double>{length} : std::vector<double>{length, width},
                 d == 2 ? std::vector<std::int64_t>{along} : std::vector<std::int64_t>{along, 2},
-                std::vector<double>(static_cast<std::size_t>(count), ply), std::vector<std::int64_t>(static_cast<std::size_t>(count), through), cell);
+                std::vector<double>(static_cast<std::size_t>(count), ply),
+                std::vector<std::int64_t>(static_cast<std::size_t>(count), through), cell);
     for (int i = 0; i + 1 < count; ++i) scene.interface(i, i + 1);
     scene.begin();
     scene.elastic(-1, 70e9, 0.3);
@@ -106,7 +116,8 @@ inline Scene make_plies(int d, int count, std::int32_t cell, const char* formula
     for (int k = 0; k < d; ++k) scene.hold(left, unit(d, k));
     const auto load = to_and_fro(scene, "bend", 1e-5);
     const auto slide = to_and_fro(scene, "slide", 3e-6);
-    const auto top = nodes_where(scene, count - 1, [&](const double* x) { return x[0] > length - 1e-6 && x[d - 1] > count * ply - 1e-6; });
+    const auto top = nodes_where(
+        scene, count - 1, [&](const double* x) { return x[0] > length - 1e-6 && x[d - 1] > count * ply - 1e-6; });
     scene.drive(top, unit(d, d - 1), load, std::vector<double>(top.size(), 1.0));
     scene.drive(top, unit(d, 0), slide, std::vector<double>(top.size(), -1.0));
     const auto bottom = nodes_where(scene, 0, [&](const double* x) { return x[0] > length - 1e-6 && x[d - 1] < 1e-6; });
@@ -115,12 +126,14 @@ inline Scene make_plies(int d, int count, std::int32_t cell, const char* formula
 }
 
 inline Map inclined() {
-    return [](const std::array<double, 3>& x) { return std::array<double, 3>{0.9 * x[0] - 0.35 * x[1], 0.4 * x[0] + 0.8 * x[1], x[2] + 0.1 * x[0]}; };
+    return [](const std::array<double, 3>& x) {
+        return std::array<double, 3>{0.9 * x[0] - 0.35 * x[1], 0.4 * x[0] + 0.8 * x[1], x[2] + 0.1 * x[0]};
+    };
 }
 
 // Holds the nodes where `low`, moves those where `high`, all components.
-inline void clamp_and_pull(Scene& scene, const std::function<bool(const double*)>& low, const std::function<bool(const double*)>& high,
-                           double size) {
+inline void clamp_and_pull(Scene& scene, const std::function<bool(const double*)>& low,
+                           const std::function<bool(const double*)>& high, double size) {
     const int d = scene.dimension();
     const auto held = nodes_where(scene, -1, low);
     for (int k = 0; k < d; ++k) scene.hold(held, unit(d, k));
@@ -159,7 +172,8 @@ inline Scene make_tee(int d, bool slanted, int bonded) {
         return slanted ? (0.9 * x[1] - 0.4 * x[0]) / (0.9 * 0.8 + 0.35 * 0.4) : x[1];
     };
     clamp_and_pull(
-        scene, [=](const double* x) { return height(x) < -edge + 1e-6; }, [=](const double* x) { return height(x) > edge - 1e-6; }, 1e-6);
+        scene, [=](const double* x) { return height(x) < -edge + 1e-6; },
+        [=](const double* x) { return height(x) > edge - 1e-6; }, 1e-6);
     return scene;
 }
 
@@ -176,7 +190,9 @@ inline Scene make_cross(int d, bool slanted, unsigned bonded, int loose = 0) {
     scene.begin();
     scene.elastic(-1, 70e9, 0.3);
     for (int i = 0; i < 4; ++i) (bonded >> i & 1U) != 0 ? scene.bonded(i) : scene.law(i, block_law);
-    const auto height = [slanted](const double* x) { return slanted ? (0.9 * x[1] - 0.4 * x[0]) / (0.9 * 0.8 + 0.35 * 0.4) : x[1]; };
+    const auto height = [slanted](const double* x) {
+        return slanted ? (0.9 * x[1] - 0.4 * x[0]) / (0.9 * 0.8 + 0.35 * 0.4) : x[1];
+    };
     clamp_and_pull(
         scene, [=](const double* x) { return height(x) < -edge + 1e-6; },
         [=](const double* x) { return height(x) > edge - 1e-6 && std::abs(x[0]) < 5 * edge; }, 1e-6);
@@ -185,7 +201,10 @@ inline Scene make_cross(int d, bool slanted, unsigned bonded, int loose = 0) {
 
 // Two plies from blocks, so that coordinates may be turned: the ground of the constraint scenes.
 inline Scene two_plies(int d, const Map& map, int along = 10) {
-    Scene scene = make_blocks(d, {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {along, 1, 2}}, {{0.0, 0.003, 0.0}, {0.04, 0.006, 0.01}, {along, 1, 2}}}, map);
+    Scene scene = make_blocks(d,
+                              {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {along, 1, 2}},
+                               {{0.0, 0.003, 0.0}, {0.04, 0.006, 0.01}, {along, 1, 2}}},
+                              map);
     scene.interface(0, 1);
     scene.begin();
     scene.elastic(-1, 70e9, 0.3);
@@ -203,7 +222,8 @@ inline Scene make_means(int d) {
     for (int k = 0; k < d; ++k) mean(scene, left, weights, unit(d, k), -1, 0.0);
     const auto corner = nodes_where(scene, 0, [](const double* x) { return x[0] < 1e-6 && x[1] < 1e-6; });
     for (int k = 0; k < d; ++k) scene.hold(corner, unit(d, k));
-    scene.hold(nodes_where(scene, 0, [](const double* x) { return x[0] > 1e-6 && x[0] < 0.0041 && x[1] < 1e-6; }), unit(d, 1));
+    scene.hold(nodes_where(scene, 0, [](const double* x) { return x[0] > 1e-6 && x[0] < 0.0041 && x[1] < 1e-6; }),
+               unit(d, 1));
     const auto tip = nodes_where(scene, 1, [](const double* x) { return x[0] > 0.035; });
     mean(scene, tip, std::vector<double>(tip.size(), 1.0), unit(d, 1), load, 1.0);
     mean(scene, tip, std::vector<double>(tip.size(), 1.0), unit(d, 0), load, -0.3);
@@ -229,7 +249,9 @@ inline Scene make_slanted_supports(int d) {
 // Opened at the faces of the first pairs: these jumps are prescribed. turn: in degrees.
 inline Scene make_opened(int d, double turn) {
     const double c = std::cos(turn * M_PI / 180.0), s = std::sin(turn * M_PI / 180.0);
-    Scene scene = two_plies(d, [=](const std::array<double, 3>& x) { return std::array<double, 3>{c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]}; });
+    Scene scene = two_plies(d, [=](const std::array<double, 3>& x) {
+        return std::array<double, 3>{c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]};
+    });
     const auto along = [=](const double* x) { return c * x[0] + s * x[1]; };
     const auto pairs = scene.pairs(0);
     std::vector<std::int64_t> notch, lower, upper;
@@ -291,8 +313,11 @@ inline Scene make_bound_slip(int d) {
 
 // Bonded for ever, and both nodes of some pairs held: supports that follow from each other through the bond.
 inline Scene make_redundant(int d) {
-    Scene scene = make_blocks(d, {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {10, 1, 2}}, {{0.0, 0.003, 0.0}, {0.04, 0.006, 0.01}, {10, 1, 2}},
-                                  {{0.0, 0.006, 0.0}, {0.04, 0.009, 0.01}, {10, 1, 2}}}, inclined());
+    Scene scene = make_blocks(d,
+                              {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {10, 1, 2}},
+                               {{0.0, 0.003, 0.0}, {0.04, 0.006, 0.01}, {10, 1, 2}},
+                               {{0.0, 0.006, 0.0}, {0.04, 0.009, 0.01}, {10, 1, 2}}},
+                              inclined());
     scene.interface(0, 1);
     scene.interface(1, 2);
     scene.begin();
@@ -330,27 +355,33 @@ inline Scene make_forces(int d) {
 // Coefficients of one component of each node.
 inline std::vector<double> components(int d, const std::vector<std::pair<int, double>>& list) {
     std::vector<double> c(list.size() * static_cast<std::size_t>(d), 0.0);
-    for (std::size_t i = 0; i < list.size(); ++i) c[i * static_cast<std::size_t>(d) + static_cast<std::size_t>(list[i].first)] = list[i].second;
+    for (std::size_t i = 0; i < list.size(); ++i)
+        c[i * static_cast<std::size_t>(d) + static_cast<std::size_t>(list[i].first)] = list[i].second;
     return c;
 }
 
 // Two plies and nodes without cells, 0, 1, ..., that are there to be referred to.
 inline Scene plies_with_controls(int d, int controls, const Map& map = nullptr) {
-    Scene scene = make_blocks(d, {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {10, 1, 2}}, {{0.0, 0.003, 0.0}, {0.04, 0.006, 0.01}, {10, 1, 2}}}, map, controls);
+    Scene scene = make_blocks(
+        d, {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {10, 1, 2}}, {{0.0, 0.003, 0.0}, {0.04, 0.006, 0.01}, {10, 1, 2}}},
+        map, controls);
     scene.interface(0, 1);
     scene.begin();
     scene.elastic(-1, 70e9, 0.3);
     scene.law(0, block_law);
     return scene;
 }
-inline std::vector<std::int64_t> body_nodes_where(const Scene& scene, const std::function<bool(const double*)>& wanted) {
+inline std::vector<std::int64_t> body_nodes_where(const Scene& scene,
+                                                  const std::function<bool(const double*)>& wanted) {
     return nodes_where(scene, -1, [&](const double* x) { return x[0] < 1.0 && wanted(x); });
 }
 inline void clamp_left(Scene& scene) {
-    for (int k = 0; k < scene.dimension(); ++k) scene.hold(body_nodes_where(scene, [](const double* x) { return x[0] < 1e-6; }), unit(scene.dimension(), k));
+    for (int k = 0; k < scene.dimension(); ++k)
+        scene.hold(body_nodes_where(scene, [](const double* x) { return x[0] < 1e-6; }), unit(scene.dimension(), k));
 }
 
-// A rigid nose on the upper face: its nodes share the height of control node 0, which is moved, or loaded by a dead force.
+// A rigid nose on the upper face: its nodes share the height of control node 0, which is moved, or loaded by a dead
+// force.
 inline Scene make_nose(int d, bool dead) {
     Scene scene = plies_with_controls(d, 1);
     clamp_left(scene);
@@ -365,12 +396,14 @@ inline Scene make_nose(int d, bool dead) {
     return scene;
 }
 
-// A lever: the mean heights of two patches, weighted, are moved together (one long equation), control node 0 measures one of them.
+// A lever: the mean heights of two patches, weighted, are moved together (one long equation), control node 0 measures
+// one of them.
 inline Scene make_lever(int d) {
     Scene scene = plies_with_controls(d, 1);
     clamp_left(scene);
     const auto tip = body_nodes_where(scene, [](const double* x) { return x[0] > 0.027; });
-    const auto middle = body_nodes_where(scene, [](const double* x) { return x[0] > 0.013 && x[0] < 0.021 && x[1] > 0.0059; });
+    const auto middle =
+        body_nodes_where(scene, [](const double* x) { return x[0] > 0.013 && x[0] < 0.021 && x[1] > 0.0059; });
     std::vector<std::int64_t> nodes(tip);
     std::vector<std::pair<int, double>> c(tip.size(), {1, -0.7 / static_cast<double>(tip.size())});
     nodes.insert(nodes.end(), middle.begin(), middle.end());
@@ -387,14 +420,17 @@ inline Scene make_lever(int d) {
     return scene;
 }
 
-// The right end of both plies is rigid: it moves with control node 0 and turns by control node 1 (x: the angle times an arm), so that the jumps
-// there follow from each other. 0 is moved across, the turn is free.
+// The right end of both plies is rigid: it moves with control node 0 and turns by control node 1 (x: the angle times an
+// arm), so that the jumps there follow from each other. 0 is moved across, the turn is free.
 inline Scene make_rigid_end(int d, const Map& map) {
     Scene scene = plies_with_controls(d, 2, map);
-    const auto left = [&](const double* x) { return x[0] < 1.0 && (map ? 0.8 * x[0] + 0.35 * x[1] < 1e-6 : x[0] < 1e-6); };
+    const auto left = [&](const double* x) {
+        return x[0] < 1.0 && (map ? 0.8 * x[0] + 0.35 * x[1] < 1e-6 : x[0] < 1e-6);
+    };
     for (int k = 0; k < d; ++k) scene.hold(nodes_where(scene, -1, left), unit(d, k));
     const double end = map ? 0.9 * 0.8 * 0.04 + 0.35 * 0.4 * 0.04 : 0.04;
-    for (const auto n : body_nodes_where(scene, [&](const double* x) { return (map ? 0.8 * x[0] + 0.35 * x[1] : x[0]) > end - 1e-6; })) {
+    for (const auto n : body_nodes_where(
+             scene, [&](const double* x) { return (map ? 0.8 * x[0] + 0.35 * x[1] : x[0]) > end - 1e-6; })) {
         const double x = (scene.coordinate(n, 0) - 0.035) / 0.01, y = (scene.coordinate(n, 1) - 0.01) / 0.01;
         scene.equation({n, 0, 1}, components(d, {{0, 1.0}, {0, -1.0}, {0, y}}));
         scene.equation({n, 0, 1}, components(d, {{1, 1.0}, {1, -1.0}, {0, -x}}));
@@ -411,16 +447,19 @@ inline Scene make_chains(int d) {
     Scene scene = plies_with_controls(d, 0);
     clamp_left(scene);
     const auto top = body_nodes_where(scene, [](const double* x) { return x[0] > 0.019 && x[1] > 0.0059; });
-    for (std::size_t i = 0; i + 1 < top.size(); ++i) scene.equation({top[i], top[i + 1]}, components(d, {{1, 1.0}, {1, -1.0}}));
+    for (std::size_t i = 0; i + 1 < top.size(); ++i)
+        scene.equation({top[i], top[i + 1]}, components(d, {{1, 1.0}, {1, -1.0}}));
     const auto pairs = scene.pairs(0);
     const auto load = to_and_fro(scene, "slide", 2e-6);
     for (std::size_t p = pairs.count() - 5; p < pairs.count(); ++p)
-        scene.equation({pairs.node_a[p], pairs.node_b[p], top.front()}, components(d, {{0, 1.0}, {0, -1.0}, {0, p % 2 == 0 ? 0.3 : 0.0}}), load, 1.0);
+        scene.equation({pairs.node_a[p], pairs.node_b[p], top.front()},
+                       components(d, {{0, 1.0}, {0, -1.0}, {0, p % 2 == 0 ? 0.3 : 0.0}}), load, 1.0);
     scene.drive({top.back()}, unit(d, 1), to_and_fro(scene, "lift", 5e-6), {1.0});
     return scene;
 }
 
-// A periodic cell of plies, its interface cut by two faces; strain along is prescribed, the shear free, the rest driven by dead forces.
+// A periodic cell of plies, its interface cut by two faces; strain along is prescribed, the shear free, the rest driven
+// by dead forces.
 inline Scene make_periodic_plies(int d, bool dead) {
     Scene scene = plies_with_controls(d, d - 1);
     std::vector<double> periods(static_cast<std::size_t>((d - 1) * d), 0.0);
@@ -431,8 +470,11 @@ inline Scene make_periodic_plies(int d, bool dead) {
         controls.push_back(1);
     }
     scene.periodic(periods, controls);
-    const auto inside = [d](const double* x) { return d == 2 || x[2] < 0.009; };  // what lies opposite would be prescribed twice
-    const auto bottom = body_nodes_where(scene, [&](const double* x) { return x[1] < 1e-6 && x[0] > 0.015 && x[0] < 0.033 && inside(x); });
+    const auto inside = [d](const double* x) {
+        return d == 2 || x[2] < 0.009;
+    };  // what lies opposite would be prescribed twice
+    const auto bottom = body_nodes_where(
+        scene, [&](const double* x) { return x[1] < 1e-6 && x[0] > 0.015 && x[0] < 0.033 && inside(x); });
     for (int k = 0; k < d; ++k) scene.hold(bottom, unit(d, k));
     if (d == 3) {
         for (int k = 0; k < 3; ++k) scene.hold({1}, unit(3, k));
@@ -442,14 +484,16 @@ inline Scene make_periodic_plies(int d, bool dead) {
     } else {
         scene.drive({0}, unit(d, 0), to_and_fro(scene, "strain", 4e-6), {1.0});
     }
-    const auto top = body_nodes_where(scene, [&](const double* x) { return x[1] > 0.0059 && x[0] > 0.001 && x[0] < 0.01 && inside(x); });
+    const auto top = body_nodes_where(
+        scene, [&](const double* x) { return x[1] > 0.0059 && x[0] > 0.001 && x[0] < 0.01 && inside(x); });
     scene.drive(top, unit(d, 1), to_and_fro(scene, "lift", 2e-6), std::vector<double>(top.size(), 1.0));
     return scene;
 }
 
 // A joint without glue beside one with it.
 inline Scene make_unglued(int d) {
-    Scene scene = make_blocks(d, {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {10, 1, 2}}, {{0.0, 0.003, 0.0}, {0.04, 0.006, 0.01}, {10, 1, 2}},
+    Scene scene = make_blocks(d, {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {10, 1, 2}},
+                                  {{0.0, 0.003, 0.0}, {0.04, 0.006, 0.01}, {10, 1, 2}},
                                   {{0.0, 0.006, 0.0}, {0.04, 0.009, 0.01}, {10, 1, 2}}});
     scene.interface(0, 1);
     scene.interface(1, 2);
@@ -467,11 +511,14 @@ inline Scene make_unglued(int d) {
     return scene;
 }
 
-// Plies whose faces do not match: b's nodes are paired with projections on a. Periodic along x where asked for, so that equations act on nodes
-// that others hang on. The middle ply is finer than its neighbours, so it is b once and a once.
+// Plies whose faces do not match: b's nodes are paired with projections on a. Periodic along x where asked for, so that
+// equations act on nodes that others hang on. The middle ply is finer than its neighbours, so it is b once and a once.
 inline Scene make_unmatched(int d, bool periodic) {
-    Scene scene = make_blocks(d, {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {7, 1, 2}}, {{0.0, 0.003, 0.0}, {0.04, 0.006, 0.01}, {11, 1, 3}},
-                                  {{0.0, 0.006, 0.0}, {0.04, 0.009, 0.01}, {10, 1, 2}}}, nullptr, 1);
+    Scene scene = make_blocks(d,
+                              {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {7, 1, 2}},
+                               {{0.0, 0.003, 0.0}, {0.04, 0.006, 0.01}, {11, 1, 3}},
+                               {{0.0, 0.006, 0.0}, {0.04, 0.009, 0.01}, {10, 1, 2}}},
+                              nullptr, 1);
     scene.projected(0, 1);
     scene.projected(1, 2);
     scene.begin();
@@ -485,23 +532,28 @@ inline Scene make_unmatched(int d, bool periodic) {
         scene.periodic(period, {0});
         scene.drive({0}, unit(d, 0), load, {1.0});
         for (int k = 1; k < d; ++k) scene.hold({0}, unit(d, k));
-        const auto held = body_nodes_where(scene, [](const double* x) { return x[1] < 1e-6 && x[0] > 0.01 && x[0] < 0.03; });
+        const auto held =
+            body_nodes_where(scene, [](const double* x) { return x[1] < 1e-6 && x[0] > 0.01 && x[0] < 0.03; });
         for (int k = 0; k < d; ++k) scene.hold(held, unit(d, k));
     } else {
         clamp_left(scene);
         const auto tip = body_nodes_where(scene, [](const double* x) { return x[0] > 0.0399 && x[1] < 1e-6; });
         scene.drive(tip, unit(d, 0), load, std::vector<double>(tip.size(), 1.0));
     }
-    const auto top = body_nodes_where(scene, [](const double* x) { return x[1] > 0.0089 && x[0] > 0.031 && x[0] < 0.0399; });
+    const auto top =
+        body_nodes_where(scene, [](const double* x) { return x[1] > 0.0089 && x[0] > 0.031 && x[0] < 0.0399; });
     scene.drive(top, unit(d, 1), to_and_fro(scene, "bend", 5e-6), std::vector<double>(top.size(), 1.0));
     return scene;
 }
 
 // Two glued plies between obstacles: below one that is at rest, above one that a pattern moves, or a dead force.
 inline Scene make_obstacles(int d, bool dead) {
-    Scene scene = make_blocks(d, {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {10, 1, 2}}, {{0.0, 0.003, 0.0}, {0.04, 0.006, 0.01}, {10, 1, 2}}}, nullptr, 2);
+    Scene scene = make_blocks(
+        d, {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {10, 1, 2}}, {{0.0, 0.003, 0.0}, {0.04, 0.006, 0.01}, {10, 1, 2}}},
+        nullptr, 2);
     scene.interface(0, 1);
-    const auto below = body_nodes_where(scene, [](const double* x) { return x[1] < 1e-6 && x[0] > 0.0119 && x[0] < 0.0281; });
+    const auto below =
+        body_nodes_where(scene, [](const double* x) { return x[1] < 1e-6 && x[0] > 0.0119 && x[0] < 0.0281; });
     const auto above = body_nodes_where(scene, [](const double* x) { return x[1] > 0.0059 && x[0] > 0.0279; });
     const auto normals = [d](std::size_t n, double sign) {
         std::vector<double> list(n * static_cast<std::size_t>(d), 0.0);

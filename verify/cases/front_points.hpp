@@ -30,14 +30,16 @@ inline std::vector<CrackFront> crack_fronts(const reference::Solver& solver, std
     std::vector<std::int64_t> starts(static_cast<std::size_t>(fronts) + 1);
     std::vector<std::int32_t> closed(static_cast<std::size_t>(fronts));
     std::vector<double> places(n * dim), directions(n * dim), lengths(n), rates(3 * n), zones(n), pairs(n);
-    scene.require(delam_solver_front(solver.get(), interface, fronts, points, starts.data(), closed.data(), places.data(), directions.data(),
-                                     lengths.data(), rates.data(), zones.data(), pairs.data()),
-                  "delam_solver_front");
+    scene.require(
+        delam_solver_front(solver.get(), interface, fronts, points, starts.data(), closed.data(), places.data(),
+                           directions.data(), lengths.data(), rates.data(), zones.data(), pairs.data()),
+        "delam_solver_front");
     std::vector<CrackFront> found;
     for (std::size_t f = 0; f < closed.size(); ++f) {
         found.push_back({closed[f] != 0, {}});
         for (auto p = static_cast<std::size_t>(starts[f]); p < static_cast<std::size_t>(starts[f + 1]); ++p) {
-            FrontPoint point{{}, {}, lengths[p], zones[p], pairs[p], {rates[3 * p], rates[3 * p + 1], rates[3 * p + 2]}};
+            FrontPoint point{{},       {},       lengths[p],
+                             zones[p], pairs[p], {rates[3 * p], rates[3 * p + 1], rates[3 * p + 2]}};
             for (std::size_t i = 0; i < dim; ++i) {
                 point.place.push_back(places[p * dim + i]);
                 point.direction.push_back(directions[p * dim + i]);

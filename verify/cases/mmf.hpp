@@ -63,8 +63,8 @@ struct MmfMarch {
     double dissipated, front, defect, defect_slides;  // at the end
     double worst_error = 0.0;                         // of the mixity, in a step
     double solves = 0.0;
-    int below = 0, above = 0, unfinished = 0;         // steps beyond their bounds, or not converged
-    std::vector<std::string> warnings;  // of the mode mixity
+    int below = 0, above = 0, unfinished = 0;  // steps beyond their bounds, or not converged
+    std::vector<std::string> warnings;         // of the mode mixity
 };
 
 inline MmfMarch march_mmf(double h, const reference::LawData& law, const char* rule, int steps) {
@@ -89,10 +89,13 @@ inline MmfMarch march_mmf(double h, const reference::LawData& law, const char* r
     m.defect_slides = solver.value("defect_slides");
     for (const std::string& line : warnings.lines)
         if (line.find("mode mixity") != std::string::npos) m.warnings.push_back(line);
-    std::printf("MMF, h %g mm, Go %g Gc %g, %s, %d steps: %.5g J/m over %.4g mm, %.4g J/m2; defect %.3g, slides' %.3g J/m; bounds missed %d below, %d above; "
-                "worst mixity error %.3f, %zu warnings; %.0f solves\n",
-                1e3 * h, law.normal_onset, law.normal_toughness, rule, steps, m.dissipated, 1e3 * m.front, m.dissipated / m.front, m.defect, m.defect_slides,
-                m.below, m.above, m.worst_error, m.warnings.size(), m.solves);
+    std::printf(
+        "MMF, h %g mm, Go %g Gc %g, %s, %d steps: %.5g J/m over %.4g mm, %.4g J/m2; defect %.3g, slides' %.3g J/m; "
+        "bounds missed %d below, %d above; "
+        "worst mixity error %.3f, %zu warnings; %.0f solves\n",
+        1e3 * h, law.normal_onset, law.normal_toughness, rule, steps, m.dissipated, 1e3 * m.front,
+        m.dissipated / m.front, m.defect, m.defect_slides, m.below, m.above, m.worst_error, m.warnings.size(),
+        m.solves);
     return m;
 }
 

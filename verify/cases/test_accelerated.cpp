@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Accelerated against plain alternate minimisation. Where the incremental problem has one critical point the marches agree; where it has many,
-// each end state is shown to be one (watched_march.hpp) and the energies are printed.
+// Accelerated against plain alternate minimisation. Where the incremental problem has one critical point the marches
+// agree; where it has many, each end state is shown to be one (watched_march.hpp) and the energies are printed.
 #include <array>
 #include <cstdio>
 #include <functional>
@@ -49,7 +49,8 @@ CASE_TEST(ductile_enf) {
     const double tolerance = loop == 0 ? 1e-4 : 1e-8;
     Watch w = watch_enf(ductile, 20, delta);
     const auto march = [&](const char* reduction, const char* minimisation) {
-        const std::string where = std::string("ductile ENF, ") + (loop == 0 ? "1e-5, " : "1e-10, ") + reduction + ", " + minimisation;
+        const std::string where =
+            std::string("ductile ENF, ") + (loop == 0 ? "1e-5, " : "1e-10, ") + reduction + ", " + minimisation;
         const Scene scene = enf(1e-3, ductile, reduction, minimisation, delta);
         return cases::watch(scene, w, where);
     };
@@ -75,16 +76,17 @@ struct Peel {
     bool unique;
 };
 
-// Plies of 40 mm x 2 mm with a notch of 10 mm in each interface, held at the right end. Bottom and top edge of the left end are
-// pulled apart and drawn along.
+// Plies of 40 mm x 2 mm with a notch of 10 mm in each interface, held at the right end. Bottom and top edge of the left
+// end are pulled apart and drawn along.
 Scene peel(const Peel& p, const char* reduction, const char* minimisation, double delta, double limit = 100000) {
     constexpr double length = 0.04, width = 0.006, ply = 0.002;
     const int d = p.dimension;
     const auto count = static_cast<std::size_t>(p.plies);
     const auto along = static_cast<std::int64_t>(std::lround(length / p.h));
     Scene scene(d, d == 2 ? std::vector<double>{length} : std::vector<double>{length, width},
-                d == 2 ? std::vector<std::int64_t>{along} : std::vector<std::int64_t>{along, 3}, std::vector<double>(count, ply),
-                std::vector<std::int64_t>(count, d == 2 ? 2 : 1), d == 2 ? DELAM_QUAD4 : DELAM_HEX8);
+                d == 2 ? std::vector<std::int64_t>{along} : std::vector<std::int64_t>{along, 3},
+                std::vector<double>(count, ply), std::vector<std::int64_t>(count, d == 2 ? 2 : 1),
+                d == 2 ? DELAM_QUAD4 : DELAM_HEX8);
     for (int i = 0; i + 1 < p.plies; ++i) scene.interface(i, i + 1);
     scene.begin();
     scene.elastic(-1, 70e9, 0.3);
@@ -101,7 +103,8 @@ Scene peel(const Peel& p, const char* reduction, const char* minimisation, doubl
     for (int k = 0; k < d; ++k) scene.hold(end, cases::unit(d, k));
     const auto load = scene.pattern("peel", {0.0, 1.0}, {0.0, 1.0});
     const double high = p.plies * ply;
-    const auto top = cases::nodes_where(scene, p.plies - 1, [&](const double* x) { return x[0] < 1e-6 && x[d - 1] > high - 1e-6; });
+    const auto top =
+        cases::nodes_where(scene, p.plies - 1, [&](const double* x) { return x[0] < 1e-6 && x[d - 1] > high - 1e-6; });
     const auto bottom = cases::nodes_where(scene, 0, [&](const double* x) { return x[0] < 1e-6 && x[d - 1] < 1e-6; });
     scene.drive(top, cases::unit(d, d - 1), load, std::vector<double>(top.size(), 0.6 * p.opening));
     scene.drive(bottom, cases::unit(d, d - 1), load, std::vector<double>(bottom.size(), -0.4 * p.opening));
@@ -126,7 +129,14 @@ const Peel peels[] = {
     {"Griffith", 2, 2, 1e-3, {1e13, 1e13, 100.0, 100.0, 100.0, 100.0}, 4e-4, 0.0, false},
     {"Griffith, mixed", 2, 2, 1e-3, {1e13, 1e13, 100.0, 200.0, 100.0, 200.0}, 4e-4, -6e-5, false},
     {"Griffith, block", 3, 2, 2e-3, {1e13, 1e13, 100.0, 100.0, 100.0, 100.0}, 4e-4, 3e-5, false},
-    {"nearly Griffith", 2, 2, 1e-3, {1e13, 1e13, 100.0, 100.0, 100.0 * (1 + 1e-9), 100.0 * (1 + 1e-9)}, 4e-4, 0.0, false},
+    {"nearly Griffith",
+     2,
+     2,
+     1e-3,
+     {1e13, 1e13, 100.0, 100.0, 100.0 * (1 + 1e-9), 100.0 * (1 + 1e-9)},
+     4e-4,
+     0.0,
+     false},
 };
 constexpr int peel_count = static_cast<int>(std::size(peels));
 
@@ -141,7 +151,9 @@ CASE_TEST(peeling) {
     w.delta = 1e-6;
     const auto march = [&](const char* reduction, const char* minimisation) {
         const Scene scene = peel(p, reduction, minimisation, w.delta);
-        return cases::watch(scene, w, std::string(p.name) + ", " + std::to_string(steps) + " steps, " + reduction + ", " + minimisation);
+        return cases::watch(
+            scene, w,
+            std::string(p.name) + ", " + std::to_string(steps) + " steps, " + reduction + ", " + minimisation);
     };
     const Watched plain = march("condensed", "alternate");
     const Watched fast = march("condensed", "accelerated");
@@ -163,7 +175,8 @@ CASE_TEST(brittle_enf) {
     cases::expect(fast.steps.back().dissipated > 0.0, where + ": nothing was damaged");
 }
 
-// From the same states the two ways end in critical points; their energies are printed, and neither is above the elastic answer.
+// From the same states the two ways end in critical points; their energies are printed, and neither is above the
+// elastic answer.
 CASE_TEST(brittle_steps_from_the_same_states) {
     const Scene fast = enf(1e-3, brittle, "condensed", "accelerated", 1e-5);
     const Scene plain = enf(1e-3, brittle, "condensed", "alternate", 1e-5);
@@ -187,7 +200,8 @@ CASE_TEST(brittle_steps_from_the_same_states) {
         const double difference = (increment[0] - increment[1]) / scale;
         (difference < -1e-7 ? lower : difference > 1e-7 ? higher : same) += 1;
         if (std::abs(difference) > 1e-7)
-            std::printf("brittle ENF, step to %.2f: accelerated %.9g, plain %.9g J/m\n", next, increment[0], increment[1]);
+            std::printf("brittle ENF, step to %.2f: accelerated %.9g, plain %.9g J/m\n", next, increment[0],
+                        increment[1]);
         march.step(next);
         march.commit();
         time = next;
@@ -207,8 +221,8 @@ CASE_TEST(counts_of_the_ductile_march) {
 
 // ---- where plain steps end -----------------------------------------------------------------------------------------
 
-// Six elements along, toughness a thousand times the onset: a pair comes to its onset just when the others have settled. The state that is
-// handed out must itself be a fixed point, not the one before it.
+// Six elements along, toughness a thousand times the onset: a pair comes to its onset just when the others have
+// settled. The state that is handed out must itself be a fixed point, not the one before it.
 CASE_TEST(end_of_plain_alternation) {
     const double k = loop == 0 ? 1e16 : 1e13;
     LawData law{k, k, 5e9 / k, 5e9 / k, 5e12 / k, 5e12 / k};
@@ -224,13 +238,15 @@ CASE_TEST(end_of_plain_alternation) {
     cases::watch(scene, w, "plain, k = " + std::to_string(k));
 }
 
-// Near a growing mode plain steps get longer; extrapolated, they point backwards, and what they heal or break is worth less energy than the
-// rounding of the whole. FETI, extrapolated, must come to an end all the same.
+// Near a growing mode plain steps get longer; extrapolated, they point backwards, and what they heal or break is worth
+// less energy than the rounding of the whole. FETI, extrapolated, must come to an end all the same.
 CASE_TEST(growing_modes_end) {
-    const LawData laws[] = {
-        {5734538321725559.0, 13778830381103614.0, 4.8624263356114658e-07, 7.3025404161363605e-07, 1.5554332683917959e-06, 2.4971317961320756e-06, 2.4369361701978729},
-        {49379597056.96315, 153109893828.73068, 0.070690370335389149, 0.047462206736868857, 0.070690370335389149, 0.047462206736868857, 1.5998473475606358},
-        {29172172683641416.0, 26187008091673360.0, 3.4512487763045782e-06, 4.8502278682681118e-06, 0.00026952607336923367, 0.00071176813629736195, 1.1370595918293536}};
+    const LawData laws[] = {{5734538321725559.0, 13778830381103614.0, 4.8624263356114658e-07, 7.3025404161363605e-07,
+                             1.5554332683917959e-06, 2.4971317961320756e-06, 2.4369361701978729},
+                            {49379597056.96315, 153109893828.73068, 0.070690370335389149, 0.047462206736868857,
+                             0.070690370335389149, 0.047462206736868857, 1.5998473475606358},
+                            {29172172683641416.0, 26187008091673360.0, 3.4512487763045782e-06, 4.8502278682681118e-06,
+                             0.00026952607336923367, 0.00071176813629736195, 1.1370595918293536}};
     Scene scene = cases::make_plies(2, 4, DELAM_QUAD4, "incompatible", laws[0], 30);
     for (int i = 0; i < 3; ++i) scene.law(i, laws[i]);
     scene.text("reduction", "feti");
@@ -257,12 +273,14 @@ CASE_TEST(few_alternations) {
     Solver solver(scene, 0.0);
     const reference::Exported exported(scene);
     const std::int32_t status = solver.advance(1.0);
-    cases::expect(status == DELAM_NOT_CONVERGED || (status == DELAM_OK && limit > 1.0), where + ": " + delam_status_name(status));
+    cases::expect(status == DELAM_NOT_CONVERGED || (status == DELAM_OK && limit > 1.0),
+                  where + ": " + delam_status_name(status));
     if (std::string(reduction) == "feti") cases::expect(status == DELAM_NOT_CONVERGED, where + ": converged");
     cases::expect_below(solver.value("am_iterations"), limit, where + ": alternations");
     const auto accepted = reference::accept(solver, exported);
     cases::expect_below(accepted.worst(), 1e-10, where + ": " + accepted.text());
-    cases::expect_below(solver.value("increment") - solver.value("upper"), 1e-9 * std::abs(solver.value("upper")), where + ": increment");
+    cases::expect_below(solver.value("increment") - solver.value("upper"), 1e-9 * std::abs(solver.value("upper")),
+                        where + ": increment");
     for (const double zeta : solver.field("adhesion")) cases::expect(zeta >= 0.0 && zeta <= 1.0, where + ": adhesion");
     solver.commit();
     // The march goes on from it.

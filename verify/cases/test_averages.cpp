@@ -17,7 +17,8 @@ constexpr double slope[3][3] = {{1e-3, 2e-3, -5e-4}, {3e-3, -2e-3, 1e-3}, {7e-4,
 reference::Scene affine(int dimension, std::int32_t cell, const char* plane) {
     const bool space = dimension == 3;
     reference::Scene scene(dimension, space ? std::vector<double>{2.0, 1.0} : std::vector<double>{2.0},
-                           space ? std::vector<std::int64_t>{2, 2} : std::vector<std::int64_t>{2}, {1.0, 0.5}, {1, 1}, cell);
+                           space ? std::vector<std::int64_t>{2, 2} : std::vector<std::int64_t>{2}, {1.0, 0.5}, {1, 1},
+                           cell);
     scene.interface(0, 1);
     scene.begin();
     scene.elastic(0, 10.0, 0.3);
@@ -25,16 +26,19 @@ reference::Scene affine(int dimension, std::int32_t cell, const char* plane) {
     if (!space) scene.require(delam_problem_set_plane(scene.problem(), plane), "delam_problem_set_plane");
     scene.bonded(0);
     const auto pattern = scene.pattern("stretch", {0.0, 1.0}, {0.0, 1.0});
-    const std::vector<std::int64_t> nodes = scene.find(0, std::vector<double>(static_cast<std::size_t>(dimension), -1.0),
-                                                       std::vector<double>(static_cast<std::size_t>(dimension), 9.0));
-    const std::vector<std::int64_t> upper = scene.find(1, std::vector<double>(static_cast<std::size_t>(dimension), -1.0),
-                                                       std::vector<double>(static_cast<std::size_t>(dimension), 9.0));
+    const std::vector<std::int64_t> nodes =
+        scene.find(0, std::vector<double>(static_cast<std::size_t>(dimension), -1.0),
+                   std::vector<double>(static_cast<std::size_t>(dimension), 9.0));
+    const std::vector<std::int64_t> upper =
+        scene.find(1, std::vector<double>(static_cast<std::size_t>(dimension), -1.0),
+                   std::vector<double>(static_cast<std::size_t>(dimension), 9.0));
     for (int i = 0; i < dimension; ++i) {
         std::vector<double> direction(static_cast<std::size_t>(dimension), 0.0);
         direction[static_cast<std::size_t>(i)] = 1.0;
         for (const auto* list : {&nodes, &upper})
             for (const std::int64_t node : *list) {
-                if (list == &upper && std::abs(scene.coordinate(node, dimension - 1) - 1.0) < 1e-9) continue;  // bonded to the ones below
+                if (list == &upper && std::abs(scene.coordinate(node, dimension - 1) - 1.0) < 1e-9)
+                    continue;  // bonded to the ones below
                 double u = 0.0;
                 for (int j = 0; j < dimension; ++j) u += slope[i][j] * scene.coordinate(node, j);
                 scene.drive({node}, direction, pattern, {u});
@@ -46,17 +50,26 @@ reference::Scene affine(int dimension, std::int32_t cell, const char* plane) {
 std::int64_t scene_pattern(const reference::Scene& scene, const char* name) {
     const double times[] = {0.0, 1.0};
     std::int64_t pattern = 0;
-    scene.require(delam_problem_add_pattern(scene.problem(), name, 2, times, times, &pattern), "delam_problem_add_pattern");
+    scene.require(delam_problem_add_pattern(scene.problem(), name, 2, times, times, &pattern),
+                  "delam_problem_add_pattern");
     return pattern;
 }
 
 }  // namespace
 
-// Affine displacements: averages and rotations are those of the gradient, stresses those of Hooke's law, in every body and in all.
+// Affine displacements: averages and rotations are those of the gradient, stresses those of Hooke's law, in every body
+// and in all.
 CASE_TEST(affine_averages) {
-    struct { int dimension; std::int32_t cell; const char* plane; } const of[] = {
-        {2, DELAM_QUAD4, "plane-strain"}, {2, DELAM_QUAD8, "plane-stress"}, {2, DELAM_TRI6, "plane-stress"},
-        {3, DELAM_HEX8, ""}, {3, DELAM_TET10, ""}, {3, DELAM_HEX20, ""}};
+    struct {
+        int dimension;
+        std::int32_t cell;
+        const char* plane;
+    } const of[] = {{2, DELAM_QUAD4, "plane-strain"},
+                    {2, DELAM_QUAD8, "plane-stress"},
+                    {2, DELAM_TRI6, "plane-stress"},
+                    {3, DELAM_HEX8, ""},
+                    {3, DELAM_TET10, ""},
+                    {3, DELAM_HEX20, ""}};
     const int dim = of[loop].dimension;
     const reference::Scene scene = affine(dim, of[loop].cell, of[loop].plane);
     reference::Solver solver(scene, 0.0);
@@ -65,13 +78,15 @@ CASE_TEST(affine_averages) {
     std::array<double, 6> sum{};
     double all = 0.0;
     for (std::int32_t body = 0; body < 2; ++body) {
-        const double young = body == 0 ? 10.0 : 20.0, nu = body == 0 ? 0.3 : 0.2, mu = young / (2 * (1 + nu)), lambda = young * nu / ((1 + nu) * (1 - 2 * nu));
+        const double young = body == 0 ? 10.0 : 20.0, nu = body == 0 ? 0.3 : 0.2, mu = young / (2 * (1 + nu)),
+                     lambda = young * nu / ((1 + nu) * (1 - 2 * nu));
         std::array<double, 6> exact{g[0][0], g[1][1], 0.0, g[0][1] + g[1][0], 0.0, 0.0};
         if (dim == 3) exact = {g[0][0], g[1][1], g[2][2], g[0][1] + g[1][0], g[1][2] + g[2][1], g[0][2] + g[2][0]};
         if (of[loop].plane == std::string("plane-stress")) exact[2] = -nu / (1 - nu) * (g[0][0] + g[1][1]);
         std::array<double, 6> strain{}, stress{};
         double volume = 0.0;
-        scene.require(delam_solver_average(solver.get(), body, &volume, strain.data(), stress.data()), "delam_solver_average");
+        scene.require(delam_solver_average(solver.get(), body, &volume, strain.data(), stress.data()),
+                      "delam_solver_average");
         expect_near(volume, body == 0 ? 2.0 : 1.0, 1e-12, 1.0, "volume");
         for (std::size_t i = 0; i < 6; ++i) {
             expect_near(strain[i], exact[i], 1e-12, 1.0, "strain");
@@ -89,15 +104,20 @@ CASE_TEST(affine_averages) {
     const double rotation[] = {0.5 * (g[2][1] - g[1][2]), 0.5 * (g[0][2] - g[2][0]), 0.5 * (g[1][0] - g[0][1])};
     const std::vector<double> field = solver.field("rotation");
     const std::size_t columns = dim == 2 ? 1 : 3;
-    for (std::size_t i = 0; i < field.size(); ++i) expect_near(field[i], rotation[dim == 2 ? 2 : i % columns], 1e-12, 1.0, "rotation");
-    expect_near(solver.value("rotation_max"), dim == 2 ? std::abs(rotation[2]) : std::hypot(rotation[0], rotation[1], rotation[2]), 1e-12, 1.0, "rotation_max");
+    for (std::size_t i = 0; i < field.size(); ++i)
+        expect_near(field[i], rotation[dim == 2 ? 2 : i % columns], 1e-12, 1.0, "rotation");
+    expect_near(solver.value("rotation_max"),
+                dim == 2 ? std::abs(rotation[2]) : std::hypot(rotation[0], rotation[1], rotation[2]), 1e-12, 1.0,
+                "rotation_max");
 }
 
-// A prescribed strain in a body that is held: the strain stays that of the displacements, the stress lacks C e*; out of the plane likewise.
+// A prescribed strain in a body that is held: the strain stays that of the displacements, the stress lacks C e*; out of
+// the plane likewise.
 CASE_TEST(eigenstrains) {
     const bool stress = loop == 1;
     const int dim = loop == 2 ? 3 : 2;
-    const reference::Scene scene = affine(dim, dim == 3 ? DELAM_HEX8 : DELAM_QUAD4, stress ? "plane-stress" : "plane-strain");
+    const reference::Scene scene =
+        affine(dim, dim == 3 ? DELAM_HEX8 : DELAM_QUAD4, stress ? "plane-stress" : "plane-strain");
     const double warm = 2e-3, strain[] = {warm, warm, warm, 0.0, 0.0, 0.0};
     const auto heat = scene_pattern(scene, "heat");
     scene.require(delam_problem_add_eigenstrain(scene.problem(), heat, 0, strain), "delam_problem_add_eigenstrain");
@@ -105,7 +125,8 @@ CASE_TEST(eigenstrains) {
     reference::Solver solver(scene, 0.0);
     solver.step(1.0);
     scene.require(delam_solver_average(solver.get(), 0, nullptr, all.data(), with.data()), "delam_solver_average");
-    const reference::Scene plain = affine(dim, dim == 3 ? DELAM_HEX8 : DELAM_QUAD4, stress ? "plane-stress" : "plane-strain");
+    const reference::Scene plain =
+        affine(dim, dim == 3 ? DELAM_HEX8 : DELAM_QUAD4, stress ? "plane-stress" : "plane-strain");
     reference::Solver other(plain, 0.0);
     other.step(1.0);
     scene.require(delam_solver_average(other.get(), 0, nullptr, cold.data(), without.data()), "delam_solver_average");
@@ -125,7 +146,8 @@ CASE_TEST(warnings) {
     const Warnings heard(scene);
     reference::Solver solver(scene, 0.0);
     const auto count = [&](const char* word) {
-        return std::count_if(heard.lines.begin(), heard.lines.end(), [&](const std::string& line) { return line.find(word) != std::string::npos; });
+        return std::count_if(heard.lines.begin(), heard.lines.end(),
+                             [&](const std::string& line) { return line.find(word) != std::string::npos; });
     };
     for (int k = 1; k <= 40; ++k) {
         expect(solver.advance(enf_end_time * k / 40) >= 0, "step");
@@ -137,7 +159,8 @@ CASE_TEST(warnings) {
     expect(count("rad") == 1, "a warning of rotations, once");
     double length = 0.0, spacing = 0.0;
     scene.require(delam_problem_process_zone(scene.problem(), 0, &length, &spacing), "delam_problem_process_zone");
-    const double modulus = 75e9 / 0.91, thick = brittle ? modulus * 25.0 / (50e6 * 50e6) : modulus * 250.0 / (5e6 * 5e6);
+    const double modulus = 75e9 / 0.91,
+                 thick = brittle ? modulus * 25.0 / (50e6 * 50e6) : modulus * 250.0 / (5e6 * 5e6);
     const double exact = brittle ? thick : std::pow(thick, 0.25) * std::pow(3e-3, 0.75);
     expect_near(length, exact, 1e-9, exact, "predicted process zone");
     expect_near(spacing, 1e-3, 0.01, 1e-3, "spacing of the pairs");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Returns on the two-sided estimate: what they achieve, that the history they leave is one history, and that it can be
 // rolled back, saved and cut like any other.
-#include "flexure.hpp"
 #include "energetic_scenes.hpp"
+#include "flexure.hpp"
 #include "mmf.hpp"
 #include "small_march.hpp"
 

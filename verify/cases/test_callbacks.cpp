@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From inside a callback nothing can be done to the island that is at work: calls are refused, what is destroyed lives to the end of the
-// call, and the call itself ends with the digits that it would have had. Another island may be used there.
+// From inside a callback nothing can be done to the island that is at work: calls are refused, what is destroyed lives
+// to the end of the call, and the call itself ends with the digits that it would have had. Another island may be used
+// there.
 #include <functional>
 #include <string>
 #include <vector>
@@ -22,7 +23,9 @@ struct Watch {
         if (++w.looks == 3) w.act();
         return 0;
     }
-    void listen(const Scene& scene) { scene.require(delam_context_set_progress(scene.context(), look, this), "delam_context_set_progress"); }
+    void listen(const Scene& scene) {
+        scene.require(delam_context_set_progress(scene.context(), look, this), "delam_context_set_progress");
+    }
 };
 
 // What a callback may think of; every one of them is refused.
@@ -31,7 +34,8 @@ void try_everything(const Scene& scene, delam_solver* solver) {
     const auto refused = [&](std::int32_t status, const char* call) {
         ++asked;
         cases::expect(status == DELAM_ERROR_STATE, std::string(call) + ": " + delam_status_name(status));
-        cases::expect(std::string(delam_context_message(scene.context())).find("callback") != std::string::npos, "no message");
+        cases::expect(std::string(delam_context_message(scene.context())).find("callback") != std::string::npos,
+                      "no message");
     };
     double value = 0.0;
     std::int64_t count = 0;
@@ -85,9 +89,12 @@ CASE_TEST(in_the_log) {
     Scene scene = cases::small_enf(0);
     Log log{&scene};
     scene.require(delam_context_set_log(scene.context(), Log::line, &log), "delam_context_set_log");
-    cases::expect(delam_problem_set_number(scene.problem(), "no_such_option", 1.0) == DELAM_ERROR_ARGUMENT, "an option that is none");
-    cases::expect(log.lines == 1 && log.status == DELAM_ERROR_STATE, std::to_string(log.lines) + " lines, " + delam_status_name(log.status));
-    cases::expect(std::string(delam_context_message(scene.context())).find("no_such_option") != std::string::npos, "the message is another one's");
+    cases::expect(delam_problem_set_number(scene.problem(), "no_such_option", 1.0) == DELAM_ERROR_ARGUMENT,
+                  "an option that is none");
+    cases::expect(log.lines == 1 && log.status == DELAM_ERROR_STATE,
+                  std::to_string(log.lines) + " lines, " + delam_status_name(log.status));
+    cases::expect(std::string(delam_context_message(scene.context())).find("no_such_option") != std::string::npos,
+                  "the message is another one's");
     scene.require(delam_context_set_log(scene.context(), nullptr, nullptr), "delam_context_set_log");
     scene.number("damage_tolerance", 1e-7);
 }
@@ -100,10 +107,12 @@ struct Asking {
     static std::int32_t adhesion(double mixity, double driving, double* zeta, double* slope, void* user) {
         auto& self = *static_cast<Asking*>(user);
         double value = 0.0;
-        if (self.solver != nullptr) ++(delam_solver_value(self.solver, "time", &value) == DELAM_ERROR_STATE ? self.refused : self.other);
+        if (self.solver != nullptr)
+            ++(delam_solver_value(self.solver, "time", &value) == DELAM_ERROR_STATE ? self.refused : self.other);
         return laws::adhesion(mixity, driving, zeta, slope, &self.law);
     }
-    static std::int32_t dissipation(double mixity, double zeta, double* g, double* slope, double* mixity_slope, void* user) {
+    static std::int32_t dissipation(double mixity, double zeta, double* g, double* slope, double* mixity_slope,
+                                    void* user) {
         return laws::dissipation(mixity, zeta, g, slope, mixity_slope, &static_cast<Asking*>(user)->law);
     }
 };
@@ -113,21 +122,26 @@ CASE_TEST(in_a_law) {
     const Scene scene = cases::small_enf(0);
     Asking asking;
     delam_law* law = nullptr;
-    scene.require(delam_law_create_host(scene.context(), "asking", Asking::adhesion, Asking::dissipation, &asking, &law), "delam_law_create_host");
+    scene.require(
+        delam_law_create_host(scene.context(), "asking", Asking::adhesion, Asking::dissipation, &asking, &law),
+        "delam_law_create_host");
     const reference::Law owned(law);
-    for (const char* key : {"normal_stiffness", "tangential_stiffness"}) scene.require(delam_law_set(law, key, 1e14), key);
+    for (const char* key : {"normal_stiffness", "tangential_stiffness"})
+        scene.require(delam_law_set(law, key, 1e14), key);
     scene.require(delam_problem_set_law(scene.problem(), 0, law), "delam_problem_set_law");
     Solver solver(scene, 0.0);
     asking.solver = solver.get();
     cases::walk(solver, 1, 6);
-    cases::expect(asking.refused > 0 && asking.other == 0, std::to_string(asking.refused) + " refused, " + std::to_string(asking.other) + " not");
+    cases::expect(asking.refused > 0 && asking.other == 0,
+                  std::to_string(asking.refused) + " refused, " + std::to_string(asking.other) + " not");
 }
 
 // A law of another context, which is not at work, ended by its own callback while a problem takes it.
 struct Ending {
     laws::Bilinear law;
     delam_law* handle = nullptr;
-    static std::int32_t dissipation(double mixity, double zeta, double* g, double* slope, double* mixity_slope, void* user) {
+    static std::int32_t dissipation(double mixity, double zeta, double* g, double* slope, double* mixity_slope,
+                                    void* user) {
         auto& self = *static_cast<Ending*>(user);
         delam_law_destroy(&self.handle);
         return laws::dissipation(mixity, zeta, g, slope, mixity_slope, &self.law);
@@ -141,9 +155,11 @@ CASE_TEST(law_that_ends_itself) {
     (void)loop;
     const Scene scene = cases::small_enf(0), elsewhere = cases::small_enf(0);
     Ending ending;
-    scene.require(delam_law_create_host(elsewhere.context(), "ending", Ending::adhesion, Ending::dissipation, &ending, &ending.handle),
+    scene.require(delam_law_create_host(elsewhere.context(), "ending", Ending::adhesion, Ending::dissipation, &ending,
+                                        &ending.handle),
                   "delam_law_create_host");
-    for (const char* key : {"normal_stiffness", "tangential_stiffness"}) scene.require(delam_law_set(ending.handle, key, 1e14), key);
+    for (const char* key : {"normal_stiffness", "tangential_stiffness"})
+        scene.require(delam_law_set(ending.handle, key, 1e14), key);
     scene.require(delam_problem_set_law(scene.problem(), 0, ending.handle), "delam_problem_set_law");
     cases::expect(ending.handle == nullptr, "it has not ended");
     Solver solver(scene, 0.0);
@@ -167,7 +183,8 @@ CASE_TEST(destroyed_at_work) {
             delam_law_destroy(&law);
             cases::expect(solver == nullptr && law == nullptr, "handles are not NULL");
             double value = 0.0;
-            cases::expect(delam_solver_value(at_work, "time", &value) == DELAM_ERROR_HANDLE, "an ended handle was taken");
+            cases::expect(delam_solver_value(at_work, "time", &value) == DELAM_ERROR_HANDLE,
+                          "an ended handle was taken");
         };
         watch.listen(scene);
         scene.require(delam_solver_advance(solver, cases::small_time(6)), "delam_solver_advance");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every call that goes over all cells, nodes or faces looks up to the host every few hundred of them, so that what a cancel waits for does
-// not grow with the mesh; one that is stopped leaves everything as it was. Looks are counted, no clock is read.
+// Every call that goes over all cells, nodes or faces looks up to the host every few hundred of them, so that what a
+// cancel waits for does not grow with the mesh; one that is stopped leaves everything as it was. Looks are counted, no
+// clock is read.
 #include <functional>
 #include <vector>
 
@@ -67,10 +68,12 @@ std::string print_of(const delam_mesh* mesh) {
     expect(delam_mesh_node_origins(mesh, nodes, origins.data()) == DELAM_OK, "origins");
     expect(delam_mesh_cells(mesh, nullptr, of_cells.data(), nullptr, 0, nullptr, &entries) == DELAM_OK, "cells");
     std::vector<std::int64_t> connectivity(at(entries));
-    expect(delam_mesh_cells(mesh, nullptr, nullptr, nullptr, entries, connectivity.data(), nullptr) == DELAM_OK, "cells");
+    expect(delam_mesh_cells(mesh, nullptr, nullptr, nullptr, entries, connectivity.data(), nullptr) == DELAM_OK,
+           "cells");
     expect(delam_mesh_node_ties(mesh, &ties, nullptr, nullptr, nullptr, nullptr, nullptr) == DELAM_OK, "ties");
     text += " " + std::to_string(ties) + " ";
-    append(text, places), append(text, labels), append(text, of_cells), append(text, origins), append(text, connectivity);
+    append(text, places), append(text, labels), append(text, of_cells), append(text, origins),
+        append(text, connectivity);
     for (std::int64_t i = 0; i < interfaces; ++i) {
         std::int64_t pairs = 0;
         delam_mesh_interface_size(mesh, i, nullptr, nullptr, &pairs, nullptr, nullptr);
@@ -85,7 +88,8 @@ std::string print_of(const delam_problem* problem) {
     char hash[17] = {};
     std::int64_t rows = 0, entries = 0;
     expect(delam_problem_hash(problem, hash) == DELAM_OK, "hash");
-    expect(delam_problem_constraints(problem, &rows, &entries, nullptr, nullptr, nullptr, nullptr, nullptr) == DELAM_OK, "constraints");
+    expect(delam_problem_constraints(problem, &rows, &entries, nullptr, nullptr, nullptr, nullptr, nullptr) == DELAM_OK,
+           "constraints");
     return std::string(hash) + " " + std::to_string(rows) + " " + std::to_string(entries);
 }
 
@@ -107,14 +111,18 @@ public:
         expect(delam_context_set_progress(h.context, Watch::look, &watch) == DELAM_OK, "a callback");
     }
     void require(std::int32_t status, const char* name) const {
-        expect(status == DELAM_OK, std::string(name) + ": " + delam_status_name(status) + ": " + delam_context_message(h.context));
+        expect(status == DELAM_OK,
+               std::string(name) + ": " + delam_status_name(status) + ": " + delam_context_message(h.context));
     }
-    // Stopped at some looks, first by first, the call changes nothing; in the end it goes through, with a look for every 256 of `passes`.
-    void call(const char* name, std::int64_t passes, const std::function<std::string()>& print, const std::function<std::int32_t()>& call) {
+    // Stopped at some looks, first by first, the call changes nothing; in the end it goes through, with a look for
+    // every 256 of `passes`.
+    void call(const char* name, std::int64_t passes, const std::function<std::string()>& print,
+              const std::function<std::int32_t()>& call) {
         stopped(name, passes, print, call, false);
     }
     // The same of a call that reads: what the callback returns is not heeded.
-    void read(const char* name, std::int64_t passes, const std::function<std::string()>& print, const std::function<std::int32_t()>& call) {
+    void read(const char* name, std::int64_t passes, const std::function<std::string()>& print,
+              const std::function<std::int32_t()>& call) {
         watch_.by_request = false;
         watch_.looks = 0;
         watch_.stop_at = 1;
@@ -125,8 +133,8 @@ public:
     }
     // Makes an object forget what it has worked out for a call.
     std::function<void()> again;
-    void stopped(const char* name, std::int64_t passes, const std::function<std::string()>& print, const std::function<std::int32_t()>& call,
-                 bool reads) {
+    void stopped(const char* name, std::int64_t passes, const std::function<std::string()>& print,
+                 const std::function<std::int32_t()>& call, bool reads) {
         const std::string before = print();
         std::int64_t stopped = 0;
         for (std::int64_t stop = 1;; stop = stop < 4 ? stop + 1 : stop + stop / 2) {
@@ -141,10 +149,12 @@ public:
             }
             ++stopped;
             const std::string where = std::string(name) + " stopped at look " + std::to_string(stop);
-            expect(status == DELAM_CANCELLED, where + ": " + delam_status_name(status) + ": " + delam_context_message(h.context));
+            expect(status == DELAM_CANCELLED,
+                   where + ": " + delam_status_name(status) + ": " + delam_context_message(h.context));
             expect(print() == before, where + ": something has changed");
         }
-        const std::string count = std::string(name) + ": " + std::to_string(watch_.looks) + " looks, " + std::to_string(passes) + " passes";
+        const std::string count =
+            std::string(name) + ": " + std::to_string(watch_.looks) + " looks, " + std::to_string(passes) + " passes";
         expect(stopped > 0 && watch_.looks >= passes / 256 && !watch_.nameless, count);
     }
     Handles h;
@@ -169,13 +179,17 @@ Block make_block(Host& host, std::int32_t dimension) {
     b.dimension = dimension;
     b.type = dimension == 2 ? DELAM_QUAD4 : DELAM_HEX8;
     b.lengths = {4.0, 4.0};
-    const std::int64_t divisions[] = {dimension == 2 ? 128 : 24, 24}, layers[] = {dimension == 2 ? 16 : 6, dimension == 2 ? 16 : 6};
+    const std::int64_t divisions[] = {dimension == 2 ? 128 : 24, 24},
+                       layers[] = {dimension == 2 ? 16 : 6, dimension == 2 ? 16 : 6};
     const double thickness[] = {1.0, 1.0};
     delam_mesh*& mesh = host.h.other;
     std::int64_t cells = dimension == 2 ? 128 * 32 : 24 * 24 * 12, entries = 0;
-    host.call("delam_mesh_create_layers", cells, [&] { return print_of(mesh); }, [&] {
-        return delam_mesh_create_layers(host.h.context, dimension, b.lengths.data(), divisions, 2, thickness, layers, b.type, &mesh);
-    });
+    host.call(
+        "delam_mesh_create_layers", cells, [&] { return print_of(mesh); },
+        [&] {
+            return delam_mesh_create_layers(host.h.context, dimension, b.lengths.data(), divisions, 2, thickness,
+                                            layers, b.type, &mesh);
+        });
     delam_mesh_size(mesh, nullptr, &b.node_count, &b.cells, nullptr, nullptr);
     expect(b.cells == cells, "cells");
     b.nodes.resize(at(b.node_count * dimension));
@@ -198,8 +212,11 @@ void build_meshes(Host& host, const Block& b) {
     const auto print = [&] { return print_of(mesh); };
     const auto fresh = [&](bool with_cells) {
         delam_mesh_destroy(&mesh);
-        host.require(delam_mesh_create(host.h.context, b.dimension, b.node_count, b.nodes.data(), &mesh), "delam_mesh_create");
-        if (with_cells) host.require(delam_mesh_add_cells(mesh, b.type, b.cells, b.connectivity.data(), b.labels.data(), 0), "cells");
+        host.require(delam_mesh_create(host.h.context, b.dimension, b.node_count, b.nodes.data(), &mesh),
+                     "delam_mesh_create");
+        if (with_cells)
+            host.require(delam_mesh_add_cells(mesh, b.type, b.cells, b.connectivity.data(), b.labels.data(), 0),
+                         "cells");
     };
     std::int64_t index = -1;
     std::vector<std::int64_t> bottom;
@@ -212,15 +229,17 @@ void build_meshes(Host& host, const Block& b) {
     fresh(false);
     std::vector<std::int32_t> stripes(at(b.cells));
     for (std::int64_t c = 0; c < b.cells; ++c) stripes[at(c)] = 2 * b.labels[at(c)] + static_cast<std::int32_t>(c % 2);
-    host.call("delam_mesh_add_conforming_cells", 2 * b.cells, print,
-              [&] { return delam_mesh_add_conforming_cells(mesh, b.type, b.cells, b.connectivity.data(), stripes.data(), 0); });
-    host.call("delam_mesh_add_all_interfaces", b.cells, print, [&] { return delam_mesh_add_all_interfaces(mesh, 0.0, &index); });
+    host.call("delam_mesh_add_conforming_cells", 2 * b.cells, print, [&] {
+        return delam_mesh_add_conforming_cells(mesh, b.type, b.cells, b.connectivity.data(), stripes.data(), 0);
+    });
+    host.call("delam_mesh_add_all_interfaces", b.cells, print,
+              [&] { return delam_mesh_add_all_interfaces(mesh, 0.0, &index); });
     fresh(true);
     host.call("delam_mesh_add_projected_interface", b.cells, print,
               [&] { return delam_mesh_add_projected_interface(mesh, 0, 1, 0.0, &index); });
     host.call("delam_mesh_add_obstacle", b.cells / 2, print, [&] {
-        return delam_mesh_add_obstacle(mesh, static_cast<std::int64_t>(bottom.size()), bottom.data(), normals.data(), nullptr, b.node_count - 1, 0,
-                                       &index);
+        return delam_mesh_add_obstacle(mesh, static_cast<std::int64_t>(bottom.size()), bottom.data(), normals.data(),
+                                       nullptr, b.node_count - 1, 0, &index);
     });
     fresh(false);
     const auto count = static_cast<std::int64_t>(b.body[0].size());
@@ -229,18 +248,21 @@ void build_meshes(Host& host, const Block& b) {
                   [&] { return delam_mesh_add_host_body(mesh, body, count, b.body[body].data(), 0); });
     const std::vector<double> ones(at(count * b.dimension), 1.0);
     host.call("delam_mesh_add_pairs", count, print, [&] {
-        return delam_mesh_add_pairs(mesh, 0, 1, count, b.body[0].data(), b.body[1].data(), ones.data(), ones.data(), 0, 0, nullptr, 0, &index);
+        return delam_mesh_add_pairs(mesh, 0, 1, count, b.body[0].data(), b.body[1].data(), ones.data(), ones.data(), 0,
+                                    0, nullptr, 0, &index);
     });
     fresh(false);
     host.call("delam_mesh_add_cells", b.cells, print,
               [&] { return delam_mesh_add_cells(mesh, b.type, b.cells, b.connectivity.data(), b.labels.data(), 0); });
-    host.call("delam_mesh_add_interface", b.cells, print, [&] { return delam_mesh_add_interface(mesh, 0, 1, 0.0, &index); });
+    host.call("delam_mesh_add_interface", b.cells, print,
+              [&] { return delam_mesh_add_interface(mesh, 0, 1, 0.0, &index); });
     const std::vector<double> lower(3, 0.0), upper{4.0, b.dimension == 2 ? 0.0 : 4.0, 0.0};
     std::vector<double> weights(at(b.node_count)), down(3, 0.0);
     std::vector<std::int64_t> nodes(at(b.node_count));
     down[at(b.dimension) - 1] = -1.0;
     host.read("delam_mesh_find_patch", b.cells, nothing, [&] {
-        return delam_mesh_find_patch(mesh, -1, lower.data(), upper.data(), down.data(), b.node_count, nodes.data(), weights.data(), &index);
+        return delam_mesh_find_patch(mesh, -1, lower.data(), upper.data(), down.data(), b.node_count, nodes.data(),
+                                     weights.data(), &index);
     });
 }
 
@@ -267,13 +289,18 @@ void build_problems(Host& host, const Block& b) {
     }
     host.call("delam_problem_set_orientation", b.cells, print,
               [&] { return delam_problem_set_orientation(problem, -1, b.cells, cells.data(), axes.data(), 0); });
-    host.call("delam_problem_add_periodic", count, print, [&] { return delam_problem_add_periodic(problem, 1, period.data(), &control, 0.0, 0); });
-    host.call("delam_problem_prescribe_nodes", count, print,
-              [&] { return delam_problem_prescribe_nodes(problem, count, all.data(), x.data(), 1, &displacement, ones.data(), 0); });
-    host.call("delam_problem_prescribe_mean", count, print,
-              [&] { return delam_problem_prescribe_mean(problem, count, all.data(), ones.data(), x.data(), 1, &displacement, ones.data(), 0); });
-    host.call("delam_problem_add_equation", count, print,
-              [&] { return delam_problem_add_equation(problem, count, all.data(), ones.data(), 1, &displacement, ones.data(), 0); });
+    host.call("delam_problem_add_periodic", count, print,
+              [&] { return delam_problem_add_periodic(problem, 1, period.data(), &control, 0.0, 0); });
+    host.call("delam_problem_prescribe_nodes", count, print, [&] {
+        return delam_problem_prescribe_nodes(problem, count, all.data(), x.data(), 1, &displacement, ones.data(), 0);
+    });
+    host.call("delam_problem_prescribe_mean", count, print, [&] {
+        return delam_problem_prescribe_mean(problem, count, all.data(), ones.data(), x.data(), 1, &displacement,
+                                            ones.data(), 0);
+    });
+    host.call("delam_problem_add_equation", count, print, [&] {
+        return delam_problem_add_equation(problem, count, all.data(), ones.data(), 1, &displacement, ones.data(), 0);
+    });
     host.call("delam_problem_add_forces", count, print,
               [&] { return delam_problem_add_forces(problem, force, count, all.data(), ones.data(), 0); });
     std::int64_t rows = 0, entries = 0, patterns = 0;
@@ -281,11 +308,13 @@ void build_problems(Host& host, const Block& b) {
     double energy[9] = {};
     std::vector<double> forces(at(b.node_count * b.dimension));
     host.read("delam_problem_hash", b.cells, nothing, [&] { return delam_problem_hash(problem, hash); });
-    host.read("delam_problem_constraints", count, nothing,
-              [&] { return delam_problem_constraints(problem, &rows, &entries, &patterns, nullptr, nullptr, nullptr, nullptr); });
+    host.read("delam_problem_constraints", count, nothing, [&] {
+        return delam_problem_constraints(problem, &rows, &entries, &patterns, nullptr, nullptr, nullptr, nullptr);
+    });
     host.read("delam_problem_forces", b.cells, nothing,
               [&] { return delam_problem_forces(problem, expansion, b.node_count * b.dimension, forces.data()); });
-    host.read("delam_problem_eigenstrain_energy", b.cells, nothing, [&] { return delam_problem_eigenstrain_energy(problem, 9, energy); });
+    host.read("delam_problem_eigenstrain_energy", b.cells, nothing,
+              [&] { return delam_problem_eigenstrain_energy(problem, 9, energy); });
 }
 
 // A scene of two layers, held at the bottom, drawn at the top.
@@ -298,8 +327,12 @@ void make_problem(Host& host, const Block& b, const char* reduction) {
     host.require(delam_problem_create(h.context, h.mesh, &h.problem), "delam_problem_create");
     host.require(delam_problem_set_elastic(h.problem, -1, 1000.0, 0.3), "delam_problem_set_elastic");
     host.require(delam_law_create(h.context, "piecewise-linear", &h.law), "delam_law_create");
-    for (const auto& [key, value] : {std::pair{"normal_stiffness", 1e5}, {"tangential_stiffness", 1e5}, {"normal_onset", 1.0},
-                                     {"tangential_onset", 1.0}, {"normal_toughness", 2.0}, {"tangential_toughness", 2.0}})
+    for (const auto& [key, value] : {std::pair{"normal_stiffness", 1e5},
+                                     {"tangential_stiffness", 1e5},
+                                     {"normal_onset", 1.0},
+                                     {"tangential_onset", 1.0},
+                                     {"normal_toughness", 2.0},
+                                     {"tangential_toughness", 2.0}})
         host.require(delam_law_set(h.law, key, value), key);
     host.require(delam_problem_set_law(h.problem, 0, h.law), "delam_problem_set_law");
     std::vector<std::int64_t> bottom, top;
@@ -311,16 +344,18 @@ void make_problem(Host& host, const Block& b, const char* reduction) {
     for (int d = 0; d < b.dimension; ++d) {
         std::vector<double> axis(3, 0.0);
         axis[at(d)] = 1.0;
-        host.require(delam_problem_prescribe_nodes(h.problem, static_cast<std::int64_t>(bottom.size()), bottom.data(), axis.data(), 0, nullptr,
-                                                   nullptr, 0), "support");
+        host.require(delam_problem_prescribe_nodes(h.problem, static_cast<std::int64_t>(bottom.size()), bottom.data(),
+                                                   axis.data(), 0, nullptr, nullptr, 0),
+                     "support");
     }
     const double times[] = {0.0, 1.0}, factors[] = {0.0, 1e-3};
     std::int64_t pattern = -1;
     std::vector<double> axis(3, 0.0), ones(top.size(), 1.0);
     axis[at(b.dimension) - 1] = 1.0;
     host.require(delam_problem_add_pattern(h.problem, "u", 2, times, factors, &pattern), "pattern");
-    host.require(delam_problem_prescribe_nodes(h.problem, static_cast<std::int64_t>(top.size()), top.data(), axis.data(), 1, &pattern, ones.data(),
-                                               0), "load");
+    host.require(delam_problem_prescribe_nodes(h.problem, static_cast<std::int64_t>(top.size()), top.data(),
+                                               axis.data(), 1, &pattern, ones.data(), 0),
+                 "load");
     host.require(delam_problem_set_text(h.problem, "reduction", reduction), "reduction");
     host.require(delam_problem_set_number(h.problem, "subdomains", 4.0), "subdomains");
 }
@@ -331,13 +366,14 @@ void read_problem(Host& host, const Block& b) {
     std::int64_t rows = 0;
     double length = 0.0;
     host.again = [&] {  // the matrix that was asked for last is kept
-        host.require(delam_problem_body_matrix(h.problem, 1, &rows, nullptr, nullptr, nullptr, nullptr), "delam_problem_body_matrix");
+        host.require(delam_problem_body_matrix(h.problem, 1, &rows, nullptr, nullptr, nullptr, nullptr),
+                     "delam_problem_body_matrix");
     };
     host.call("delam_problem_check", b.cells, print, [&] { return delam_problem_check(h.problem); });
-    host.read("delam_problem_process_zone", b.cells, print, [&] { return delam_problem_process_zone(h.problem, 0, &length, nullptr); });
-    host.read("delam_problem_body_matrix", b.cells / 2, print, [&] {
-        return delam_problem_body_matrix(h.problem, 0, &rows, nullptr, nullptr, nullptr, nullptr);
-    });
+    host.read("delam_problem_process_zone", b.cells, print,
+              [&] { return delam_problem_process_zone(h.problem, 0, &length, nullptr); });
+    host.read("delam_problem_body_matrix", b.cells / 2, print,
+              [&] { return delam_problem_body_matrix(h.problem, 0, &rows, nullptr, nullptr, nullptr, nullptr); });
 }
 
 void read_solver(Host& host, const Block& b) {
@@ -369,10 +405,12 @@ void read_solver(Host& host, const Block& b) {
     if (delam_solver_condensed_size(solver, &unknowns, nullptr) == DELAM_OK) {
         std::vector<double> stiffness(at(unknowns * unknowns));
         host.read("delam_solver_condensed", unknowns * (unknowns / 128), print, [&] {
-            return delam_solver_condensed(solver, unknowns * unknowns, stiffness.data(), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr);
+            return delam_solver_condensed(solver, unknowns * unknowns, stiffness.data(), nullptr, nullptr, nullptr,
+                                          nullptr, nullptr, nullptr);
         });
     }
-    host.read("delam_solver_average", b.cells, print, [&] { return delam_solver_average(solver, -1, &value, nullptr, nullptr); });
+    host.read("delam_solver_average", b.cells, print,
+              [&] { return delam_solver_average(solver, -1, &value, nullptr, nullptr); });
 }
 
 CASE_TEST(calls_that_build) {
@@ -392,7 +430,8 @@ CASE_TEST(calls_that_read) {
     read_solver(host, block);
 }
 
-// A request that came before is for the march: calls that build or read go through, and the next call of the march ends.
+// A request that came before is for the march: calls that build or read go through, and the next call of the march
+// ends.
 CASE_TEST(waiting_request) {
     Watch watch;
     Host host(watch);
@@ -409,7 +448,8 @@ CASE_TEST(waiting_request) {
     double value = 0.0;
     host.require(delam_solver_value(host.h.solver, "kkt_gap", &value), "kkt_gap");
     host.require(delam_solver_commit(host.h.solver), "delam_solver_commit");
-    expect(delam_solver_advance(host.h.solver, 1.0) == DELAM_CANCELLED, "the request has waited for delam_solver_advance");
+    expect(delam_solver_advance(host.h.solver, 1.0) == DELAM_CANCELLED,
+           "the request has waited for delam_solver_advance");
     host.require(delam_solver_advance(host.h.solver, 1.0), "delam_solver_advance");
 }
 

@@ -268,7 +268,8 @@ START_TEST(projections_and_obstacles) {
     ck_assert(tied[0] == 11 && tied[2] == 13 && starts[3] == 4);
     ck_assert(starts[1] == 1 && starts[2] == 3 && of[1] == 2 && of[2] == 3 && share[1] == 0.5 && share[2] == 0.5);
     expect(delam_mesh_add_obstacle(other, 3, top, down, NULL, 3, 1, &index), DELAM_ERROR_MESH, "control_node 3");
-    expect(delam_mesh_add_obstacle(other, 3, top, down, NULL, 99, 1, &index), DELAM_ERROR_ARGUMENT, "control_node = 99");
+    expect(delam_mesh_add_obstacle(other, 3, top, down, NULL, 99, 1, &index), DELAM_ERROR_ARGUMENT,
+           "control_node = 99");
     expect(delam_mesh_add_obstacle(other, 3, top, down, NULL, 10, 3, &index), DELAM_ERROR_ARGUMENT, "index_base = 3");
     fine(delam_mesh_add_obstacle(other, 3, top, down, NULL, 10, 1, &index));
     ck_assert_int_eq(index, 1);
@@ -349,8 +350,10 @@ START_TEST(scenes) {
     expect(delam_problem_set_orientation(problem, 0, 1, NULL, NULL, 0), DELAM_ERROR_ARGUMENT, "axes is NULL");
     expect(delam_problem_set_orientation(problem, 0, 1, &cells[1], axes, 0), DELAM_ERROR_ARGUMENT, "cells[0] = 99");
     expect(delam_problem_set_orientation(problem, 1, 1, &cells[0], axes, 0), DELAM_ERROR_ARGUMENT, "belongs to body 0");
-    expect(delam_problem_set_orientation(problem, -1, 2, cells, axes, 0), DELAM_ERROR_ARGUMENT, "axes[1]: axis 1 = (1, 0, 0)");
-    expect(delam_problem_add_eigenstrain(problem, 0, -1, axes), DELAM_ERROR_ARGUMENT, "pattern = 0, but there are none");
+    expect(delam_problem_set_orientation(problem, -1, 2, cells, axes, 0), DELAM_ERROR_ARGUMENT,
+           "axes[1]: axis 1 = (1, 0, 0)");
+    expect(delam_problem_add_eigenstrain(problem, 0, -1, axes), DELAM_ERROR_ARGUMENT,
+           "pattern = 0, but there are none");
     expect(delam_problem_set_law(problem, 4, law), DELAM_ERROR_ARGUMENT, "interface_index = 4");
     expect(delam_problem_set_law(problem, 0, NULL), DELAM_ERROR_HANDLE, "law is NULL");
     expect(delam_problem_set_adhesion(problem, 0, 2, pairs, fraction, 0), DELAM_ERROR_ARGUMENT, "adhesion[1] = 1.5");
@@ -579,8 +582,10 @@ START_TEST(plans) {
         }
         ck_assert_int_eq(contact, 1);
         ck_assert_int_eq(mixity, round == 1 ? 100 : 1);
-        expect(delam_solver_plan_item(solver, count, NULL, NULL, NULL, NULL, NULL, NULL), DELAM_ERROR_ARGUMENT, "plan index");
-        expect(delam_solver_plan_item(solver, -1, NULL, NULL, NULL, NULL, NULL, NULL), DELAM_ERROR_ARGUMENT, "plan index -1");
+        expect(delam_solver_plan_item(solver, count, NULL, NULL, NULL, NULL, NULL, NULL), DELAM_ERROR_ARGUMENT,
+               "plan index");
+        expect(delam_solver_plan_item(solver, -1, NULL, NULL, NULL, NULL, NULL, NULL), DELAM_ERROR_ARGUMENT,
+               "plan index -1");
         expect(delam_solver_plan_count(solver, NULL), DELAM_ERROR_ARGUMENT, "count");
         fine(delam_solver_value(solver, "bulk_factorisations", &number));
         ck_assert(number == 1.0);

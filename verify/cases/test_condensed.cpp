@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The condensed jump operator against FETI and against the direct reference, scene by scene, at random adhesion and under loads that are
-// reversed. Then long walks in which a few pairs change at a time, so that zones are chosen anew, released and renewed: every state
-// against that of a solver which has no past.
+// The condensed jump operator against FETI and against the direct reference, scene by scene, at random adhesion and
+// under loads that are reversed. Then long walks in which a few pairs change at a time, so that zones are chosen anew,
+// released and renewed: every state against that of a solver which has no past.
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -131,7 +131,8 @@ double largest(const std::vector<double>& v) {
 }
 
 // Fields of two solvers at the same state, over the largest value of the second.
-void expect_equal(const Solver& a, const Solver& b, const std::vector<const char*>& fields, double tolerance, const std::string& where) {
+void expect_equal(const Solver& a, const Solver& b, const std::vector<const char*>& fields, double tolerance,
+                  const std::string& where) {
     for (const char* key : fields) {
         const auto x = a.field(key), y = b.field(key);
         const double scale = largest(y);
@@ -142,7 +143,8 @@ void expect_equal(const Solver& a, const Solver& b, const std::vector<const char
     }
     const double energy = std::abs(b.value("stored_bulk")) + std::abs(b.value("stored_interface"));
     for (const char* key : {"stored_bulk", "stored_interface", "load_potential"})
-        cases::expect_near(a.value(key), b.value(key), tolerance, energy + std::abs(b.value("load_potential")), where + ": " + key);
+        cases::expect_near(a.value(key), b.value(key), tolerance, energy + std::abs(b.value("load_potential")),
+                           where + ": " + key);
 }
 
 void expect_accepted(const Solver& solver, const Exported& exported, double tolerance, const std::string& where) {
@@ -165,7 +167,8 @@ CASE_TEST(every_scene) {
     std::string failures;
     int direct_states = 0;
     for (int k = 0; k < 6; ++k) {
-        const double time = entry.both_signs ? std::array{1.0, -1.0, 0.3}[static_cast<std::size_t>(k) % 3] : 1.0 - 0.2 * (k % 3);
+        const double time =
+            entry.both_signs ? std::array{1.0, -1.0, 0.3}[static_cast<std::size_t>(k) % 3] : 1.0 - 0.2 * (k % 3);
         const auto zeta = k == 0 ? initial : random_adhesion(condensed, random, initial);
         const std::string where = std::string(entry.name) + ", state " + std::to_string(k);
         const auto attempt = [&](const std::function<void()>& check) {
@@ -176,7 +179,8 @@ CASE_TEST(every_scene) {
             }
         };
         const std::int32_t status = delam_solver_equilibrate(a.get(), time, zeta.data());
-        if (status != DELAM_OK) throw std::runtime_error(where + ": condensed: " + delam_context_message(condensed.context()));
+        if (status != DELAM_OK)
+            throw std::runtime_error(where + ": condensed: " + delam_context_message(condensed.context()));
         attempt([&] { expect_accepted(a, exported, 1e-10, where + ", condensed"); });
         attempt([&] {
             reference::State state;
@@ -190,7 +194,8 @@ CASE_TEST(every_scene) {
             if (!entry.unique_forces) c.traction = 0.0;
             cases::expect_below(c.worst(), 1e-8, where + ", direct: " + c.text());
             // A stiff spring under pressure penetrates less than rounding: closed or not is then a matter of taste.
-            const bool rigid = std::any_of(condensed.stiffness().begin(), condensed.stiffness().end(), [](const auto& s) { return s.normal > 1e16; });
+            const bool rigid = std::any_of(condensed.stiffness().begin(), condensed.stiffness().end(),
+                                           [](const auto& s) { return s.normal > 1e16; });
             if (entry.unique_forces && !rigid) cases::expect(c.contacts == 0, where + ", direct: " + c.text());
         });
         const std::int32_t other = delam_solver_equilibrate(b.get(), time, zeta.data());
@@ -204,13 +209,14 @@ CASE_TEST(every_scene) {
         if (other >= 0) b.commit();
     }
     if (!failures.empty()) throw std::runtime_error(failures);
-    cases::expect(direct_states >= 3, std::string(entry.name) + ": the direct reference has seen " + std::to_string(direct_states) + " states");
+    cases::expect(direct_states >= 3, std::string(entry.name) + ": the direct reference has seen " +
+                                          std::to_string(direct_states) + " states");
 }
 
 // ---- what floats ---------------------------------------------------------------------------------------------------
 
-// Cross and tee with interfaces that have lost all adhesion: contact alone, or nothing, holds what is above. Only stresses, energies
-// and forces are unique.
+// Cross and tee with interfaces that have lost all adhesion: contact alone, or nothing, holds what is above. Only
+// stresses, energies and forces are unique.
 CASE_TEST(floating) {
     const int d = loop % 2 == 0 ? 2 : 3;
     const bool slanted = loop / 2 % 2 == 1;
@@ -224,12 +230,15 @@ CASE_TEST(floating) {
     Solver a(condensed, 0.0), b(feti, 0.0);
     std::vector<double> zeta;
     for (std::int64_t i = 0; i < 4; ++i)
-        zeta.insert(zeta.end(), condensed.pairs(i).count(), lost == 0 ? 0.0 : lost == 1 ? (i >= 2 ? 0.0 : 1.0) : (i == 1 || i == 3 ? 0.0 : 1.0));
+        zeta.insert(zeta.end(), condensed.pairs(i).count(),
+                    lost == 0   ? 0.0
+                    : lost == 1 ? (i >= 2 ? 0.0 : 1.0)
+                                : (i == 1 || i == 3 ? 0.0 : 1.0));
     // One weak spring more: the loose block hangs on almost nothing.
     if (lost == 3) zeta.back() = 1e-12;
     for (const double time : {1.0, -1.0, 0.5, -0.25}) {
-        const std::string where = std::string(d == 2 ? "2D" : "3D") + (slanted ? " slanted" : "") + ", case " + std::to_string(lost) +
-                                  ", time " + std::to_string(time);
+        const std::string where = std::string(d == 2 ? "2D" : "3D") + (slanted ? " slanted" : "") + ", case " +
+                                  std::to_string(lost) + ", time " + std::to_string(time);
         const auto sa = delam_solver_equilibrate(a.get(), time, zeta.data());
         cases::expect(sa == DELAM_OK, where + ": condensed: " + delam_context_message(condensed.context()));
         const auto sb = delam_solver_equilibrate(b.get(), time, zeta.data());
@@ -247,7 +256,8 @@ CASE_TEST(floating) {
     }
 }
 
-// Dead forces on a ply that has lost its adhesion: pressed it rests (equal in both), lifted it is lost: DELAM_LIMIT in both.
+// Dead forces on a ply that has lost its adhesion: pressed it rests (equal in both), lifted it is lost: DELAM_LIMIT in
+// both.
 CASE_TEST(dead_forces_on_a_loose_ply) {
     const int d = loop == 0 ? 2 : 3;
     std::int32_t lifted[2];
@@ -286,7 +296,8 @@ CASE_TEST(dead_forces_on_a_loose_ply) {
         cases::expect_near(traction[0][i], traction[1][i], 1e-8, largest(traction[1]), "traction");
 }
 
-// ---- prescribed values that bind several jumps -----------------------------------------------------------------------
+// ---- prescribed values that bind several jumps
+// -----------------------------------------------------------------------
 
 // Nothing is damaged: the energy of a step lies between its two estimates.
 CASE_TEST(estimates_with_bound_jumps) {
@@ -297,9 +308,11 @@ CASE_TEST(estimates_with_bound_jumps) {
     Solver solver(scene, 0.0);
     for (const double time : {0.5, 1.0}) {
         solver.step(time);
-        const double lower = solver.value("lower"), increment = solver.value("increment"), upper = solver.value("upper");
+        const double lower = solver.value("lower"), increment = solver.value("increment"),
+                     upper = solver.value("upper");
         const double rounding = 1e-9 * std::abs(increment);
-        const std::string where = std::to_string(d) + "D, lower " + std::to_string(lower) + ", increment " + std::to_string(increment) + ", upper " + std::to_string(upper);
+        const std::string where = std::to_string(d) + "D, lower " + std::to_string(lower) + ", increment " +
+                                  std::to_string(increment) + ", upper " + std::to_string(upper);
         cases::expect(lower <= increment + rounding && increment <= upper + rounding, where);
         solver.commit();
     }
@@ -314,7 +327,8 @@ CASE_TEST(bound_jumps_of_a_bond) {
     const std::int32_t status = delam_solver_create(scene.problem(), 0.0, &solver);
     const std::int32_t advanced = status == DELAM_OK ? delam_solver_advance(solver, 1.0) : status;
     delam_solver_destroy(&solver);
-    cases::expect(status == DELAM_ERROR_PROBLEM, std::string("create: ") + delam_status_name(status) + ", advance: " + delam_status_name(advanced));
+    cases::expect(status == DELAM_ERROR_PROBLEM,
+                  std::string("create: ") + delam_status_name(status) + ", advance: " + delam_status_name(advanced));
 }
 
 // ---- zones ---------------------------------------------------------------------------------------------------------
@@ -326,8 +340,23 @@ struct Walk {
     double time;
 };
 const Walk walks[] = {
-    {"ENF", [] { cases::Enf e; e.h = 1e-3; e.subdomains = 0; return cases::make_enf(e); }, 120, 1.0},
-    {"ENF of k = 1e18", [] { cases::Enf e; e.h = 1e-3; e.subdomains = 0; e.law.normal_stiffness = e.law.tangential_stiffness = 1e18; return cases::make_enf(e); }, 120, 1.0},
+    {"ENF",
+     [] {
+         cases::Enf e;
+         e.h = 1e-3;
+         e.subdomains = 0;
+         return cases::make_enf(e);
+     },
+     120, 1.0},
+    {"ENF of k = 1e18",
+     [] {
+         cases::Enf e;
+         e.h = 1e-3;
+         e.subdomains = 0;
+         e.law.normal_stiffness = e.law.tangential_stiffness = 1e18;
+         return cases::make_enf(e);
+     },
+     120, 1.0},
     {"plies 3D", [] { return cases::make_plies(3, 2, DELAM_HEX8, "standard", block_law, 40); }, 60, 1.0},
     {"four plies", [] { return cases::make_plies(2, 4, DELAM_QUAD4, "standard", block_law, 60); }, 60, -1.0},
     {"opened", [] { return cases::make_opened(2, 33.0); }, 60, 1.0},
@@ -355,7 +384,8 @@ CASE_TEST(long_walk) {
             }
             front -= 2;
         } else if (kind < 0.9) {
-            zeta[static_cast<std::size_t>(draw(random) * static_cast<double>(pairs))] = draw(random) < 0.5 ? 1e-12 : draw(random);
+            zeta[static_cast<std::size_t>(draw(random) * static_cast<double>(pairs))] =
+                draw(random) < 0.5 ? 1e-12 : draw(random);
         } else if (kind < 0.95) {
             front = static_cast<std::size_t>(draw(random) * static_cast<double>(pairs));
         } else {
@@ -387,13 +417,15 @@ CASE_TEST(rollback_of_the_first_step) {
     solver.rollback();
     solver.step(0.7);
     fresh.step(0.7);
-    cases::expect(solver.field("jump") == fresh.field("jump") && solver.field("traction") == fresh.field("traction"), "bits of the step");
+    cases::expect(solver.field("jump") == fresh.field("jump") && solver.field("traction") == fresh.field("traction"),
+                  "bits of the step");
     solver.commit();
     fresh.commit();
     cases::expect(solver.save() == fresh.save(), "bytes of the snapshot");
 }
 
-// A soft arm below or above one 1e8 times stiffer: its tractions come out of its own stiffness, whichever side it is on.
+// A soft arm below or above one 1e8 times stiffer: its tractions come out of its own stiffness, whichever side it is
+// on.
 CASE_TEST(soft_on_stiff) {
     const double ratio = loop == 0 ? 1e8 : 1e-8;
     Scene scene(2, {0.04}, {40}, {2e-3, 2e-3}, {2, 2}, DELAM_QUAD4);
@@ -405,14 +437,16 @@ CASE_TEST(soft_on_stiff) {
     const auto right = scene.find(-1, {0.04, 0.0}, {0.04, 4e-3});
     scene.hold(right, {1.0, 0.0});
     scene.hold(right, {0.0, 1.0});
-    scene.drive(scene.find(1, {0.0, 4e-3}, {0.0, 4e-3}), {0.0, 1.0}, scene.pattern("lift", {0.0, 1.0}, {0.0, 1e-5}), {1.0});
+    scene.drive(scene.find(1, {0.0, 4e-3}, {0.0, 4e-3}), {0.0, 1.0}, scene.pattern("lift", {0.0, 1.0}, {0.0, 1e-5}),
+                {1.0});
     scene.text("reduction", "condensed");
     Solver solver(scene, 0.0);
     solver.step(1.0);
     DirectReference direct(scene);
     const auto comparison =
         reference::compare(solver, direct.solve(1.0, solver.field("adhesion")), direct.exported(), 1e-10);
-    cases::expect_below(comparison.traction, 1e-7, "E upper / E lower " + std::to_string(ratio) + ": " + comparison.text());
+    cases::expect_below(comparison.traction, 1e-7,
+                        "E upper / E lower " + std::to_string(ratio) + ": " + comparison.text());
 }
 
 }  // namespace

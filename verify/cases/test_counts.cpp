@@ -116,8 +116,8 @@ March march(int steps, std::int64_t subdomains) {
     std::printf(
         "march: %d steps, %d subdomains: defect / work %.3e, band %.6g J/m, %.0f solves, active-set steps mean %.3f, "
         "max %.0f, %.0f fallbacks, %d not converged\n",
-        steps, static_cast<int>(subdomains), m.defect / m.work, m.band, m.solves, m.contact / m.solves,
-        m.contact_worst, m.fallbacks, m.not_converged);
+        steps, static_cast<int>(subdomains), m.defect / m.work, m.band, m.solves, m.contact / m.solves, m.contact_worst,
+        m.fallbacks, m.not_converged);
     return m;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is left when the load goes away: unloading to exactly zero keeps damage and mixity, whichever preconditioner solves; a body held
-// by just as many supports as it has rigid motions stands on every mesh.
+// What is left when the load goes away: unloading to exactly zero keeps damage and mixity, whichever preconditioner
+// solves; a body held by just as many supports as it has rigid motions stands on every mesh.
 #include "api.hpp"
 #include "enf.hpp"
 #include "support.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thermal strains: free expansion, a bar between walls, the bimetal strip, a cross-ply laminate; both realisations against the
-// direct reference; the ledger of a cure that is followed by loading.
+// Thermal strains: free expansion, a bar between walls, the bimetal strip, a cross-ply laminate; both realisations
+// against the direct reference; the ledger of a cure that is followed by loading.
 #include <array>
 #include <cmath>
 #include <string>
@@ -24,39 +24,43 @@ constexpr double ply[] = {135e9, 9e9, 9e9, 0.24, 0.24, 0.46, 5.2e9, 5.2e9, 9e9 /
 std::size_t size(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 void eigenstrain(Scene& scene, std::int64_t pattern, std::int32_t body, const std::array<double, 6>& strain) {
-    scene.require(delam_problem_add_eigenstrain(scene.problem(), pattern, body, strain.data()), "delam_problem_add_eigenstrain");
+    scene.require(delam_problem_add_eigenstrain(scene.problem(), pattern, body, strain.data()),
+                  "delam_problem_add_eigenstrain");
 }
 
 void turn(Scene& scene, std::int32_t body, const std::array<double, 6>& axes) {
-    scene.require(delam_problem_set_orientation(scene.problem(), body, 1, nullptr, axes.data(), 0), "delam_problem_set_orientation");
+    scene.require(delam_problem_set_orientation(scene.problem(), body, 1, nullptr, axes.data(), 0),
+                  "delam_problem_set_orientation");
 }
 
 struct Element {
     std::int32_t cell;
     const char* formulation;
 };
-constexpr Element elements[] = {{DELAM_TRI3, "standard"},      {DELAM_QUAD4, "standard"}, {DELAM_QUAD4, "incompatible"},
-                                {DELAM_TRI6, "standard"},      {DELAM_QUAD8, "standard"}, {DELAM_QUAD9, "standard"},
-                                {DELAM_TET4, "standard"},      {DELAM_HEX8, "standard"},  {DELAM_HEX8, "incompatible"},
-                                {DELAM_TET10, "standard"},     {DELAM_HEX20, "standard"}};
+constexpr Element elements[] = {{DELAM_TRI3, "standard"},  {DELAM_QUAD4, "standard"}, {DELAM_QUAD4, "incompatible"},
+                                {DELAM_TRI6, "standard"},  {DELAM_QUAD8, "standard"}, {DELAM_QUAD9, "standard"},
+                                {DELAM_TET4, "standard"},  {DELAM_HEX8, "standard"},  {DELAM_HEX8, "incompatible"},
+                                {DELAM_TET10, "standard"}, {DELAM_HEX20, "standard"}};
 constexpr int element_count = 11;
 bool flat(std::int32_t cell) {
-    return cell == DELAM_TRI3 || cell == DELAM_QUAD4 || cell == DELAM_TRI6 || cell == DELAM_QUAD8 || cell == DELAM_QUAD9;
+    return cell == DELAM_TRI3 || cell == DELAM_QUAD4 || cell == DELAM_TRI6 || cell == DELAM_QUAD8 ||
+           cell == DELAM_QUAD9;
 }
 
 // Two plies, glued; x = 0 held along x, and what else keeps them in place. With `walls` x = length is held too.
 Scene bar(const Element& e, const char* plane, bool walls) {
     const bool two = flat(e.cell);
     const int d = two ? 2 : 3;
-    Scene scene(d, two ? std::vector<double>{0.04} : std::vector<double>{0.04, 0.01}, two ? std::vector<std::int64_t>{5} : std::vector<std::int64_t>{5, 2},
-                {0.004, 0.006}, {1, 2}, e.cell);
+    Scene scene(d, two ? std::vector<double>{0.04} : std::vector<double>{0.04, 0.01},
+                two ? std::vector<std::int64_t>{5} : std::vector<std::int64_t>{5, 2}, {0.004, 0.006}, {1, 2}, e.cell);
     scene.interface(0, 1);
     scene.begin();
     scene.elastic(-1, young, poisson);
     scene.require(delam_problem_set_formulation(scene.problem(), -1, e.formulation), "formulation");
     if (two) scene.require(delam_problem_set_plane(scene.problem(), plane), "plane");
     scene.bonded(0);
-    scene.hold(nodes_where(scene, -1, [&](const double* x) { return x[0] < 1e-9 || (walls && x[0] > 0.04 - 1e-9); }), unit(d, 0));
+    scene.hold(nodes_where(scene, -1, [&](const double* x) { return x[0] < 1e-9 || (walls && x[0] > 0.04 - 1e-9); }),
+               unit(d, 0));
     scene.hold(nodes_where(scene, 0, [&](const double* x) { return x[d - 1] < 1e-9; }), unit(d, d - 1));
     if (!two) scene.hold(nodes_where(scene, -1, [](const double* x) { return x[1] < 1e-9; }), unit(d, 1));
     return scene;
@@ -81,11 +85,16 @@ void check_heated(const Element& e, const char* plane, bool walls) {
         const auto stress = solver.field("stress");
         const std::size_t columns = flat(e.cell) ? 4 : 6;
         for (std::size_t i = 0; i < stress.size(); ++i)
-            cases::expect_near(stress[i], i % columns == 0 ? sx : i % columns == 2 ? sz : 0.0, 1e-9, -t, where + "stress " + std::to_string(i % columns));
+            cases::expect_near(stress[i],
+                               i % columns == 0   ? sx
+                               : i % columns == 2 ? sz
+                                                  : 0.0,
+                               1e-9, -t, where + "stress " + std::to_string(i % columns));
         const double scale = 0.5 * young * alpha * alpha * heat * heat * volume;
         cases::expect_near(solver.value("stored_bulk"), density * volume, 1e-9, scale, where + "energy");
         cases::expect(solver.value("stored_bulk") >= 0.0, where + "never negative");
-        cases::expect_near(solver.value("reaction:heat"), 2.0 * density * volume / heat, 1e-9, scale / heat, where + "conjugate");
+        cases::expect_near(solver.value("reaction:heat"), 2.0 * density * volume / heat, 1e-9, scale / heat,
+                           where + "conjugate");
         cases::expect_near(solver.value("work"), density * volume, 1e-9, scale, where + "work");
         cases::expect_below(solver.value("kkt_equilibrium"), 1e-7, where + "equilibrium");
     }
@@ -111,7 +120,8 @@ CASE_TEST(bimetal) {
     scene.begin();
     scene.elastic(0, e1, 0.0);
     scene.elastic(1, e2, 0.0);
-    scene.require(delam_problem_set_formulation(scene.problem(), -1, loop == 0 ? "standard" : "incompatible"), "formulation");
+    scene.require(delam_problem_set_formulation(scene.problem(), -1, loop == 0 ? "standard" : "incompatible"),
+                  "formulation");
     scene.require(delam_problem_set_plane(scene.problem(), "plane-stress"), "plane");
     scene.bonded(0);
     const auto corner = nodes_where(scene, 0, [](const double* x) { return x[0] < 1e-9 && x[1] < 1e-9; });
@@ -122,7 +132,8 @@ CASE_TEST(bimetal) {
     eigenstrain(scene, hot, 0, {a1, a1, a1, 0, 0, 0});
     eigenstrain(scene, hot, 1, {a2, a2, a2, 0, 0, 0});
     const double m = t1 / t2, n = e1 / e2, h = t1 + t2;
-    const double kappa = 6.0 * (a2 - a1) * heat * (1.0 + m) * (1.0 + m) / (h * (3.0 * (1.0 + m) * (1.0 + m) + (1.0 + m * n) * (m * m + 1.0 / (m * n))));
+    const double kappa = 6.0 * (a2 - a1) * heat * (1.0 + m) * (1.0 + m) /
+                         (h * (3.0 * (1.0 + m) * (1.0 + m) + (1.0 + m * n) * (m * m + 1.0 / (m * n))));
     for (const char* reduction : {"condensed", "feti"}) {
         scene.text("reduction", reduction);
         Solver solver(scene, 0.0);
@@ -132,7 +143,8 @@ CASE_TEST(bimetal) {
         double y[3] = {};
         for (int i = 0; i < 3; ++i) {
             const double at = length * (0.3 + 0.2 * i);
-            const auto node = nodes_where(scene, 0, [&](const double* x) { return std::abs(x[0] - at) < 1e-6 && x[1] < 1e-9; });
+            const auto node =
+                nodes_where(scene, 0, [&](const double* x) { return std::abs(x[0] - at) < 1e-6 && x[1] < 1e-9; });
             y[i] = u[size(node.front()) * 2 + 1];
         }
         const double found = -(y[0] - 2.0 * y[1] + y[2]) / (0.04 * length * length);
@@ -140,7 +152,8 @@ CASE_TEST(bimetal) {
     }
 }
 
-// [0/90/0] cooled from its cure: in the middle, sigma_x = E_x (eps - alpha_x dT), eps = sum t E_x alpha_x dT / sum t E_x.
+// [0/90/0] cooled from its cure: in the middle, sigma_x = E_x (eps - alpha_x dT), eps = sum t E_x alpha_x dT / sum t
+// E_x.
 CASE_TEST(cross_ply) {
     const double length = 0.08, thick = 0.002, inner = 0.003, a1 = -0.3e-6, a2 = 28e-6, cold = -120.0;
     Scene scene(2, {length}, {40}, {thick, inner, thick}, {2, 3, 2}, DELAM_QUAD8);
@@ -157,7 +170,8 @@ CASE_TEST(cross_ply) {
     scene.hold(nodes_where(scene, 0, [](const double* x) { return x[0] < 1e-9 && x[1] < 1e-9; }), unit(2, 1));
     const auto cure = scene.pattern("cure", {0.0, 1.0}, {0.0, cold});
     eigenstrain(scene, cure, -1, {a1, a2, a2, 0, 0, 0});
-    const double eps = (2.0 * thick * ply[0] * a1 + inner * ply[1] * a2) / (2.0 * thick * ply[0] + inner * ply[1]) * cold;
+    const double eps =
+        (2.0 * thick * ply[0] * a1 + inner * ply[1] * a2) / (2.0 * thick * ply[0] + inner * ply[1]) * cold;
     Solver solver(scene, 0.0);
     solver.step(1.0);
     const auto stress = solver.field("stress");
@@ -216,7 +230,8 @@ CASE_TEST(against_the_reference) {
     }
 }
 
-// With the adhesion held and no contact that changes, E is quadratic in the factors: a central difference is its derivative.
+// With the adhesion held and no contact that changes, E is quadratic in the factors: a central difference is its
+// derivative.
 CASE_TEST(conjugates_are_derivatives) {
     Scene scene = loaded(loop, cases::block_law);
     const std::vector<double> adhesion(scene.pair_count(), 1.0);
@@ -227,15 +242,20 @@ CASE_TEST(conjugates_are_derivatives) {
             solver.equilibrate(time, adhesion);
             const double e = solver.value("stored_bulk") + solver.value("stored_interface");
             power = 0.0;
-            for (const char* name : {"wet", "bend", "slide"}) power += solver.value(std::string("reaction:") + name) * (std::string(name) == "wet" ? 1.0 : std::string(name) == "bend" ? 1e-5 : 3e-6);
+            for (const char* name : {"wet", "bend", "slide"})
+                power += solver.value(std::string("reaction:") + name) * (std::string(name) == "wet"    ? 1.0
+                                                                          : std::string(name) == "bend" ? 1e-5
+                                                                                                        : 3e-6);
             solver.rollback();
             return e;
         };
         double low = 0.0, middle = 0.0, high = 0.0;
         const double before = energy(0.399, low), after = energy(0.401, high);
         energy(0.4, middle);
-        cases::expect_near((after - before) / 0.002, middle, 1e-5, std::abs(middle) + std::abs(low) + std::abs(high), std::string(reduction) + ": dE/dt");
-        cases::expect_near(0.5 * (low + high), middle, 1e-6, std::abs(low) + std::abs(high), std::string(reduction) + ": linear in t");
+        cases::expect_near((after - before) / 0.002, middle, 1e-5, std::abs(middle) + std::abs(low) + std::abs(high),
+                           std::string(reduction) + ": dE/dt");
+        cases::expect_near(0.5 * (low + high), middle, 1e-6, std::abs(low) + std::abs(high),
+                           std::string(reduction) + ": linear in t");
     }
 }
 
@@ -245,22 +265,29 @@ namespace {
 Scene cured(int which) {
     const std::int32_t cell = which == 0 ? DELAM_QUAD4 : which == 1 ? DELAM_TRI6 : DELAM_HEX8;
     const int d = which == 2 ? 3 : 2;
-    Scene scene(d, d == 2 ? std::vector<double>{0.04} : std::vector<double>{0.04, 0.01}, d == 2 ? std::vector<std::int64_t>{40} : std::vector<std::int64_t>{20, 2},
-                {0.002, 0.003}, {1, 1}, cell);
+    Scene scene(d, d == 2 ? std::vector<double>{0.04} : std::vector<double>{0.04, 0.01},
+                d == 2 ? std::vector<std::int64_t>{40} : std::vector<std::int64_t>{20, 2}, {0.002, 0.003}, {1, 1},
+                cell);
     scene.interface(0, 1);
     scene.begin();
     scene.elastic(0, young, poisson);
     scene.require(delam_problem_set_orthotropic(scene.problem(), 1, ply), "orthotropic");
     turn(scene, 1, d == 2 ? std::array<double, 6>{0, 0, 1, 1, 0, 0} : std::array<double, 6>{1, 1, 0, -1, 1, 0});
-    if (cell != DELAM_TRI6) scene.require(delam_problem_set_formulation(scene.problem(), -1, "incompatible"), "formulation");
+    if (cell != DELAM_TRI6)
+        scene.require(delam_problem_set_formulation(scene.problem(), -1, "incompatible"), "formulation");
     scene.law(0, {2e11, 2e11, 20.0, 20.0, 100.0, 100.0, 1.0});
     const auto pairs = scene.pairs(0);
     std::vector<std::int64_t> notch;
     for (std::size_t p = 0; p < pairs.count(); ++p)
         if (scene.coordinate(pairs.node_a[p], 0) > 0.03 + 1e-9) notch.push_back(static_cast<std::int64_t>(p));
     scene.adhesion(0, notch, std::vector<double>(notch.size(), 0.0));
-    for (int k = 0; k < d; ++k) scene.hold(nodes_where(scene, -1, [](const double* x) { return x[0] < 1e-9; }), unit(d, k));
-    const auto tip = [&](int body) { return nodes_where(scene, body, [&](const double* x) { return x[0] > 0.04 - 1e-9 && std::abs(x[d - 1] - (body == 0 ? 0.0 : 0.005)) < 1e-9; }); };
+    for (int k = 0; k < d; ++k)
+        scene.hold(nodes_where(scene, -1, [](const double* x) { return x[0] < 1e-9; }), unit(d, k));
+    const auto tip = [&](int body) {
+        return nodes_where(scene, body, [&](const double* x) {
+            return x[0] > 0.04 - 1e-9 && std::abs(x[d - 1] - (body == 0 ? 0.0 : 0.005)) < 1e-9;
+        });
+    };
     const auto open = scene.pattern("open", {0.0, 1.0, 2.0}, {0.0, 0.0, 4e-4});
     const auto cure = scene.pattern("cure", {0.0, 1.0}, {0.0, -150.0});
     scene.drive(tip(1), unit(d, d - 1), open, std::vector<double>(tip(1).size(), 1.0));
@@ -284,13 +311,17 @@ CASE_TEST(cure_then_load) {
             solver.step(0.05 * k);
             const double size = std::abs(solver.value("work")) + solver.value("stored_bulk");
             cases::expect(solver.value("stored_bulk") >= 0.0, "stored");
-            cases::expect_below(solver.value("increment") - solver.value("upper"), 1e-6 * size, "upper bound of step " + std::to_string(k));
-            cases::expect_below(solver.value("lower") - solver.value("increment_lower"), 1e-6 * size, "lower bound of step " + std::to_string(k));
+            cases::expect_below(solver.value("increment") - solver.value("upper"), 1e-6 * size,
+                                "upper bound of step " + std::to_string(k));
+            cases::expect_below(solver.value("lower") - solver.value("increment_lower"), 1e-6 * size,
+                                "lower bound of step " + std::to_string(k));
             solver.commit();
             if (k == 20) residual = solver.value("stored_bulk");
         }
-        const double total = solver.value("stored_bulk") + solver.value("stored_interface") + solver.value("dissipated");
-        cases::expect(residual > 0.0 && solver.value("dissipated") > 0.01 * total, "residual stress, and something debonds");
+        const double total =
+            solver.value("stored_bulk") + solver.value("stored_interface") + solver.value("dissipated");
+        cases::expect(residual > 0.0 && solver.value("dissipated") > 0.01 * total,
+                      "residual stress, and something debonds");
         cases::expect_near(solver.value("defect"), total - solver.value("work"), 1e-9, total, "defect");
         cases::expect_below(std::abs(solver.value("defect")), 0.05 * total, "the ledger closes with the step");
         if (reduction == std::string("condensed")) {
@@ -307,8 +338,9 @@ CASE_TEST(cure_then_load) {
 CASE_TEST(nothing_to_hold) {
     const Element& e = elements[loop];
     const int d = flat(e.cell) ? 2 : 3;
-    Scene scene(d, d == 2 ? std::vector<double>{0.04} : std::vector<double>{0.04, 0.01}, d == 2 ? std::vector<std::int64_t>{6} : std::vector<std::int64_t>{6, 2},
-                {0.003, 0.003}, {1, 1}, e.cell);
+    Scene scene(d, d == 2 ? std::vector<double>{0.04} : std::vector<double>{0.04, 0.01},
+                d == 2 ? std::vector<std::int64_t>{6} : std::vector<std::int64_t>{6, 2}, {0.003, 0.003}, {1, 1},
+                e.cell);
     scene.interface(0, 1);
     scene.begin();
     scene.elastic(-1, young, poisson);
@@ -324,7 +356,8 @@ CASE_TEST(nothing_to_hold) {
         Solver solver(scene, 0.0);
         solver.step(1.0);
         cases::expect(solver.value("contact_iterations") <= 3.0, "contact settles");
-        for (const double t : solver.field("traction")) cases::expect_near(t, 0.0, 1e-8, young * alpha * heat, std::string(reduction) + ": traction");
+        for (const double t : solver.field("traction"))
+            cases::expect_near(t, 0.0, 1e-8, young * alpha * heat, std::string(reduction) + ": traction");
     }
 }
 
@@ -332,8 +365,9 @@ CASE_TEST(nothing_to_hold) {
 CASE_TEST(floating_ply) {
     const Element& e = elements[loop];
     const int d = flat(e.cell) ? 2 : 3;
-    Scene loose(d, d == 2 ? std::vector<double>{0.04} : std::vector<double>{0.04, 0.01}, d == 2 ? std::vector<std::int64_t>{6} : std::vector<std::int64_t>{6, 2},
-                {0.003, 0.003}, {1, 1}, e.cell);
+    Scene loose(d, d == 2 ? std::vector<double>{0.04} : std::vector<double>{0.04, 0.01},
+                d == 2 ? std::vector<std::int64_t>{6} : std::vector<std::int64_t>{6, 2}, {0.003, 0.003}, {1, 1},
+                e.cell);
     loose.interface(0, 1);
     loose.begin();
     loose.elastic(-1, young, poisson);
@@ -355,7 +389,8 @@ CASE_TEST(floating_ply) {
         solver.step(1.0);
         const double scale = 0.5 * young * alpha * alpha * heat * heat * 0.04 * 0.006 * (d == 2 ? 1.0 : 0.01);
         cases::expect_below(solver.value("stored_bulk"), 1e-9 * scale, std::string(reduction) + ": stored");
-        for (const double s : solver.field("stress")) cases::expect_near(s, 0.0, 1e-7, young * alpha * heat, std::string(reduction) + ": stress");
+        for (const double s : solver.field("stress"))
+            cases::expect_near(s, 0.0, 1e-7, young * alpha * heat, std::string(reduction) + ": stress");
     }
 }
 

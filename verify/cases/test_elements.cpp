@@ -24,12 +24,15 @@ struct Element {
     const char* name;
     bool bends;
 };
-constexpr Element elements[] = {
-    {2, DELAM_QUAD4, "standard", "quad4", false},        {2, DELAM_QUAD4, "incompatible", "quad4 incompatible", true},
-    {2, DELAM_TRI6, "standard", "tri6", true},           {2, DELAM_QUAD8, "standard", "quad8", true},
-    {2, DELAM_QUAD9, "standard", "quad9", true},         {3, DELAM_HEX8, "standard", "hex8", false},
-    {3, DELAM_HEX8, "incompatible", "hex8 incompatible", true}, {3, DELAM_TET10, "standard", "tet10", true},
-    {3, DELAM_HEX20, "standard", "hex20", true}};
+constexpr Element elements[] = {{2, DELAM_QUAD4, "standard", "quad4", false},
+                                {2, DELAM_QUAD4, "incompatible", "quad4 incompatible", true},
+                                {2, DELAM_TRI6, "standard", "tri6", true},
+                                {2, DELAM_QUAD8, "standard", "quad8", true},
+                                {2, DELAM_QUAD9, "standard", "quad9", true},
+                                {3, DELAM_HEX8, "standard", "hex8", false},
+                                {3, DELAM_HEX8, "incompatible", "hex8 incompatible", true},
+                                {3, DELAM_TET10, "standard", "tet10", true},
+                                {3, DELAM_HEX20, "standard", "hex20", true}};
 constexpr int element_count = static_cast<int>(std::size(elements));
 
 constexpr double length = 0.04;
@@ -137,8 +140,9 @@ CASE_TEST(refusals) {
     const auto message = [](const Scene& scene) { return std::string(delam_context_message(scene.context())); };
     cases::expect(delam_problem_set_formulation(triangles.problem(), 1, "incompatible") == DELAM_ERROR_ARGUMENT,
                   "tri6 has no such formulation");
-    cases::expect(message(triangles).find("body 1") != std::string::npos &&
-                      message(triangles).find("tri6") != std::string::npos, message(triangles));
+    cases::expect(
+        message(triangles).find("body 1") != std::string::npos && message(triangles).find("tri6") != std::string::npos,
+        message(triangles));
     cases::expect(delam_problem_set_formulation(triangles.problem(), -1, "standard") == DELAM_OK,
                   "standard is for all");
     const Scene squares = peel(elements[0]);

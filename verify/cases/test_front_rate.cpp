@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Energy release rate, mode mixity and process zone at crack fronts, against closed forms, energy differences and the toughness.
+// Energy release rate, mode mixity and process zone at crack fronts, against closed forms, energy differences and the
+// toughness.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -28,9 +29,10 @@ struct Dcb {
 reference::Scene make_dcb(const Dcb& d, double notch) {
     const auto along = static_cast<std::int64_t>(std::llround(d.length / d.h));
     const bool space = d.width > 0.0;
-    reference::Scene scene(space ? 3 : 2, space ? std::vector<double>{d.length, d.width} : std::vector<double>{d.length},
-                           space ? std::vector<std::int64_t>{along, d.across} : std::vector<std::int64_t>{along}, {d.arm, d.arm},
-                           {d.through, d.through}, d.cell);
+    reference::Scene scene(space ? 3 : 2,
+                           space ? std::vector<double>{d.length, d.width} : std::vector<double>{d.length},
+                           space ? std::vector<std::int64_t>{along, d.across} : std::vector<std::int64_t>{along},
+                           {d.arm, d.arm}, {d.through, d.through}, d.cell);
     scene.interface(0, 1);
     scene.begin();
     scene.elastic(-1, young, d.nu);
@@ -67,19 +69,24 @@ FrontPoint only_point(const reference::Solver& solver) {
     return fronts[0].points[0];
 }
 
-double stored(const reference::Solver& solver) { return solver.value("stored_bulk") + solver.value("stored_interface"); }
+double stored(const reference::Solver& solver) {
+    return solver.value("stored_bulk") + solver.value("stored_interface");
+}
 
-// DCB on a layer of finite stiffness: C = (2/(3EI)) (a^3 + 3a^2/lam + 3a/lam^2 + 3/(2 lam^3)), P = delta/C, G = P^2/2 dC/da.
+// DCB on a layer of finite stiffness: C = (2/(3EI)) (a^3 + 3a^2/lam + 3a/lam^2 + 3/(2 lam^3)), P = delta/C, G = P^2/2
+// dC/da.
 double dcb_rate(double a, double opening, double arm, double stiffness) {
     const double bending = plane_modulus * arm * arm * arm / 12.0, lam = std::pow(stiffness / (2.0 * bending), 0.25);
-    const double c = 2.0 / (3.0 * bending) * (a * a * a + 3 * a * a / lam + 3 * a / (lam * lam) + 1.5 / (lam * lam * lam));
+    const double c =
+        2.0 / (3.0 * bending) * (a * a * a + 3 * a * a / lam + 3 * a / (lam * lam) + 1.5 / (lam * lam * lam));
     const double slope = 2.0 / (3.0 * bending) * (3 * a * a + 6 * a / lam + 3 / (lam * lam));
     return 0.5 * opening * opening / (c * c) * slope;
 }
 
 }  // namespace
 
-// Below onset: the springs of the interface act on arms of known stiffness. With shear of the arms left out of the closed form, a few percent.
+// Below onset: the springs of the interface act on arms of known stiffness. With shear of the arms left out of the
+// closed form, a few percent.
 CASE_TEST(dcb_below_onset) {
     Dcb d;
     d.notch = 50e-3;
@@ -101,10 +108,15 @@ CASE_TEST(dcb_below_onset) {
 
 // G = -dU/da at held ends: the front moved by a cell. Stiff and soft interfaces, linear and quadratic cells.
 CASE_TEST(energy_differences) {
-    struct { std::int32_t cell; reference::LawData law; double h, tolerance; } const of[] = {
-        {DELAM_QUAD4, reference::ductile_law, 0.5e-3, 0.01}, {DELAM_QUAD8, reference::ductile_law, 0.5e-3, 0.01},
-        {DELAM_QUAD4, reference::brittle_law, 0.5e-3, 0.01}, {DELAM_QUAD4, reference::brittle_law, 0.25e-3, 0.01},
-        {DELAM_QUAD8, reference::brittle_law, 1e-3, 0.02}};
+    struct {
+        std::int32_t cell;
+        reference::LawData law;
+        double h, tolerance;
+    } const of[] = {{DELAM_QUAD4, reference::ductile_law, 0.5e-3, 0.01},
+                    {DELAM_QUAD8, reference::ductile_law, 0.5e-3, 0.01},
+                    {DELAM_QUAD4, reference::brittle_law, 0.5e-3, 0.01},
+                    {DELAM_QUAD4, reference::brittle_law, 0.25e-3, 0.01},
+                    {DELAM_QUAD8, reference::brittle_law, 1e-3, 0.02}};
     Dcb d;
     d.cell = of[loop].cell, d.law = of[loop].law, d.h = of[loop].h;
     d.through = std::llround(d.arm / d.h);
@@ -118,11 +130,13 @@ CASE_TEST(energy_differences) {
         rate[k] = only_point(solver).total();
     }
     const double difference = (energy[0] - energy[2]) / (2.0 * d.h);
-    std::printf("cell %d, k %.3g, h %g mm: G / difference of energies %.4f\n", d.cell, d.law.normal_stiffness, 1e3 * d.h, rate[1] / difference);
+    std::printf("cell %d, k %.3g, h %g mm: G / difference of energies %.4f\n", d.cell, d.law.normal_stiffness,
+                1e3 * d.h, rate[1] / difference);
     expect_near(rate[1], difference, of[loop].tolerance, difference, "G against the energies");
 }
 
-// ENF, closed contact behind the tip: mode II, and beam theory's G = 9 P^2 a^2 / (16 E b^2 h^3) for the load that the solution bears.
+// ENF, closed contact behind the tip: mode II, and beam theory's G = 9 P^2 a^2 / (16 E b^2 h^3) for the load that the
+// solution bears.
 CASE_TEST(enf_below_onset_and_growing) {
     reference::Flexure data;
     data.h = loop == 0 ? 0.5e-3 : 1e-3;
@@ -138,7 +152,8 @@ CASE_TEST(enf_below_onset_and_growing) {
     const FrontPoint point = only_point(solver);
     const double load = solver.value("reaction:press"), a = data.notch;
     const double beam = 9.0 * load * load * a * a / (16.0 * plane_modulus * std::pow(data.arm, 3));
-    std::printf("ENF %s: G %.6g, beam %.6g J/m2, mode I part %.2e\n", data.element.c_str(), point.total(), beam, point.rate[0] / point.total());
+    std::printf("ENF %s: G %.6g, beam %.6g J/m2, mode I part %.2e\n", data.element.c_str(), point.total(), beam,
+                point.rate[0] / point.total());
     expect_near(point.total(), beam, 0.04, beam, "G of the ENF");
     expect_below(std::abs(point.rate[0]) / point.total(), 1e-3, "mode I in the ENF");
     expect(solver.value("contact_pairs") > 0.0, "contact behind the tip");
@@ -170,7 +185,9 @@ CASE_TEST(growth_at_the_toughness) {
         expect_near(point.total(), 300.0, 0.02, 300.0, "G of a growing crack");
         expect(point.zone_pairs >= 3.0, "pairs in the process zone");
         expect_near(point.zone / point.zone_pairs, d.h * (loop == 1 ? 0.5 : 1.0), 0.4, d.h, "spacing");
-        if (k == 40) std::printf("DCB grown to %.4g mm: G %.5g, zone %.3g mm of %g pairs\n", 1e3 * a, point.total(), 1e3 * point.zone, point.zone_pairs);
+        if (k == 40)
+            std::printf("DCB grown to %.4g mm: G %.5g, zone %.3g mm of %g pairs\n", 1e3 * a, point.total(),
+                        1e3 * point.zone, point.zone_pairs);
     }
     expect(growing > 3, "it has grown");
 }
@@ -195,7 +212,9 @@ CASE_TEST(mixed_mode_growth) {
         const FrontPoint point = only_point(solver);
         if (solver.value("crack_length") < data.notch + 4e-3) continue;
         const double b = point.mixity(), toughness = 1.0 / ((1.0 - b) / 150.0 + b / 300.0);
-        if (seen == 0.0) std::printf("MMF: B %.4f (beams 3/7 = %.4f), G %.5g, Gc(B) %.5g J/m2\n", b, 3.0 / 7.0, point.total(), toughness);
+        if (seen == 0.0)
+            std::printf("MMF: B %.4f (beams 3/7 = %.4f), G %.5g, Gc(B) %.5g J/m2\n", b, 3.0 / 7.0, point.total(),
+                        toughness);
         expect_near(point.total(), toughness, 0.04, toughness, "G of a growing crack in mixed mode");
         expect_near(b, 3.0 / 7.0, 0.15, 1.0, "mixity");
         seen += 1.0;
@@ -221,7 +240,8 @@ CASE_TEST(dcb_in_space) {
         d.across = quadratic ? 8 : 20;
         d.through = quadratic ? 1 : 3;
         const reference::Scene scene = make_dcb(d, d.notch);
-        if (!quadratic) scene.require(delam_problem_set_formulation(scene.problem(), -1, "incompatible"), "formulation");
+        if (!quadratic)
+            scene.require(delam_problem_set_formulation(scene.problem(), -1, "incompatible"), "formulation");
         reference::Solver solver(scene, 0.0);
         solver.step(1.0);
         const auto fronts = crack_fronts(solver);
@@ -239,7 +259,8 @@ CASE_TEST(dcb_in_space) {
                 least = std::min(least, point.total());
                 most = std::max(most, point.total());
             }
-            std::printf("DCB in space, hex20: G / plane %.4f on average, %.4f to %.4f\n", sum / width / plane, least / plane, most / plane);
+            std::printf("DCB in space, hex20: G / plane %.4f on average, %.4f to %.4f\n", sum / width / plane,
+                        least / plane, most / plane);
             expect_near(sum / width, plane, 0.05, plane, "mean G on quadratic faces");
             continue;
         }
@@ -248,17 +269,21 @@ CASE_TEST(dcb_in_space) {
         for (const FrontPoint& point : points) {
             length += point.length;
             mean += point.length * point.total();
-            expect_near(point.place[0], d.notch - 0.5 * d.h, 1e-9, 1.0, "contour between the open and the first bonded row");
+            expect_near(point.place[0], d.notch - 0.5 * d.h, 1e-9, 1.0,
+                        "contour between the open and the first bonded row");
             expect_near(point.direction[0], 1.0, 1e-9, 1.0, "direction");
             if (d.nu == 0.0) expect_near(point.total(), plane, 1e-6, plane, "G across the width");
         }
         const double middle = points[10].total();
-        std::printf("DCB in space, nu %g: G at mid-width / plane %.4f, mean %.4f, edge %.4f\n", d.nu, middle / plane, mean / length / plane, points[0].total() / plane);
+        std::printf("DCB in space, nu %g: G at mid-width / plane %.4f, mean %.4f, edge %.4f\n", d.nu, middle / plane,
+                    mean / length / plane, points[0].total() / plane);
         expect_near(length, d.width, 1e-9, d.width, "length of the front");
         expect_near(middle, plane, 0.02, plane, "G at mid-width");
-        expect_near(solver.value("energy_release_rate"), std::max_element(points.begin(), points.end(), [](const auto& p, const auto& q) {
-                        return p.total() < q.total();
-                    })->total(), 1e-12, plane, "value energy_release_rate");
+        expect_near(solver.value("energy_release_rate"),
+                    std::max_element(points.begin(), points.end(),
+                                     [](const auto& p, const auto& q) { return p.total() < q.total(); })
+                        ->total(),
+                    1e-12, plane, "value energy_release_rate");
         expect_near(solver.value("crack_length:0"), d.notch * d.width, 1e-9, 1.0, "crack_length is an area in space");
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Saved states of every format version that the library reads are there and are read, whatever wrote them: golden/vN-NAME.state, the values
-// beside them in golden/vN-NAME.txt (key value). With a folder as its argument the program writes both for the present version.
+// Saved states of every format version that the library reads are there and are read, whatever wrote them:
+// golden/vN-NAME.state, the values beside them in golden/vN-NAME.txt (key value). With a folder as its argument the
+// program writes both for the present version.
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -45,11 +46,13 @@ Scene slab() {
     scene.elastic(-1, 1e12, 0.25);
     scene.law(0, {125e9, 125e9, 100.0, 100.0, 250.0, 500.0});
     const auto bottom = scene.find(0, {0.0, 0.0, 0.0}, {1.0, 0.5, 0.0});
-    for (const std::vector<double>& axis : {std::vector<double>{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}) scene.hold(bottom, axis);
+    for (const std::vector<double>& axis : {std::vector<double>{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}})
+        scene.hold(bottom, axis);
     const auto top = scene.find(1, {0.0, 0.0, 2.0}, {1.0, 0.5, 2.0});
     std::vector<double> slanted;
     for (const auto node : top) slanted.push_back(1.0 - 0.2 * scene.coordinate(node, 0));
-    scene.drive(top, {1.0, 0.0, 0.0}, scene.pattern("shear", {0.0, 1.0}, {0.0, 4e-5}), std::vector<double>(top.size(), 1.0));
+    scene.drive(top, {1.0, 0.0, 0.0}, scene.pattern("shear", {0.0, 1.0}, {0.0, 4e-5}),
+                std::vector<double>(top.size(), 1.0));
     scene.drive(top, {0.0, 0.0, 1.0}, scene.pattern("pull", {0.0, 1.0}, {0.0, 8e-5}), slanted);
     scene.text("reduction", "condensed");
     scene.text("mixity_rule", "converged");
@@ -70,8 +73,11 @@ constexpr int steps = 8, saved = 5;
 void march(Solver& solver, int first, int last, const std::string& name) {
     for (int k = first; k <= last; ++k) {
         const double times[] = {0.6, 1.0}, values[] = {2e-5, 9e-5};
-        if (name == "told" && k == 4) solver.scene().require(delam_solver_set_history(solver.get(), 1, 2, times, values), "delam_solver_set_history");
-        if (name == "recorded" && k == 3) solver.scene().require(delam_solver_record(solver.get(), "work"), "delam_solver_record");
+        if (name == "told" && k == 4)
+            solver.scene().require(delam_solver_set_history(solver.get(), 1, 2, times, values),
+                                   "delam_solver_set_history");
+        if (name == "recorded" && k == 3)
+            solver.scene().require(delam_solver_record(solver.get(), "work"), "delam_solver_record");
         solver.step(static_cast<double>(k) / steps);
         solver.commit();
     }
@@ -92,19 +98,22 @@ std::vector<double> recorded_work(const Solver& solver) {
 }
 
 // Values that machines agree on but for rounding.
-constexpr const char* keys[] = {"step", "time", "stored_bulk", "stored_interface", "dissipated", "work", "lower", "upper",
-                                "debonded_length", "reaction:pull", "reaction:shear"};
+constexpr const char* keys[] = {"step",  "time",  "stored_bulk",     "stored_interface", "dissipated",    "work",
+                                "lower", "upper", "debonded_length", "reaction:pull",    "reaction:shear"};
 
 // The format version stands behind eight bytes of magic.
 constexpr std::size_t version_at = 8;
 std::uint32_t version_of(const std::vector<std::uint8_t>& bytes) {
     std::uint32_t version = 0;
-    cases::expect(bytes.size() >= version_at + sizeof version, "a saved state of " + std::to_string(bytes.size()) + " bytes");
+    cases::expect(bytes.size() >= version_at + sizeof version,
+                  "a saved state of " + std::to_string(bytes.size()) + " bytes");
     std::memcpy(&version, bytes.data() + version_at, sizeof version);
     return version;
 }
 
-std::string stem_of(std::uint32_t version, const std::string& name) { return std::string("v").append(std::to_string(version)).append("-").append(name); }
+std::string stem_of(std::uint32_t version, const std::string& name) {
+    return std::string("v").append(std::to_string(version)).append("-").append(name);
+}
 
 void write(const std::filesystem::path& folder) {
     for (const auto& [name, since] : goldens) {
@@ -121,7 +130,8 @@ void write(const std::filesystem::path& folder) {
     }
 }
 
-// Versions that are read, among all up to the one after the present: any other is refused as a version, these for their checksum.
+// Versions that are read, among all up to the one after the present: any other is refused as a version, these for their
+// checksum.
 std::vector<std::uint32_t> versions_read() {
     const Scene scene = bar("feti");
     Solver solver(scene, 0.0);
@@ -135,9 +145,11 @@ std::vector<std::uint32_t> versions_read() {
         }
         auto other = bytes;
         std::memcpy(other.data() + version_at, &version, sizeof version);
-        cases::expect(solver.load(other) == DELAM_ERROR_SNAPSHOT, "bytes that say version " + std::to_string(version) + " were not refused");
+        cases::expect(solver.load(other) == DELAM_ERROR_SNAPSHOT,
+                      "bytes that say version " + std::to_string(version) + " were not refused");
         const std::string message = delam_context_message(scene.context());
-        if (message.find("snapshot version " + std::to_string(version) + ",") == std::string::npos) read.push_back(version);
+        if (message.find("snapshot version " + std::to_string(version) + ",") == std::string::npos)
+            read.push_back(version);
     }
     cases::expect(read.back() == present, "a version beyond that of a fresh save is read");
     cases::expect(read.back() - read.front() + 1 == read.size(), "versions in between are not read");
@@ -152,7 +164,8 @@ CASE_TEST(every_version_is_there) {
             if (version < since) continue;
             ++wanted;
             for (const char* extension : {".state", ".txt"})
-                if (const std::string file = stem_of(version, name) + extension; !std::filesystem::exists(std::filesystem::path(DELAM_GOLDEN) / file))
+                if (const std::string file = stem_of(version, name) + extension;
+                    !std::filesystem::exists(std::filesystem::path(DELAM_GOLDEN) / file))
                     missing += " " + file;
         }
         if (wanted == 0) missing += " " + stem_of(version, "*.state");
@@ -167,7 +180,8 @@ CASE_TEST(every_version_is_read) {
         if (path.extension() != ".state") continue;
         const std::string stem = path.stem().string(), name = stem.substr(stem.find('-') + 1);
         const auto bytes = read_bytes(path);
-        cases::expect(stem == stem_of(version_of(bytes), name), stem + " is of version " + std::to_string(version_of(bytes)));
+        cases::expect(stem == stem_of(version_of(bytes), name),
+                      stem + " is of version " + std::to_string(version_of(bytes)));
         const Scene scene = scene_of(name);
         Solver solver(scene, 0.0), whole(scene, 0.0);
         scene.require(solver.load(bytes), path.c_str());
@@ -175,19 +189,21 @@ CASE_TEST(every_version_is_read) {
         std::string key;
         double value = 0.0;
         int compared = 0;
-        for (; text >> key >> value; ++compared)
-            cases::expect(solver.value(key) == value, stem + ": " + key);
+        for (; text >> key >> value; ++compared) cases::expect(solver.value(key) == value, stem + ": " + key);
         cases::expect(compared == static_cast<int>(std::size(keys)), stem + ": its values are not there");
         // Going on from it equals never having stopped, but for the rounding of another machine.
         march(solver, saved + 1, steps, name);
         march(whole, 1, steps, name);
         cases::expect(whole.value("dissipated") > 0.0, "nothing was damaged");
         for (const char* k : keys)
-            cases::expect_near(solver.value(k), whole.value(k), 1e-8, std::abs(whole.value("work")) + std::abs(whole.value(k)), stem + ": " + k);
+            cases::expect_near(solver.value(k), whole.value(k), 1e-8,
+                               std::abs(whole.value("work")) + std::abs(whole.value(k)), stem + ": " + k);
         if (name == "recorded") {
             const std::vector<double> resumed = recorded_work(solver), all = recorded_work(whole);
-            cases::expect(resumed.size() == steps - 1 && all.size() == resumed.size(), stem + ": a recorded value for each step");
-            for (std::size_t k = 0; k < all.size(); ++k) cases::expect_near(resumed[k], all[k], 1e-8, all.back(), stem + ": recorded work");
+            cases::expect(resumed.size() == steps - 1 && all.size() == resumed.size(),
+                          stem + ": a recorded value for each step");
+            for (std::size_t k = 0; k < all.size(); ++k)
+                cases::expect_near(resumed[k], all[k], 1e-8, all.back(), stem + ": recorded work");
         }
         ++read;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Marches with a gradient term: a cantilever of two arms peeled apart, in plane and in space. Every step is checked from outside against energies and
-// optimality conditions written out for 2-node faces.
+// Marches with a gradient term: a cantilever of two arms peeled apart, in plane and in space. Every step is checked
+// from outside against energies and optimality conditions written out for 2-node faces.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -20,7 +20,7 @@ struct Peel {
     LawData law{1e12, 1e12, 50.0, 50.0, 300.0, 300.0};
     double h = 1e-3;
     int dimension = 2;
-    int through = 2;        // cells of an arm
+    int through = 2;  // cells of an arm
     int plies = 2;
     double opening = 4e-4;  // m, at time 1
     std::int32_t cell = DELAM_QUAD4;
@@ -44,8 +44,8 @@ Scene make(const Peel& p) {
     const auto count = static_cast<std::size_t>(p.plies);
     const auto along = static_cast<std::int64_t>(std::lround(length / p.h));
     Scene scene(d, d == 2 ? std::vector<double>{length} : std::vector<double>{length, 0.006},
-                d == 2 ? std::vector<std::int64_t>{along} : std::vector<std::int64_t>{along, 3}, std::vector<double>(count, ply),
-                std::vector<std::int64_t>(count, p.through), p.cell);
+                d == 2 ? std::vector<std::int64_t>{along} : std::vector<std::int64_t>{along, 3},
+                std::vector<double>(count, ply), std::vector<std::int64_t>(count, p.through), p.cell);
     for (int i = 0; i + 1 < p.plies; ++i) scene.interface(i, i + 1);
     scene.begin();
     scene.elastic(-1, 70e9, 0.3);
@@ -95,13 +95,15 @@ struct Outside {
         stored = gradient = 0.0;
         for (std::size_t i = 0; i < x.size(); ++i) stored += weight[i] * zeta[i] * y[i];
         for (std::size_t i = 0; i + 1 < x.size(); ++i)
-            if (adhered(i)) gradient += 0.5 * kappa * (zeta[i + 1] - zeta[i]) * (zeta[i + 1] - zeta[i]) / (x[i + 1] - x[i]);
+            if (adhered(i))
+                gradient += 0.5 * kappa * (zeta[i + 1] - zeta[i]) * (zeta[i + 1] - zeta[i]) / (x[i + 1] - x[i]);
     }
     bool adhered(std::size_t i) const { return x[i] > notch - 1e-7; }
     // Largest move of a pair along the projected gradient, scaled by its own curvature; delta allows about as much.
     double defect(const Peel& p, const std::vector<double>& old) const {
         double worst = 0.0;
-        const double go = p.law.normal_onset, gc = p.law.normal_toughness, d = gc - go;  // one toughness for both modes here
+        const double go = p.law.normal_onset, gc = p.law.normal_toughness,
+                     d = gc - go;  // one toughness for both modes here
         for (std::size_t i = 0; i < x.size(); ++i) {
             if (!adhered(i)) continue;
             double force = weight[i] * (y[i] - gc * gc * go / std::pow(go + d * zeta[i], 2));
@@ -131,10 +133,12 @@ March march(const Peel& p, int steps, const std::string& where) {
         const std::string at = where + ", step " + std::to_string(k);
         solver.step(static_cast<double>(k) / steps);
         const double scale = energy(solver) + solver.value("dissipated");
-        cases::expect_below((solver.value("increment") - solver.value("upper")) / scale, 1e-9, at + ": increment above the upper estimate");
+        cases::expect_below((solver.value("increment") - solver.value("upper")) / scale, 1e-9,
+                            at + ": increment above the upper estimate");
         if (p.dimension == 2 && p.plies == 2 && p.cell == DELAM_QUAD4) {
             const Outside seen(solver, p);
-            cases::expect_near(solver.value("stored_interface"), seen.stored + seen.gradient, 1e-12, scale, at + ": stored in the interface");
+            cases::expect_near(solver.value("stored_interface"), seen.stored + seen.gradient, 1e-12, scale,
+                               at + ": stored in the interface");
             cases::expect_below(seen.defect(p, old), 2.0 * p.delta, at + ": adhesion is not a minimiser");
         }
         m.reaction.push_back(solver.value("reaction:peel"));
@@ -147,8 +151,8 @@ March march(const Peel& p, int steps, const std::string& where) {
     for (const auto node : scene.pairs(0).node_a) m.x.push_back(scene.coordinate(node, 0));
     m.balance = m.stored.back() + m.dissipated.back() - solver.value("work");
     m.front = solver.value("front");
-    std::printf("%s: %.0f alternations, stored %.9g, dissipated %.9g, defect of the balance %.3e, front %.6g mm\n", where.c_str(), m.alternations,
-                m.stored.back(), m.dissipated.back(), m.balance, 1e3 * m.front);
+    std::printf("%s: %.0f alternations, stored %.9g, dissipated %.9g, defect of the balance %.3e, front %.6g mm\n",
+                where.c_str(), m.alternations, m.stored.back(), m.dissipated.back(), m.balance, 1e3 * m.front);
     return m;
 }
 
@@ -166,7 +170,8 @@ void expect_same(const March& a, const March& b, double tolerance, const std::st
     }
 }
 
-// ---- both minimisations, both operators, plane and space ------------------------------------------------------------------
+// ---- both minimisations, both operators, plane and space
+// ------------------------------------------------------------------
 
 CASE_TEST(accelerated_is_plain) {
     Peel p;
@@ -190,7 +195,8 @@ CASE_TEST(accelerated_is_plain) {
     expect_same(march(p, steps, where + ", feti"), plain, 1e-5, where + ", feti");
 }
 
-// ---- the profile of the process zone belongs to kappa, not to the mesh ------------------------------------------------------
+// ---- the profile of the process zone belongs to kappa, not to the mesh
+// ------------------------------------------------------
 
 CASE_TEST(profile_converges) {
     Peel p;
@@ -217,18 +223,24 @@ CASE_TEST(profile_converges) {
         distance.push_back(1e3 * sum);
         double steepest = 0.0;
         for (std::size_t i = 1; i < a.x.size(); ++i)
-            if (a.x[i - 1] > notch - 1e-7) steepest = std::max(steepest, std::abs(a.zeta[i] - a.zeta[i - 1]) / (a.x[i] - a.x[i - 1]));
+            if (a.x[i - 1] > notch - 1e-7)
+                steepest = std::max(steepest, std::abs(a.zeta[i] - a.zeta[i - 1]) / (a.x[i] - a.x[i - 1]));
         slope.push_back(1e-3 * steepest);
-        std::printf("%s, level %zu: %.4g mm from the finest profile, steepest %.4g /mm\n", where.c_str(), l, distance.back(), slope.back());
+        std::printf("%s, level %zu: %.4g mm from the finest profile, steepest %.4g /mm\n", where.c_str(), l,
+                    distance.back(), slope.back());
     }
-    // First order in h, since half of what the pair at the tip stands for lies in the notch; the Griffith front jumps, and where to depends on it.
-    for (std::size_t l = 1; l < distance.size(); ++l) cases::expect_below(distance[l], 0.8 * distance[l - 1], where + ": distance to the finest");
+    // First order in h, since half of what the pair at the tip stands for lies in the notch; the Griffith front jumps,
+    // and where to depends on it.
+    for (std::size_t l = 1; l < distance.size(); ++l)
+        cases::expect_below(distance[l], 0.8 * distance[l - 1], where + ": distance to the finest");
     cases::expect_below(distance[2], loop == 0 ? 0.02 : 0.3, where + ": distance of the last but one");
     // The slope of the zone does not follow the cells, as it does without the term (there it doubles each time).
-    for (std::size_t l = 2; l < slope.size(); ++l) cases::expect_near(slope[l], slope[l - 1], 0.08, slope[l - 1], where + ": steepest");
+    for (std::size_t l = 2; l < slope.size(); ++l)
+        cases::expect_near(slope[l], slope[l - 1], 0.08, slope[l - 1], where + ": steepest");
 }
 
-// ---- limits of kappa ------------------------------------------------------------------------------------------------------
+// ---- limits of kappa
+// ------------------------------------------------------------------------------------------------------
 
 CASE_TEST(small_kappa_is_the_pointwise_march) {
     Peel p;
@@ -240,7 +252,8 @@ CASE_TEST(small_kappa_is_the_pointwise_march) {
         p.law = with(ductile, part * kappa);
         const March small = march(p, 6, "kappa times " + std::to_string(part));
         double moved = 0.0;
-        for (std::size_t i = 0; i < small.zeta.size(); ++i) moved = std::max(moved, std::abs(small.zeta[i] - without.zeta[i]));
+        for (std::size_t i = 0; i < small.zeta.size(); ++i)
+            moved = std::max(moved, std::abs(small.zeta[i] - without.zeta[i]));
         distance.push_back(moved);
         std::printf("kappa times %g moves the adhesion by %.3e\n", part, moved);
     }
@@ -255,12 +268,14 @@ CASE_TEST(kappa_zero_changes_no_digit) {
     Scene zero = make(p);
     delam_law* law = nullptr;
     zero.require(delam_law_create(zero.context(), "piecewise-linear", &law), "law");
-    const std::pair<const char*, double> parameters[] = {{"normal_stiffness", 1e12}, {"tangential_stiffness", 1e12}, {"normal_onset", 50.0},
-                                                         {"tangential_onset", 50.0}, {"normal_toughness", 300.0},   {"tangential_toughness", 300.0},
-                                                         {"gradient", 0.0}};
+    const std::pair<const char*, double> parameters[] = {
+        {"normal_stiffness", 1e12}, {"tangential_stiffness", 1e12}, {"normal_onset", 50.0},
+        {"tangential_onset", 50.0}, {"normal_toughness", 300.0},    {"tangential_toughness", 300.0},
+        {"gradient", 0.0}};
     for (const auto& [key, value] : parameters) zero.require(delam_law_set(law, key, value), key);
     cases::expect(delam_law_set(law, "gradient", -1.0) == DELAM_ERROR_ARGUMENT, "a negative kappa is taken");
-    cases::expect(std::string(delam_context_message(zero.context())).find("'gradient' = -1 must be finite and >= 0") != std::string::npos,
+    cases::expect(std::string(delam_context_message(zero.context())).find("'gradient' = -1 must be finite and >= 0") !=
+                      std::string::npos,
                   delam_context_message(zero.context()));
     zero.require(delam_problem_set_law(zero.problem(), 0, law), "delam_problem_set_law");
     delam_law_destroy(&law);
@@ -275,15 +290,19 @@ CASE_TEST(kappa_zero_changes_no_digit) {
         a.commit();
         b.commit();
     }
-    cases::expect(std::strstr(delam_solver_plan(a.get()), "gradient term: left out, no law has kappa > 0") != nullptr, delam_solver_plan(a.get()));
+    cases::expect(std::strstr(delam_solver_plan(a.get()), "gradient term: left out, no law has kappa > 0") != nullptr,
+                  delam_solver_plan(a.get()));
     p.law = with(ductile, kappa);
     const Scene scene = make(p);
     Solver c(scene, 0.0);
-    cases::expect(std::strstr(delam_solver_plan(c.get()), "gradient term: used") != nullptr, delam_solver_plan(c.get()));
-    cases::expect(std::strstr(delam_solver_plan(c.get()), "couples 31 of 41 pairs") != nullptr, delam_solver_plan(c.get()));
+    cases::expect(std::strstr(delam_solver_plan(c.get()), "gradient term: used") != nullptr,
+                  delam_solver_plan(c.get()));
+    cases::expect(std::strstr(delam_solver_plan(c.get()), "couples 31 of 41 pairs") != nullptr,
+                  delam_solver_plan(c.get()));
 }
 
-// ---- the ledger ------------------------------------------------------------------------------------------------------------
+// ---- the ledger
+// ------------------------------------------------------------------------------------------------------------
 
 CASE_TEST(ledger_closes) {
     Peel p;
@@ -294,11 +313,13 @@ CASE_TEST(ledger_closes) {
         const March m = march(p, steps, std::to_string(steps) + " steps");
         defect.push_back(std::abs(m.balance) / (m.stored.back() + m.dissipated.back()));
     }
-    for (std::size_t i = 1; i < defect.size(); ++i) cases::expect_below(defect[i], 0.6 * defect[i - 1], "defect of the energy balance");
+    for (std::size_t i = 1; i < defect.size(); ++i)
+        cases::expect_below(defect[i], 0.6 * defect[i - 1], "defect of the energy balance");
     cases::expect_below(defect.back(), 2e-3, "defect of the energy balance, 80 steps");
 }
 
-// ---- save, load, go on -----------------------------------------------------------------------------------------------------
+// ---- save, load, go on
+// -----------------------------------------------------------------------------------------------------
 
 CASE_TEST(resumed_march) {
     Peel p;

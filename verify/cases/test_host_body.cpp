@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies of which the host gives the stiffness: handed the matrices that the library assembles itself, a march is the same; supports of the host's are
-// found or told; what is no solid is refused by name.
+// Bodies of which the host gives the stiffness: handed the matrices that the library assembles itself, a march is the
+// same; supports of the host's are found or told; what is no solid is refused by name.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -22,17 +22,21 @@ struct Csr {
 
 Csr body_matrix(const Scene& scene, std::int32_t body) {
     std::int64_t rows = 0, entries = 0;
-    scene.require(delam_problem_body_matrix(scene.problem(), body, &rows, &entries, nullptr, nullptr, nullptr), "delam_problem_body_matrix");
-    Csr k{std::vector<std::int64_t>(static_cast<std::size_t>(rows) + 1), std::vector<std::int64_t>(static_cast<std::size_t>(entries)),
+    scene.require(delam_problem_body_matrix(scene.problem(), body, &rows, &entries, nullptr, nullptr, nullptr),
+                  "delam_problem_body_matrix");
+    Csr k{std::vector<std::int64_t>(static_cast<std::size_t>(rows) + 1),
+          std::vector<std::int64_t>(static_cast<std::size_t>(entries)),
           std::vector<double>(static_cast<std::size_t>(entries))};
-    scene.require(delam_problem_body_matrix(scene.problem(), body, nullptr, nullptr, k.start.data(), k.column.data(), k.value.data()),
+    scene.require(delam_problem_body_matrix(scene.problem(), body, nullptr, nullptr, k.start.data(), k.column.data(),
+                                            k.value.data()),
                   "delam_problem_body_matrix");
     return k;
 }
 
 std::vector<std::int64_t> nodes_of(const Scene& scene, std::int32_t body) {
     std::vector<std::int32_t> bodies(scene.node_count());
-    scene.require(delam_mesh_node_bodies(scene.mesh(), static_cast<std::int64_t>(bodies.size()), bodies.data()), "delam_mesh_node_bodies");
+    scene.require(delam_mesh_node_bodies(scene.mesh(), static_cast<std::int64_t>(bodies.size()), bodies.data()),
+                  "delam_mesh_node_bodies");
     std::vector<std::int64_t> nodes;
     for (std::size_t n = 0; n < bodies.size(); ++n)
         if (bodies[n] == body) nodes.push_back(static_cast<std::int64_t>(n));
@@ -50,7 +54,8 @@ Scene without_cells(const Scene& own, const std::vector<std::int32_t>& bodies) {
     check(delam_context_create(&c), c);
     context.reset(c);
     delam_mesh* m = nullptr;
-    check(delam_mesh_create(c, own.dimension(), static_cast<std::int64_t>(own.node_count()), own.nodes().data(), &m), c);
+    check(delam_mesh_create(c, own.dimension(), static_cast<std::int64_t>(own.node_count()), own.nodes().data(), &m),
+          c);
     reference::Mesh mesh(m);
     for (const std::int32_t body : bodies) {
         const auto nodes = nodes_of(own, body);
@@ -70,20 +75,23 @@ Scene without_cells(const Scene& own, const std::vector<std::int32_t>& bodies) {
         check(delam_mesh_interface_size(own.mesh(), i, &a, &b, nullptr, &faces, &per_face), own.context());
         std::vector<std::int64_t> face(static_cast<std::size_t>(faces * per_face));
         check(delam_mesh_interface_faces(own.mesh(), i, face.data()), own.context());
-        check(delam_mesh_add_pairs(m, a, b, static_cast<std::int64_t>(pairs.count()), pairs.node_a.data(), pairs.node_b.data(), normals.data(),
-                                   pairs.weight.data(), faces, per_face, face.data(), 0, &added),
+        check(delam_mesh_add_pairs(m, a, b, static_cast<std::int64_t>(pairs.count()), pairs.node_a.data(),
+                                   pairs.node_b.data(), normals.data(), pairs.weight.data(), faces, per_face,
+                                   face.data(), 0, &added),
               c);
         cases::expect(added == i, "index of the interface");
     }
     delam_problem* p = nullptr;
     check(delam_problem_create(c, m, &p), c);
     reference::Problem problem(p);
-    return Scene::adopt(std::move(context), std::move(mesh), std::move(problem), std::vector<reference::InterfaceStiffness>(4));
+    return Scene::adopt(std::move(context), std::move(mesh), std::move(problem),
+                        std::vector<reference::InterfaceStiffness>(4));
 }
 
-std::int32_t give(const Scene& scene, const std::vector<std::int64_t>& nodes, const Csr& k, std::int64_t kernel_count = -1, const double* kernel = nullptr) {
-    return delam_problem_set_stiffness(scene.problem(), static_cast<std::int64_t>(nodes.size()), nodes.data(), nullptr, k.start.data(), k.column.data(),
-                                       k.value.data(), kernel_count, kernel, 0);
+std::int32_t give(const Scene& scene, const std::vector<std::int64_t>& nodes, const Csr& k,
+                  std::int64_t kernel_count = -1, const double* kernel = nullptr) {
+    return delam_problem_set_stiffness(scene.problem(), static_cast<std::int64_t>(nodes.size()), nodes.data(), nullptr,
+                                       k.start.data(), k.column.data(), k.value.data(), kernel_count, kernel, 0);
 }
 
 // One matrix for all bodies, its rows and entries in an order of the host's own, from 1, each entry in two halves.
@@ -121,16 +129,19 @@ void give_shuffled(const Scene& scene, const Scene& own, const std::vector<std::
         k.start.push_back(static_cast<std::int64_t>(k.column.size()) + 1);
     }
     cases::expect(nodes.size() * dim == rows, "rows");
-    scene.require(delam_problem_set_stiffness(scene.problem(), static_cast<std::int64_t>(nodes.size()), one_based.data(), dofs.data(), k.start.data(),
-                                              k.column.data(), k.value.data(), -1, nullptr, 1),
-                  "delam_problem_set_stiffness");
+    scene.require(
+        delam_problem_set_stiffness(scene.problem(), static_cast<std::int64_t>(nodes.size()), one_based.data(),
+                                    dofs.data(), k.start.data(), k.column.data(), k.value.data(), -1, nullptr, 1),
+        "delam_problem_set_stiffness");
 }
 
-constexpr const char* keys[] = {"stored_bulk", "stored_interface", "dissipated", "work", "lower", "upper", "crack_length", "energy_release_rate", "contact_pairs",
-                                "debonded_length", "reaction:drive"};
+constexpr const char* keys[] = {
+    "stored_bulk",         "stored_interface", "dissipated",      "work",          "lower", "upper", "crack_length",
+    "energy_release_rate", "contact_pairs",    "debonded_length", "reaction:drive"};
 
 // Same march, same values and jumps; relative to the largest of the march.
-void same_march(const Scene& own, const Scene& other, double end, int steps, double tolerance, const std::string& what) {
+void same_march(const Scene& own, const Scene& other, double end, int steps, double tolerance,
+                const std::string& what) {
     Solver a(own, 0.0), b(other, 0.0);
     std::map<std::string, double> largest;
     double opening = 0.0;
@@ -141,13 +152,16 @@ void same_march(const Scene& own, const Scene& other, double end, int steps, dou
         b.commit();
         for (const char* key : keys) {
             largest[key] = std::max(largest[key], std::abs(a.value(key)));
-            cases::expect_near(b.value(key), a.value(key), tolerance, std::max(largest[key], 1e-300), what + ", step " + std::to_string(k) + ", " + key);
+            cases::expect_near(b.value(key), a.value(key), tolerance, std::max(largest[key], 1e-300),
+                               what + ", step " + std::to_string(k) + ", " + key);
         }
         const auto u = a.field("displacement"), v = b.field("displacement");
         for (std::size_t i = 0; i < u.size(); ++i) opening = std::max(opening, std::abs(u[i]));
-        for (std::size_t i = 0; i < u.size(); ++i) cases::expect_near(v[i], u[i], tolerance, opening, what + ": displacement " + std::to_string(i));
+        for (std::size_t i = 0; i < u.size(); ++i)
+            cases::expect_near(v[i], u[i], tolerance, opening, what + ": displacement " + std::to_string(i));
     }
-    cases::expect(a.value("dissipated") > 0.0 && a.value("debonded_length") > 0.0, what + ": nothing debonded, nothing was tested");
+    cases::expect(a.value("dissipated") > 0.0 && a.value("debonded_length") > 0.0,
+                  what + ": nothing debonded, nothing was tested");
     cases::expect_below(b.value("kkt_equilibrium"), 1e-9, what + ": equilibrium");
 }
 
@@ -170,7 +184,8 @@ void dress_flexure(Scene& scene) {
     scene.hold(scene.find(0, {0.12, 0.0}, {0.12, 0.0}), {1.0, 0.0});
     scene.hold(scene.find(0, {0.12, 0.0}, {0.12, 0.0}), {0.0, 1.0});
     const auto middle = scene.find(1, {0.06, 6e-3}, {0.06, 6e-3});
-    scene.drive(middle, {0.0, -1.0}, scene.pattern("drive", {0.0, 2.0}, {0.0, 6e-3}), std::vector<double>(middle.size(), 1.0));
+    scene.drive(middle, {0.0, -1.0}, scene.pattern("drive", {0.0, 2.0}, {0.0, 6e-3}),
+                std::vector<double>(middle.size(), 1.0));
 }
 
 // Three plies in space, peeled from the left: the middle one floats but for what glues it.
@@ -181,16 +196,19 @@ void dress_peel(Scene& scene) {
         const auto pairs = scene.pairs(i);
         std::vector<std::int64_t> notch;
         for (std::size_t p = 0; p < pairs.count(); ++p)
-            if (scene.coordinate(pairs.node_a[p], 0) < 0.0075 - 0.002 * static_cast<double>(i)) notch.push_back(static_cast<std::int64_t>(p));
+            if (scene.coordinate(pairs.node_a[p], 0) < 0.0075 - 0.002 * static_cast<double>(i))
+                notch.push_back(static_cast<std::int64_t>(p));
         scene.adhesion(i, notch, std::vector<double>(notch.size(), 0.0));
     }
     const auto bottom = scene.find(0, {0.0, 0.0, 0.0}, {0.0, 0.004, 0.0});
-    for (const auto& along : {std::vector<double>{1.0, 0.0, 0.0}, std::vector<double>{0.0, 1.0, 0.0}, std::vector<double>{0.0, 0.0, 1.0}})
+    for (const auto& along :
+         {std::vector<double>{1.0, 0.0, 0.0}, std::vector<double>{0.0, 1.0, 0.0}, std::vector<double>{0.0, 0.0, 1.0}})
         scene.hold(bottom, along);
     const auto end = scene.find(0, {0.02, 0.0, 0.0}, {0.02, 0.004, 0.0});
     scene.hold(end, {0.0, 0.0, 1.0});
     const auto top = scene.find(2, {0.0, 0.0, 0.003}, {0.0, 0.004, 0.003});
-    scene.drive(top, {0.0, 0.0, 1.0}, scene.pattern("drive", {0.0, 1.0}, {0.0, 4e-4}), std::vector<double>(top.size(), 1.0));
+    scene.drive(top, {0.0, 0.0, 1.0}, scene.pattern("drive", {0.0, 1.0}, {0.0, 4e-4}),
+                std::vector<double>(top.size(), 1.0));
 }
 
 const std::vector<Example>& examples() {
@@ -239,7 +257,8 @@ void march_is_the_same(int loop) {
 
     // Bodies without cells, one call for each.
     Scene bare = without_cells(own, example.bodies);
-    for (const std::int32_t body : example.bodies) bare.require(give(bare, nodes_of(own, body), body_matrix(own, body)), "delam_problem_set_stiffness");
+    for (const std::int32_t body : example.bodies)
+        bare.require(give(bare, nodes_of(own, body), body_matrix(own, body)), "delam_problem_set_stiffness");
     example.dress(bare);
     options(bare);
     same_march(own, bare, example.end, steps, tolerance, name + ", without cells");
@@ -254,7 +273,8 @@ void march_is_the_same(int loop) {
     // Bodies with cells, one of them stiffened by the host: cells give the faces alone.
     Scene mixed = example.make();
     mixed.elastic(example.bodies.back(), 1.0, 0.0);
-    mixed.require(give(mixed, nodes_of(own, example.bodies.back()), body_matrix(own, example.bodies.back())), "delam_problem_set_stiffness");
+    mixed.require(give(mixed, nodes_of(own, example.bodies.back()), body_matrix(own, example.bodies.back())),
+                  "delam_problem_set_stiffness");
     example.dress(mixed);
     options(mixed);
     same_march(own, mixed, example.end, steps, tolerance, name + ", cells");
@@ -263,13 +283,14 @@ void march_is_the_same(int loop) {
 START_TEST(march) { cases::run_body(march_is_the_same, _i); }
 END_TEST
 
-// A bar on the host's own springs: the host adds them to the diagonal, the library finds what they hold. One cell a body, no Poisson effect: springs in
-// series, c (ground) + 1/E + 1/k + 1/E to 1 per unit area.
+// A bar on the host's own springs: the host adds them to the diagonal, the library finds what they hold. One cell a
+// body, no Poisson effect: springs in series, c (ground) + 1/E + 1/k + 1/E to 1 per unit area.
 void grounded_bar(int loop) {
     const int dim = loop < 3 ? 2 : 3;
     const int way = loop % 3;  // condensed, found; FETI, found; condensed, told that nothing is free
     const double young = 1e12, stiffness = 1e12, ground = 4e11;
-    Scene own = dim == 2 ? Scene(2, {1.0}, {1}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4) : Scene(3, {1.0, 1.0}, {1, 1}, {1.0, 1.0}, {1, 1}, DELAM_HEX8);
+    Scene own = dim == 2 ? Scene(2, {1.0}, {1}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4)
+                         : Scene(3, {1.0, 1.0}, {1, 1}, {1.0, 1.0}, {1, 1}, DELAM_HEX8);
     own.interface(0, 1);
     own.begin();
     own.elastic(-1, young, 0.0);
@@ -308,7 +329,8 @@ void grounded_bar(int loop) {
 START_TEST(grounded) { cases::run_body(grounded_bar, _i); }
 END_TEST
 
-// Springs along one direction alone hold that translation; the rest is the library's to hold. The same bar, driven sideways too.
+// Springs along one direction alone hold that translation; the rest is the library's to hold. The same bar, driven
+// sideways too.
 CASE_TEST(partly_grounded) {
     Scene own(2, {1.0}, {1}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
     own.interface(0, 1);
@@ -319,9 +341,11 @@ CASE_TEST(partly_grounded) {
         scene.require(give(scene, nodes_of(own, 1), body_matrix(own, 1)), "upper body");
         Csr k = body_matrix(own, 0);
         const auto nodes = nodes_of(own, 0);
-        for (std::size_t r = 1; r + 1 < k.start.size(); r += 2)  // y of every node: y and the rotation are held, x is free
+        for (std::size_t r = 1; r + 1 < k.start.size();
+             r += 2)  // y of every node: y and the rotation are held, x is free
             for (auto e = k.start[r]; e < k.start[r + 1]; ++e)
-                if (k.column[static_cast<std::size_t>(e)] == static_cast<std::int64_t>(r)) k.value[static_cast<std::size_t>(e)] += 1e11;
+                if (k.column[static_cast<std::size_t>(e)] == static_cast<std::int64_t>(r))
+                    k.value[static_cast<std::size_t>(e)] += 1e11;
         std::vector<double> along_x(2 * nodes.size(), 0.0);
         for (std::size_t i = 0; i < along_x.size(); i += 2) along_x[i] = 3.0;
         scene.require(told ? give(scene, nodes, k, 1, along_x.data()) : give(scene, nodes, k), "lower body");
@@ -330,7 +354,8 @@ CASE_TEST(partly_grounded) {
         scene.drive(top, {0.0, 1.0}, scene.pattern("drive", {0.0, 1.0}, {0.0, 1.0}), {1.0, 1.0});
         const std::int32_t unheld = delam_problem_check(scene.problem());
         const std::string message = delam_context_message(scene.context());
-        cases::expect(unheld == DELAM_ERROR_PROBLEM && message.find("translate along x") != std::string::npos, "free along x: " + message);
+        cases::expect(unheld == DELAM_ERROR_PROBLEM && message.find("translate along x") != std::string::npos,
+                      "free along x: " + message);
         scene.hold(top, {1.0, 0.0});
         for (const char* reduction : {"condensed", "feti"}) {
             scene.text("reduction", reduction);
@@ -339,7 +364,8 @@ CASE_TEST(partly_grounded) {
             // The springs act on both rows of nodes; by hand: a chain of springs at y = 0, 1, 2 with the jump at 1.
             const double e = 1e12, g = 2e11, j = 1e12;
             const double below = g + 1.0 / (1.0 / e + 1.0 / g), chain = 1.0 / (1.0 / below + 1.0 / j + 1.0 / e);
-            cases::expect_near(solver.value("reaction:drive"), chain, 1e-10, chain, std::string("chain of springs, ") + reduction);
+            cases::expect_near(solver.value("reaction:drive"), chain, 1e-10, chain,
+                               std::string("chain of springs, ") + reduction);
         }
         // A told kernel that is none is refused, and one that is not independent.
         std::vector<double> along_y(along_x.size(), 0.0), bent = along_x;
@@ -348,7 +374,8 @@ CASE_TEST(partly_grounded) {
         const auto refused = [&](const std::vector<double>& kernel, std::int64_t count, const char* words) {
             const std::int32_t status = give(scene, nodes, k, count, kernel.data());
             const std::string text = delam_context_message(scene.context());
-            cases::expect(status == DELAM_ERROR_ARGUMENT && text.find(words) != std::string::npos, std::string(words) + ": " + text);
+            cases::expect(status == DELAM_ERROR_ARGUMENT && text.find(words) != std::string::npos,
+                          std::string(words) + ": " + text);
         };
         refused(along_y, 1, "forces");
         refused(bent, 1, "no rigid motion");
@@ -358,7 +385,8 @@ CASE_TEST(partly_grounded) {
     }
 }
 
-// Supports of the host's by empty rows and any diagonal, as finite element programs make them: the march of the scene whose supports the library knows.
+// Supports of the host's by empty rows and any diagonal, as finite element programs make them: the march of the scene
+// whose supports the library knows.
 void emptied_rows(int loop) {
     const Example& example = examples()[1];
     Scene own = example.make();
@@ -366,12 +394,14 @@ void emptied_rows(int loop) {
     Scene scene = without_cells(own, example.bodies);
     const auto dim = static_cast<std::size_t>(own.dimension());
     const std::vector<std::vector<double>> axes{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
-    const auto foot = own.find(0, {0.0, 0.0, 0.0}, {0.0, 0.004, 0.0}), end = own.find(0, {0.02, 0.0, 0.0}, {0.02, 0.004, 0.0});
+    const auto foot = own.find(0, {0.0, 0.0, 0.0}, {0.0, 0.004, 0.0}),
+               end = own.find(0, {0.02, 0.0, 0.0}, {0.02, 0.004, 0.0});
     Csr k = body_matrix(own, 0);
     const auto nodes = nodes_of(own, 0);
     const auto emptied = [&](std::size_t dof) {
         const std::int64_t node = nodes[dof / dim];
-        return std::find(foot.begin(), foot.end(), node) != foot.end() || (dof % dim == 2 && std::find(end.begin(), end.end(), node) != end.end());
+        return std::find(foot.begin(), foot.end(), node) != foot.end() ||
+               (dof % dim == 2 && std::find(end.begin(), end.end(), node) != end.end());
     };
     const double diagonal = loop % 3 == 0 ? 1.0 : loop % 3 == 1 ? 1e-3 : 1e25;
     for (std::size_t r = 0; r + 1 < k.start.size(); ++r)
@@ -380,7 +410,8 @@ void emptied_rows(int loop) {
             if (emptied(r) || emptied(c)) k.value[e] = r == c ? diagonal : 0.0;
         }
     scene.require(give(scene, nodes, k), "lower ply");
-    for (const std::int32_t body : {1, 2}) scene.require(give(scene, nodes_of(own, body), body_matrix(own, body)), "plies");
+    for (const std::int32_t body : {1, 2})
+        scene.require(give(scene, nodes_of(own, body), body_matrix(own, body)), "plies");
     // dress_peel without its supports.
     scene.law(0, {1e12, 1e12, 50.0, 50.0, 200.0, 400.0});
     scene.law(1, {1e12, 1e12, 60.0, 60.0, 220.0, 400.0});
@@ -388,14 +419,16 @@ void emptied_rows(int loop) {
         const auto pairs = scene.pairs(i);
         std::vector<std::int64_t> notch;
         for (std::size_t p = 0; p < pairs.count(); ++p)
-            if (scene.coordinate(pairs.node_a[p], 0) < 0.0075 - 0.002 * static_cast<double>(i)) notch.push_back(static_cast<std::int64_t>(p));
+            if (scene.coordinate(pairs.node_a[p], 0) < 0.0075 - 0.002 * static_cast<double>(i))
+                notch.push_back(static_cast<std::int64_t>(p));
         scene.adhesion(i, notch, std::vector<double>(notch.size(), 0.0));
     }
     const auto top = scene.find(2, {0.0, 0.0, 0.003}, {0.0, 0.004, 0.003});
     scene.drive(top, axes[2], scene.pattern("drive", {0.0, 1.0}, {0.0, 4e-4}), std::vector<double>(top.size(), 1.0));
     const bool feti = loop >= 3;
     for (Scene* s : {&own, &scene}) s->text("reduction", feti ? "feti" : "condensed");
-    same_march(own, scene, example.end, steps, feti ? 1e-6 : 1e-9, std::string(feti ? "FETI" : "condensed") + ", diagonal " + std::to_string(diagonal));
+    same_march(own, scene, example.end, steps, feti ? 1e-6 : 1e-9,
+               std::string(feti ? "FETI" : "condensed") + ", diagonal " + std::to_string(diagonal));
 }
 
 START_TEST(emptied) { cases::run_body(emptied_rows, _i); }
@@ -440,7 +473,8 @@ CASE_TEST(kernel_of_two_bodies) {
     Csr both = body_matrix(own, 0);
     const Csr upper = body_matrix(own, 1);
     const auto rows = both.start.size() - 1;
-    for (std::size_t r = 1; r < upper.start.size(); ++r) both.start.push_back(static_cast<std::int64_t>(both.value.size()) + upper.start[r]);
+    for (std::size_t r = 1; r < upper.start.size(); ++r)
+        both.start.push_back(static_cast<std::int64_t>(both.value.size()) + upper.start[r]);
     for (const auto c : upper.column) both.column.push_back(c + static_cast<std::int64_t>(rows));
     both.value.insert(both.value.end(), upper.value.begin(), upper.value.end());
     auto nodes = nodes_of(own, 0);
@@ -474,7 +508,8 @@ CASE_TEST(two_pieces_of_one_body) {
         scene.hold(foot, {1.0, 0.0});
         scene.hold(foot, {0.0, 1.0});
         scene.hold(scene.find(0, {0.12, 0.0}, {0.12, 0.0}), {0.0, 1.0});
-        scene.drive(scene.find(top_body, {0.0, 6e-3}, {0.0, 6e-3}), {0.0, 1.0}, scene.pattern("drive", {0.0, 1.0}, {0.0, 1.5e-3}), {1.0});
+        scene.drive(scene.find(top_body, {0.0, 6e-3}, {0.0, 6e-3}), {0.0, 1.0},
+                    scene.pattern("drive", {0.0, 1.0}, {0.0, 1.5e-3}), {1.0});
     };
     dress(own, 2);
     // Bodies 0 and 2 become body 0; interface 1 joins 1 and 0.
@@ -490,7 +525,8 @@ CASE_TEST(two_pieces_of_one_body) {
     const Csr lower = body_matrix(own, 0), top = body_matrix(own, 2);
     Csr both = lower;
     for (std::size_t r = 1; r < top.start.size(); ++r) both.start.push_back(lower.start.back() + top.start[r]);
-    for (const auto column : top.column) both.column.push_back(column + static_cast<std::int64_t>(lower.start.size()) - 1);
+    for (const auto column : top.column)
+        both.column.push_back(column + static_cast<std::int64_t>(lower.start.size()) - 1);
     both.value.insert(both.value.end(), top.value.begin(), top.value.end());
     outer.insert(outer.end(), upper.begin(), upper.end());
     check(delam_mesh_add_host_body(m, 0, static_cast<std::int64_t>(outer.size()), outer.data(), 0), c);
@@ -507,10 +543,13 @@ CASE_TEST(two_pieces_of_one_body) {
         normals.push_back(p < a.count() ? 2.0 : -0.5);
     }
     std::int64_t index = -1;
-    check(delam_mesh_add_pairs(m, 0, 1, static_cast<std::int64_t>(of_0.size()), of_0.data(), of_1.data(), normals.data(), weights.data(), 0, 0, nullptr, 0, &index), c);
+    check(delam_mesh_add_pairs(m, 0, 1, static_cast<std::int64_t>(of_0.size()), of_0.data(), of_1.data(),
+                               normals.data(), weights.data(), 0, 0, nullptr, 0, &index),
+          c);
     delam_problem* p = nullptr;
     check(delam_problem_create(c, m, &p), c);
-    Scene scene = Scene::adopt(std::move(context), std::move(mesh), reference::Problem(p), std::vector<reference::InterfaceStiffness>(4));
+    Scene scene = Scene::adopt(std::move(context), std::move(mesh), reference::Problem(p),
+                               std::vector<reference::InterfaceStiffness>(4));
     scene.require(give(scene, outer, both), "both plies");
     scene.require(give(scene, middle, body_matrix(own, 1)), "middle");
     scene.law(0, {1e12, 1e12, 20.0, 20.0, 2000.0, 2000.0});
@@ -524,7 +563,8 @@ CASE_TEST(two_pieces_of_one_body) {
     scene.hold(foot, {1.0, 0.0});
     scene.hold(foot, {0.0, 1.0});
     scene.hold(scene.find(0, {0.12, 0.0}, {0.12, 0.0}), {0.0, 1.0});
-    scene.drive(scene.find(0, {0.0, 6e-3}, {0.0, 6e-3}), {0.0, 1.0}, scene.pattern("drive", {0.0, 1.0}, {0.0, 1.5e-3}), {1.0});
+    scene.drive(scene.find(0, {0.0, 6e-3}, {0.0, 6e-3}), {0.0, 1.0}, scene.pattern("drive", {0.0, 1.0}, {0.0, 1.5e-3}),
+                {1.0});
     for (const char* reduction : {"condensed", "feti"}) {
         own.text("reduction", reduction);
         scene.text("reduction", reduction);
@@ -535,7 +575,9 @@ CASE_TEST(two_pieces_of_one_body) {
             mine.commit();
             theirs.commit();
             for (const char* key : {"stored_bulk", "stored_interface", "dissipated", "work", "reaction:drive"})
-                cases::expect_near(theirs.value(key), mine.value(key), 1e-6, std::abs(mine.value("reaction:drive")) + mine.value("work"), std::string(reduction) + ": " + key);
+                cases::expect_near(theirs.value(key), mine.value(key), 1e-6,
+                                   std::abs(mine.value("reaction:drive")) + mine.value("work"),
+                                   std::string(reduction) + ": " + key);
         }
         cases::expect(mine.value("dissipated") > 0.0, "nothing was damaged");
     }
@@ -552,7 +594,8 @@ CASE_TEST(refusals) {
     Scene scene = without_cells(own, {0, 1});
     const auto refused = [&](std::int32_t status, std::int32_t expected, const char* words) {
         const std::string text = delam_context_message(scene.context());
-        cases::expect(status == expected && text.find(words) != std::string::npos, std::string(words) + ": " + delam_status_name(status) + ", " + text);
+        cases::expect(status == expected && text.find(words) != std::string::npos,
+                      std::string(words) + ": " + delam_status_name(status) + ", " + text);
     };
     const auto changed = [&](const std::function<void(Csr&, std::vector<std::int64_t>&)>& change, const char* words) {
         Csr other = k;
@@ -567,13 +610,19 @@ CASE_TEST(refusals) {
     changed([](Csr&, auto& list) { list[1] = list[0]; }, "is there twice");
     changed([](Csr&, auto& list) { list[1] = 999; }, "nodes[1] = 999");
     changed([&](Csr&, auto& list) { list[1] = nodes_of(own, 1)[0]; }, "is missing");
-    changed([](Csr& c, auto&) { for (double& v : c.value) v = -v; }, "diagonal");
+    changed(
+        [](Csr& c, auto&) {
+            for (double& v : c.value) v = -v;
+        },
+        "diagonal");
     // Twice the shear coupling: symmetric, a positive diagonal, indefinite.
-    changed([](Csr& c, auto&) {
-        for (std::size_t r = 0; r + 1 < c.start.size(); ++r)
-            for (auto e = static_cast<std::size_t>(c.start[r]); e < static_cast<std::size_t>(c.start[r + 1]); ++e)
-                if (static_cast<std::size_t>(c.column[e]) != r) c.value[e] *= 3.0;
-    }, "indefinite");
+    changed(
+        [](Csr& c, auto&) {
+            for (std::size_t r = 0; r + 1 < c.start.size(); ++r)
+                for (auto e = static_cast<std::size_t>(c.start[r]); e < static_cast<std::size_t>(c.start[r + 1]); ++e)
+                    if (static_cast<std::size_t>(c.column[e]) != r) c.value[e] *= 3.0;
+        },
+        "indefinite");
     // Two squares that share one node: a hinge.
     {
         reference::Context context;
@@ -588,7 +637,8 @@ CASE_TEST(refusals) {
         check(delam_mesh_add_cells(m, DELAM_QUAD4, 2, cells.data(), nullptr, 0), c);
         delam_problem* p = nullptr;
         check(delam_problem_create(c, m, &p), c);
-        Scene hinged = Scene::adopt(std::move(context), std::move(mesh), reference::Problem(p), std::vector<reference::InterfaceStiffness>(4));
+        Scene hinged = Scene::adopt(std::move(context), std::move(mesh), reference::Problem(p),
+                                    std::vector<reference::InterfaceStiffness>(4));
         hinged.elastic(-1, 1e9, 0.3);
         const Csr h = body_matrix(hinged, 0);
         const std::int32_t status = give(hinged, nodes_of(hinged, 0), h);
@@ -602,7 +652,8 @@ CASE_TEST(refusals) {
         Csr two = k;
         const Csr other = body_matrix(own, 1);
         for (std::size_t r = 1; r < other.start.size(); ++r) two.start.push_back(k.start.back() + other.start[r]);
-        for (const auto column : other.column) two.column.push_back(column + static_cast<std::int64_t>(k.start.size()) - 1);
+        for (const auto column : other.column)
+            two.column.push_back(column + static_cast<std::int64_t>(k.start.size()) - 1);
         two.value.insert(two.value.end(), other.value.begin(), other.value.end());
         two.column[5] = static_cast<std::int64_t>(two.start.size()) - 2;
         auto list = nodes;
@@ -625,10 +676,12 @@ CASE_TEST(refusals) {
     const std::vector<std::int64_t> one{0}, cell{0, 1, 4, 3};
     refused(delam_mesh_add_host_body(mesh, 0, 1, one.data(), 0), DELAM_ERROR_MESH, "body 0 is there already");
     refused(delam_mesh_add_host_body(mesh, 7, 1, one.data(), 0), DELAM_ERROR_MESH, "belongs to body 0");
-    refused(delam_mesh_add_cells(mesh, DELAM_QUAD4, 1, cell.data(), nullptr, 0), DELAM_ERROR_MESH, "made without cells");
+    refused(delam_mesh_add_cells(mesh, DELAM_QUAD4, 1, cell.data(), nullptr, 0), DELAM_ERROR_MESH,
+            "made without cells");
     std::int64_t index = 0;
     const double normal[2] = {0.0, 1.0}, good = 1.0;
-    refused(delam_mesh_add_pairs(mesh, 0, 1, 1, one.data(), one.data(), normal, &good, 0, 0, nullptr, 0, &index), DELAM_ERROR_ARGUMENT, "joined by interface");
+    refused(delam_mesh_add_pairs(mesh, 0, 1, 1, one.data(), one.data(), normal, &good, 0, 0, nullptr, 0, &index),
+            DELAM_ERROR_ARGUMENT, "joined by interface");
 }
 
 // Without faces there are no fronts, and a gradient term has nothing to act on.
@@ -653,15 +706,20 @@ CASE_TEST(no_faces) {
     std::vector<double> weights = pairs.weight;
     std::int64_t index = -1;
     weights[1] = -1.0;
-    cases::expect(delam_mesh_add_pairs(m, 0, 1, 3, pairs.node_a.data(), pairs.node_b.data(), normals.data(), weights.data(), 0, 0, nullptr, 0, &index) == DELAM_ERROR_ARGUMENT &&
+    cases::expect(delam_mesh_add_pairs(m, 0, 1, 3, pairs.node_a.data(), pairs.node_b.data(), normals.data(),
+                                       weights.data(), 0, 0, nullptr, 0, &index) == DELAM_ERROR_ARGUMENT &&
                       std::string(delam_context_message(c)).find("weights[1] = -1") != std::string::npos,
                   delam_context_message(c));
     weights[1] = pairs.weight[1];
-    check(delam_mesh_add_pairs(m, 0, 1, 3, pairs.node_a.data(), pairs.node_b.data(), normals.data(), weights.data(), 0, 0, nullptr, 0, &index), c);
+    check(delam_mesh_add_pairs(m, 0, 1, 3, pairs.node_a.data(), pairs.node_b.data(), normals.data(), weights.data(), 0,
+                               0, nullptr, 0, &index),
+          c);
     delam_problem* p = nullptr;
     check(delam_problem_create(c, m, &p), c);
-    Scene scene = Scene::adopt(std::move(context), std::move(mesh), reference::Problem(p), std::vector<reference::InterfaceStiffness>(4));
-    for (const std::int32_t body : {0, 1}) scene.require(give(scene, nodes_of(own, body), body_matrix(own, body)), "stiffness");
+    Scene scene = Scene::adopt(std::move(context), std::move(mesh), reference::Problem(p),
+                               std::vector<reference::InterfaceStiffness>(4));
+    for (const std::int32_t body : {0, 1})
+        scene.require(give(scene, nodes_of(own, body), body_matrix(own, body)), "stiffness");
     reference::LawData law{1e9, 1e9, 1.0, 1.0, 2.0, 2.0};
     law.gradient = 1e-3;
     scene.law(0, law);
@@ -670,7 +728,8 @@ CASE_TEST(no_faces) {
     scene.hold(foot, {0.0, 1.0});
     const auto top = scene.find(1, {0.0, 2.0}, {0.0, 2.0});
     scene.drive(top, {0.0, 1.0}, scene.pattern("drive", {0.0, 1.0}, {0.0, 3e-4}), {1.0});
-    cases::expect(delam_problem_check(scene.problem()) == DELAM_ERROR_PROBLEM && std::string(delam_context_message(scene.context())).find("no faces") != std::string::npos,
+    cases::expect(delam_problem_check(scene.problem()) == DELAM_ERROR_PROBLEM &&
+                      std::string(delam_context_message(scene.context())).find("no faces") != std::string::npos,
                   delam_context_message(scene.context()));
     law.gradient = 0.0;
     scene.law(0, law);

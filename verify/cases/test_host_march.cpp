@@ -36,7 +36,9 @@ Scene bar(const std::vector<double>& times, const std::vector<double>& values, c
 }
 
 void set(const Solver& solver, const std::vector<double>& times, const std::vector<double>& values) {
-    solver.scene().require(delam_solver_set_history(solver.get(), 0, static_cast<std::int64_t>(times.size()), times.data(), values.data()), "delam_solver_set_history");
+    solver.scene().require(
+        delam_solver_set_history(solver.get(), 0, static_cast<std::int64_t>(times.size()), times.data(), values.data()),
+        "delam_solver_set_history");
 }
 
 void to(Solver& solver, double time) {
@@ -90,11 +92,13 @@ CASE_TEST(history_refused) {
     const double ok = 0.75, early = 0.5, value = 1e-5, nan = NAN;
     const double twice[2] = {0.75, 0.75}, values[2] = {0.0, 0.0};
     delam_solver* s = solver.get();
-    cases::expect(delam_solver_set_history(s, 0, 1, &early, &value) == DELAM_ERROR_ARGUMENT, "not after the committed time");
+    cases::expect(delam_solver_set_history(s, 0, 1, &early, &value) == DELAM_ERROR_ARGUMENT,
+                  "not after the committed time");
     cases::expect(delam_solver_set_history(s, 1, 1, &ok, &value) == DELAM_ERROR_ARGUMENT, "no such pattern");
     cases::expect(delam_solver_set_history(s, 0, 0, &ok, &value) == DELAM_ERROR_ARGUMENT, "no points");
     cases::expect(delam_solver_set_history(s, 0, 1, &ok, &nan) == DELAM_ERROR_ARGUMENT, "not finite");
-    cases::expect(delam_solver_set_history(s, 0, 2, twice, values) == DELAM_ERROR_ARGUMENT, "times that do not increase");
+    cases::expect(delam_solver_set_history(s, 0, 2, twice, values) == DELAM_ERROR_ARGUMENT,
+                  "times that do not increase");
     std::int32_t pending = -1;
     scene.require(delam_solver_pending(s, &pending), "delam_solver_pending");
     cases::expect(pending == 0, "nothing is pending");
@@ -117,7 +121,8 @@ struct Folder {
         std::filesystem::remove_all(path, ignored);
     }
     std::size_t files() const {
-        return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path), std::filesystem::directory_iterator()));
+        return static_cast<std::size_t>(
+            std::distance(std::filesystem::directory_iterator(path), std::filesystem::directory_iterator()));
     }
 };
 
@@ -145,9 +150,11 @@ CASE_TEST(states_as_files) {
 
     const auto refused = [&](std::int32_t status, std::int32_t expected, const char* words) {
         const std::string message = delam_context_message(scene.context());
-        cases::expect(status == expected && message.find(words) != std::string::npos, std::string(words) + ": " + message);
+        cases::expect(status == expected && message.find(words) != std::string::npos,
+                      std::string(words) + ": " + message);
     };
-    refused(delam_solver_save_file(again.get(), (folder.path / "none" / "a").c_str()), DELAM_ERROR_FILE, "No such file");
+    refused(delam_solver_save_file(again.get(), (folder.path / "none" / "a").c_str()), DELAM_ERROR_FILE,
+            "No such file");
     refused(delam_solver_save_file(again.get(), folder.path.c_str()), DELAM_ERROR_FILE, "directory");
     refused(delam_solver_save_file(again.get(), nullptr), DELAM_ERROR_ARGUMENT, "path");
     refused(delam_solver_save_file(again.get(), ""), DELAM_ERROR_FILE, "the path is empty");
@@ -159,7 +166,8 @@ CASE_TEST(states_as_files) {
     std::filesystem::create_symlink(pipe, link);
     refused(delam_solver_save_file(again.get(), link.c_str()), DELAM_ERROR_FILE, "a pipe, and only files are replaced");
     cases::expect(std::filesystem::is_symlink(link) && std::filesystem::remove(link), "the link is gone");
-    cases::expect(std::filesystem::is_fifo(pipe) && std::filesystem::remove(pipe) && folder.files() == 1, "the pipe is gone, or something was left beside it");
+    cases::expect(std::filesystem::is_fifo(pipe) && std::filesystem::remove(pipe) && folder.files() == 1,
+                  "the pipe is gone, or something was left beside it");
     refused(delam_solver_load_file(again.get(), (folder.path / "none").c_str()), DELAM_ERROR_FILE, "No such file");
     refused(delam_solver_load_file(again.get(), folder.path.c_str()), DELAM_ERROR_FILE, "directory");
     const std::string empty = (folder.path / "empty").string();
@@ -187,7 +195,9 @@ CASE_TEST(full_disk) {
     const std::int32_t status = delam_solver_save_file(solver.get(), path.c_str());
     setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, handler);
-    cases::expect(status == DELAM_ERROR_FILE && std::string(delam_context_message(scene.context())).find("too large") != std::string::npos, delam_context_message(scene.context()));
+    cases::expect(status == DELAM_ERROR_FILE &&
+                      std::string(delam_context_message(scene.context())).find("too large") != std::string::npos,
+                  delam_context_message(scene.context()));
     cases::expect(folder.files() == 1, "a part of the file was left");
     Solver again(scene, 0.0);
     scene.require(delam_solver_load_file(again.get(), path.c_str()), "the older state");
@@ -250,7 +260,9 @@ CASE_TEST(cancelled_with_threads) {
     Solver solver(scene, 0.0), straight(scene, 0.0);
     static std::int64_t polls;
     static std::int64_t last;
-    const auto count = [](const char*, std::int64_t, std::int64_t, void*) -> std::int32_t { return ++polls == last ? 1 : 0; };
+    const auto count = [](const char*, std::int64_t, std::int64_t, void*) -> std::int32_t {
+        return ++polls == last ? 1 : 0;
+    };
     straight.step(cases::small_time(1));
     scene.require(delam_context_set_progress(scene.context(), count, nullptr), "progress");
     for (last = 1; last < 400; last = last * 2 + 1) {
@@ -260,7 +272,8 @@ CASE_TEST(cancelled_with_threads) {
     delam_solver* made = nullptr;
     for (last = 1; last <= 4; ++last) {
         polls = 0;
-        cases::expect(delam_solver_create(scene.problem(), 0.0, &made) == DELAM_CANCELLED && made == nullptr, "cancelled while it is made");
+        cases::expect(delam_solver_create(scene.problem(), 0.0, &made) == DELAM_CANCELLED && made == nullptr,
+                      "cancelled while it is made");
     }
     scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "progress");
     solver.step(cases::small_time(1));

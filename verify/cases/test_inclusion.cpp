@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One circular fibre: the exact fields of an inclusion that is glued, held by springs, loose under tension (an open gap) or
-// pressed against its matrix without friction; and the bulk modulus of a composite cylinder.
+// One circular fibre: the exact fields of an inclusion that is glued, held by springs, loose under tension (an open
+// gap) or pressed against its matrix without friction; and the bulk modulus of a composite cylinder.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,8 +24,8 @@ using reference::Solver;
 constexpr double radius = 5e-6, outer = 15e-6;
 constexpr Phase fibre{74e9, 0.2}, matrix{3.5e9, 0.35};
 
-// Quadrilaterals of four or eight nodes: a disc (a square inside four patches that become round) and a ring around it, n cells on a quarter of
-// the circle. Nodes of the quadratic mesh lie on the circle.
+// Quadrilaterals of four or eight nodes: a disc (a square inside four patches that become round) and a ring around it,
+// n cells on a quarter of the circle. Nodes of the quadratic mesh lie on the circle.
 struct FibreMesh {
     std::vector<double> nodes;
     std::vector<std::int64_t> cells;
@@ -45,7 +45,8 @@ public:
                 const double angle = 0.25 * std::numbers::pi * (2 * t - 1);
                 const double x = (1 - round) * core + round * r * std::cos(angle);
                 const double y = (1 - round) * core * (2 * t - 1) + round * r * std::sin(angle);
-                const double c = std::cos(0.5 * std::numbers::pi * quarter), z = std::sin(0.5 * std::numbers::pi * quarter);
+                const double c = std::cos(0.5 * std::numbers::pi * quarter),
+                             z = std::sin(0.5 * std::numbers::pi * quarter);
                 return std::array{c * x - z * y, z * x + c * y};
             };
             patch(std::max(1, n / 2), n, 0, [&](double s, double t) { return ray(radius, t, s); });
@@ -57,7 +58,8 @@ public:
 private:
     // Nodes of one body at one place are one.
     std::int64_t node(int body, std::array<double, 2> p) {
-        const std::array<std::int64_t, 3> key{body, std::llround(p[0] / radius * 1e7), std::llround(p[1] / radius * 1e7)};
+        const std::array<std::int64_t, 3> key{body, std::llround(p[0] / radius * 1e7),
+                                              std::llround(p[1] / radius * 1e7)};
         const auto at = std::lower_bound(known_.begin(), known_.end(), std::pair(key, std::int64_t{0}));
         if (at != known_.end() && at->first == key) return at->second;
         const auto index = static_cast<std::int64_t>(mesh_.nodes.size() / 2);
@@ -191,12 +193,14 @@ Inclusion exact_field(const Setting& setting) {
     const bool springs = setting.bond == Bond::springs;
     // Closed contact is rigid along the normal; what does not adhere slides.
     const double normal = springs && !pressed ? 1.0 / normal_stiffness : 0.0;
-    const double tangential = springs ? 1.0 / tangential_stiffness : setting.bond == Bond::perfect ? 0.0 : 1e6 * outer / matrix.young;
+    const double tangential = springs                         ? 1.0 / tangential_stiffness
+                              : setting.bond == Bond::perfect ? 0.0
+                                                              : 1e6 * outer / matrix.young;
     return Inclusion(fibre, matrix, radius, setting.remote, normal, tangential, setting.bond == Bond::none && !pressed);
 }
 
-// Each halving of the cells lowers the errors by the orders of the elements: displacements 2 (linear) and more than 2.5 (quadratic), stresses at the
-// centres of cells 1.5 and 2.
+// Each halving of the cells lowers the errors by the orders of the elements: displacements 2 (linear) and more than 2.5
+// (quadratic), stresses at the centres of cells 1.5 and 2.
 CASE_TEST(fields_converge_to_the_exact_inclusion) {
     const Setting& setting = settings[static_cast<std::size_t>(loop) % settings.size()];
     const bool quadratic = static_cast<std::size_t>(loop) >= settings.size();
@@ -214,13 +218,16 @@ CASE_TEST(fields_converge_to_the_exact_inclusion) {
     }
     const std::string name = std::string(setting.name) + (quadratic ? ", quad8" : ", quad4");
     if (std::getenv("DELAM_TABLES") != nullptr)
-        for (const Errors& e : found) std::printf("%-34s %.3e %.3e %.3e\n", name.c_str(), e.displacement, e.stress, e.uniformity);
+        for (const Errors& e : found)
+            std::printf("%-34s %.3e %.3e %.3e\n", name.c_str(), e.displacement, e.stress, e.uniformity);
     const auto order = [](double coarse, double fine) { return std::log2(coarse / fine); };
-    expect(order(found[1].displacement, found[2].displacement) > (quadratic ? 2.5 : 1.8), name + ": order of the displacement");
+    expect(order(found[1].displacement, found[2].displacement) > (quadratic ? 2.5 : 1.8),
+           name + ": order of the displacement");
     expect(order(found[1].stress, found[2].stress) > (quadratic ? 1.8 : 1.4), name + ": order of the stress");
     expect_below(found[2].displacement, quadratic ? 2e-4 : 5e-3, name + ": displacement");
     expect_below(found[2].stress, quadratic ? 2e-3 : 1e-2, name + ": stress");
-    expect_below(found[2].uniformity, quadratic ? 1e-2 : 4e-2, name + ": stress in the fibre, which is uniform or quadratic");
+    expect_below(found[2].uniformity, quadratic ? 1e-2 : 4e-2,
+                 name + ": stress in the fibre, which is uniform or quadratic");
 }
 
 // The rim of a composite cylinder moves outwards evenly: force over displacement is the bulk modulus, order 2 and 4.
@@ -230,8 +237,8 @@ CASE_TEST(bulk_modulus_of_a_composite_cylinder) {
     for (const double sign : {1.0, -1.0}) {
         // Contact is rigid: pressed springs and loose fibres act like glued ones, since nothing slides.
         const bool rigid = bond == Bond::perfect || sign < 0.0;
-        const double exact = reference::composite_cylinder_bulk(fibre, matrix, radius, outer, rigid ? 0.0 : 1.0 / normal_stiffness,
-                                                                bond == Bond::none && !rigid);
+        const double exact = reference::composite_cylinder_bulk(
+            fibre, matrix, radius, outer, rigid ? 0.0 : 1.0 / normal_stiffness, bond == Bond::none && !rigid);
         std::array<double, 3> error{};
         for (int level = 0; level < 3; ++level) {
             Scene scene = make(4 << level, quadratic, bond);
@@ -251,14 +258,15 @@ CASE_TEST(bulk_modulus_of_a_composite_cylinder) {
             error[static_cast<std::size_t>(level)] = std::abs(bulk - exact) / exact;
         }
         if (std::getenv("DELAM_TABLES") != nullptr)
-            std::printf("bulk modulus, bond %d, sign %+.0f, %s: %.3e %.3e %.3e\n", static_cast<int>(bond), sign, quadratic ? "quad8" : "quad4",
-                        error[0], error[1], error[2]);
+            std::printf("bulk modulus, bond %d, sign %+.0f, %s: %.3e %.3e %.3e\n", static_cast<int>(bond), sign,
+                        quadratic ? "quad8" : "quad4", error[0], error[1], error[2]);
         expect_below(error[2], quadratic ? 2e-5 : 3e-3, "bulk modulus");
         expect(std::log2(error[0] / error[1]) > (quadratic ? 3.0 : 1.8), "order of the bulk modulus");
     }
 }
 
-// The exact field is one: equilibrium and Hooke's law by differences, the remote stress, the conditions at the interface.
+// The exact field is one: equilibrium and Hooke's law by differences, the remote stress, the conditions at the
+// interface.
 CASE_TEST(the_reference_is_a_solution) {
     const Inclusion exact(fibre, matrix, radius, {50e6, -20e6}, 1.0 / normal_stiffness, 1.0 / tangential_stiffness);
     for (const bool inside : {true, false}) {
@@ -268,7 +276,8 @@ CASE_TEST(the_reference_is_a_solution) {
         std::array<double, 2> force{};
         for (std::size_t j = 0; j < 2; ++j) {
             const double dx = j == 0 ? e : 0.0, dy = j == 1 ? e : 0.0;
-            const auto up = exact.displacement(inside, x + dx, y + dy), down = exact.displacement(inside, x - dx, y - dy);
+            const auto up = exact.displacement(inside, x + dx, y + dy),
+                       down = exact.displacement(inside, x - dx, y - dy);
             const auto more = exact.stress(inside, x + dx, y + dy), less = exact.stress(inside, x - dx, y - dy);
             for (std::size_t i = 0; i < 2; ++i) {
                 gradient[i][j] = (up[i] - down[i]) / (2 * e);
@@ -287,8 +296,10 @@ CASE_TEST(the_reference_is_a_solution) {
     expect_near(far[1], -20e6, 1e-6, 50e6, "remote sigma_yy");
     const double t = 0.7, c = std::cos(t), z = std::sin(t);
     const auto s = exact.stress(true, radius * c, radius * z), o = exact.stress(false, radius * c, radius * z);
-    const std::array<double, 2> pull{s[0] * c + s[2] * z, s[2] * c + s[1] * z}, other{o[0] * c + o[2] * z, o[2] * c + o[1] * z};
-    const auto u = exact.displacement(true, radius * c, radius * z), v = exact.displacement(false, radius * c, radius * z);
+    const std::array<double, 2> pull{s[0] * c + s[2] * z, s[2] * c + s[1] * z},
+        other{o[0] * c + o[2] * z, o[2] * c + o[1] * z};
+    const auto u = exact.displacement(true, radius * c, radius * z),
+               v = exact.displacement(false, radius * c, radius * z);
     for (std::size_t d = 0; d < 2; ++d) expect_near(pull[d], other[d], 1e-12, 50e6, "traction");
     const double normal = pull[0] * c + pull[1] * z, tangential = pull[1] * c - pull[0] * z;
     const double opening = (v[0] - u[0]) * c + (v[1] - u[1]) * z, sliding = (v[1] - u[1]) * c - (v[0] - u[0]) * z;

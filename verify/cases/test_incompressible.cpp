@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nearly incompressible bodies: a thick-walled cylinder and a bent slab against closed forms, whose errors must not know Poisson's ratio.
+// Nearly incompressible bodies: a thick-walled cylinder and a bent slab against closed forms, whose errors must not
+// know Poisson's ratio.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,10 +21,13 @@ struct Case {
     std::int32_t cell;
     std::int64_t nodes;
 };
-constexpr Case elements[] = {{DELAM_QUAD4, 4}, {DELAM_TRI6, 6}, {DELAM_QUAD8, 8}, {DELAM_QUAD9, 9}, {DELAM_HEX8, 8}, {DELAM_TET10, 10}, {DELAM_HEX20, 20}};
+constexpr Case elements[] = {{DELAM_QUAD4, 4}, {DELAM_TRI6, 6},   {DELAM_QUAD8, 8}, {DELAM_QUAD9, 9},
+                             {DELAM_HEX8, 8},  {DELAM_TET10, 10}, {DELAM_HEX20, 20}};
 constexpr int element_count = 7;
 constexpr int flat_count = 4;
-bool flat(std::int32_t cell) { return cell == DELAM_QUAD4 || cell == DELAM_TRI6 || cell == DELAM_QUAD8 || cell == DELAM_QUAD9; }
+bool flat(std::int32_t cell) {
+    return cell == DELAM_QUAD4 || cell == DELAM_TRI6 || cell == DELAM_QUAD8 || cell == DELAM_QUAD9;
+}
 
 // The block of layers with its nodes moved.
 template <class Map>
@@ -33,7 +37,9 @@ Scene moved(const Scene& plain, const Case& e, Map&& map) {
     plain.require(delam_mesh_size(plain.mesh(), nullptr, nullptr, &count, nullptr, nullptr), "size");
     std::vector<std::int64_t> offsets(size(count) + 1), cells(size(count * e.nodes));
     std::vector<std::int32_t> types(size(count)), bodies(size(count));
-    plain.require(delam_mesh_cells(plain.mesh(), types.data(), bodies.data(), offsets.data(), static_cast<std::int64_t>(cells.size()), cells.data(), &needed), "cells");
+    plain.require(delam_mesh_cells(plain.mesh(), types.data(), bodies.data(), offsets.data(),
+                                   static_cast<std::int64_t>(cells.size()), cells.data(), &needed),
+                  "cells");
     std::vector<double> nodes = plain.nodes();
     const auto d = size(plain.dimension());
     for (std::size_t n = 0; n < nodes.size(); n += d) map(&nodes[n]);
@@ -42,13 +48,14 @@ Scene moved(const Scene& plain, const Case& e, Map&& map) {
 
 constexpr double inner = 1.0, outer = 2.0, young = 1e9, push = 1e-3;
 
-// A quarter of a ring (a slice in space), its inner face pushed outwards: energy over the exact one, less 1; and the worst error
-// of sigma_xx + sigma_yy = 4 (lambda + mu) A in the plane at centres, over the pressure.
+// A quarter of a ring (a slice in space), its inner face pushed outwards: energy over the exact one, less 1; and the
+// worst error of sigma_xx + sigma_yy = 4 (lambda + mu) A in the plane at centres, over the pressure.
 double cylinder(const Case& e, const char* formulation, double nu, double& stress_error) {
     const double quarter = 0.5 * std::acos(-1.0), slice = 0.3;
     const int d = flat(e.cell) ? 2 : 3;
     const std::int64_t around = 8, through = 2;
-    const Scene plain(d, d == 2 ? std::vector<double>{quarter} : std::vector<double>{quarter, slice}, d == 2 ? std::vector<std::int64_t>{around} : std::vector<std::int64_t>{around, 1},
+    const Scene plain(d, d == 2 ? std::vector<double>{quarter} : std::vector<double>{quarter, slice},
+                      d == 2 ? std::vector<std::int64_t>{around} : std::vector<std::int64_t>{around, 1},
                       {0.5 * (outer - inner), 0.5 * (outer - inner)}, {through, through}, e.cell);
     Scene scene = moved(plain, e, [&](double* x) {
         const double r = inner + x[d - 1], s = x[0];
@@ -99,18 +106,21 @@ double cylinder(const Case& e, const char* formulation, double nu, double& stres
     stress_error = 0.0;
     for (std::size_t i = 0; i < stress.size(); i += columns) {
         const double sum = stress[i] + stress[i + second];
-        stress_error = std::max({stress_error, std::abs(sum - both) / pressure, std::abs(stress[i + out] - nu * both) / pressure});
+        stress_error =
+            std::max({stress_error, std::abs(sum - both) / pressure, std::abs(stress[i + out] - nu * both) / pressure});
     }
     return solver.value("stored_bulk") / exact - 1.0;
 }
 
-// A slab of length 10 and height 1 with its ends turned against each other, plane strain: energy over E/(1 - nu2) I kappa2/2 l.
+// A slab of length 10 and height 1 with its ends turned against each other, plane strain: energy over E/(1 - nu2) I
+// kappa2/2 l.
 double bending(const Case& e, const char* formulation, double nu, std::int64_t across) {
     const bool plane = flat(e.cell);
     const int d = plane ? 2 : 3;
     const double length = 10.0, kappa = 1e-3, width = 0.5;
-    Scene scene(d, plane ? std::vector<double>{length} : std::vector<double>{length, width}, plane ? std::vector<std::int64_t>{10 * across} : std::vector<std::int64_t>{10 * across, 1},
-                {0.5, 0.5}, {across / 2, across / 2}, e.cell);
+    Scene scene(d, plane ? std::vector<double>{length} : std::vector<double>{length, width},
+                plane ? std::vector<std::int64_t>{10 * across} : std::vector<std::int64_t>{10 * across, 1}, {0.5, 0.5},
+                {across / 2, across / 2}, e.cell);
     scene.interface(0, 1);
     scene.begin();
     scene.elastic(-1, young, nu);
@@ -129,7 +139,9 @@ double bending(const Case& e, const char* formulation, double nu, std::int64_t a
     }
     Solver solver(scene, 0.0);
     solver.step(1.0);
-    return solver.value("stored_bulk") / (0.5 * young / (1.0 - nu * nu) / 12.0 * kappa * kappa * length * (plane ? 1.0 : width)) - 1.0;
+    return solver.value("stored_bulk") /
+               (0.5 * young / (1.0 - nu * nu) / 12.0 * kappa * kappa * length * (plane ? 1.0 : width)) -
+           1.0;
 }
 
 constexpr double ratios[] = {0.3, 0.4999, 0.499999};
@@ -143,21 +155,27 @@ CASE_TEST(thick_cylinder) {
     for (const double nu : ratios) {
         double stress = 0.0;
         const std::string where = "nu = " + std::to_string(nu) + ": ";
-        cases::expect_near(cylinder(e, "mean-dilatation", nu, stress), 0.0, quadratic ? 6e-5 : 1.2e-3, 1.0, where + "energy");
+        cases::expect_near(cylinder(e, "mean-dilatation", nu, stress), 0.0, quadratic ? 6e-5 : 1.2e-3, 1.0,
+                           where + "energy");
         cases::expect_below(stress, 0.1, where + "stress");
     }
     double stress = 0.0;
     const double locked = cylinder(e, "standard", ratios[2], stress);
-    cases::expect(locked > (e.cell == DELAM_TRI6 ? 1e-3 : quadratic ? 1.0 : 1e3), "standard cells lock: " + std::to_string(locked));
+    cases::expect(locked > (e.cell == DELAM_TRI6 ? 1e-3
+                            : quadratic          ? 1.0
+                                                 : 1e3),
+                  "standard cells lock: " + std::to_string(locked));
 }
 
-// Linear functions hold a bending exactly; constants let it go, too soft by an error that is second order in the size of the cells.
+// Linear functions hold a bending exactly; constants let it go, too soft by an error that is second order in the size
+// of the cells.
 CASE_TEST(bent_slab) {
     const Case& e = elements[loop];
     const bool exact = e.cell == DELAM_QUAD8 || e.cell == DELAM_QUAD9 || e.cell == DELAM_HEX20;
     double error[3][2];
     for (std::size_t i = 0; i < 3; ++i)
-        for (const std::int64_t across : {2, 4}) error[i][across / 4] = bending(e, "mean-dilatation", ratios[i], across);
+        for (const std::int64_t across : {2, 4})
+            error[i][across / 4] = bending(e, "mean-dilatation", ratios[i], across);
     for (std::size_t i = 0; i < 3; ++i) {
         const std::string where = "nu = " + std::to_string(ratios[i]) + ": ";
         if (exact) {
@@ -169,7 +187,8 @@ CASE_TEST(bent_slab) {
         cases::expect_near(error[i][1], 0.25 * error[i][0], 0.05, std::abs(error[i][0]), where + "second order");
     }
     if (!exact) cases::expect_near(error[1][1], error[2][1], 1e-3, std::abs(error[2][1]), "nu does not matter");
-    if (e.cell == DELAM_QUAD4 || e.cell == DELAM_HEX8) cases::expect(bending(e, "standard", ratios[2], 4) > 1e3, "standard cells lock");
+    if (e.cell == DELAM_QUAD4 || e.cell == DELAM_HEX8)
+        cases::expect(bending(e, "standard", ratios[2], 4) > 1e3, "standard cells lock");
 }
 
 namespace {
@@ -191,7 +210,8 @@ void mixed(Scene& scene, int d) {
         scene.hold(scene.find(-1, low, high), direction);
     }
     const auto heat = scene.pattern("heat", {0.0, 1.0}, {0.0, 40.0});
-    for (const std::int32_t body : {0, 1}) scene.require(delam_problem_add_eigenstrain(scene.problem(), heat, body, strain), "eigenstrain");
+    for (const std::int32_t body : {0, 1})
+        scene.require(delam_problem_add_eigenstrain(scene.problem(), heat, body, strain), "eigenstrain");
 }
 
 }  // namespace
@@ -199,8 +219,9 @@ void mixed(Scene& scene, int d) {
 CASE_TEST(with_eigenstrain_and_axes) {
     const Case& e = elements[loop];
     const int d = loop < flat_count ? 2 : 3;
-    Scene scene(d, d == 2 ? std::vector<double>{0.04} : std::vector<double>{0.04, 0.01}, d == 2 ? std::vector<std::int64_t>{6} : std::vector<std::int64_t>{4, 2},
-                {0.003, 0.004}, {1, 1}, e.cell);
+    Scene scene(d, d == 2 ? std::vector<double>{0.04} : std::vector<double>{0.04, 0.01},
+                d == 2 ? std::vector<std::int64_t>{6} : std::vector<std::int64_t>{4, 2}, {0.003, 0.004}, {1, 1},
+                e.cell);
     scene.interface(0, 1);
     scene.begin();
     mixed(scene, d);
@@ -209,14 +230,16 @@ CASE_TEST(with_eigenstrain_and_axes) {
         reference::DirectReference direct(scene);
         Solver solver(scene, 0.0);
         solver.equilibrate(1.0, std::vector<double>(scene.pair_count(), 1.0));
-        const auto result = reference::compare(solver, direct.solve(1.0, std::vector<double>(scene.pair_count(), 1.0)), direct.exported(), 1e-6);
+        const auto result = reference::compare(solver, direct.solve(1.0, std::vector<double>(scene.pair_count(), 1.0)),
+                                               direct.exported(), 1e-6);
         cases::expect_below(result.worst(), 1e-5, std::string(reduction) + ": " + result.text());
         cases::expect(solver.value("stored_bulk") > 0.0, "stored");
     }
     if (d == 3) return;
     scene.require(delam_problem_set_plane(scene.problem(), "plane-stress"), "plane");
     cases::expect(delam_problem_check(scene.problem()) == DELAM_ERROR_PROBLEM, "not in plane stress");
-    cases::expect(std::string(delam_context_message(scene.context())).find("nothing locks") != std::string::npos, "with its reason");
+    cases::expect(std::string(delam_context_message(scene.context())).find("nothing locks") != std::string::npos,
+                  "with its reason");
 }
 
 int main() {

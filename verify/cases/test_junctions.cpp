@@ -52,7 +52,8 @@ struct Shape {
     std::int32_t cell;
     const char* name;
 };
-constexpr Shape shapes[] = {{2, DELAM_QUAD4, "quad4"}, {2, DELAM_TRI6, "tri6"}, {3, DELAM_HEX8, "hex8"}, {3, DELAM_TET4, "tet4"}};
+constexpr Shape shapes[] = {
+    {2, DELAM_QUAD4, "quad4"}, {2, DELAM_TRI6, "tri6"}, {3, DELAM_HEX8, "hex8"}, {3, DELAM_TET4, "tet4"}};
 
 const std::array<double, 3> sides{0.03, 0.02, 0.02};
 constexpr Box divisions{6, 4, 4};
@@ -67,7 +68,8 @@ Scene conforming(const Shape& shape, const LabelOf& label) {
     block.require(delam_mesh_size(block.mesh(), nullptr, nullptr, &cells, nullptr, nullptr), "size");
     block.require(delam_mesh_cells(block.mesh(), nullptr, nullptr, nullptr, 0, nullptr, &needed), "cells");
     std::vector<std::int64_t> connectivity(static_cast<std::size_t>(needed));
-    block.require(delam_mesh_cells(block.mesh(), nullptr, nullptr, nullptr, needed, connectivity.data(), nullptr), "cells");
+    block.require(delam_mesh_cells(block.mesh(), nullptr, nullptr, nullptr, needed, connectivity.data(), nullptr),
+                  "cells");
     const auto per_cell = static_cast<std::size_t>(needed / cells);
     std::vector<std::int32_t> bodies;
     for (std::size_t c = 0; c < static_cast<std::size_t>(cells); ++c) {
@@ -76,7 +78,8 @@ Scene conforming(const Shape& shape, const LabelOf& label) {
             double sum = 0.0;  // mid-side nodes included: the mean stays within the cell
             for (std::size_t a = 0; a < per_cell; ++a)
                 sum += block.coordinate(connectivity[c * per_cell + a], static_cast<int>(k));
-            box[k] = static_cast<std::int64_t>(sum / static_cast<double>(per_cell) / sides[k] * static_cast<double>(divisions[k]));
+            box[k] = static_cast<std::int64_t>(sum / static_cast<double>(per_cell) / sides[k] *
+                                               static_cast<double>(divisions[k]));
         }
         bodies.push_back(label(box));
     }
@@ -144,15 +147,16 @@ CASE_TEST(linear_field) {
         double size = 0.0;
         for (const double v : u) size = std::max(size, std::abs(v));
         for (std::size_t i = 0; i < u.size(); ++i)
-            cases::expect_near(u[i], exact(scene, static_cast<std::int64_t>(i) / d, static_cast<int>(i) % d), 1e-10, size,
-                               where + "displacement " + std::to_string(i));
+            cases::expect_near(u[i], exact(scene, static_cast<std::int64_t>(i) / d, static_cast<int>(i) % d), 1e-10,
+                               size, where + "displacement " + std::to_string(i));
         // One stress everywhere.
         const auto stress = solver.field("stress");
         const std::size_t components = d == 2 ? 4 : 6;
         double stress_size = 0.0;
         for (const double s : stress) stress_size = std::max(stress_size, std::abs(s));
         for (std::size_t i = 0; i < stress.size(); ++i)
-            cases::expect_near(stress[i], stress[i % components], 1e-10, stress_size, where + "stress " + std::to_string(i));
+            cases::expect_near(stress[i], stress[i % components], 1e-10, stress_size,
+                               where + "stress " + std::to_string(i));
         for (const double j : solver.field("jump")) cases::expect_near(j, 0.0, 1e-10, size, where + "jump");
     }
 }
@@ -201,7 +205,8 @@ CASE_TEST(marches_agree) {
             Solver still(scene, 0.0);
             still.equilibrate(k / 6.0, solver.field("adhesion"));
             const auto comparison = reference::compare(still, state, direct.exported(), 1e-9);
-            cases::expect_below(comparison.worst(), 1e-8, where + ", step " + std::to_string(k) + ": " + comparison.text());
+            cases::expect_below(comparison.worst(), 1e-8,
+                                where + ", step " + std::to_string(k) + ": " + comparison.text());
             cases::expect(comparison.contacts == 0, where + ": " + comparison.text());
             for (const char* key : {"stored_bulk", "stored_interface", "dissipated"})
                 energies.back().push_back(solver.value(key));

@@ -172,8 +172,10 @@ CASE_TEST(ledger) {
     std::printf("%s: %.3e of what is dissipated at 20 steps, %.3e at 160; dissipated %.6g, %.6g\n", kind.kind, coarse,
                 fine, spent_coarse, spent_fine);
     cases::expect(spent_fine > 1.0, name + ": nothing is damaged");
-    if (loop < 4) cases::expect_below(std::abs(fine), std::min(1e-3, 0.5 * std::abs(coarse)), name + ": defect");
-    else cases::expect_below(fine, 0.0, name + ": energy gained");
+    if (loop < 4)
+        cases::expect_below(std::abs(fine), std::min(1e-3, 0.5 * std::abs(coarse)), name + ": defect");
+    else
+        cases::expect_below(fine, 0.0, name + ": energy gained");
 }
 
 // A short mixed-mode flexure (the notched end rests on the upper arm) in 2D and 3D.
@@ -221,13 +223,13 @@ Law bilinear(const Scene& scene, laws::Bilinear& data, bool host) {
     Law law(raw);
     std::vector<std::pair<const char*, double>> parameters{{"normal_stiffness", 125e9}, {"tangential_stiffness", 60e9}};
     if (!host)
-        for (const auto& parameter : std::initializer_list<std::pair<const char*, double>>{
-                 {"normal_onset", data.normal_onset},
-                 {"tangential_onset", data.tangential_onset},
-                 {"normal_toughness", data.normal_toughness},
-                 {"tangential_toughness", data.tangential_toughness},
-                 {"onset_exponent", data.eta},
-                 {"toughness_exponent", data.eta}})
+        for (const auto& parameter :
+             std::initializer_list<std::pair<const char*, double>>{{"normal_onset", data.normal_onset},
+                                                                   {"tangential_onset", data.tangential_onset},
+                                                                   {"normal_toughness", data.normal_toughness},
+                                                                   {"tangential_toughness", data.tangential_toughness},
+                                                                   {"onset_exponent", data.eta},
+                                                                   {"toughness_exponent", data.eta}})
             parameters.push_back(parameter);
     for (const auto& [key, value] : parameters) scene.require(delam_law_set(raw, key, value), key);
     return law;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Growing dead loads on a softening interface: below the limit load the march goes on, beyond it a call ends with DELAM_LIMIT and leaves the state
-// before it.
+// Growing dead loads on a softening interface: below the limit load the march goes on, beyond it a call ends with
+// DELAM_LIMIT and leaves the state before it.
 #include <string>
 #include <vector>
 
@@ -14,8 +14,9 @@ using reference::Solver;
 
 constexpr double length = 0.04;
 
-// The lower ply is clamped along its bottom; the upper one is pulled off at its left end, directly or by way of a control node that the end's
-// nodes share: a peel test under a dead load. Nothing but the interface holds the upper ply.
+// The lower ply is clamped along its bottom; the upper one is pulled off at its left end, directly or by way of a
+// control node that the end's nodes share: a peel test under a dead load. Nothing but the interface holds the upper
+// ply.
 Scene peel(int d, bool condensed, bool nose) {
     Scene scene = cases::plies_with_controls(d, 1);
     const auto bottom = cases::body_nodes_where(scene, [](const double* x) { return x[1] < 1e-6; });
@@ -56,9 +57,10 @@ CASE_TEST(peeled_off) {
         reached = k;
         damaged = solver.value("front");
     }
-    cases::expect(status == DELAM_LIMIT, std::string("ends with ") + delam_status_name(status) + " after step " + std::to_string(reached) + ": " +
-                                             delam_context_message(scene.context()));
-    cases::expect(std::string(delam_context_message(scene.context())).find("dead force") != std::string::npos, "the message names the dead force");
+    cases::expect(status == DELAM_LIMIT, std::string("ends with ") + delam_status_name(status) + " after step " +
+                                             std::to_string(reached) + ": " + delam_context_message(scene.context()));
+    cases::expect(std::string(delam_context_message(scene.context())).find("dead force") != std::string::npos,
+                  "the message names the dead force");
     cases::expect(solver.value("time") == static_cast<double>(reached) / steps, "the state before is kept");
     cases::expect(solver.value("front") == damaged, "and so is its damage");
     cases::expect(reached >= 1, "a small load is borne");

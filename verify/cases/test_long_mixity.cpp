@@ -12,8 +12,10 @@ namespace {
 CASE_TEST(provable_bounds) {
     const int steps[] = {160, 320, 640}, below[] = {0, 1, 0};
     const cases::MmfMarch m = cases::march_mmf(1e-3, cases::mmf_ductile, "frozen", steps[loop]);
-    cases::expect(m.below == below[loop] && m.above == 0, std::to_string(m.below) + " lower and " + std::to_string(m.above) + " upper bounds missed");
-    if (steps[loop] == 640) cases::expect(m.warnings.empty(), "a fine march warns: " + (m.warnings.empty() ? "" : m.warnings.front()));
+    cases::expect(m.below == below[loop] && m.above == 0,
+                  std::to_string(m.below) + " lower and " + std::to_string(m.above) + " upper bounds missed");
+    if (steps[loop] == 640)
+        cases::expect(m.warnings.empty(), "a fine march warns: " + (m.warnings.empty() ? "" : m.warnings.front()));
 }
 
 // Booked defects shrink with the step; the slides' ones stay, unless the mixity is variational.
@@ -22,9 +24,11 @@ CASE_TEST(defects_side_by_side) {
     for (const char* rule : {"frozen", "converged", "variational"}) {
         std::vector<cases::MmfMarch> m;
         for (const int n : steps) m.push_back(cases::march_mmf(1e-3, cases::mmf_ductile, rule, n));
-        for (const cases::MmfMarch& march : m) cases::expect(march.unfinished == 0, std::string(rule) + ": unfinished steps");
+        for (const cases::MmfMarch& march : m)
+            cases::expect(march.unfinished == 0, std::string(rule) + ": unfinished steps");
         if (std::string(rule) == "converged")
-            for (std::size_t i = 1; i < m.size(); ++i) cases::expect_below(std::abs(m[i].defect), 0.6 * std::abs(m[i - 1].defect), "converged: booked defect");
+            for (std::size_t i = 1; i < m.size(); ++i)
+                cases::expect_below(std::abs(m[i].defect), 0.6 * std::abs(m[i - 1].defect), "converged: booked defect");
     }
 }
 

@@ -38,9 +38,14 @@ CASE_TEST(gradient_term_in_the_search) {
         scene.text("reduction", feti != 0 ? "feti" : "condensed");
         delam_law* handle = nullptr;
         scene.require(delam_law_create(scene.context(), "piecewise-linear", &handle), "delam_law_create");
-        for (const auto& [key, value] : std::initializer_list<std::pair<const char*, double>>{
-                 {"normal_stiffness", 125e13}, {"tangential_stiffness", 125e13}, {"normal_onset", 1.0}, {"tangential_onset", 1.0},
-                 {"normal_toughness", 25.0}, {"tangential_toughness", 25.0}, {"gradient", loop == 0 ? 0.0 : 1e-4}})
+        for (const auto& [key, value] :
+             std::initializer_list<std::pair<const char*, double>>{{"normal_stiffness", 125e13},
+                                                                   {"tangential_stiffness", 125e13},
+                                                                   {"normal_onset", 1.0},
+                                                                   {"tangential_onset", 1.0},
+                                                                   {"normal_toughness", 25.0},
+                                                                   {"tangential_toughness", 25.0},
+                                                                   {"gradient", loop == 0 ? 0.0 : 1e-4}})
             scene.require(delam_law_set(handle, key, value), key);
         scene.require(delam_problem_set_law(scene.problem(), 0, handle), "delam_problem_set_law");
         delam_law_destroy(&handle);

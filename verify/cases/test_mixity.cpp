@@ -32,7 +32,8 @@ CASE_TEST(brittle_mmf) {
     cases::expect_near(converged.dissipated / converged.front, criterion, 0.03, criterion, "converged: J/m2");
     cases::expect_below(frozen.dissipated / frozen.front, 28.0, "frozen: J/m2");
     cases::expect_below(25.0, frozen.dissipated / frozen.front, "frozen: J/m2, least");
-    cases::expect(!frozen.warnings.empty() && frozen.worst_error > 0.2, "a frozen front that runs past many pairs does not warn");
+    cases::expect(!frozen.warnings.empty() && frozen.worst_error > 0.2,
+                  "a frozen front that runs past many pairs does not warn");
     cases::expect(converged.warnings.empty() && converged.worst_error < 1e-3, "converged: mixity error");
     cases::expect_below(converged.solves, 2.0 * frozen.solves, "converged: solves");
 }
@@ -61,12 +62,16 @@ CASE_TEST(mode_changes_while_it_softens) {
     const double limit = cases::turning_integral();
     std::printf("turning pair: int f_B dB = %.4f\n", limit);
     for (const char* rule : {"frozen", "converged"}) {
-        const cases::TurningDefect coarse = cases::turning_defect(rule, 50), middle = cases::turning_defect(rule, 200), fine = cases::turning_defect(rule, 800);
+        const cases::TurningDefect coarse = cases::turning_defect(rule, 50), middle = cases::turning_defect(rule, 200),
+                                   fine = cases::turning_defect(rule, 800);
         cases::expect_near(fine.slides, limit, 0.03, std::abs(limit), std::string(rule) + ": slides' ledger");
-        cases::expect_below(std::abs(middle.booked), 0.4 * std::abs(coarse.booked), std::string(rule) + ": booked, 200 steps");
-        cases::expect_below(std::abs(fine.booked), 0.4 * std::abs(middle.booked), std::string(rule) + ": booked, 800 steps");
+        cases::expect_below(std::abs(middle.booked), 0.4 * std::abs(coarse.booked),
+                            std::string(rule) + ": booked, 200 steps");
+        cases::expect_below(std::abs(fine.booked), 0.4 * std::abs(middle.booked),
+                            std::string(rule) + ": booked, 800 steps");
     }
-    const cases::TurningDefect coarse = cases::turning_defect("variational", 50), fine = cases::turning_defect("variational", 800);
+    const cases::TurningDefect coarse = cases::turning_defect("variational", 50),
+                               fine = cases::turning_defect("variational", 800);
     cases::expect_below(std::abs(fine.slides), 0.2 * std::abs(coarse.slides), "variational: slides' ledger");
 }
 
@@ -78,16 +83,20 @@ CASE_TEST(defects_by_definition) {
         solver.step(0.05 * k);
         solver.commit();
         const double bulk = solver.value("stored_bulk") + solver.value("load_potential"), work = solver.value("work");
-        cases::expect_near(solver.value("defect"), bulk + solver.value("stored_interface") + solver.value("dissipated") - work, 1e-12, work, "defect");
-        cases::expect_near(solver.value("defect_slides"), bulk + solver.value("stored_interface_slides") + solver.value("dissipated_slides") - work, 1e-12, work,
-                           "slides' defect");
+        cases::expect_near(solver.value("defect"),
+                           bulk + solver.value("stored_interface") + solver.value("dissipated") - work, 1e-12, work,
+                           "defect");
+        cases::expect_near(solver.value("defect_slides"),
+                           bulk + solver.value("stored_interface_slides") + solver.value("dissipated_slides") - work,
+                           1e-12, work, "slides' defect");
         cases::expect(solver.value("mixity_error") >= 0.0, "mixity error");
     }
     // A state that is set does not move what the steps have missed.
     const double defect = solver.value("defect"), slides = solver.value("defect_slides");
     solver.equilibrate(0.3, {});
     cases::expect_near(solver.value("defect"), defect, 1e-12, solver.value("work"), "defect of a state that is set");
-    cases::expect_near(solver.value("defect_slides"), slides, 1e-12, solver.value("work"), "slides' defect of a state that is set");
+    cases::expect_near(solver.value("defect_slides"), slides, 1e-12, solver.value("work"),
+                       "slides' defect of a state that is set");
 }
 
 // ---- one answer ----------------------------------------------------------------------------------------------------
@@ -96,10 +105,12 @@ constexpr LawData mixed{1e12, 5e11, 40.0, 90.0, 250.0, 600.0, 1.7};
 
 // Three plies; the lowest is held at its bottom, the uppermost drawn up and along at its right half: the middle one
 // hangs on two interfaces alone.
-Scene floating_ply(int d, const LawData& law, const char* rule, const char* reduction, const char* minimisation, double delta) {
+Scene floating_ply(int d, const LawData& law, const char* rule, const char* reduction, const char* minimisation,
+                   double delta) {
     constexpr double length = 0.02, width = 0.006, ply = 0.002;
     Scene scene(d, d == 2 ? std::vector<double>{length} : std::vector<double>{length, width},
-                d == 2 ? std::vector<std::int64_t>{10} : std::vector<std::int64_t>{5, 2}, {ply, ply, ply}, {1, 1, 1}, d == 2 ? DELAM_QUAD4 : DELAM_HEX8);
+                d == 2 ? std::vector<std::int64_t>{10} : std::vector<std::int64_t>{5, 2}, {ply, ply, ply}, {1, 1, 1},
+                d == 2 ? DELAM_QUAD4 : DELAM_HEX8);
     scene.interface(0, 1);
     scene.interface(1, 2);
     scene.begin();
@@ -110,8 +121,10 @@ Scene floating_ply(int d, const LawData& law, const char* rule, const char* redu
     scene.law(1, upper);
     const auto bottom = cases::nodes_where(scene, 0, [&](const double* x) { return x[d - 1] < 1e-6; });
     for (int k = 0; k < d; ++k) scene.hold(bottom, cases::unit(d, k));
-    const auto lift = scene.pattern("lift", {0.0, 1.0}, {0.0, 7e-5}), slide = scene.pattern("slide", {0.0, 1.0}, {0.0, 4e-5});
-    const auto top = cases::nodes_where(scene, 2, [&](const double* x) { return x[d - 1] > 3 * ply - 1e-6 && x[0] > 0.5 * length - 1e-6; });
+    const auto lift = scene.pattern("lift", {0.0, 1.0}, {0.0, 7e-5}),
+               slide = scene.pattern("slide", {0.0, 1.0}, {0.0, 4e-5});
+    const auto top = cases::nodes_where(
+        scene, 2, [&](const double* x) { return x[d - 1] > 3 * ply - 1e-6 && x[0] > 0.5 * length - 1e-6; });
     std::vector<double> tilt;
     for (const auto n : top) tilt.push_back(0.4 + 0.6 * scene.coordinate(n, 0) / length);
     scene.drive(top, cases::unit(d, d - 1), lift, tilt);
@@ -163,7 +176,8 @@ void expect_alike(const Seen& a, const Seen& b, double tolerance, double booked,
         cases::expect_near(a.dissipated[k], b.dissipated[k], booked, spent, at + ": dissipated");
         cases::expect_near(a.slides[k], b.slides[k], tolerance, spent, at + ": dissipated, slides");
     }
-    for (std::size_t p = 0; p < a.adhesion.size(); ++p) cases::expect_near(a.adhesion[p], b.adhesion[p], tolerance, 1.0, where + ": adhesion");
+    for (std::size_t p = 0; p < a.adhesion.size(); ++p)
+        cases::expect_near(a.adhesion[p], b.adhesion[p], tolerance, 1.0, where + ": adhesion");
 }
 
 // loop: rule, then dimension.
@@ -176,15 +190,18 @@ CASE_TEST(one_answer) {
     const Seen plain = march(floating_ply(d, mixed, rule, "condensed", "alternate", 1e-9), steps, end);
     std::printf("%sleast adhesion %.3f, dissipated %.9g\n", where.c_str(), plain.least, plain.dissipated.back());
     cases::expect(plain.least < 0.6, where + "hardly damaged");
-    expect_alike(march(floating_ply(d, mixed, rule, "feti", "alternate", 1e-9), steps, end), plain, 1e-6, 1e-6, where + "feti");
+    expect_alike(march(floating_ply(d, mixed, rule, "feti", "alternate", 1e-9), steps, end), plain, 1e-6, 1e-6,
+                 where + "feti");
     // The variational functional pays for turning the mode while damage grows, so that it has several critical points
     // in the block; and a pair that breaks
     // has the mixity of another iterate in each way of minimising, which only what is booked beside the slides' ledger
     // shows.
     if (loop == 5) return;
     const double booked = loop == 2 ? 1e-3 : 1e-5;
-    expect_alike(march(floating_ply(d, mixed, rule, "condensed", "accelerated", 1e-9), steps, end), plain, 1e-5, booked, where + "accelerated");
-    expect_alike(march(floating_ply(d, mixed, rule, "feti", "accelerated", 1e-9), steps, end), plain, 1e-5, booked, where + "feti, accelerated");
+    expect_alike(march(floating_ply(d, mixed, rule, "condensed", "accelerated", 1e-9), steps, end), plain, 1e-5, booked,
+                 where + "accelerated");
+    expect_alike(march(floating_ply(d, mixed, rule, "feti", "accelerated", 1e-9), steps, end), plain, 1e-5, booked,
+                 where + "feti, accelerated");
 }
 
 // A law that does not know modes: the same digits under all rules.
@@ -229,10 +246,11 @@ CASE_TEST(variational_traction) {
     scene.require(delam_law_create(scene.context(), "piecewise-linear", &raw), "delam_law_create");
     const reference::Law law(raw);
     const std::pair<const char*, double> parameters[] = {
-        {"normal_stiffness", mixed.normal_stiffness}, {"tangential_stiffness", mixed.tangential_stiffness}, {"normal_onset", mixed.normal_onset},
-        {"tangential_onset", mixed.tangential_onset}, {"normal_toughness", mixed.normal_toughness}, {"tangential_toughness", mixed.tangential_toughness},
-        {"onset_exponent_1", mixed.exponent},         {"onset_exponent_2", mixed.exponent},         {"toughness_exponent_1", mixed.exponent},
-        {"toughness_exponent_2", mixed.exponent}};
+        {"normal_stiffness", mixed.normal_stiffness}, {"tangential_stiffness", mixed.tangential_stiffness},
+        {"normal_onset", mixed.normal_onset},         {"tangential_onset", mixed.tangential_onset},
+        {"normal_toughness", mixed.normal_toughness}, {"tangential_toughness", mixed.tangential_toughness},
+        {"onset_exponent_1", mixed.exponent},         {"onset_exponent_2", mixed.exponent},
+        {"toughness_exponent_1", mixed.exponent},     {"toughness_exponent_2", mixed.exponent}};
     for (const auto& [key, value] : parameters) scene.require(delam_law_set(raw, key, value), key);
     const auto energy = [&](const std::vector<double>& j, double zeta) {
         const double normal = 0.5 * mixed.normal_stiffness * std::max(0.0, j[0]) * std::max(0.0, j[0]);
@@ -244,12 +262,14 @@ CASE_TEST(variational_traction) {
         const double more = total - onset;
         return zeta * (normal + slip) - total * more * zeta * (1.0 - zeta) / (onset + more * zeta);
     };
-    const auto jump = solver.field("jump"), traction = solver.field("traction"), adhesion = solver.field("adhesion"), closed = solver.field("contact");
+    const auto jump = solver.field("jump"), traction = solver.field("traction"), adhesion = solver.field("adhesion"),
+               closed = solver.field("contact");
     const double scale = largest(traction);
     double beyond = 0.0;
     const auto columns = static_cast<std::size_t>(d);
     for (std::size_t p = 0; p < scene.pairs(0).count(); ++p) {
-        std::vector<double> j(jump.begin() + static_cast<std::ptrdiff_t>(p * columns), jump.begin() + static_cast<std::ptrdiff_t>((p + 1) * columns));
+        std::vector<double> j(jump.begin() + static_cast<std::ptrdiff_t>(p * columns),
+                              jump.begin() + static_cast<std::ptrdiff_t>((p + 1) * columns));
         if (largest(j) < 1e-9 || closed[p] != 0.0) continue;
         for (std::size_t c = 0; c < columns; ++c) {
             const double step = 1e-5 * largest(j);

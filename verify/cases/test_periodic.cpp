@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Periodic cells: the stiffness of layered media in closed form (Backus 1962), with glued and with elastic interfaces, under prescribed strain and
-// prescribed stress, in both realisations; the tangent against differences of reactions; what is refused.
+// Periodic cells: the stiffness of layered media in closed form (Backus 1962), with glued and with elastic interfaces,
+// under prescribed strain and prescribed stress, in both realisations; the tangent against differences of reactions;
+// what is refused.
 #include <array>
 #include <vector>
 
@@ -24,7 +25,9 @@ double volume(int d) { return d == 2 ? lx * ly : lx * ly * lz; }
 
 // Two layers across y; nodes 0 .. d-1 are the control nodes.
 Scene layers(int d, bool alike, bool glued) {
-    Scene scene = cases::make_blocks(d, {{{0.0, 0.0, 0.0}, {lx, share * ly, lz}, {3, 2, 2}}, {{0.0, share * ly, 0.0}, {lx, ly, lz}, {3, 3, 2}}}, nullptr, d);
+    Scene scene = cases::make_blocks(
+        d, {{{0.0, 0.0, 0.0}, {lx, share * ly, lz}, {3, 2, 2}}, {{0.0, share * ly, 0.0}, {lx, ly, lz}, {3, 3, 2}}},
+        nullptr, d);
     scene.interface(0, 1);
     scene.begin();
     for (int b = 0; b < 2; ++b) scene.elastic(b, young[alike ? 0 : b], poisson[alike ? 0 : b]);
@@ -88,7 +91,8 @@ void realise(Scene& scene, bool condensed) {
 
 std::vector<double> tangent(const Solver& solver, std::size_t patterns) {
     std::vector<double> matrix(patterns * patterns);
-    solver.scene().require(delam_solver_tangent(solver.get(), static_cast<std::int64_t>(matrix.size()), matrix.data()), "delam_solver_tangent");
+    solver.scene().require(delam_solver_tangent(solver.get(), static_cast<std::int64_t>(matrix.size()), matrix.data()),
+                           "delam_solver_tangent");
     return matrix;
 }
 
@@ -101,7 +105,8 @@ CASE_TEST(homogenised_stiffness) {
     std::vector<std::array<int, 2>> component;
     for (int k = 0; k < d; ++k)
         for (int i = 0; i < d; ++i) {
-            const auto p = scene.pattern(names[i][k], {0.0, 1.0}, {0.0, 1e-6 * (1.0 + static_cast<double>(component.size()))});
+            const auto p =
+                scene.pattern(names[i][k], {0.0, 1.0}, {0.0, 1e-6 * (1.0 + static_cast<double>(component.size()))});
             scene.drive({k}, cases::unit(d, i), p, {extent[k]});
             component.push_back({i, k});
         }
@@ -115,24 +120,29 @@ CASE_TEST(homogenised_stiffness) {
         for (std::size_t q = 0; q < component.size(); ++q) {
             const double exact = volume(d) * c[static_cast<std::size_t>(3 * component[p][0] + component[p][1])]
                                               [static_cast<std::size_t>(3 * component[q][0] + component[q][1])];
-            cases::expect_near(t[p * component.size() + q], exact, 1e-9, size, std::string(names[component[p][0]][component[p][1]]) + ", " +
-                                                                                   names[component[q][0]][component[q][1]]);
+            cases::expect_near(
+                t[p * component.size() + q], exact, 1e-9, size,
+                std::string(names[component[p][0]][component[p][1]]) + ", " + names[component[q][0]][component[q][1]]);
             reaction += exact * 1e-6 * (1.0 + static_cast<double>(q));
         }
-        cases::expect_near(solver.value(std::string("reaction:") + names[component[p][0]][component[p][1]]), reaction, 1e-9, size * 1e-6, "reaction");
+        cases::expect_near(solver.value(std::string("reaction:") + names[component[p][0]][component[p][1]]), reaction,
+                           1e-9, size * 1e-6, "reaction");
     }
     // The average stress over the cells' volumes is that of the control nodes' forces.
     const auto stress = solver.field("stress");
-    const std::size_t columns = d == 2 ? 4 : 6, per_layer = static_cast<std::size_t>(d == 2 ? 6 : 12), cells = stress.size() / columns;
+    const std::size_t columns = d == 2 ? 4 : 6, per_layer = static_cast<std::size_t>(d == 2 ? 6 : 12),
+                      cells = stress.size() / columns;
     double mean = 0.0;
     for (std::size_t e = 0; e < cells; ++e) {
-        const double part = e < per_layer ? share / static_cast<double>(per_layer) : (1.0 - share) / static_cast<double>(cells - per_layer);
+        const double part = e < per_layer ? share / static_cast<double>(per_layer)
+                                          : (1.0 - share) / static_cast<double>(cells - per_layer);
         mean += part * stress[e * columns + 1];
     }
     cases::expect_near(solver.value("reaction:yy") / volume(d), mean, 1e-9, size / volume(d) * 1e-6, "average stress");
 }
 
-// Tension along y by a dead force on control node 1, sides free to contract; the cell's rotation is held at control nodes.
+// Tension along y by a dead force on control node 1, sides free to contract; the cell's rotation is held at control
+// nodes.
 CASE_TEST(prescribed_stress) {
     const int d = loop % 2 == 0 ? 2 : 3;
     const bool condensed = loop / 2 == 0;
@@ -159,7 +169,8 @@ CASE_TEST(prescribed_stress) {
     cases::expect_near(u[0], ratio * strain * lx, 1e-8, strain * lx, "contraction");
     cases::expect_near(u[static_cast<std::size_t>(d)], 0.0, 1e-8, strain * lx, "shear");
     if (d == 3) cases::expect_near(u[8], ratio * strain * lz, 1e-8, strain * lz, "contraction across");
-    cases::expect_near(solver.value("reaction:tension"), -force[1] * strain * ly, 1e-8, force[1] * strain * ly, "conjugate");
+    cases::expect_near(solver.value("reaction:tension"), -force[1] * strain * ly, 1e-8, force[1] * strain * ly,
+                       "conjugate");
     cases::expect_near(tangent(solver, 1).front(), -force[1] * strain * ly, 1e-8, force[1] * strain * ly, "compliance");
 }
 
@@ -187,7 +198,8 @@ CASE_TEST(tangent_of_a_damaged_cell) {
     cases::expect(contact[0] == contact[1], "the contact set stays");
     for (std::size_t p = 0; p < 2; ++p) {
         const double change = reaction[1][p] - reaction[0][p];
-        const double predicted = t[p * 2] * (factor[1][0] - factor[0][0]) + t[p * 2 + 1] * (factor[1][1] - factor[0][1]);
+        const double predicted =
+            t[p * 2] * (factor[1][0] - factor[0][0]) + t[p * 2 + 1] * (factor[1][1] - factor[0][1]);
         cases::expect_near(change, predicted, 1e-6, std::abs(change), std::string("change of ") + names_of[p]);
     }
     cases::expect_near(t[1], t[2], 1e-7, std::abs(t[0]) + std::abs(t[1]) + std::abs(t[3]), "symmetry");
@@ -195,7 +207,8 @@ CASE_TEST(tangent_of_a_damaged_cell) {
 
 CASE_TEST(refused) {
     const auto status = [](Scene& scene, std::vector<double> periods, std::vector<std::int64_t> controls) {
-        return delam_problem_add_periodic(scene.problem(), static_cast<std::int64_t>(controls.size()), periods.data(), controls.data(), 0.0, 0);
+        return delam_problem_add_periodic(scene.problem(), static_cast<std::int64_t>(controls.size()), periods.data(),
+                                          controls.data(), 0.0, 0);
     };
     const auto says = [](Scene& scene, const char* words) {
         const std::string message = delam_context_message(scene.context());
@@ -219,7 +232,8 @@ CASE_TEST(refused) {
     cases::clamp_left(loose);
     const auto load = loose.pattern("pull", {0.0, 1.0}, {0.0, 1.0});
     cases::forces(loose, load, {0}, {1.0, 0.0});
-    cases::expect(delam_problem_check(loose.problem()) == DELAM_ERROR_PROBLEM, "a loaded control node that nothing holds");
+    cases::expect(delam_problem_check(loose.problem()) == DELAM_ERROR_PROBLEM,
+                  "a loaded control node that nothing holds");
     says(loose, "control node 0 can translate");
     Scene twice = cases::plies_with_controls(2, 0);
     cases::clamp_left(twice);

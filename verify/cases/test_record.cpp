@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values that the library records with each commit: what a host would have read step after step, returns included; part of the saved state.
+// Values that the library records with each commit: what a host would have read step after step, returns included; part
+// of the saved state.
 #include <algorithm>
 #include <cmath>
 
@@ -22,10 +23,13 @@ FlexureScene returning() {
     return f;
 }
 
-constexpr const char* keys[] = {"step",     "time",      "dissipated", "work",         "lower",   "reaction:press", "energy_release_rate",
-                                "front", "revisions", "search_gap", "crack_length", "contact_pairs"};
+constexpr const char* keys[] = {"step",      "time",           "dissipated",          "work",
+                                "lower",     "reaction:press", "energy_release_rate", "front",
+                                "revisions", "search_gap",     "crack_length",        "contact_pairs"};
 
-void record(const Solver& solver, const char* key) { solver.scene().require(delam_solver_record(solver.get(), key), key); }
+void record(const Solver& solver, const char* key) {
+    solver.scene().require(delam_solver_record(solver.get(), key), key);
+}
 void record_all(const Solver& solver) {
     for (const char* key : keys) record(solver, key);
 }
@@ -35,13 +39,15 @@ struct Size {
 };
 Size size_of(const Solver& solver) {
     Size size;
-    solver.scene().require(delam_solver_recorded_size(solver.get(), &size.first, &size.steps), "delam_solver_recorded_size");
+    solver.scene().require(delam_solver_recorded_size(solver.get(), &size.first, &size.steps),
+                           "delam_solver_recorded_size");
     return size;
 }
 
 std::vector<double> recorded(const Solver& solver, const char* key) {
     std::vector<double> values(static_cast<std::size_t>(size_of(solver).steps));
-    solver.scene().require(delam_solver_recorded(solver.get(), key, static_cast<std::int64_t>(values.size()), values.data()), key);
+    solver.scene().require(
+        delam_solver_recorded(solver.get(), key, static_cast<std::int64_t>(values.size()), values.data()), key);
     return values;
 }
 
@@ -52,7 +58,9 @@ void walk(Solver& solver, int first, int last) {
     }
 }
 
-void look(const Solver& solver, std::int64_t step) { solver.scene().require(delam_solver_look(solver.get(), step), "delam_solver_look"); }
+void look(const Solver& solver, std::int64_t step) {
+    solver.scene().require(delam_solver_look(solver.get(), step), "delam_solver_look");
+}
 
 // What the kept steps say when they are looked at.
 void expect_as_looked_at(Solver& solver, const std::string& where) {
@@ -61,7 +69,8 @@ void expect_as_looked_at(Solver& solver, const std::string& where) {
         const std::vector<double> values = recorded(solver, key);
         for (std::size_t i = 0; i < values.size(); ++i) {
             look(solver, size.first + static_cast<std::int64_t>(i));
-            cases::expect(cases::same_bits({solver.value(key)}, {values[i]}), where + ": " + key + " of step " + std::to_string(size.first + static_cast<std::int64_t>(i)));
+            cases::expect(cases::same_bits({solver.value(key)}, {values[i]}),
+                          where + ": " + key + " of step " + std::to_string(size.first + static_cast<std::int64_t>(i)));
         }
     }
     look(solver, -1);
@@ -85,7 +94,8 @@ CASE_TEST(steps_that_returns_replace) {
         solver.commit();
         plain.step(time_of(k));
         plain.commit();
-        cases::expect_same(solver, cases::read_bits(solver), cases::read_bits(plain), "a march that records, step " + std::to_string(k));
+        cases::expect_same(solver, cases::read_bits(solver), cases::read_bits(plain),
+                           "a march that records, step " + std::to_string(k));
     }
     const std::vector<double> revisions = recorded(solver, "revisions");
     cases::expect(*std::max_element(revisions.begin(), revisions.end()) >= 1.0, "no step was replaced");
@@ -108,10 +118,14 @@ CASE_TEST(saved_with_the_state) {
     f.scene.require(second.load(bytes), "delam_solver_load");
     cases::expect(second.save() == bytes, "saved again");
     std::vector<double> none(1);
-    cases::expect(delam_solver_recorded(second.get(), "stored_bulk", 1, none.data()) == DELAM_ERROR_ARGUMENT, "the record is that of the bytes");
+    cases::expect(delam_solver_recorded(second.get(), "stored_bulk", 1, none.data()) == DELAM_ERROR_ARGUMENT,
+                  "the record is that of the bytes");
     walk(second, cut + 1, steps);
-    cases::expect(size_of(second).first == 2 && size_of(second).steps == steps - 1, "from the step on at which it was asked for");
-    for (const char* key : keys) cases::expect(cases::same_bits(recorded(whole, key), recorded(second, key)), std::string(key) + " after loading");
+    cases::expect(size_of(second).first == 2 && size_of(second).steps == steps - 1,
+                  "from the step on at which it was asked for");
+    for (const char* key : keys)
+        cases::expect(cases::same_bits(recorded(whole, key), recorded(second, key)),
+                      std::string(key) + " after loading");
     // A return behind the beginning of the record replaces what there is of it.
     expect_as_looked_at(second, "resumed");
 }
@@ -143,28 +157,36 @@ CASE_TEST(later_keys_and_set_states) {
     record(solver, "time");
     cases::walk(solver, 3, 3);
     const std::vector<double> times = recorded(solver, "time"), work = recorded(solver, "work");
-    cases::expect(times.size() == 4 && times[0] == 0.0 && times[3] == cases::small_time(3), "asked for twice, recorded once");
-    cases::expect(work.size() == 4 && std::isnan(work[0]) && std::isnan(work[1]) && !std::isnan(work[2]) && work[3] > work[2], "not a number before it was asked for");
+    cases::expect(times.size() == 4 && times[0] == 0.0 && times[3] == cases::small_time(3),
+                  "asked for twice, recorded once");
+    cases::expect(
+        work.size() == 4 && std::isnan(work[0]) && std::isnan(work[1]) && !std::isnan(work[2]) && work[3] > work[2],
+        "not a number before it was asked for");
     // A state that is set takes the place of its step.
     solver.equilibrate(cases::small_time(5), solver.field("adhesion"));
     solver.commit();
-    cases::expect(recorded(solver, "time").size() == 4 && recorded(solver, "time")[3] == cases::small_time(5), "a state that was set");
+    cases::expect(recorded(solver, "time").size() == 4 && recorded(solver, "time")[3] == cases::small_time(5),
+                  "a state that was set");
 }
 
 CASE_TEST(refused) {
     const reference::Scene scene = cases::small_enf();
     Solver solver(scene, 0.0);
-    for (const char* key : {"no_such_value", "", "kkt_gap", "kkt_equilibrium", "rotation_max", "bulk_factorisations", "field_recoveries", "crack_length:7"})
+    for (const char* key : {"no_such_value", "", "kkt_gap", "kkt_equilibrium", "rotation_max", "bulk_factorisations",
+                            "field_recoveries", "crack_length:7"})
         cases::expect(delam_solver_record(solver.get(), key) == DELAM_ERROR_ARGUMENT, std::string("recorded: ") + key);
     cases::expect(size_of(solver).steps == 0, "a refusal leaves nothing");
-    cases::expect(delam_solver_record(solver.get(), "kkt_gap") != DELAM_OK &&
-                      std::string(delam_context_message(scene.context())).find("recovers the displacements") != std::string::npos,
-                  "the reason is not said");
+    cases::expect(
+        delam_solver_record(solver.get(), "kkt_gap") != DELAM_OK &&
+            std::string(delam_context_message(scene.context())).find("recovers the displacements") != std::string::npos,
+        "the reason is not said");
     record(solver, "time");
     double value = -1.0;
     cases::expect(delam_solver_recorded(solver.get(), "work", 1, &value) == DELAM_ERROR_ARGUMENT, "not recorded");
-    cases::expect(std::string(delam_context_message(scene.context())).find("recorded: time") != std::string::npos, "what is recorded is not said");
-    cases::expect(delam_solver_recorded(solver.get(), "time", 0, &value) == DELAM_ERROR_ARGUMENT && value == -1.0, "no room");
+    cases::expect(std::string(delam_context_message(scene.context())).find("recorded: time") != std::string::npos,
+                  "what is recorded is not said");
+    cases::expect(delam_solver_recorded(solver.get(), "time", 0, &value) == DELAM_ERROR_ARGUMENT && value == -1.0,
+                  "no room");
     solver.step(cases::small_time(1));
     cases::expect(delam_solver_record(solver.get(), "work") == DELAM_ERROR_STATE, "a step is pending");
 }

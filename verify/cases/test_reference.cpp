@@ -16,12 +16,13 @@ constexpr double length = 0.3;
 constexpr double height = 0.25;
 
 bool in_plane(std::int32_t cell) {
-    return cell == DELAM_TRI3 || cell == DELAM_QUAD4 || cell == DELAM_TRI6 || cell == DELAM_QUAD8 || cell == DELAM_QUAD9;
+    return cell == DELAM_TRI3 || cell == DELAM_QUAD4 || cell == DELAM_TRI6 || cell == DELAM_QUAD8 ||
+           cell == DELAM_QUAD9;
 }
 
 // On the faces of tet10 and hex20 the forces of a uniform traction are not in the proportion of any positive nodal
-// weights (a corner gets none or a pull the other way): the traction of the pairs scatters around the exact one within a
-// cell's size, which makes the interface softer by about 0.2 h/E.
+// weights (a corner gets none or a pull the other way): the traction of the pairs scatters around the exact one within
+// a cell's size, which makes the interface softer by about 0.2 h/E.
 bool scatters(std::int32_t cell) { return cell == DELAM_TET10 || cell == DELAM_HEX20; }
 
 // Two blocks without lateral contraction, the lower face held, the upper one driven by `w` along the stack. With
@@ -56,7 +57,7 @@ Scene stack(std::int32_t cell, double k, double w, bool hold_below, bool redunda
     return scene;
 }
 
-constexpr std::int32_t cells[] = {DELAM_TRI3, DELAM_QUAD4, DELAM_TET4,  DELAM_HEX8, DELAM_TRI6,
+constexpr std::int32_t cells[] = {DELAM_TRI3,  DELAM_QUAD4, DELAM_TET4,  DELAM_HEX8, DELAM_TRI6,
                                   DELAM_QUAD8, DELAM_QUAD9, DELAM_TET10, DELAM_HEX20};
 
 double area(std::int32_t cell) { return in_plane(cell) ? length : length * length; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plies so slender that their bending is rounding beside the stiffness of their cells: what the condensed operator finds
-// is held against the balance of forces, and a step that is none is not called converged. Opened (the jump is large) and
-// bent together (the jump is small, it is the inside of the bodies that loses its digits).
+// Plies so slender that their bending is rounding beside the stiffness of their cells: what the condensed operator
+// finds is held against the balance of forces, and a step that is none is not called converged. Opened (the jump is
+// large) and bent together (the jump is small, it is the inside of the bodies that loses its digits).
 #include <cmath>
 #include <string>
 #include <vector>
@@ -21,8 +21,8 @@ Scene plies(int dimension, double ratio, bool opened) {
     const double k = 2.0 * young * std::pow(thickness, 3) / 12.0 * std::pow(20.0 / length, 4);
     const bool flat = dimension == 2;
     Scene scene(dimension, flat ? std::vector<double>{length} : std::vector<double>{length, width},
-                flat ? std::vector<std::int64_t>{120} : std::vector<std::int64_t>{24, 2}, {thickness, thickness}, {1, 1},
-                flat ? DELAM_QUAD8 : DELAM_HEX20);
+                flat ? std::vector<std::int64_t>{120} : std::vector<std::int64_t>{24, 2}, {thickness, thickness},
+                {1, 1}, flat ? DELAM_QUAD8 : DELAM_HEX20);
     scene.interface(0, 1);
     scene.begin();
     scene.elastic(-1, young, 0.0);
@@ -32,8 +32,12 @@ Scene plies(int dimension, double ratio, bool opened) {
     for (std::size_t i = 0; i < pairs.size(); ++i)
         if (scene.coordinate(pairs[i], 0) < 0.5 * length) notch.push_back(static_cast<std::int64_t>(i));
     scene.adhesion(0, notch, std::vector<double>(notch.size(), 0.0));
-    const auto at = [&](double x, double z) { return flat ? std::vector<double>{x, z} : std::vector<double>{x, 0.0, z}; };
-    const auto to = [&](double x, double z) { return flat ? std::vector<double>{x, z} : std::vector<double>{x, width, z}; };
+    const auto at = [&](double x, double z) {
+        return flat ? std::vector<double>{x, z} : std::vector<double>{x, 0.0, z};
+    };
+    const auto to = [&](double x, double z) {
+        return flat ? std::vector<double>{x, z} : std::vector<double>{x, width, z};
+    };
     const auto along = [&](int axis) {
         std::vector<double> e(static_cast<std::size_t>(dimension), 0.0);
         e[static_cast<std::size_t>(axis)] = 1.0;
@@ -76,7 +80,8 @@ CASE_TEST(slender) {
     const bool opened = loop / 2 == 0;
     for (const double ratio : {10.0, 100.0, 1e3, 3e3, 1e4, 3e4}) {
         const Found found = march(plies(dimension, ratio, opened));
-        const std::string where = std::to_string(dimension) + "D, " + (opened ? "opened, " : "bent, ") + std::to_string(static_cast<int>(ratio)) +
+        const std::string where = std::to_string(dimension) + "D, " + (opened ? "opened, " : "bent, ") +
+                                  std::to_string(static_cast<int>(ratio)) +
                                   " times longer than thick: " + delam_status_name(found.status) + " " + found.words;
         if (ratio <= 100.0) {
             cases::expect(found.status == DELAM_OK, where);

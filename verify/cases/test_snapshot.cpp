@@ -145,8 +145,8 @@ CASE_TEST(other_scene) {
     expect_refused(enf, bytes, "other mesh");
 }
 
-// Brittle, condensed, accelerated: fronts leap, so that the condensed operator chooses, releases and renews its zones. What it remembers of
-// that decides the last digits.
+// Brittle, condensed, accelerated: fronts leap, so that the condensed operator chooses, releases and renews its zones.
+// What it remembers of that decides the last digits.
 Scene leaping_enf() {
     cases::Enf e;
     e.h = 1e-3;
@@ -231,7 +231,9 @@ CASE_TEST(loaded_over_another_past) {
 struct Countdown {
     int left;
 };
-std::int32_t count_down(const char*, std::int64_t, std::int64_t, void* user) { return --static_cast<Countdown*>(user)->left == 0 ? 1 : 0; }
+std::int32_t count_down(const char*, std::int64_t, std::int64_t, void* user) {
+    return --static_cast<Countdown*>(user)->left == 0 ? 1 : 0;
+}
 
 CASE_TEST(cancelled_leaps) {
     const Scene scene = leaping_enf();
@@ -244,7 +246,8 @@ CASE_TEST(cancelled_leaps) {
     for (int k = 12; k <= 14; ++k) {
         for (int stage = 1;; stage = stage < 12 ? stage + 1 : stage + 7) {
             Countdown countdown{stage};
-            scene.require(delam_context_set_progress(scene.context(), count_down, &countdown), "delam_context_set_progress");
+            scene.require(delam_context_set_progress(scene.context(), count_down, &countdown),
+                          "delam_context_set_progress");
             const std::int32_t status = cancelled.advance(cases::enf_time(k, leaps));
             scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "delam_context_set_progress");
             if (status == DELAM_OK) break;
@@ -257,7 +260,8 @@ CASE_TEST(cancelled_leaps) {
     cases::expect(cancelled.save() == after, "snapshots differ");
 }
 
-// Two plies of hexahedra, unbonded at one end, which is peeled off by its corners, one pulled harder and aside: all three modes.
+// Two plies of hexahedra, unbonded at one end, which is peeled off by its corners, one pulled harder and aside: all
+// three modes.
 struct Peel {
     const char* name;
     reference::LawData law;
@@ -265,7 +269,8 @@ struct Peel {
     std::int64_t subdomains = 0;
 };
 
-const reference::LawData ductile{125e9, 125e9, 100.0, 160.0, 250.0, 700.0}, brittle{125e13, 125e13, 1.0, 1.0, 25.0, 60.0};
+const reference::LawData ductile{125e9, 125e9, 100.0, 160.0, 250.0, 700.0},
+    brittle{125e13, 125e13, 1.0, 1.0, 25.0, 60.0};
 
 const Peel peels[] = {
     {"condensed", ductile, {{"reduction", "condensed"}}},
@@ -274,7 +279,9 @@ const Peel peels[] = {
     {"brittle, FETI", brittle, {{"reduction", "feti"}}, 2},
     {"variational", ductile, {{"mixity_rule", "variational"}}},
     {"converged", ductile, {{"mixity_rule", "converged"}}},
-    {"energetic", {125e13, 125e13, 600.0, 600.0, 600.0, 600.0, 1.0}, {{"solution", "energetic"}, {"backtracking", "on"}}},
+    {"energetic",
+     {125e13, 125e13, 600.0, 600.0, 600.0, 600.0, 1.0},
+     {{"solution", "energetic"}, {"backtracking", "on"}}},
 };
 
 Scene make_peel(const Peel& p) {
@@ -290,12 +297,14 @@ Scene make_peel(const Peel& p) {
         if (scene.coordinate(pairs.node_a[i], 0) < crack - 1e-4) open.push_back(static_cast<std::int64_t>(i));
     scene.adhesion(0, open, std::vector<double>(open.size(), 0.0));
     const auto bottom = scene.find(0, {0.0, 0.0, 0.0}, {length, width, 0.0});
-    for (const std::vector<double>& axis : {std::vector<double>{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}) scene.hold(bottom, axis);
+    for (const std::vector<double>& axis : {std::vector<double>{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}})
+        scene.hold(bottom, axis);
     const auto edge = scene.find(1, {0.0, 0.0, 2.0 * ply}, {0.0, width, 2.0 * ply});
     std::vector<double> uneven;
     for (const auto node : edge) uneven.push_back(1.0 + 0.2 * scene.coordinate(node, 1) / width);
     scene.drive(edge, {0.0, 0.0, 1.0}, scene.pattern("peel", {0.0, 1.0}, {0.0, 4e-4}), uneven);
-    scene.drive(edge, {0.0, 1.0, 0.0}, scene.pattern("aside", {0.0, 1.0}, {0.0, 1e-4}), std::vector<double>(edge.size(), 1.0));
+    scene.drive(edge, {0.0, 1.0, 0.0}, scene.pattern("aside", {0.0, 1.0}, {0.0, 1e-4}),
+                std::vector<double>(edge.size(), 1.0));
     for (const auto& [key, value] : p.texts) scene.text(key, value);
     if (p.subdomains > 0) scene.number("subdomains", static_cast<double>(p.subdomains));
     return scene;
@@ -329,7 +338,8 @@ CASE_TEST(resumed_peel) {
         Solver resumed(again, 0.0);
         again.require(resumed.load(bytes[from]), "delam_solver_load");
         for (std::size_t k = from;; ++k) {
-            const std::string where = std::string(p.name) + " resumed at step " + std::to_string(from) + ", step " + std::to_string(k);
+            const std::string where =
+                std::string(p.name) + " resumed at step " + std::to_string(from) + ", step " + std::to_string(k);
             cases::expect_same(resumed, cases::read_bits(resumed), bits[k], where);
             cases::expect(resumed.save() == bytes[k], where + ": snapshots differ");
             if (k == peel_steps) break;

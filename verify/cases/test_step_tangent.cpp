@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The consistent tangent of a step is the derivative of the reactions that the step itself gives, damage included: against central differences of whole
-// steps whose end factors are changed. And what the condensed operator says is the energy that the solver reports.
+// The consistent tangent of a step is the derivative of the reactions that the step itself gives, damage included:
+// against central differences of whole steps whose end factors are changed. And what the condensed operator says is the
+// energy that the solver reports.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -24,11 +25,16 @@ struct Setting {
 };
 
 constexpr Setting settings[] = {
-    {"frozen", 2, "condensed", "frozen", 0.0, 0.0},         {"frozen, FETI", 2, "feti", "frozen", 0.0, 0.0},
-    {"converged", 2, "condensed", "converged", 0.0, 1e-6},  {"variational", 2, "condensed", "variational", 0.0, 0.0},
-    {"gradient", 2, "condensed", "frozen", 2e-3, 0.0},      {"frozen, space", 3, "condensed", "frozen", 0.0, 0.0},
-    {"converged, space", 3, "condensed", "converged", 0.0, 1e-6}, {"frozen, FETI, space", 3, "feti", "frozen", 0.0, 0.0},
-    {"variational, space", 3, "condensed", "variational", 0.0, 0.0}, {"gradient, space", 3, "condensed", "frozen", 2e-3, 0.0},
+    {"frozen", 2, "condensed", "frozen", 0.0, 0.0},
+    {"frozen, FETI", 2, "feti", "frozen", 0.0, 0.0},
+    {"converged", 2, "condensed", "converged", 0.0, 1e-6},
+    {"variational", 2, "condensed", "variational", 0.0, 0.0},
+    {"gradient", 2, "condensed", "frozen", 2e-3, 0.0},
+    {"frozen, space", 3, "condensed", "frozen", 0.0, 0.0},
+    {"converged, space", 3, "condensed", "converged", 0.0, 1e-6},
+    {"frozen, FETI, space", 3, "feti", "frozen", 0.0, 0.0},
+    {"variational, space", 3, "condensed", "variational", 0.0, 0.0},
+    {"gradient, space", 3, "condensed", "frozen", 2e-3, 0.0},
 };
 constexpr int setting_count = static_cast<int>(std::size(settings));
 
@@ -37,7 +43,8 @@ constexpr int steps = 10;
 // A strip peeled and sheared at its left end by three devices: two displacements and a force.
 Scene strip(const Setting& s) {
     const bool space = s.dimension == 3;
-    Scene scene = space ? Scene(3, {0.03, 0.004}, {15, 2}, {1e-3, 1e-3}, {1, 1}, DELAM_HEX8) : Scene(2, {0.03}, {30}, {1e-3, 1e-3}, {1, 1}, DELAM_QUAD4);
+    Scene scene = space ? Scene(3, {0.03, 0.004}, {15, 2}, {1e-3, 1e-3}, {1, 1}, DELAM_HEX8)
+                        : Scene(2, {0.03}, {30}, {1e-3, 1e-3}, {1, 1}, DELAM_QUAD4);
     scene.interface(0, 1);
     scene.begin();
     scene.elastic(-1, 70e9, 0.3);
@@ -50,7 +57,8 @@ Scene strip(const Setting& s) {
         if (scene.coordinate(pairs.node_a[p], 0) < 0.0055) notch.push_back(static_cast<std::int64_t>(p));
     scene.adhesion(0, notch, std::vector<double>(notch.size(), 0.0));
     const auto box = [&](double x0, double x1, double z) {
-        return space ? std::pair{std::vector<double>{x0, 0.0, z}, std::vector<double>{x1, 0.004, z}} : std::pair{std::vector<double>{x0, z}, std::vector<double>{x1, z}};
+        return space ? std::pair{std::vector<double>{x0, 0.0, z}, std::vector<double>{x1, 0.004, z}}
+                     : std::pair{std::vector<double>{x0, z}, std::vector<double>{x1, z}};
     };
     const auto unit = [&](int axis) {
         std::vector<double> e(static_cast<std::size_t>(s.dimension), 0.0);
@@ -70,7 +78,9 @@ Scene strip(const Setting& s) {
     std::vector<double> forces;
     for (std::size_t i = 0; i < loaded.size(); ++i)
         for (const double f : unit(-1)) forces.push_back(f * (space ? 4.0 : 2000.0));
-    scene.require(delam_problem_add_forces(scene.problem(), press, static_cast<std::int64_t>(loaded.size()), loaded.data(), forces.data(), 0), "forces");
+    scene.require(delam_problem_add_forces(scene.problem(), press, static_cast<std::int64_t>(loaded.size()),
+                                           loaded.data(), forces.data(), 0),
+                  "forces");
     scene.text("reduction", s.reduction);
     scene.text("mixity_rule", s.rule);
     scene.number("damage_tolerance", 1e-11);
@@ -97,7 +107,8 @@ void tangent_is_the_derivative(int loop) {
         const double time = static_cast<double>(k) / steps;
         for (std::size_t p = 0; p < 3; ++p) {
             factors[p] = ends[p] * time;
-            scene.require(delam_solver_set_history(solver.get(), static_cast<std::int64_t>(p), 1, &time, &factors[p]), "delam_solver_set_history");
+            scene.require(delam_solver_set_history(solver.get(), static_cast<std::int64_t>(p), 1, &time, &factors[p]),
+                          "delam_solver_set_history");
         }
         solver.step(time);
         const std::vector<double> tangent = step_tangent(solver);
@@ -118,24 +129,30 @@ void tangent_is_the_derivative(int loop) {
         solver.rollback();
         // Compared in energies: entries times the factors of their row and column at the end.
         double size = 0.0;
-        for (int p = 0; p < 3; ++p) size = std::max(size, std::abs(tangent[static_cast<std::size_t>(4 * p)]) * ends[p] * ends[p]);
+        for (int p = 0; p < 3; ++p)
+            size = std::max(size, std::abs(tangent[static_cast<std::size_t>(4 * p)]) * ends[p] * ends[p]);
         for (int q = 0; q < 3; ++q) {
             const double e = 2e-7 * ends[q];  // small: no pair may start to soften within
             const auto above = at(q, e), below = at(q, -e);
             for (int p = 0; p < 3; ++p) {
                 const auto i = static_cast<std::size_t>(3 * p + q);
-                const double difference = (above[static_cast<std::size_t>(p)] - below[static_cast<std::size_t>(p)]) / (2.0 * e);
-                // Before the first load the mixity is that of the elastic solution, which moves along: the first step of a mixed law is not compared.
+                const double difference =
+                    (above[static_cast<std::size_t>(p)] - below[static_cast<std::size_t>(p)]) / (2.0 * e);
+                // Before the first load the mixity is that of the elastic solution, which moves along: the first step
+                // of a mixed law is not compared.
                 if (k > 1)
-                    cases::expect_near(tangent[i] * ends[p] * ends[q], difference * ends[p] * ends[q], 2e-4, size,
-                                       std::string(s.name) + ", step " + std::to_string(k) + ", d " + names[p] + " / d " + names[q]);
+                    cases::expect_near(
+                        tangent[i] * ends[p] * ends[q], difference * ends[p] * ends[q], 2e-4, size,
+                        std::string(s.name) + ", step " + std::to_string(k) + ", d " + names[p] + " / d " + names[q]);
                 softened = softened || std::abs(tangent[i] - secant[i]) * ends[p] * ends[q] > 0.02 * size;
-                asymmetry = std::max(asymmetry, std::abs(tangent[i] - tangent[static_cast<std::size_t>(3 * q + p)]) * ends[p] * ends[q] / size);
+                asymmetry = std::max(asymmetry, std::abs(tangent[i] - tangent[static_cast<std::size_t>(3 * q + p)]) *
+                                                    ends[p] * ends[q] / size);
             }
         }
         // Back on the way: what was changed and rolled back leaves the planned value.
         for (int p = 0; p < 3; ++p)
-            scene.require(delam_solver_set_history(solver.get(), p, 1, &time, &factors[static_cast<std::size_t>(p)]), "delam_solver_set_history");
+            scene.require(delam_solver_set_history(solver.get(), p, 1, &time, &factors[static_cast<std::size_t>(p)]),
+                          "delam_solver_set_history");
         solver.step(time);
         solver.commit();
     }
@@ -158,7 +175,8 @@ CASE_TEST(tangent_refused) {
     cases::expect(delam_solver_step_tangent(solver.get(), 8, matrix.data()) == DELAM_ERROR_ARGUMENT, "capacity");
     const auto before = solver.save();
     std::map<std::string, double> values;
-    for (const char* key : {"stored_bulk", "dissipated", "reaction:lift", "am_iterations", "contact_pairs"}) values[key] = solver.value(key);
+    for (const char* key : {"stored_bulk", "dissipated", "reaction:lift", "am_iterations", "contact_pairs"})
+        values[key] = solver.value(key);
     step_tangent(solver);
     cases::expect(solver.save() == before, "the state has changed");
     for (const char* key : {"stored_bulk", "dissipated", "reaction:lift", "am_iterations", "contact_pairs"})
@@ -172,7 +190,8 @@ CASE_TEST(tangent_refused) {
         for (int k = 1; k <= 4 && !refused; ++k) {
             walked.step(0.25 * k);
             if (walked.value("substeps") > 1.0) {
-                cases::expect(delam_solver_step_tangent(walked.get(), 9, matrix.data()) == DELAM_ERROR_STATE, "a step in parts");
+                cases::expect(delam_solver_step_tangent(walked.get(), 9, matrix.data()) == DELAM_ERROR_STATE,
+                              "a step in parts");
                 refused = true;
             }
             walked.commit();
@@ -201,10 +220,14 @@ void operator_is_the_energy(int loop) {
     scene.require(delam_problem_pattern_count(scene.problem(), &patterns), "delam_problem_pattern_count");
     const auto un = static_cast<std::size_t>(n), up = static_cast<std::size_t>(patterns);
     const std::size_t rows = scene.pair_count() * static_cast<std::size_t>(scene.dimension());
-    std::vector<double> s(un * un), load(up * un), constant(up * up), value(static_cast<std::size_t>(entries)), offset(rows * up);
+    std::vector<double> s(un * un), load(up * un), constant(up * up), value(static_cast<std::size_t>(entries)),
+        offset(rows * up);
     std::vector<std::int64_t> start(rows + 1), column(static_cast<std::size_t>(entries));
-    cases::expect(delam_solver_condensed(solver.get(), n * n - 1, s.data(), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr) == DELAM_ERROR_ARGUMENT, "capacity");
-    scene.require(delam_solver_condensed(solver.get(), n * n, s.data(), load.data(), constant.data(), start.data(), column.data(), value.data(), offset.data()),
+    cases::expect(delam_solver_condensed(solver.get(), n * n - 1, s.data(), nullptr, nullptr, nullptr, nullptr, nullptr,
+                                         nullptr) == DELAM_ERROR_ARGUMENT,
+                  "capacity");
+    scene.require(delam_solver_condensed(solver.get(), n * n, s.data(), load.data(), constant.data(), start.data(),
+                                         column.data(), value.data(), offset.data()),
                   "delam_solver_condensed");
     for (int k = 1; k <= 5; ++k) {
         solver.step(0.2 * k);
@@ -222,7 +245,8 @@ void operator_is_the_energy(int loop) {
         }
         for (std::size_t r = 0; r < rows; ++r) {
             double j = 0.0;
-            for (auto e = static_cast<std::size_t>(start[r]); e < static_cast<std::size_t>(start[r + 1]); ++e) j += value[e] * x[static_cast<std::size_t>(column[e])];
+            for (auto e = static_cast<std::size_t>(start[r]); e < static_cast<std::size_t>(start[r + 1]); ++e)
+                j += value[e] * x[static_cast<std::size_t>(column[e])];
             for (std::size_t p = 0; p < up; ++p) j += offset[r * up + p] * theta[p];
             cases::expect_near(j, jump[r], 1e-10, largest, "jump " + std::to_string(r));
         }
@@ -234,7 +258,9 @@ void operator_is_the_energy(int loop) {
             for (std::size_t q = 0; q < up; ++q) energy += 0.5 * theta[p] * constant[p * up + q] * theta[q];
         }
         const double stored = solver.value("stored_bulk") + solver.value("load_potential");
-        cases::expect_near(energy, stored, 1e-9, std::abs(solver.value("stored_bulk")) + std::abs(solver.value("load_potential")), "energy of bodies and loads");
+        cases::expect_near(energy, stored, 1e-9,
+                           std::abs(solver.value("stored_bulk")) + std::abs(solver.value("load_potential")),
+                           "energy of bodies and loads");
         solver.commit();
     }
     for (std::size_t i = 0; i < un; ++i)
@@ -248,8 +274,11 @@ CASE_TEST(no_operator_by_feti) {
     const Scene scene = strip(settings[1]);
     Solver solver(scene, 0.0);
     std::int64_t n = 0;
-    cases::expect(delam_solver_condensed_size(solver.get(), &n, nullptr) == DELAM_ERROR_STATE, "FETI has a condensed operator");
-    cases::expect(std::string(delam_context_message(scene.context())).find("reduction = condensed") != std::string::npos, delam_context_message(scene.context()));
+    cases::expect(delam_solver_condensed_size(solver.get(), &n, nullptr) == DELAM_ERROR_STATE,
+                  "FETI has a condensed operator");
+    cases::expect(
+        std::string(delam_context_message(scene.context())).find("reduction = condensed") != std::string::npos,
+        delam_context_message(scene.context()));
 }
 
 }  // namespace

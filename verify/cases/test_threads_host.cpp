@@ -94,7 +94,8 @@ CASE_TEST(cancel_through_progress) {
     solver.step(cases::small_time(few + 2));
 }
 
-// Large meshes are looked up from while they are assembled, every few hundred cells: what a cancel waits for does not grow with the mesh.
+// Large meshes are looked up from while they are assembled, every few hundred cells: what a cancel waits for does not
+// grow with the mesh.
 struct Assembly {
     std::int64_t looks = 0;
     static std::int32_t count(const char* stage, std::int64_t done, std::int64_t, void* user) {
@@ -113,7 +114,8 @@ CASE_TEST(looks_while_assembling) {
     scene.elastic(-1, 70e9, 0.3);
     scene.law(0, {1e12, 1e12, 100.0, 100.0, 200.0, 200.0});
     const auto base = scene.find(0, {0.0, 0.0, 0.0}, {0.48, 0.24, 0.0});
-    for (const auto& axis : {std::vector<double>{1, 0, 0}, std::vector<double>{0, 1, 0}, std::vector<double>{0, 0, 1}}) scene.hold(base, axis);
+    for (const auto& axis : {std::vector<double>{1, 0, 0}, std::vector<double>{0, 1, 0}, std::vector<double>{0, 0, 1}})
+        scene.hold(base, axis);
     scene.text("reduction", loop == 0 ? "condensed" : "feti");
     std::int64_t subdomains = 1;
     if (loop == 1) {
@@ -121,12 +123,14 @@ CASE_TEST(looks_while_assembling) {
         scene.number("subdomains", static_cast<double>(subdomains));
     }
     Assembly assembly;
-    scene.require(delam_context_set_progress(scene.context(), Assembly::count, &assembly), "delam_context_set_progress");
+    scene.require(delam_context_set_progress(scene.context(), Assembly::count, &assembly),
+                  "delam_context_set_progress");
     delam_solver* solver = nullptr;
     const std::int32_t status = delam_solver_create(scene.problem(), 0.0, &solver);
     cases::expect(status == DELAM_CANCELLED && solver == nullptr, std::string("status ") + delam_status_name(status));
     const std::int64_t cells = 2 * columns * rows * layers / subdomains;
-    cases::expect(assembly.looks >= cells / 256, std::to_string(assembly.looks) + " looks while " + std::to_string(cells) + " cells were assembled");
+    cases::expect(assembly.looks >= cells / 256,
+                  std::to_string(assembly.looks) + " looks while " + std::to_string(cells) + " cells were assembled");
     scene.require(delam_context_set_progress(scene.context(), nullptr, nullptr), "delam_context_set_progress");
 }
 

@@ -27,7 +27,9 @@ Scene blocks(int d, std::int64_t lower, std::int64_t upper) {
                          d == 2 ? std::vector<std::int64_t>{n} : std::vector<std::int64_t>{n, n}, {0.5}, {3}, cell);
         const auto first = static_cast<std::int64_t>(nodes.size()) / d;
         for (std::size_t i = 0; i < part.nodes().size(); ++i)
-            nodes.push_back(part.nodes()[i] + (!bodies.empty() && i % static_cast<std::size_t>(d) + 1 == static_cast<std::size_t>(d) ? 0.5 : 0.0));
+            nodes.push_back(
+                part.nodes()[i] +
+                (!bodies.empty() && i % static_cast<std::size_t>(d) + 1 == static_cast<std::size_t>(d) ? 0.5 : 0.0));
         std::int64_t needed = 0;
         part.require(delam_mesh_cells(part.mesh(), nullptr, nullptr, nullptr, 0, nullptr, &needed), "cells");
         const auto begin = cells.size();
@@ -43,7 +45,8 @@ Scene blocks(int d, std::int64_t lower, std::int64_t upper) {
 double stress_error(int d, std::int64_t lower, std::int64_t upper, const char* reduction) {
     Scene scene = blocks(d, lower, upper);
     std::int64_t index = -1;
-    scene.require(delam_mesh_add_projected_interface(scene.mesh(), 0, 1, 0.0, &index), "delam_mesh_add_projected_interface");
+    scene.require(delam_mesh_add_projected_interface(scene.mesh(), 0, 1, 0.0, &index),
+                  "delam_mesh_add_projected_interface");
     scene.begin();
     scene.elastic(-1, 10e9, 0.3);
     scene.bonded(0);
@@ -81,7 +84,8 @@ double stress_error(int d, std::int64_t lower, std::int64_t upper, const char* r
                : std::vector<double>{normal(0), normal(1), normal(2), shear(0, 1), shear(1, 2), shear(2, 0)};
     double largest = 0.0, error = 0.0;
     for (const double s : expected) largest = std::max(largest, std::abs(s));
-    for (std::size_t i = 0; i < stress.size(); ++i) error = std::max(error, std::abs(stress[i] - expected[i % components]));
+    for (std::size_t i = 0; i < stress.size(); ++i)
+        error = std::max(error, std::abs(stress[i] - expected[i % components]));
     return error / largest;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sub-laminate as one element of a host: the host knows the displacements of its boundary, asks for forces and the consistent tangent, and
-// iterates with Newton's method on its own unknowns. Checked: it converges quadratically, and to what the library finds when the rest of the
-// structure is part of its own scene.
+// A sub-laminate as one element of a host: the host knows the displacements of its boundary, asks for forces and the
+// consistent tangent, and iterates with Newton's method on its own unknowns. Checked: it converges quadratically, and
+// to what the library finds when the rest of the structure is part of its own scene.
 #include <array>
 #include <cmath>
 
@@ -13,7 +13,8 @@ namespace {
 using reference::Scene;
 using reference::Solver;
 
-// Two arms, glued behind a notch; the boundary: up and sideways at the tip of the upper arm, up at that of the lower one.
+// Two arms, glued behind a notch; the boundary: up and sideways at the tip of the upper arm, up at that of the lower
+// one.
 constexpr std::size_t unknowns = 3;
 constexpr const char* names[unknowns] = {"up", "side", "low"};
 
@@ -28,32 +29,39 @@ constexpr double machine[unknowns] = {3e7, 5e8, 2e7};
 constexpr double travel[unknowns] = {1.5e-3, -4e-5, -1.2e-3};
 constexpr int steps = 40;
 
-// with_machine: its springs as pairs of the tips with two control nodes that travel; they only ever pull, as contact wants it. In space the tips are
-// the middle nodes of the ends, which stay in the plane of symmetry.
+// with_machine: its springs as pairs of the tips with two control nodes that travel; they only ever pull, as contact
+// wants it. In space the tips are the middle nodes of the ends, which stay in the plane of symmetry.
 Arms arms(int d, bool with_machine) {
     const bool space = d == 3;
-    const Scene layers = space ? Scene(3, {0.04, 0.004}, {20, 2}, {1e-3, 1e-3}, {1, 1}, DELAM_HEX8) : Scene(2, {0.04}, {40}, {1e-3, 1e-3}, {1, 1}, DELAM_QUAD4);
+    const Scene layers = space ? Scene(3, {0.04, 0.004}, {20, 2}, {1e-3, 1e-3}, {1, 1}, DELAM_HEX8)
+                               : Scene(2, {0.04}, {40}, {1e-3, 1e-3}, {1, 1}, DELAM_QUAD4);
     const std::int32_t cell = space ? DELAM_HEX8 : DELAM_QUAD4;
     const double width = space ? 0.004 : 1.0, middle = space ? 0.002 : 0.0;
     std::vector<double> nodes = layers.nodes();
     std::vector<std::int32_t> types(80), bodies(80);
     std::vector<std::int64_t> offsets(81), cells(space ? 640 : 320);
     std::int64_t needed = 0;
-    layers.require(delam_mesh_cells(layers.mesh(), types.data(), bodies.data(), offsets.data(), static_cast<std::int64_t>(cells.size()), cells.data(), &needed),
+    layers.require(delam_mesh_cells(layers.mesh(), types.data(), bodies.data(), offsets.data(),
+                                    static_cast<std::int64_t>(cells.size()), cells.data(), &needed),
                    "delam_mesh_cells");
-    const auto at = [&](double x, double y, double z) { return space ? std::vector<double>{x, y, z} : std::vector<double>{x, z}; };
+    const auto at = [&](double x, double y, double z) {
+        return space ? std::vector<double>{x, y, z} : std::vector<double>{x, z};
+    };
     const auto control = static_cast<std::int64_t>(layers.node_count());
     for (const double z : {4e-3, -2e-3})
         for (const double x : at(0.0, middle, z)) nodes.push_back(x);
     Scene scene(d, nodes, cell, cells, bodies);
     scene.interface(0, 1);
-    const auto upper = scene.find(1, at(0.0, middle, 2e-3), at(0.0, middle, 2e-3)), lower = scene.find(0, at(0.0, middle, 0.0), at(0.0, middle, 0.0));
+    const auto upper = scene.find(1, at(0.0, middle, 2e-3), at(0.0, middle, 2e-3)),
+               lower = scene.find(0, at(0.0, middle, 0.0), at(0.0, middle, 0.0));
     if (with_machine) {
         const double one = 1.0;
         const std::vector<double> down = at(0.0, 0.0, -1.0), up = at(0.0, 0.0, 1.0);
         std::int64_t index = -1;
-        scene.require(delam_mesh_add_obstacle(scene.mesh(), 1, upper.data(), down.data(), &one, control, 0, &index), "machine above");
-        scene.require(delam_mesh_add_obstacle(scene.mesh(), 1, lower.data(), up.data(), &one, control + 1, 0, &index), "machine below");
+        scene.require(delam_mesh_add_obstacle(scene.mesh(), 1, upper.data(), down.data(), &one, control, 0, &index),
+                      "machine above");
+        scene.require(delam_mesh_add_obstacle(scene.mesh(), 1, lower.data(), up.data(), &one, control + 1, 0, &index),
+                      "machine below");
     }
     scene.begin();
     scene.elastic(-1, 70e9, 0.3);
@@ -70,7 +78,9 @@ Arms arms(int d, bool with_machine) {
     scene.hold(root, across);
     if (space) scene.hold(root, {0.0, 1.0, 0.0});
     const double share = width;  // of forces per metre
-    const auto history = [&](std::size_t p) { return scene.pattern(names[p], {0.0, 1.0}, {0.0, with_machine ? travel[p] : 0.0}); };
+    const auto history = [&](std::size_t p) {
+        return scene.pattern(names[p], {0.0, 1.0}, {0.0, with_machine ? travel[p] : 0.0});
+    };
     scene.drive(with_machine ? std::vector{control} : upper, across, history(0), {1.0});
     scene.drive(with_machine ? std::vector{control} : upper, along, history(1), {1.0});
     scene.drive(with_machine ? std::vector{control + 1} : lower, across, history(2), {1.0});
@@ -87,7 +97,8 @@ Arms arms(int d, bool with_machine) {
 }
 
 // Gauss, in place; small and plain, as a host has its own.
-std::array<double, unknowns> solved(std::array<std::array<double, unknowns>, unknowns> a, std::array<double, unknowns> b) {
+std::array<double, unknowns> solved(std::array<std::array<double, unknowns>, unknowns> a,
+                                    std::array<double, unknowns> b) {
     for (std::size_t p = 0; p < unknowns; ++p) {
         std::size_t best = p;
         for (std::size_t r = p; r < unknowns; ++r)
@@ -122,7 +133,9 @@ CASE_TEST(newton_of_a_host) {
         for (;;) {
             cases::expect(history.size() < 8, where + ": Newton's method of the host does not converge");
             for (std::size_t p = 0; p < unknowns; ++p)
-                element.scene.require(delam_solver_set_history(solver.get(), static_cast<std::int64_t>(p), 1, &time, &u[p]), "delam_solver_set_history");
+                element.scene.require(
+                    delam_solver_set_history(solver.get(), static_cast<std::int64_t>(p), 1, &time, &u[p]),
+                    "delam_solver_set_history");
             solver.step(time);
             std::array<double, unknowns> residual{};
             double norm = 0.0, scale = 0.0;
@@ -134,29 +147,34 @@ CASE_TEST(newton_of_a_host) {
             history.push_back(norm / scale);
             if (history.back() <= 1e-10) break;
             std::vector<double> tangent(unknowns * unknowns);
-            element.scene.require(delam_solver_step_tangent(solver.get(), 9, tangent.data()), "delam_solver_step_tangent");
+            element.scene.require(delam_solver_step_tangent(solver.get(), 9, tangent.data()),
+                                  "delam_solver_step_tangent");
             solver.rollback();
             std::array<std::array<double, unknowns>, unknowns> matrix{};
             for (std::size_t p = 0; p < unknowns; ++p)
-                for (std::size_t q = 0; q < unknowns; ++q) matrix[p][q] = tangent[p * unknowns + q] + (p == q ? spring[p] : 0.0);
+                for (std::size_t q = 0; q < unknowns; ++q)
+                    matrix[p][q] = tangent[p * unknowns + q] + (p == q ? spring[p] : 0.0);
             const auto change = solved(matrix, residual);
             for (std::size_t p = 0; p < unknowns; ++p) u[p] -= change[p];
         }
         solver.commit();
         // The last error is the square of the one before, times a constant that has no reason to be large.
         const std::size_t n = history.size();
-        if (n >= 3 && history[n - 2] < 1e-3 && history[n - 1] <= 100.0 * history[n - 2] * history[n - 2] + 1e-11) ++quadratic;
+        if (n >= 3 && history[n - 2] < 1e-3 && history[n - 1] <= 100.0 * history[n - 2] * history[n - 2] + 1e-11)
+            ++quadratic;
 
         // The same structure in one scene of the library.
         whole.step(time);
         whole.commit();
         for (std::size_t p = 0; p < unknowns; ++p) {
             const double force = whole.value(std::string("reaction:") + names[p]);
-            cases::expect_near(-solver.value(std::string("reaction:") + names[p]), -force, 1e-6, std::abs(spring[p] * travel[p]) * 0.05 + std::abs(force),
-                               where + ": force " + names[p]);
+            cases::expect_near(-solver.value(std::string("reaction:") + names[p]), -force, 1e-6,
+                               std::abs(spring[p] * travel[p]) * 0.05 + std::abs(force), where + ": force " + names[p]);
         }
-        cases::expect_near(solver.value("dissipated"), whole.value("dissipated"), 1e-6, 0.1 * element.share + whole.value("dissipated"), where + ": dissipated");
-        cases::expect_near(solver.value("debonded_length"), whole.value("debonded_length"), 1e-9, 1.0, where + ": debonded length");
+        cases::expect_near(solver.value("dissipated"), whole.value("dissipated"), 1e-6,
+                           0.1 * element.share + whole.value("dissipated"), where + ": dissipated");
+        cases::expect_near(solver.value("debonded_length"), whole.value("debonded_length"), 1e-9, 1.0,
+                           where + ": debonded length");
     }
     cases::expect(solver.value("dissipated") > 0.1 * element.share, "nothing was damaged");
     cases::expect(quadratic >= 15, "quadratic in " + std::to_string(quadratic) + " steps only");

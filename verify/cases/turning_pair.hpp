@@ -58,7 +58,8 @@ inline TurningDefect turning_defect(const char* rule, int steps) {
         solver.commit();
     }
     const TurningDefect d{solver.value("defect"), solver.value("defect_slides"), solver.value("work")};
-    std::printf("turning pair, %s, %d steps: defect %.4f, slides' %.4f J/m2 of %.1f\n", rule, steps, d.booked, d.slides, d.work);
+    std::printf("turning pair, %s, %d steps: defect %.4f, slides' %.4f J/m2 of %.1f\n", rule, steps, d.booked, d.slides,
+                d.work);
     return d;
 }
 
@@ -76,7 +77,8 @@ inline double turning_integral() {
         const double t = (i + 0.5) / n, b = mixity(t);
         const double a = turning_opening(t), c = turning_slip(t), y = 0.5 * 125e9 * (a * a + c * c);
         const double onset = 100.0 * scale(b), total = 250.0 * scale(b);
-        zeta = std::min(zeta, y > onset ? std::max(0.0, (total * std::sqrt(onset / y) - onset) / (total - onset)) : 1.0);
+        zeta =
+            std::min(zeta, y > onset ? std::max(0.0, (total * std::sqrt(onset / y) - onset) / (total - onset)) : 1.0);
         const double f = -zeta * (1.0 - zeta) * 250.0 * 150.0 / (100.0 + 150.0 * zeta);  // at s = 1
         sum += f * (scale(mixity((i + 1.0) / n)) - scale(mixity(static_cast<double>(i) / n)));
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A march under watch. What any method of minimisation must show in every step, computed outside the library: the end state is a
-// critical point, adhesion never grows, and the energy has not risen above that of the elastic answer from which the step starts.
+// A march under watch. What any method of minimisation must show in every step, computed outside the library: the end
+// state is a critical point, adhesion never grows, and the energy has not risen above that of the elastic answer from
+// which the step starts.
 #pragma once
 
 #include <algorithm>
@@ -47,10 +48,12 @@ public:
         for (std::size_t i = 0; i < laws_.size(); first += counts_[i++]) {
             if (scene_.stiffness()[i].bonded) continue;
             std::vector<double> next(counts_[i]);
-            scene_.require(delam_law_respond(laws_[i].get(), scene_.dimension(), static_cast<std::int64_t>(counts_[i]), jump.data() + first * d,
-                                             mixity.data() + first, old.data() + first, next.data(), nullptr),
+            scene_.require(delam_law_respond(laws_[i].get(), scene_.dimension(), static_cast<std::int64_t>(counts_[i]),
+                                             jump.data() + first * d, mixity.data() + first, old.data() + first,
+                                             next.data(), nullptr),
                            "delam_law_respond");
-            for (std::size_t p = 0; p < next.size(); ++p) change = std::max(change, std::abs(next[p] - adhesion[first + p]));
+            for (std::size_t p = 0; p < next.size(); ++p)
+                change = std::max(change, std::abs(next[p] - adhesion[first + p]));
         }
         return change;
     }
@@ -79,7 +82,7 @@ inline double energy(const reference::Solver& solver) {
 struct Watch {
     std::vector<reference::LawData> laws;
     std::vector<double> times;
-    std::string reaction;     // of which pattern
+    std::string reaction;  // of which pattern
     double delta = 1e-5;
     double kkt = 1e-10;
     bool fixed_point = true;  // ask for a damage defect <= delta
@@ -102,17 +105,20 @@ inline Watched watch(const reference::Scene& scene, const Watch& w, const std::s
         const double spent = solver.value("dissipated") - dissipated;
         const double scale = std::abs(elastic) + solver.value("stored_bulk") + solver.value("dissipated");
         expect_below((energy(solver) + spent - elastic) / scale, 1e-11, at + ": the energy has risen");
-        expect_below((solver.value("increment") - solver.value("upper")) / scale, 1e-9, at + ": increment above the upper estimate");
+        expect_below((solver.value("increment") - solver.value("upper")) / scale, 1e-9,
+                     at + ": increment above the upper estimate");
         const auto adhesion = solver.field("adhesion");
         for (std::size_t p = 0; p < old.size(); ++p)
             expect(adhesion[p] <= old[p] && adhesion[p] >= 0.0, at + ": adhesion of pair " + std::to_string(p));
         const double defect = probe.defect(solver, old);
-        if (w.fixed_point) expect_below(defect, w.delta * (1.0 + 1e-6) + 1e-12, at + ": one more damage step moves an adhesion");
+        if (w.fixed_point)
+            expect_below(defect, w.delta * (1.0 + 1e-6) + 1e-12, at + ": one more damage step moves an adhesion");
         if ((static_cast<int>(k) + 1) % w.kkt_every == 0 || k + 1 == w.times.size()) {
             const auto accepted = reference::accept(solver, exported);
             expect_below(accepted.worst(), w.kkt, at + ": " + accepted.text());
         }
-        result.steps.push_back({solver.value("reaction:" + w.reaction), solver.value("stored_bulk") + solver.value("stored_interface"),
+        result.steps.push_back({solver.value("reaction:" + w.reaction),
+                                solver.value("stored_bulk") + solver.value("stored_interface"),
                                 solver.value("dissipated"), solver.value("increment"), defect});
         result.worst_defect = std::max(result.worst_defect, defect);
         result.solves += solver.value("displacement_solves");
@@ -122,10 +128,12 @@ inline Watched watch(const reference::Scene& scene, const Watch& w, const std::s
         solver.commit();
     }
     result.adhesion = solver.field("adhesion");
-    std::printf("%s: %.0f alternations, %.0f displacement solves, %.0f Newton solves, %.0f moves, worst damage defect %.1e; end: stored %.9g "
-                "dissipated %.9g\n",
-                where.c_str(), result.alternations, result.solves, result.newton, result.moves, result.worst_defect,
-                result.steps.back().stored, result.steps.back().dissipated);
+    std::printf(
+        "%s: %.0f alternations, %.0f displacement solves, %.0f Newton solves, %.0f moves, worst damage defect %.1e; "
+        "end: stored %.9g "
+        "dissipated %.9g\n",
+        where.c_str(), result.alternations, result.solves, result.newton, result.moves, result.worst_defect,
+        result.steps.back().stored, result.steps.back().dissipated);
     return result;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // fault_cancel [STRIDE [SCENE ...]]: every STRIDE-th call of the progress callback asks for the end, by its result or
-// by delam_context_cancel (calls that read heed that alone). Always DELAM_CANCELLED, the state before the call, and the same result when the host goes
-// on.
+// by delam_context_cancel (calls that read heed that alone). Always DELAM_CANCELLED, the state before the call, and the
+// same result when the host goes on.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -14,9 +14,10 @@ using faults::expect;
 
 // Of names like "delam_solver_value kkt_gap".
 bool reads(const std::string& name) {
-    for (const char* function : {"delam_mesh_find_patch", "delam_problem_body_matrix", "delam_problem_constraints", "delam_problem_eigenstrain_energy",
-                                 "delam_problem_forces", "delam_problem_hash", "delam_problem_process_zone", "delam_solver_average",
-                                 "delam_solver_condensed", "delam_solver_field", "delam_solver_value"})
+    for (const char* function : {"delam_mesh_find_patch", "delam_problem_body_matrix", "delam_problem_constraints",
+                                 "delam_problem_eigenstrain_energy", "delam_problem_forces", "delam_problem_hash",
+                                 "delam_problem_process_zone", "delam_solver_average", "delam_solver_condensed",
+                                 "delam_solver_field", "delam_solver_value"})
         if (name.substr(0, name.find(' ')) == function) return true;
     return false;
 }

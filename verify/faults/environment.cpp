@@ -127,13 +127,15 @@ public:
     }
 
 private:
-    // Rounding, traps, flags, and the control word of SSE with its treatment of denormal numbers. (An fenv_t also has where the x87 was last.)
+    // Rounding, traps, flags, and the control word of SSE with its treatment of denormal numbers. (An fenv_t also has
+    // where the x87 was last.)
     static std::array<unsigned, 4> what_counts() {
         unsigned sse = 0;
 #if defined(__SSE2__)
         sse = _mm_getcsr();
 #endif
-        return {static_cast<unsigned>(fegetround()), static_cast<unsigned>(fegetexcept()), static_cast<unsigned>(fetestexcept(FE_ALL_EXCEPT)), sse};
+        return {static_cast<unsigned>(fegetround()), static_cast<unsigned>(fegetexcept()),
+                static_cast<unsigned>(fetestexcept(FE_ALL_EXCEPT)), sse};
     }
     fenv_t own_;
 };
@@ -258,9 +260,10 @@ void with_signals() {
     expect(std::memcmp(expected, seen, sizeof seen) == 0, "the sequence of random() was changed");
     expect(ticks > 0, "the timer did not run");
     expect(cuts > 0, "METIS cut no body: its handlers and random numbers were not there to be put back");
-    std::printf("             interrupted %ld times; METIS cut %ld bodies, its handlers were there in %ld of %ld "
-                "looks\n",
-                ticks.load(), cuts.load(), foreign.load(), looks.load());
+    std::printf(
+        "             interrupted %ld times; METIS cut %ld bodies, its handlers were there in %ld of %ld "
+        "looks\n",
+        ticks.load(), cuts.load(), foreign.load(), looks.load());
 }
 
 }  // namespace

@@ -116,8 +116,8 @@ int main(int argc, char** argv) {
                 faults::expect(difference.empty(), "other places in memory: " + difference);
             }
             faults::expect(moved > 10000, "only " + std::to_string(moved.load()) + " blocks lay at other places");
-            std::printf("%-12s %d runs with %ld blocks at other places; %zu results the same\n", strip.name.c_str(), runs,
-                        moved.load(), calm.transcript.size());
+            std::printf("%-12s %d runs with %ld blocks at other places; %zu results the same\n", strip.name.c_str(),
+                        runs, moved.load(), calm.transcript.size());
         } catch (const std::exception& e) {
             std::printf("%-12s failed: %s\n", strip.name.c_str(), e.what());
             ++failures;

@@ -36,8 +36,9 @@ public:
             if (!starved) {
                 expect(status == DELAM_OK, name + ": " + delam_status_name(status) + ": " + message());
                 if (step > 1)
-                    std::printf("  %s: %ld of some %ld allocations failed, each of the first %ld, every %ld-th in the end\n", name.c_str(), tried,
-                                k - step / 2, most_ / 2, step);
+                    std::printf(
+                        "  %s: %ld of some %ld allocations failed, each of the first %ld, every %ld-th in the end\n",
+                        name.c_str(), tried, k - step / 2, most_ / 2, step);
                 return;
             }
             ++failed;

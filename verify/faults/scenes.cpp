@@ -231,9 +231,8 @@ void make_problem(Host& host, Handles& h, const Strip& s) {
                     [&] { return delam_problem_add_eigenstrain(h.problem, heat, 1, strain.data()); });
     }
     for (const auto& option : s.texts)
-        host.query("delam_problem_set_text " + option.first, [&] {
-            return delam_problem_set_text(h.problem, option.first.c_str(), option.second.c_str());
-        });
+        host.query("delam_problem_set_text " + option.first,
+                   [&] { return delam_problem_set_text(h.problem, option.first.c_str(), option.second.c_str()); });
     for (const auto& option : s.numbers)
         host.query("delam_problem_set_number " + option.first,
                    [&] { return delam_problem_set_number(h.problem, option.first.c_str(), option.second); });

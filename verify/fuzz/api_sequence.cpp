@@ -59,13 +59,21 @@ std::int32_t host_dissipation(double, double adhesion, double* dissipated, doubl
 template <class T>
 void destroy_handle(T** handle);
 template <>
-void destroy_handle(delam_mesh** handle) { delam_mesh_destroy(handle); }
+void destroy_handle(delam_mesh** handle) {
+    delam_mesh_destroy(handle);
+}
 template <>
-void destroy_handle(delam_law** handle) { delam_law_destroy(handle); }
+void destroy_handle(delam_law** handle) {
+    delam_law_destroy(handle);
+}
 template <>
-void destroy_handle(delam_problem** handle) { delam_problem_destroy(handle); }
+void destroy_handle(delam_problem** handle) {
+    delam_problem_destroy(handle);
+}
 template <>
-void destroy_handle(delam_solver** handle) { delam_solver_destroy(handle); }
+void destroy_handle(delam_solver** handle) {
+    delam_solver_destroy(handle);
+}
 
 // Handles of one kind, each with the host whose context it was made with.
 template <class T>
@@ -126,24 +134,55 @@ struct World {
 
 // ---- arguments ------------------------------------------------------------------------------------------------------
 
-const char* const value_keys[] = {
-    "stored_bulk", "stored_interface", "dissipated", "work", "lower", "upper", "defect", "defect_slides", "front",
-    "kkt_gap", "kkt_pressure", "kkt_complementarity", "kkt_equilibrium", "rotation_max", "damage_change",
-    "linear_residual", "crack_length", "crack_length:0", "crack_length:7", "energy_release_rate", "front_mixity:1",
-    "process_zone_length", "process_zone_pairs:0", "load:load", "reaction:load", "reaction:none", "search_gap",
-    "debonded_length", "contact_pairs", "mixity_error", "increment_lower", "bulk_factorisations", "field_recoveries",
-    "crack_length:", "crack_length:99999999999999999999", "crack_length:-1", "load:"};
-const char* const field_keys[] = {"displacement", "stress", "rotation", "jump", "traction",
+const char* const value_keys[] = {"stored_bulk",
+                                  "stored_interface",
+                                  "dissipated",
+                                  "work",
+                                  "lower",
+                                  "upper",
+                                  "defect",
+                                  "defect_slides",
+                                  "front",
+                                  "kkt_gap",
+                                  "kkt_pressure",
+                                  "kkt_complementarity",
+                                  "kkt_equilibrium",
+                                  "rotation_max",
+                                  "damage_change",
+                                  "linear_residual",
+                                  "crack_length",
+                                  "crack_length:0",
+                                  "crack_length:7",
+                                  "energy_release_rate",
+                                  "front_mixity:1",
+                                  "process_zone_length",
+                                  "process_zone_pairs:0",
+                                  "load:load",
+                                  "reaction:load",
+                                  "reaction:none",
+                                  "search_gap",
+                                  "debonded_length",
+                                  "contact_pairs",
+                                  "mixity_error",
+                                  "increment_lower",
+                                  "bulk_factorisations",
+                                  "field_recoveries",
+                                  "crack_length:",
+                                  "crack_length:99999999999999999999",
+                                  "crack_length:-1",
+                                  "load:"};
+const char* const field_keys[] = {"displacement", "stress", "rotation", "jump",    "traction",
                                   "adhesion",     "mixity", "contact",  "reaction"};
-const char* const law_keys[] = {"normal_stiffness", "tangential_stiffness", "normal_onset", "tangential_onset",
-                                "normal_toughness", "tangential_toughness", "plateau", "gradient", "onset_exponent_1",
-                                "toughness_exponent_2", "onset_exponent", "toughness_exponent", "criterion"};
+const char* const law_keys[] = {"normal_stiffness", "tangential_stiffness", "normal_onset",   "tangential_onset",
+                                "normal_toughness", "tangential_toughness", "plateau",        "gradient",
+                                "onset_exponent_1", "toughness_exponent_2", "onset_exponent", "toughness_exponent",
+                                "criterion"};
 const char* const law_kinds[] = {"piecewise-linear", "exponential", "trapezoidal", "tabulated", "griffith", "host"};
 const char* const criteria[] = {"valoroso-champaney", "power", "benzeggagh-kenane"};
-const char* const option_texts[] = {"auto", "off", "on", "local", "energetic", "fixed", "adaptive", "alternate",
-                                    "accelerated", "condensed", "feti", "always", "frozen", "converged", "variational",
-                                    "orthonormal", "redundant", "none", "lumped", "dirichlet", "series", "stiffness",
-                                    "multiplicity"};
+const char* const option_texts[] = {"auto",     "off",       "on",          "local",       "energetic",   "fixed",
+                                    "adaptive", "alternate", "accelerated", "condensed",   "feti",        "always",
+                                    "frozen",   "converged", "variational", "orthonormal", "redundant",   "none",
+                                    "lumped",   "dirichlet", "series",      "stiffness",   "multiplicity"};
 
 const char* option_key(Input& in) {
     const char* key = nullptr;
@@ -189,8 +228,8 @@ std::size_t few(Input& in) { return static_cast<std::size_t>(in.below(6)); }
 
 std::int32_t add_cells(Input& in, delam_mesh* mesh, bool conforming) {
     static constexpr std::int32_t per_cell[] = {0, 3, 4, 4, 8, 6, 8, 9, 10, 20};
-    const std::int32_t type = in.seldom() ? static_cast<std::int32_t>(in.hostile_whole())
-                                          : 1 + static_cast<std::int32_t>(in.below(9));
+    const std::int32_t type =
+        in.seldom() ? static_cast<std::int32_t>(in.hostile_whole()) : 1 + static_cast<std::int32_t>(in.below(9));
     const std::size_t count = few(in);
     const std::size_t nodes = count * static_cast<std::size_t>(type >= 1 && type <= 9 ? per_cell[type] : 20);
     const std::int32_t base = in.base();
@@ -199,7 +238,8 @@ std::int32_t add_cells(Input& in, delam_mesh* mesh, bool conforming) {
     for (std::int32_t& label : bodies) label = in.small_label(4);
     const auto call = conforming ? delam_mesh_add_conforming_cells : delam_mesh_add_cells;
     return in_order{call, mesh, type, static_cast<std::int64_t>(count), maybe(in, connectivity), maybe(in, bodies),
-                    base}.status;
+                    base}
+        .status;
 }
 
 std::int32_t add_obstacle(Input& in, delam_mesh* mesh) {
@@ -210,10 +250,16 @@ std::int32_t add_obstacle(Input& in, delam_mesh* mesh) {
     std::vector<double> normals = in.reals(count * static_cast<std::size_t>(s.dimension));
     std::vector<double> weights = in.reals(count);
     std::int64_t index = -1;
-    return in_order{delam_mesh_add_obstacle, mesh, static_cast<std::int64_t>(count), maybe(in, nodes),
+    return in_order{delam_mesh_add_obstacle,
+                    mesh,
+                    static_cast<std::int64_t>(count),
+                    maybe(in, nodes),
                     maybe(in, normals),
-                                   in.flag() ? nullptr : weights.data(), in.index(s.nodes), base,
-                                   in.seldom() ? nullptr : &index}.status;
+                    in.flag() ? nullptr : weights.data(),
+                    in.index(s.nodes),
+                    base,
+                    in.seldom() ? nullptr : &index}
+        .status;
 }
 
 // Nodes without cells, or any; pairs of them.
@@ -227,7 +273,8 @@ std::int32_t add_host_body(Input& in, delam_mesh* mesh) {
         if (bodies[static_cast<std::size_t>(n)] < 0 && !in.seldom()) nodes.push_back(n + (base == 1 ? 1 : 0));
     if (in.seldom()) nodes = in.indices(few(in), s.nodes, base);
     return in_order{delam_mesh_add_host_body, mesh, in.small_label(5), static_cast<std::int64_t>(nodes.size()),
-                    maybe(in, nodes), base}.status;
+                    maybe(in, nodes),         base}
+        .status;
 }
 
 std::int32_t add_pairs(Input& in, delam_mesh* mesh) {
@@ -249,13 +296,24 @@ std::int32_t add_pairs(Input& in, delam_mesh* mesh) {
     if (in.seldom()) nodes_a = in.indices(count, s.nodes, base);
     std::vector<double> normals = in.reals(3 * count), weights(count);
     for (double& w : weights) w = in.real();
-    std::vector<std::int64_t> face = in.indices(faces * static_cast<std::size_t>(std::max(per_face, 0)),
-                                                static_cast<std::int64_t>(count), base);
+    std::vector<std::int64_t> face =
+        in.indices(faces * static_cast<std::size_t>(std::max(per_face, 0)), static_cast<std::int64_t>(count), base);
     std::int64_t index = -1;
-    return in_order{delam_mesh_add_pairs, mesh, body_a, body_b, static_cast<std::int64_t>(count), maybe(in, nodes_a),
-                    maybe(in, nodes_b), maybe(in, normals), maybe(in, weights), static_cast<std::int64_t>(faces),
+    return in_order{delam_mesh_add_pairs,
+                    mesh,
+                    body_a,
+                    body_b,
+                    static_cast<std::int64_t>(count),
+                    maybe(in, nodes_a),
+                    maybe(in, nodes_b),
+                    maybe(in, normals),
+                    maybe(in, weights),
+                    static_cast<std::int64_t>(faces),
                     per_face,
-                    maybe(in, face), base, in.seldom() ? nullptr : &index}.status;
+                    maybe(in, face),
+                    base,
+                    in.seldom() ? nullptr : &index}
+        .status;
 }
 
 std::int32_t create_layers(Input& in, Host& host, delam_mesh** out) {
@@ -271,10 +329,19 @@ std::int32_t create_layers(Input& in, Host& host, delam_mesh** out) {
         const std::int64_t many = in.hostile_whole();
         if (many < 1 || many > 1000000000000) divisions[0] = many;
     }
-    const std::int32_t type = in.seldom() ? static_cast<std::int32_t>(in.hostile_whole())
-                                          : 1 + static_cast<std::int32_t>(in.below(9));
-    return in_order{delam_mesh_create_layers, host.context, dimension, maybe(in, lengths), maybe(in, divisions), layers,
-                                    maybe(in, thickness), maybe(in, across), type, out}.status;
+    const std::int32_t type =
+        in.seldom() ? static_cast<std::int32_t>(in.hostile_whole()) : 1 + static_cast<std::int32_t>(in.below(9));
+    return in_order{delam_mesh_create_layers,
+                    host.context,
+                    dimension,
+                    maybe(in, lengths),
+                    maybe(in, divisions),
+                    layers,
+                    maybe(in, thickness),
+                    maybe(in, across),
+                    type,
+                    out}
+        .status;
 }
 
 std::int32_t create_mesh(Input& in, Host& host, delam_mesh** out) {
@@ -297,11 +364,13 @@ std::int32_t find_in(Input& in, const delam_mesh* mesh, bool patch) {
     std::int64_t count = -1;
     const std::int32_t body = in.seldom() ? in.small_label(3) : static_cast<std::int32_t>(in.below(4)) - 1;
     if (patch)
-        return in_order{delam_mesh_find_patch, mesh, body, lower.data(), upper.data(), maybe(in, direction),
-                        nodes.capacity,
-                                     nodes.data(), weights.data(), in.seldom() ? nullptr : &count}.status;
-    return in_order{delam_mesh_find_nodes, mesh, body, maybe(in, lower), maybe(in, upper), nodes.capacity, nodes.data(),
-                                 in.seldom() ? nullptr : &count}.status;
+        return in_order{
+            delam_mesh_find_patch, mesh,           body,         lower.data(),   upper.data(),
+            maybe(in, direction),  nodes.capacity, nodes.data(), weights.data(), in.seldom() ? nullptr : &count}
+            .status;
+    return in_order{delam_mesh_find_nodes, mesh,           body,         maybe(in, lower),
+                    maybe(in, upper),      nodes.capacity, nodes.data(), in.seldom() ? nullptr : &count}
+        .status;
 }
 
 std::int32_t add_pattern(Input& in, delam_problem* problem) {
@@ -311,9 +380,10 @@ std::int32_t add_pattern(Input& in, delam_problem* problem) {
     double last = in.flag() ? 0.0 : in.signed_real();
     for (double& t : times) t = last, last += in.real();
     std::int64_t index = -1;
-    return in_order{delam_problem_add_pattern, problem, in.word(names), static_cast<std::int64_t>(count),
-                    maybe(in, times),
-                                     maybe(in, values), in.seldom() ? nullptr : &index}.status;
+    return in_order{delam_problem_add_pattern,        problem,          in.word(names),
+                    static_cast<std::int64_t>(count), maybe(in, times), maybe(in, values),
+                    in.seldom() ? nullptr : &index}
+        .status;
 }
 
 // Prescribed nodes, means, equations and forces take much the same.
@@ -329,20 +399,36 @@ std::int32_t add_load(Input& in, delam_problem* problem, Load load) {
     std::vector<double> coefficients = in.reals(std::max<std::size_t>(1, count) * std::max<std::size_t>(1, patterns));
     switch (load) {
         case Load::nodes:
-            return in_order{delam_problem_prescribe_nodes, problem, entries, maybe(in, nodes), maybe(in, direction),
+            return in_order{delam_problem_prescribe_nodes,
+                            problem,
+                            entries,
+                            maybe(in, nodes),
+                            maybe(in, direction),
                             driven,
-                                                 maybe(in, by), maybe(in, coefficients), base}.status;
+                            maybe(in, by),
+                            maybe(in, coefficients),
+                            base}
+                .status;
         case Load::mean:
-            return in_order{delam_problem_prescribe_mean, problem, entries, maybe(in, nodes), maybe(in, weights),
-                                                maybe(in, direction), driven, maybe(in, by), maybe(in, coefficients),
-                                                base}.status;
+            return in_order{
+                delam_problem_prescribe_mean, problem, entries,       maybe(in, nodes),        maybe(in, weights),
+                maybe(in, direction),         driven,  maybe(in, by), maybe(in, coefficients), base}
+                .status;
         case Load::equation:
-            return in_order{delam_problem_add_equation, problem, entries, maybe(in, nodes), maybe(in, vectors), driven,
-                                              maybe(in, by), maybe(in, coefficients), base}.status;
+            return in_order{delam_problem_add_equation,
+                            problem,
+                            entries,
+                            maybe(in, nodes),
+                            maybe(in, vectors),
+                            driven,
+                            maybe(in, by),
+                            maybe(in, coefficients),
+                            base}
+                .status;
         case Load::forces:
             return in_order{delam_problem_add_forces, problem, in.index(s.patterns), entries, maybe(in, nodes),
-                            maybe(in, vectors),
-                                            base}.status;
+                            maybe(in, vectors),       base}
+                .status;
     }
     return DELAM_OK;
 }
@@ -352,9 +438,14 @@ std::int32_t add_periodic(Input& in, delam_problem* problem) {
     if (in.flag()) periods = {1.0, 0.0, 0.0, 0.0, 0.0, 0.25, 0.0, 0.0, 1.0};
     const std::int32_t base = in.base();
     std::vector<std::int64_t> controls = in.indices(3, sizes_of(problem).dofs / 3, base);
-    return in_order{delam_problem_add_periodic, problem, in.seldom() ? in.hostile_whole() % 4 : in.below(4),
+    return in_order{delam_problem_add_periodic,
+                    problem,
+                    in.seldom() ? in.hostile_whole() % 4 : in.below(4),
                     maybe(in, periods),
-                                      maybe(in, controls), in.flag() ? 0.0 : in.fraction(), base}.status;
+                    maybe(in, controls),
+                    in.flag() ? 0.0 : in.fraction(),
+                    base}
+        .status;
 }
 
 std::int32_t set_orientation(Input& in, delam_problem* problem) {
@@ -363,8 +454,10 @@ std::int32_t set_orientation(Input& in, delam_problem* problem) {
     std::vector<std::int64_t> cells = in.indices(count, 6, base);
     std::vector<double> axes = in.reals(6 * std::max<std::size_t>(1, count));
     const bool whole = in.flag();
-    return in_order{delam_problem_set_orientation, problem, in.body(), whole ? 1 : static_cast<std::int64_t>(count),
-                                         whole ? nullptr : cells.data(), maybe(in, axes), base}.status;
+    return in_order{
+        delam_problem_set_orientation,  problem,         in.body(), whole ? 1 : static_cast<std::int64_t>(count),
+        whole ? nullptr : cells.data(), maybe(in, axes), base}
+        .status;
 }
 
 std::int32_t set_orthotropic(Input& in, delam_problem* problem) {
@@ -381,8 +474,9 @@ std::int32_t body_matrix(Input& in, const delam_problem* problem) {
     if (status != DELAM_OK) return status;
     std::vector<std::int64_t> starts(static_cast<std::size_t>(rows + 1)), columns(static_cast<std::size_t>(entries));
     std::vector<double> values(static_cast<std::size_t>(entries));
-    return in_order{delam_problem_body_matrix, problem, body, nullptr, nullptr, maybe(in, starts), maybe(in, columns),
-                                     maybe(in, values)}.status;
+    return in_order{delam_problem_body_matrix, problem,          body, nullptr, nullptr, maybe(in, starts),
+                    maybe(in, columns),        maybe(in, values)}
+        .status;
 }
 
 // A stiffness that the library has assembled comes back as the host's own, or a band matrix does; then it is spoiled.
@@ -416,9 +510,15 @@ std::int32_t set_stiffness(const delam_mesh* mesh, Input& in, delam_problem* pro
     for (std::int64_t left = in.below(4); left > 0 && !values.empty(); --left) {
         const std::size_t at = in.raw<std::uint16_t>();
         switch (in.below(4)) {
-            case 0: values[at % values.size()] = in.hostile_real(); break;
-            case 1: values[at % values.size()] = 100.0 * in.signed_real(); break;
-            case 2: columns[at % columns.size()] = in.index(static_cast<std::int64_t>(most)); break;
+            case 0:
+                values[at % values.size()] = in.hostile_real();
+                break;
+            case 1:
+                values[at % values.size()] = 100.0 * in.signed_real();
+                break;
+            case 2:
+                columns[at % columns.size()] = in.index(static_cast<std::int64_t>(most));
+                break;
             default: {  // ends are beyond the arrays nowhere
                 const std::int64_t start = in.hostile_whole();
                 starts[at % starts.size()] = std::min(start, static_cast<std::int64_t>(columns.size()));
@@ -433,10 +533,18 @@ std::int32_t set_stiffness(const delam_mesh* mesh, Input& in, delam_problem* pro
     if (in.seldom()) dofs = in.indices(most, static_cast<std::int64_t>(most), base);
     const std::int64_t kernels = in.below(5) - 1;
     std::vector<double> kernel = in.reals(most * static_cast<std::size_t>(std::max<std::int64_t>(kernels, 0)));
-    return in_order{delam_problem_set_stiffness, problem, static_cast<std::int64_t>(nodes.size()), maybe(in, nodes),
-                    in.flag() ? nullptr : dofs.data(), maybe(in, starts), maybe(in, columns), maybe(in, values),
+    return in_order{delam_problem_set_stiffness,
+                    problem,
+                    static_cast<std::int64_t>(nodes.size()),
+                    maybe(in, nodes),
+                    in.flag() ? nullptr : dofs.data(),
+                    maybe(in, starts),
+                    maybe(in, columns),
+                    maybe(in, values),
                     kernels,
-                    kernels > 0 ? maybe(in, kernel) : nullptr, base}.status;
+                    kernels > 0 ? maybe(in, kernel) : nullptr,
+                    base}
+        .status;
 }
 
 std::int32_t constraints(Input& in, const delam_problem* problem) {
@@ -444,9 +552,16 @@ std::int32_t constraints(Input& in, const delam_problem* problem) {
     delam_problem_constraints(problem, &rows, &entries, &patterns, nullptr, nullptr, nullptr, nullptr);
     std::vector<std::int64_t> starts(static_cast<std::size_t>(rows + 1)), columns(static_cast<std::size_t>(entries));
     std::vector<double> values(columns.size()), coefficients(static_cast<std::size_t>(rows * patterns));
-    const std::int32_t status = in_order{delam_problem_constraints, problem, nullptr, nullptr, nullptr,
-                                         maybe(in, starts), columns.data(), values.data(),
-                                         maybe(in, coefficients)}.status;
+    const std::int32_t status = in_order{delam_problem_constraints,
+                                         problem,
+                                         nullptr,
+                                         nullptr,
+                                         nullptr,
+                                         maybe(in, starts),
+                                         columns.data(),
+                                         values.data(),
+                                         maybe(in, coefficients)}
+                                    .status;
     for (const double v : values) expect(std::isfinite(v), "constraints are finite", "delam_problem_constraints");
     for (const double v : coefficients) expect(std::isfinite(v), "constraints are finite", "delam_problem_constraints");
     return status;
@@ -477,8 +592,8 @@ std::int32_t equilibrate(Input& in, delam_solver* solver) {
     delam_solver_field_shape(solver, "adhesion", -1, &pairs, &one);
     std::vector<double> adhesion(static_cast<std::size_t>(pairs));
     for (double& zeta : adhesion) zeta = in.fraction();
-    return in_order{delam_solver_equilibrate, solver, next_time(in, solver),
-                    in.flag() ? nullptr : adhesion.data()}.status;
+    return in_order{delam_solver_equilibrate, solver, next_time(in, solver), in.flag() ? nullptr : adhesion.data()}
+        .status;
 }
 
 std::int32_t read_field(Input& in, delam_solver* solver) {
@@ -501,10 +616,20 @@ std::int32_t read_front(Input& in, delam_solver* solver) {
     std::vector<std::int64_t> starts(closed.entries.size() + 1);
     const std::size_t room = lengths.entries.size();
     std::vector<double> places(3 * room), directions(3 * room), rates(3 * room), zones(room), pairs(room);
-    return in_order{delam_solver_front, solver, index, closed.capacity, lengths.capacity, maybe(in, starts),
+    return in_order{delam_solver_front,
+                    solver,
+                    index,
+                    closed.capacity,
+                    lengths.capacity,
+                    maybe(in, starts),
                     closed.data(),
-                              maybe(in, places), maybe(in, directions), lengths.data(), maybe(in, rates),
-                              maybe(in, zones), maybe(in, pairs)}.status;
+                    maybe(in, places),
+                    maybe(in, directions),
+                    lengths.data(),
+                    maybe(in, rates),
+                    maybe(in, zones),
+                    maybe(in, pairs)}
+        .status;
 }
 
 std::int32_t read_all_values(delam_solver* solver) {
@@ -549,8 +674,9 @@ std::int32_t set_history(Input& in, delam_solver* solver) {
     std::vector<double> times(count), values = in.reals(count);
     double last = next_time(in, solver);
     for (double& t : times) t = last, last += in.real();
-    return in_order{delam_solver_set_history, solver, in.index(2), static_cast<std::int64_t>(count), maybe(in, times),
-                    maybe(in, values)}.status;
+    return in_order{delam_solver_set_history,         solver,           in.index(2),
+                    static_cast<std::int64_t>(count), maybe(in, times), maybe(in, values)}
+        .status;
 }
 
 std::int32_t recorded(Input& in, delam_solver* solver) {
@@ -581,8 +707,11 @@ std::int32_t condensed(Input& in, delam_solver* solver) {
     std::vector<double> load(size(patterns * unknowns)), constant(size(patterns * patterns)), values(size(entries)),
         offset(size(rows * columns * patterns));
     std::vector<std::int64_t> starts(size(rows * columns + 1)), of(size(entries));
-    return in_order{delam_solver_condensed, solver, stiffness.capacity, stiffness.data(), maybe(in, load),
-                    maybe(in, constant), maybe(in, starts), maybe(in, of), maybe(in, values), maybe(in, offset)}.status;
+    return in_order{delam_solver_condensed, solver,          stiffness.capacity,
+                    stiffness.data(),       maybe(in, load), maybe(in, constant),
+                    maybe(in, starts),      maybe(in, of),   maybe(in, values),
+                    maybe(in, offset)}
+        .status;
 }
 
 // A file in memory, of this process.
@@ -601,17 +730,24 @@ std::int32_t save_and_load(World& world, Input& in, delam_solver* solver) {
     if (in.seldom()) bytes.resize(bytes.size() - static_cast<std::size_t>(in.below(9)));
     if (in.seldom() && !bytes.empty()) bytes[in.raw<std::uint16_t>() % bytes.size()] ^= in.byte();
     return in_order{delam_solver_load, solver,
-                    in.seldom() ? in.hostile_whole() % 2 : static_cast<std::int64_t>(bytes.size()),
-                             maybe(in, bytes)}.status;
+                    in.seldom() ? in.hostile_whole() % 2 : static_cast<std::int64_t>(bytes.size()), maybe(in, bytes)}
+        .status;
 }
 
 std::int32_t law_respond(Input& in, const delam_law* law) {
     const std::size_t count = few(in);
     std::vector<double> jump = in.reals(3 * count), mixity(count), old(count), adhesion(count), traction(3 * count);
     for (std::size_t i = 0; i < count; ++i) mixity[i] = in.fraction(), old[i] = in.fraction();
-    return in_order{delam_law_respond, law, in.seldom() ? 4 : 2 + in.flag(), static_cast<std::int64_t>(count),
+    return in_order{delam_law_respond,
+                    law,
+                    in.seldom() ? 4 : 2 + in.flag(),
+                    static_cast<std::int64_t>(count),
                     maybe(in, jump),
-                             maybe(in, mixity), maybe(in, old), adhesion.data(), maybe(in, traction)}.status;
+                    maybe(in, mixity),
+                    maybe(in, old),
+                    adhesion.data(),
+                    maybe(in, traction)}
+        .status;
 }
 
 std::int32_t law_toughness(Input& in, const delam_law* law) {
@@ -619,7 +755,8 @@ std::int32_t law_toughness(Input& in, const delam_law* law) {
     std::vector<double> mixity(count), onset(count), toughness(count);
     for (double& b : mixity) b = in.fraction();
     return in_order{delam_law_toughness, law, static_cast<std::int64_t>(count), maybe(in, mixity), maybe(in, onset),
-                               maybe(in, toughness)}.status;
+                    maybe(in, toughness)}
+        .status;
 }
 
 std::int32_t law_table(Input& in, delam_law* law) {
@@ -989,8 +1126,13 @@ const Call calls[] = {
 template <class T>
 void refuse_others(const Call& call, World& world, Input& in) {
     void* other = in.flag() ? nullptr : static_cast<void*>(world.host[0]->context);
-    Asked asked{world, in, *world.host[0], static_cast<delam_mesh*>(other), static_cast<delam_law*>(other),
-                static_cast<delam_problem*>(other), static_cast<delam_solver*>(other)};
+    Asked asked{world,
+                in,
+                *world.host[0],
+                static_cast<delam_mesh*>(other),
+                static_cast<delam_law*>(other),
+                static_cast<delam_problem*>(other),
+                static_cast<delam_solver*>(other)};
     world.heard = world.host[0].get();
     (void)call;
     double value = 0.0;
@@ -1047,25 +1189,35 @@ void one(World& world, Input& in, const Call& call) {
             run(world, call, {world, in, host, nullptr, nullptr, nullptr, nullptr});
             break;
         }
-        case Subject::mesh: ask(world, in, call, world.mesh, &Asked::mesh); break;
-        case Subject::law: ask(world, in, call, world.law, &Asked::law); break;
-        case Subject::problem: ask(world, in, call, world.problem, &Asked::problem); break;
-        case Subject::solver: ask(world, in, call, world.solver, &Asked::solver); break;
+        case Subject::mesh:
+            ask(world, in, call, world.mesh, &Asked::mesh);
+            break;
+        case Subject::law:
+            ask(world, in, call, world.law, &Asked::law);
+            break;
+        case Subject::problem:
+            ask(world, in, call, world.problem, &Asked::problem);
+            break;
+        case Subject::solver:
+            ask(world, in, call, world.solver, &Asked::solver);
+            break;
     }
     for (std::size_t i = 0; i < slots; ++i)
         if (world.mesh.handle[i] != nullptr && too_large(world.mesh.handle[i])) world.mesh.put(i, nullptr, nullptr);
 }
 
-// The call that two bytes mean: the one whose name, hashed with them, comes out largest. A new row takes its share from all others and leaves
-// every other number its meaning, so that inputs keep theirs.
+// The call that two bytes mean: the one whose name, hashed with them, comes out largest. A new row takes its share from
+// all others and leaves every other number its meaning, so that inputs keep theirs.
 const Call& call_of(std::uint16_t number) {
     const auto rank = [&](const Call& call) {
         std::uint64_t hash = 14695981039346656037ULL ^ number;
-        for (const char* letter = call.name; *letter != '\0'; ++letter) hash = (hash ^ static_cast<std::uint8_t>(*letter)) * 1099511628211ULL;
+        for (const char* letter = call.name; *letter != '\0'; ++letter)
+            hash = (hash ^ static_cast<std::uint8_t>(*letter)) * 1099511628211ULL;
         hash ^= hash >> 29;
         return hash * 0xbf58476d1ce4e5b9ULL;
     };
-    return *std::max_element(std::begin(calls), std::end(calls), [&](const Call& a, const Call& b) { return rank(a) < rank(b); });
+    return *std::max_element(std::begin(calls), std::end(calls),
+                             [&](const Call& a, const Call& b) { return rank(a) < rank(b); });
 }
 
 }  // namespace

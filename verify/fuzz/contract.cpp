@@ -47,7 +47,8 @@ Host::~Host() { delam_context_destroy(&context); }
 
 void Host::log(std::int32_t level, const char* text, void* user) {
     Host& host = *static_cast<Host*>(user);
-    expect(delam_context_set_log(host.context, log, user) == DELAM_ERROR_STATE, "no way in from a callback", "log callback");
+    expect(delam_context_set_log(host.context, log, user) == DELAM_ERROR_STATE, "no way in from a callback",
+           "log callback");
     expect(text != nullptr && level >= 0 && level <= 2, "lines of level 0 to 2", "log callback");
     if (level == 2) return;
     host.last_ = text;

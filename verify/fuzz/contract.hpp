@@ -42,7 +42,7 @@ public:
     Host& operator=(const Host&) = delete;
 
     delam_context* context = nullptr;
-    bool listens = true;      // the log callback is set
+    bool listens = true;          // the log callback is set
     std::int64_t cancel_in = -1;  // polls until the progress callback cancels; -1: never
     bool cancel_by_call = false;  // then by delam_context_cancel from inside the callback
 

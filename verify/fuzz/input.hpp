@@ -41,10 +41,29 @@ public:
     // What is not finite, what overflows when it is multiplied, and what rounds to nothing.
     double hostile_real() {
         using limit = std::numeric_limits<double>;
-        static const double values[] = {limit::quiet_NaN(), limit::infinity(), -limit::infinity(), limit::max(),
-                                        -limit::max(), limit::min(), limit::denorm_min(), -0.0, 0.0, 1e300, -1e300,
-                                        1e-300, 1e154, 1e-154, 1e16, -1.0, 1.0, 0.5, 1e-9, 1.0 + 1e-15, 2147483648.0,
-                                        9223372036854775808.0, -9223372036854775808.0};
+        static const double values[] = {limit::quiet_NaN(),
+                                        limit::infinity(),
+                                        -limit::infinity(),
+                                        limit::max(),
+                                        -limit::max(),
+                                        limit::min(),
+                                        limit::denorm_min(),
+                                        -0.0,
+                                        0.0,
+                                        1e300,
+                                        -1e300,
+                                        1e-300,
+                                        1e154,
+                                        1e-154,
+                                        1e16,
+                                        -1.0,
+                                        1.0,
+                                        0.5,
+                                        1e-9,
+                                        1.0 + 1e-15,
+                                        2147483648.0,
+                                        9223372036854775808.0,
+                                        -9223372036854775808.0};
         const std::uint8_t which = byte();
         return which < 240 ? values[which % std::size(values)] : raw<double>();
     }
@@ -62,8 +81,19 @@ public:
     }
 
     std::int64_t hostile_whole() {
-        static const std::int64_t values[] = {-1, 0, 1, 2, 3, 7, 100, -2147483648, 2147483647, 2147483648, 4294967296,
-                                              std::int64_t{1} << 48, (std::int64_t{1} << 48) + 1,
+        static const std::int64_t values[] = {-1,
+                                              0,
+                                              1,
+                                              2,
+                                              3,
+                                              7,
+                                              100,
+                                              -2147483648,
+                                              2147483647,
+                                              2147483648,
+                                              4294967296,
+                                              std::int64_t{1} << 48,
+                                              (std::int64_t{1} << 48) + 1,
                                               std::numeric_limits<std::int64_t>::max(),
                                               std::numeric_limits<std::int64_t>::min(),
                                               std::numeric_limits<std::int64_t>::max() / 3};

@@ -75,20 +75,30 @@ void spoil(Arrays& a, Input& in) {
     for (std::int64_t left = in.below(6); left > 0; --left) {
         const std::size_t at = in.raw<std::uint16_t>();
         switch (in.below(8)) {
-            case 0: a.nodes[at % a.nodes.size()] = in.hostile_real(); break;
-            case 1: a.nodes[at % a.nodes.size()] = in.signed_real(); break;
+            case 0:
+                a.nodes[at % a.nodes.size()] = in.hostile_real();
+                break;
+            case 1:
+                a.nodes[at % a.nodes.size()] = in.signed_real();
+                break;
             case 2: {  // onto another node
                 const std::size_t to = at % size(a.node_count()), from = size(in.below(a.node_count()));
                 for (std::size_t d = 0; d < size(a.dimension); ++d)
                     a.nodes[to * size(a.dimension) + d] = a.nodes[from * size(a.dimension) + d];
                 break;
             }
-            case 3: a.connectivity[at % a.connectivity.size()] = in.hostile_whole(); break;
-            case 4: a.connectivity[at % a.connectivity.size()] = in.below(a.node_count()); break;
+            case 3:
+                a.connectivity[at % a.connectivity.size()] = in.hostile_whole();
+                break;
+            case 4:
+                a.connectivity[at % a.connectivity.size()] = in.below(a.node_count());
+                break;
             case 5:
                 std::swap(a.connectivity[at % a.connectivity.size()], a.connectivity[(at + 1) % a.connectivity.size()]);
                 break;
-            case 6: a.bodies[at % a.bodies.size()] = static_cast<std::int32_t>(in.index(3)); break;
+            case 6:
+                a.bodies[at % a.bodies.size()] = static_cast<std::int32_t>(in.index(3));
+                break;
             case 7: {
                 const double factor = in.real();
                 for (double& x : a.nodes) x *= factor;

@@ -59,10 +59,8 @@ public:
         host_.polls_left = 4000;
         const std::string before = print_of(solver_);
         host_.begin();
-        const std::int32_t status =
-            delam_solver_load(solver_, static_cast<std::int64_t>(bytes.size()), bytes.data());
-        host_.settle("delam_solver_load", status,
-                     may::cancelled | may::argument | may::numerical | may::snapshot);
+        const std::int32_t status = delam_solver_load(solver_, static_cast<std::int64_t>(bytes.size()), bytes.data());
+        host_.settle("delam_solver_load", status, may::cancelled | may::argument | may::numerical | may::snapshot);
         if (status != DELAM_OK) {
             expect(print_of(solver_) == before, "what is refused changes nothing", "delam_solver_load");
             return;
@@ -81,7 +79,8 @@ public:
             go_on_from(found);
         // Also after another state's march nothing is left that the next could tell.
         const std::size_t next = (own == states_.end() ? bytes.size() : found + 1) % steps;
-        expect(delam_solver_load(solver_, static_cast<std::int64_t>(states_[next].size()), states_[next].data()) == DELAM_OK,
+        expect(delam_solver_load(solver_, static_cast<std::int64_t>(states_[next].size()), states_[next].data()) ==
+                   DELAM_OK,
                "another state can be loaded afterwards", "delam_solver_load");
         go_on_from(next);
     }
@@ -108,8 +107,8 @@ private:
             const std::string key = delam_solver_value_name(solver_, i);
             host_.settle(key.c_str(), delam_solver_value(solver_, key.c_str(), &value), may::problem);
         }
-        for (const char* key : {"displacement", "stress", "rotation", "jump", "traction", "adhesion", "mixity",
-                                "contact", "reaction"}) {
+        for (const char* key :
+             {"displacement", "stress", "rotation", "jump", "traction", "adhesion", "mixity", "contact", "reaction"}) {
             std::int64_t rows = 0, columns = 0;
             delam_solver_field_shape(solver_, key, -1, &rows, &columns);
             std::vector<double> field(static_cast<std::size_t>(rows * columns));
@@ -162,10 +161,8 @@ private:
 // Bytes of small_scene: a bilinear peel; brittle, with jumps and kept steps; FETI; a gradient; a search in space.
 March& march(std::size_t which) {
     static const Bytes recipes[] = {
-        {0, 0, 0, 4, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0},
-        {0, 0, 0, 4, 4, 0, 0, 0, 0, 1, 1, 0, 0, 3, 1, 14, 16},
-        {0, 0, 1, 3, 1, 1, 1, 0, 0, 1, 0, 1, 0, 0, 2, 3, 18},
-        {0, 2, 0, 4, 0, 0, 0, 15, 0, 0, 1, 0, 0, 1, 14},
+        {0, 0, 0, 4, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0},           {0, 0, 0, 4, 4, 0, 0, 0, 0, 1, 1, 0, 0, 3, 1, 14, 16},
+        {0, 0, 1, 3, 1, 1, 1, 0, 0, 1, 0, 1, 0, 0, 2, 3, 18}, {0, 2, 0, 4, 0, 0, 0, 15, 0, 0, 1, 0, 0, 1, 14},
         {7, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 0},
     };
     static std::unique_ptr<March> marches[std::size(recipes)];
@@ -214,7 +211,8 @@ void any_march(Input& in) {
         Walker anew(recipe, energetic);
         for (Walker* walker : {&anew, &first}) {
             const Bytes& bytes = states[from];
-            if (delam_solver_load(walker->solver(), static_cast<std::int64_t>(bytes.size()), bytes.data()) != DELAM_OK ||
+            if (delam_solver_load(walker->solver(), static_cast<std::int64_t>(bytes.size()), bytes.data()) !=
+                    DELAM_OK ||
                 !walker->goes_on(from + 1)) {
                 expect(walker->out_of_patience(), "a state is read and gone on from", "delam_solver_load");
                 continue;
@@ -233,7 +231,9 @@ void tamper(Bytes& bytes, Input& in) {
         const std::uint8_t how = in.byte();
         const std::size_t at = bytes.empty() ? 0 : in.raw<std::uint16_t>() % bytes.size();
         switch (how % 8) {
-            case 0: put(bytes, at, &how, 1); break;
+            case 0:
+                put(bytes, at, &how, 1);
+                break;
             case 1:
                 if (!bytes.empty()) bytes[at] = static_cast<std::uint8_t>(bytes[at] ^ (1u << in.below(8)));
                 break;
@@ -247,7 +247,9 @@ void tamper(Bytes& bytes, Input& in) {
                 put(bytes, at & ~std::size_t{3}, &value, sizeof value);
                 break;
             }
-            case 4: bytes.resize(at); break;
+            case 4:
+                bytes.resize(at);
+                break;
             case 5: {
                 const std::size_t count = in.byte() % 33u;
                 bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(at), count, in.byte());
@@ -282,10 +284,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Bytes bytes = mine.state(how % (March::steps + 1));
     bool put_right = false;
     switch (in.byte() % 8) {
-        case 0: bytes = in.rest(); break;                                    // as they are
-        case 1: bytes = march(in.byte()).state(how % (March::steps + 1)); break;  // of another scene
+        case 0:
+            bytes = in.rest();
+            break;  // as they are
+        case 1:
+            bytes = march(in.byte()).state(how % (March::steps + 1));
+            break;  // of another scene
         case 2:
-        case 3: tamper(bytes, in); break;
+        case 3:
+            tamper(bytes, in);
+            break;
         default:
             tamper(bytes, in);
             bytes = with_checksum(std::move(bytes));

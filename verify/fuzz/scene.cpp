@@ -108,7 +108,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         expect(!said.empty(), "a failure has a text", "scene");
         // As call() writes them; a scene may have these words in it.
         for (const char* status : {"(DELAM_ERROR_INTERNAL)", "(DELAM_ERROR_HANDLE)"})
-            expect(failure.code() != cli::exit_numerical || !said.ends_with(status), "no defect within", failure.what());
+            expect(failure.code() != cli::exit_numerical || !said.ends_with(status), "no defect within",
+                   failure.what());
     } catch (const std::bad_alloc&) {
     } catch (const std::exception& e) {
         std::fprintf(stderr, "%s\n", e.what());

@@ -11,12 +11,42 @@
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed) {
-    static const char* const values[] = {
-        "0", "-1", "1", "2", "3", "9223372036854775807", "-9223372036854775808", "1e-300", "1e300", "nan", "inf",
-        "-inf",
-        "0.0", "-0.0", "0.5", "1e-9", "4294967296", "\"\"", "\"*\"", "true", "false", "[]", "[[]]", "{}", "[0.0, 1.0]",
-        "[1.0, 0.0]", "[0.0, 0.0]", "[1e300, -1e300]", "[[0.0, 1.0], [1.0, 0.0]]", "1979-05-27", "[0.0, 0.0, 0.0]",
-        "[\"x\", \"y\"]", "[\"z\"]", "0.0625", "0.25", "{ lower = [0.0, 0.0], upper = [1.0, 1.0] }"};
+    static const char* const values[] = {"0",
+                                         "-1",
+                                         "1",
+                                         "2",
+                                         "3",
+                                         "9223372036854775807",
+                                         "-9223372036854775808",
+                                         "1e-300",
+                                         "1e300",
+                                         "nan",
+                                         "inf",
+                                         "-inf",
+                                         "0.0",
+                                         "-0.0",
+                                         "0.5",
+                                         "1e-9",
+                                         "4294967296",
+                                         "\"\"",
+                                         "\"*\"",
+                                         "true",
+                                         "false",
+                                         "[]",
+                                         "[[]]",
+                                         "{}",
+                                         "[0.0, 1.0]",
+                                         "[1.0, 0.0]",
+                                         "[0.0, 0.0]",
+                                         "[1e300, -1e300]",
+                                         "[[0.0, 1.0], [1.0, 0.0]]",
+                                         "1979-05-27",
+                                         "[0.0, 0.0, 0.0]",
+                                         "[\"x\", \"y\"]",
+                                         "[\"z\"]",
+                                         "0.0625",
+                                         "0.25",
+                                         "{ lower = [0.0, 0.0], upper = [1.0, 1.0] }"};
     std::minstd_rand random(seed);
     const auto below = [&](std::size_t count) { return count == 0 ? 0 : random() % count; };
     if (below(3) == 0) return LLVMFuzzerMutate(data, size, most);
@@ -29,10 +59,18 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
         const auto at = static_cast<std::ptrdiff_t>(below(lines.size()));
         std::string& line = lines[static_cast<std::size_t>(at)];
         switch (below(6)) {
-            case 0: lines.erase(lines.begin() + at); break;
-            case 1: lines.insert(lines.begin() + at, std::string(line)); break;
-            case 2: std::swap(line, lines[below(lines.size())]); break;
-            case 3: lines.insert(lines.begin() + at, std::string(lines[below(lines.size())])); break;
+            case 0:
+                lines.erase(lines.begin() + at);
+                break;
+            case 1:
+                lines.insert(lines.begin() + at, std::string(line));
+                break;
+            case 2:
+                std::swap(line, lines[below(lines.size())]);
+                break;
+            case 3:
+                lines.insert(lines.begin() + at, std::string(lines[below(lines.size())]));
+                break;
             default: {  // another value of the key, or of one number in it
                 const std::size_t equals = line.find('=');
                 const std::size_t from = equals == std::string::npos ? line.find(',') : equals;

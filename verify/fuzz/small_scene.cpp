@@ -59,17 +59,19 @@ void set_options(const Builder& built, delam_problem* problem, Input& in) {
     static constexpr struct {
         const char* key;
         const char* value;
-    } texts[] = {{"solution", "energetic"},      {"backtracking", "on"},           {"minimisation", "alternate"},
-                 {"reduction", "feti"},          {"contact", "always"},            {"mixity", "always"},
-                 {"mixity_rule", "converged"},   {"mixity_rule", "variational"},   {"step_control", "adaptive"},
-                 {"preconditioner", "dirichlet"}, {"preconditioner", "lumped"},    {"scaling", "multiplicity"},
-                 {"gluing", "redundant"},        {"reduction", "condensed"}};
+    } texts[] = {{"solution", "energetic"},       {"backtracking", "on"},         {"minimisation", "alternate"},
+                 {"reduction", "feti"},           {"contact", "always"},          {"mixity", "always"},
+                 {"mixity_rule", "converged"},    {"mixity_rule", "variational"}, {"step_control", "adaptive"},
+                 {"preconditioner", "dirichlet"}, {"preconditioner", "lumped"},   {"scaling", "multiplicity"},
+                 {"gluing", "redundant"},         {"reduction", "condensed"}};
     static constexpr struct {
         const char* key;
         double value;
-    } numbers[] = {{"jump_tolerance", 0.1}, {"mixity_step_tolerance", 0.1}, {"backtracking_depth", 2.0},
-                   {"damage_tolerance", 1e-3}, {"subdomains", 3.0}, {"search_limit", 3.0}, {"contact_limit", 1.0},
-                   {"minimisation_limit", 2.0}, {"linear_limit", 2.0}};
+    } numbers[] = {{"jump_tolerance", 0.1},     {"mixity_step_tolerance", 0.1},
+                   {"backtracking_depth", 2.0}, {"damage_tolerance", 1e-3},
+                   {"subdomains", 3.0},         {"search_limit", 3.0},
+                   {"contact_limit", 1.0},      {"minimisation_limit", 2.0},
+                   {"linear_limit", 2.0}};
     built(delam_problem_set_number(problem, "minimisation_limit", 100.0), "minimisation_limit");
     built(delam_problem_set_number(problem, "search_limit", 50.0), "search_limit");
     built(delam_problem_set_number(problem, "backtracking_limit", 5.0), "backtracking_limit");

@@ -15,7 +15,8 @@ Table feti_direct(const Options& options) {
     table.name = "feti-direct";
     table.note = "Ductile ENF, h = 0.5 mm: worst relative differences over " + std::to_string(40 / stride) +
                  " states of the march (max norm over the interface), contacts that differ, Krylov iterations in all, "
-                 "states whose linear solves stalled above the tolerance; kkt: worst violation of the primal KKT conditions, from "
+                 "states whose linear solves stalled above the tolerance; kkt: worst violation of the primal KKT "
+                 "conditions, from "
                  "exported fields.";
     table.columns = {
         "subdomains", "preconditioner", "gluing",           "jump",     "traction",          "displacement",

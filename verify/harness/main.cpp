@@ -64,10 +64,11 @@ int main(int argc, char** argv) {
             return 1;
         }
     }
-    std::fprintf(stderr,
-                 "usage: delam_harness [--json] [--quick] [--finest MM] [--scene FILE [--set KEY=VALUE ...]]\n"
-                 "       [--specimen NAME] [--solution NAME] [--most-steps N] [--subject NAME] TABLE\n"
-                 "tables: pcg, contact, balance, feti-direct, energetic, jump-instant, estimate, convergence, stability "
-                 "(--subject), sets, scene-direct (of --scene)\n");
+    std::fprintf(
+        stderr,
+        "usage: delam_harness [--json] [--quick] [--finest MM] [--scene FILE [--set KEY=VALUE ...]]\n"
+        "       [--specimen NAME] [--solution NAME] [--most-steps N] [--subject NAME] TABLE\n"
+        "tables: pcg, contact, balance, feti-direct, energetic, jump-instant, estimate, convergence, stability "
+        "(--subject), sets, scene-direct (of --scene)\n");
     return 1;
 }

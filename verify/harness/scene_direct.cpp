@@ -8,26 +8,45 @@ namespace harness {
 Table scene_direct(const Options& options) {
     if (options.scene.empty()) throw reference::Failure(DELAM_ERROR_ARGUMENT, "--scene FILE is needed");
     reference::SceneFile file = reference::read_scene_file(options.scene, options.settings);
-    const std::size_t steps = file.times.size() - 1, stride = std::max<std::size_t>(1, steps / (options.quick ? 4 : 10));
+    const std::size_t steps = file.times.size() - 1,
+                      stride = std::max<std::size_t>(1, steps / (options.quick ? 4 : 10));
     std::vector<std::size_t> judged;
     for (std::size_t k = stride; k <= steps; k += stride) judged.push_back(k);
     progress("scene-direct: " + options.scene + ", " + std::to_string(file.scene.node_count()) + " nodes, " +
              std::to_string(file.scene.pair_count()) + " pairs");
     Table table;
     table.name = "scene-direct";
-    table.note = options.scene + ": " + std::to_string(file.scene.node_count()) + " nodes, " + std::to_string(file.scene.pair_count()) +
-                 " pairs. One displacement step at the adhesion of a condensed march: largest relative differences to the direct solution; kkt: "
+    table.note = options.scene + ": " + std::to_string(file.scene.node_count()) + " nodes, " +
+                 std::to_string(file.scene.pair_count()) +
+                 " pairs. One displacement step at the adhesion of a condensed march: largest relative differences to "
+                 "the direct solution; kkt: "
                  "worst violation of the primal KKT conditions, from exported fields.";
-    table.columns = {"time",         "debonded",      "closed",    "realisation",      "jump",     "traction",
-                     "displacement", "reaction", "stored_bulk", "stored_interface", "contacts", "linear_iterations", "stalled",
-                     "kkt",          "kkt_gap",  "kkt_pressure", "kkt_complementarity", "kkt_equilibrium"};
+    table.columns = {"time",
+                     "debonded",
+                     "closed",
+                     "realisation",
+                     "jump",
+                     "traction",
+                     "displacement",
+                     "reaction",
+                     "stored_bulk",
+                     "stored_interface",
+                     "contacts",
+                     "linear_iterations",
+                     "stalled",
+                     "kkt",
+                     "kkt_gap",
+                     "kkt_pressure",
+                     "kkt_complementarity",
+                     "kkt_equilibrium"};
     for (const reference::Judged& row : reference::judge(file, judged, 0))
         for (const bool feti : {false, true}) {
             const reference::Comparison& c = feti ? row.feti : row.condensed;
             const reference::Acceptance& kkt = feti ? row.kkt_feti : row.kkt_condensed;
-            table.rows.push_back({row.time, row.debonded, row.closed, feti ? "FETI" : "condensed", c.jump, c.traction, c.displacement, c.reaction,
-                                  c.stored_bulk, c.stored_interface, c.contacts, feti ? row.linear_iterations : 0.0,
-                                  feti && row.stalled ? 1 : 0, kkt.worst(), kkt.gap, kkt.pressure, kkt.complementarity, kkt.equilibrium});
+            table.rows.push_back({row.time, row.debonded, row.closed, feti ? "FETI" : "condensed", c.jump, c.traction,
+                                  c.displacement, c.reaction, c.stored_bulk, c.stored_interface, c.contacts,
+                                  feti ? row.linear_iterations : 0.0, feti && row.stalled ? 1 : 0, kkt.worst(), kkt.gap,
+                                  kkt.pressure, kkt.complementarity, kkt.equilibrium});
         }
     return table;
 }

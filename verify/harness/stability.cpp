@@ -194,8 +194,8 @@ double difference(const Result& a, const Result& b, const Compared& what) {
     if (what.traction) worst = worse(worst, relative_difference(a.traction, b.traction));
     if (what.pattern) worst = worse(worst, relative_difference(a.pattern, b.pattern));
     if (what.energy)
-        worst = worse(worst, relative_difference({a.stored_bulk, a.stored_interface},
-                                                 {b.stored_bulk, b.stored_interface}));
+        worst =
+            worse(worst, relative_difference({a.stored_bulk, a.stored_interface}, {b.stored_bulk, b.stored_interface}));
     return worst;
 }
 
@@ -233,14 +233,12 @@ March march(const Trial& trial, Realisation realisation) {
             if (law) dissipated += spent_between(*law, scene, exported, before, now);
             const Energies own = energies_of(scene, exported, now);
             scale = std::max({scale, std::abs(own.bulk) + std::abs(own.interface), std::abs(work), dissipated});
-            for (const double miss : {now.stored_bulk - own.bulk, now.stored_interface - own.interface,
-                                      now.load_potential - own.potential,
-                                      trial.device_jumps ? 0.0 : now.work - work,
-                                      law ? now.dissipated - dissipated : 0.0})
+            for (const double miss :
+                 {now.stored_bulk - own.bulk, now.stored_interface - own.interface, now.load_potential - own.potential,
+                  trial.device_jumps ? 0.0 : now.work - work, law ? now.dissipated - dissipated : 0.0})
                 booked_less_own.push_back(std::abs(miss));
             m.defect = std::abs(own.bulk + own.interface + own.potential + now.dissipated - work - start);
-            if (law && k + 1 == trial.times.size())
-                m.damage = damage_residual(*law, scene, exported, before, now);
+            if (law && k + 1 == trial.times.size()) m.damage = damage_residual(*law, scene, exported, before, now);
             m.states.push_back(now);
             before = std::move(now);
             solver.commit();
@@ -270,8 +268,7 @@ March direct_march(const Trial& trial, const std::vector<Result>& states) {
             m.active_set += s.contact_iterations;
             const Energies own = energies_of(scene, direct.exported(), r);
             scale = std::max(scale, std::abs(own.bulk) + std::abs(own.interface));
-            miss = std::max({miss, std::abs(r.stored_bulk - own.bulk),
-                             std::abs(r.stored_interface - own.interface)});
+            miss = std::max({miss, std::abs(r.stored_bulk - own.bulk), std::abs(r.stored_interface - own.interface)});
             m.states.push_back(std::move(r));
         }
         m.kkt = kkt_of(trial, scene, direct.exported(), m.states);
@@ -348,9 +345,9 @@ Study::Study(const Options& options) : options_(options) {
         "error of the direct reference is against itself in other units, that is what rounding of the assembled "
         "matrices leaves, and twenty times as much is allowed. active_set, krylov, alternations: sums over "
         "the steps.";
-    table_.columns = {"subject", "parameter", "value", "realisation", "reference", "error",
-                      "limit",   "kkt",       "ledger", "defect",     "damage",    "active_set",
-                      "krylov",  "alternations", "status", "expected", "verdict", "message"};
+    table_.columns = {"subject", "parameter",    "value",  "realisation", "reference", "error",
+                      "limit",   "kkt",          "ledger", "defect",      "damage",    "active_set",
+                      "krylov",  "alternations", "status", "expected",    "verdict",   "message"};
 }
 
 bool Study::wanted(const std::string& subject) const {
@@ -421,8 +418,7 @@ void Study::run(const Trial& trial) {
     const std::string right = trial.error || trial.direct ? "right to " + format("%.0e", trial.limit) : "accepted";
     for (const auto& [realisation, m] : all) {
         const bool direct = realisation == Realisation::direct;
-        const double limit =
-            std::max(raised, direct && trial.direct_limit > 0.0 ? trial.direct_limit : trial.limit);
+        const double limit = std::max(raised, direct && trial.direct_limit > 0.0 ? trial.direct_limit : trial.limit);
         std::string expected = right;
         if (raised > trial.limit) expected = "right to " + format("%.0e", limit) + " (its matrices' rounding)";
         if (direct && !trial.error && !trial.in_unit) expected = "accepted";
@@ -447,13 +443,14 @@ void Study::run(const Trial& trial) {
             check("damage", m.damage, 1.01 * trial.delta + 1e-10);
         }
         table_.rows.push_back({trial.subject, trial.parameter_name, trial.parameter, name_of(realisation),
-                               direct && trial.in_unit ? "itself in other units, energy"
-                               : trial.error || !direct ? trial.reference : "is the reference", m.error, limit, m.kkt,
-                               m.ledger, m.defect, m.damage, m.active_set, m.krylov, m.alternations, m.status, expected,
-                               why.empty() ? "pass" : "fail: " + why, m.message});
+                               direct && trial.in_unit  ? "itself in other units, energy"
+                               : trial.error || !direct ? trial.reference
+                                                        : "is the reference",
+                               m.error, limit, m.kkt, m.ledger, m.defect, m.damage, m.active_set, m.krylov,
+                               m.alternations, m.status, expected, why.empty() ? "pass" : "fail: " + why, m.message});
     }
-    for (const auto& [has, who] : {std::pair{trial.condensed, "condensed"}, {trial.feti, "FETI"},
-                                   {trial.direct, "direct"}}) {
+    for (const auto& [has, who] :
+         {std::pair{trial.condensed, "condensed"}, {trial.feti, "FETI"}, {trial.direct, "direct"}}) {
         if (!has && !trial.left_out.empty()) leave_out(trial, who, trial.left_out);
     }
 }
@@ -545,8 +542,8 @@ Scene make_cantilever(const Cantilever& c) {
     }
     std::vector<double> up(static_cast<std::size_t>(c.dimension), 0.0);
     up.back() = 1.0;
-    const auto load = c.times.empty() ? scene.pattern("lift", {0.0, 1.0}, {0.0, c.lift})
-                                      : scene.pattern("lift", c.times, c.lifts);
+    const auto load =
+        c.times.empty() ? scene.pattern("lift", {0.0, 1.0}, {0.0, c.lift}) : scene.pattern("lift", c.times, c.lifts);
     const auto corner = scene.find(1, at(0, 0, top), at(0, c.width, top));
     scene.drive(corner, up, load, std::vector<double>(corner.size(), 1.0));
     scene.number("damage_tolerance", c.delta);

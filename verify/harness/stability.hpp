@@ -54,10 +54,10 @@ struct Trial {
     double defect = 0.0;                    // what that misses by theory, over the largest energy
     // Violations are measured by at least these: of a scene that has no stress of its own.
     double least_traction = 0.0, least_force = 0.0, least_energy = 0.0;
-    bool device_jumps = false;              // jumps are prescribed: work inside a step is then no trapezoid
-    bool may_say = false;                   // not converged, said so, is as good as right
-    bool feti_may_say = false;              // of FETI alone
-    std::string refused;                    // expected: a refusal or outcome with these words
+    bool device_jumps = false;  // jumps are prescribed: work inside a step is then no trapezoid
+    bool may_say = false;       // not converged, said so, is as good as right
+    bool feti_may_say = false;  // of FETI alone
+    std::string refused;        // expected: a refusal or outcome with these words
     bool condensed = true, feti = true, direct = true;
     std::string left_out;  // why, where one of these is false; empty: no row tells it
     // The scene with lengths in units of `unit`: what its direct solution has another energy by is what rounding of the
@@ -129,9 +129,9 @@ struct Cantilever {
     double young_lower = 70e9, young_upper = 70e9, poisson = 0.3;
     reference::LawData law = ductile;
     bool bonded = false;
-    double lift = 1.5e-3;  // at time 1
+    double lift = 1.5e-3;                  // at time 1
     std::vector<double> times{}, lifts{};  // in its place, where given
-    std::int32_t cell = 0;  // 0: quad4, hex8
+    std::int32_t cell = 0;                 // 0: quad4, hex8
     std::string formulation = "standard";
     double delta = 1e-5;
 };

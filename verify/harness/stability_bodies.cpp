@@ -375,10 +375,10 @@ void host_stiffness(Study& study) {
             std::vector<double> value(column.size());
             matrix(start.data(), column.data(), value.data());
             const auto nodes = scene.find(1, {-1.0, -1.0}, {1.0, 1.0});
-            scene.require(delam_problem_set_stiffness(scene.problem(), static_cast<std::int64_t>(nodes.size()),
-                                                      nodes.data(), nullptr, start.data(), column.data(), value.data(),
-                                                      -1, nullptr, 0),
-                          "delam_problem_set_stiffness");
+            scene.require(
+                delam_problem_set_stiffness(scene.problem(), static_cast<std::int64_t>(nodes.size()), nodes.data(),
+                                            nullptr, start.data(), column.data(), value.data(), -1, nullptr, 0),
+                "delam_problem_set_stiffness");
             return scene;
         };
         t.reference = "direct solver, of cells";

@@ -62,8 +62,7 @@ void rigid(Study& study) {
     };
     const Scene bonded = scene(0.0);
     reference::DirectReference direct(bonded);
-    const reference::State limit =
-        direct.solve(1.0, std::vector<double>(bonded.pair_count(), 1.0));
+    const reference::State limit = direct.solve(1.0, std::vector<double>(bonded.pair_count(), 1.0));
     for (const double k : study.range(decades(1e15, 1e22), 3)) {
         Trial t;
         t.subject = "rigid";
@@ -145,19 +144,26 @@ private:
         const long double ch = std::cosh(s), sh = std::sinh(s);
         const bool even = n % 2 == 0;
         switch (i) {
-            case 0: return even ? ch : sh;
-            case 1: return even ? sh : ch;
-            case 2: return s * (even ? ch : sh) + static_cast<long double>(n) * (even ? sh : ch);
-            default: return s * (even ? sh : ch) + static_cast<long double>(n) * (even ? ch : sh);
+            case 0:
+                return even ? ch : sh;
+            case 1:
+                return even ? sh : ch;
+            case 2:
+                return s * (even ? ch : sh) + static_cast<long double>(n) * (even ? sh : ch);
+            default:
+                return s * (even ? sh : ch) + static_cast<long double>(n) * (even ? ch : sh);
         }
     }
     static long double term(int i, long double y, Quantity q) {
         const long double s = wave * y, a = wave, nu = poisson, e = young;
         const auto f = [&](int n) { return derivative(i, s, n) * a * a; };  // all over a^(n-2)
         switch (q) {
-            case Quantity::normal: return -f(0);
-            case Quantity::shear: return f(1);
-            case Quantity::u: return ((1 - nu * nu) * f(2) + nu * (1 + nu) * f(0)) / (a * e);
+            case Quantity::normal:
+                return -f(0);
+            case Quantity::shear:
+                return f(1);
+            case Quantity::u:
+                return ((1 - nu * nu) * f(2) + nu * (1 + nu) * f(0)) / (a * e);
             default:
                 return -(2.0L * (1 + nu) * f(1) - (1 - nu * nu) * f(3) - nu * (1 + nu) * f(1)) / (a * e);
         }
@@ -285,8 +291,8 @@ std::vector<PairState> own_scheme(const LawData& data, const std::vector<double>
         s.stored = static_cast<double>(adhesion * y);
         s.normal = static_cast<double>(adhesion * data.normal_stiffness * now[0]);
         s.tangential = static_cast<double>(adhesion * data.tangential_stiffness * now[1]);
-        s.trapezoid += 0.5 * ((s.normal + normal) * (now[0] - before[0]) +
-                              (s.tangential + tangential) * (now[1] - before[1]));
+        s.trapezoid +=
+            0.5 * ((s.normal + normal) * (now[0] - before[0]) + (s.tangential + tangential) * (now[1] - before[1]));
         all.push_back(s);
         loaded = loaded || now[0] != 0.0 || now[1] != 0.0;
         if (law.driving(now, 2) > 0.0L) last = law.mixity(now, 2);
@@ -324,9 +330,9 @@ Trial driven(const std::string& subject, const std::string& parameter_name, doub
         const PairState& s = (*exact)[r.step];
         double worst = 0.0;
         for (std::size_t p = 0; 2 * p < r.traction.size(); ++p)
-            worst = std::max({worst, std::abs(r.traction[2 * p] - s.normal) / peak,
-                              std::abs(r.traction[2 * p + 1] - s.tangential) / peak,
-                              std::abs(r.adhesion[p] - s.adhesion)});
+            worst =
+                std::max({worst, std::abs(r.traction[2 * p] - s.normal) / peak,
+                          std::abs(r.traction[2 * p + 1] - s.tangential) / peak, std::abs(r.adhesion[p] - s.adhesion)});
         // 1 mm of interface.
         if (r.realisation != Realisation::direct)
             worst = std::max({worst, std::abs(r.dissipated - 1e-3 * s.spent) / (1e-3 * toughness),

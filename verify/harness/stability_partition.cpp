@@ -74,15 +74,19 @@ std::string format(const char* text, double a, double b, double c) {
 // What the dense matrices of the condensed operator would cost: src/reduction/README.md.
 std::string dense_cost(double pairs) {
     const double m = 2.0 * pairs, operations = (2.0 / 3.0 + 0.7 + 0.2) * m * m * m;
-    return format("expected: %.3g GB for four dense matrices of two rows a pair, %.2g operations, %.2g minutes at "
-                  "20 GF/s", 4.0 * 8.0 * m * m * 1e-9, operations, operations / 20e9 / 60.0);
+    return format(
+        "expected: %.3g GB for four dense matrices of two rows a pair, %.2g operations, %.2g minutes at "
+        "20 GF/s",
+        4.0 * 8.0 * m * m * 1e-9, operations, operations / 20e9 / 60.0);
 }
 
 // The coarse problem of FETI is dense: it is factored twice.
 std::string coarse_cost(double pieces) {
     const double n = 3.0 * pieces;
-    return format("expected: %.3g GB for two dense matrices of the %.3g rigid motions of its pieces, %.2g operations "
-                  "to factor them", 2.0 * 8.0 * n * n * 1e-9, n, 2.0 / 3.0 * n * n * n);
+    return format(
+        "expected: %.3g GB for two dense matrices of the %.3g rigid motions of its pieces, %.2g operations "
+        "to factor them",
+        2.0 * 8.0 * n * n * 1e-9, n, 2.0 / 3.0 * n * n * n);
 }
 
 // Cells of a piece of FETI: longer ones are known to fewer digits, see pieces().

@@ -35,8 +35,8 @@ Cantilever scaled(Scale by, int dimension) {
     c.young_upper *= stress;
     c.law.normal_stiffness *= stress / a;
     c.law.tangential_stiffness *= stress / a;
-    for (double* per_area : {&c.law.normal_onset, &c.law.tangential_onset, &c.law.normal_toughness,
-                             &c.law.tangential_toughness})
+    for (double* per_area :
+         {&c.law.normal_onset, &c.law.tangential_onset, &c.law.normal_toughness, &c.law.tangential_toughness})
         *per_area *= energy;
     c.delta = delta;
     return c;
@@ -64,15 +64,14 @@ double scaled_difference(const Result& r, const Result& si, Scale by, int dimens
         for (double& x : v) x *= factor;
         return v;
     };
-    double worst = std::max({relative_difference(r.displacement, times(si.displacement, a)),
-                             relative_difference(r.jump, times(si.jump, a)),
-                             relative_difference(r.traction, times(si.traction, stress)),
-                             relative_difference(r.adhesion, si.adhesion),
-                             relative_difference(r.pattern, times(si.pattern, force))});
+    double worst = std::max(
+        {relative_difference(r.displacement, times(si.displacement, a)), relative_difference(r.jump, times(si.jump, a)),
+         relative_difference(r.traction, times(si.traction, stress)), relative_difference(r.adhesion, si.adhesion),
+         relative_difference(r.pattern, times(si.pattern, force))});
     const double scale = si.work * energy;
-    for (const double miss : {r.stored_bulk - si.stored_bulk * energy,
-                              r.stored_interface - si.stored_interface * energy,
-                              r.dissipated - si.dissipated * energy, r.work - si.work * energy})
+    for (const double miss :
+         {r.stored_bulk - si.stored_bulk * energy, r.stored_interface - si.stored_interface * energy,
+          r.dissipated - si.dissipated * energy, r.work - si.work * energy})
         if (!std::isnan(miss)) worst = std::max(worst, std::abs(miss) / scale);
     return worst;
 }
@@ -129,23 +128,47 @@ void stability_units(Study& study) {
     // The square root in a Cholesky factor keeps the digits of powers of four alone. A unit of length changes stiffness
     // by its square, so that odd powers of two are such, too.
     const std::vector<double> four = powers(2.0, -30, 30, 6), odd = powers(2.0, -29, 29, 2);
-    scaled_marches(study, {"size", "length / 40 mm", powers(10.0, -6, 6, 1), size, rounded, "the march at 40 mm", 2,
-                           4});
-    scaled_marches(study, {.subject = "unit-length-binary", .parameter_name = "unit of length", .factors = four,
-                           .scale = length, .limit = exact, .stride = 5});
-    scaled_marches(study, {.subject = "unit-force-binary", .parameter_name = "unit of force", .factors = four,
-                           .scale = force, .limit = exact, .stride = 5});
-    scaled_marches(study, {.subject = "unit-length-odd", .parameter_name = "unit of length", .factors = odd,
-                           .scale = length, .limit = exact});
-    scaled_marches(study, {.subject = "unit-force-odd", .parameter_name = "unit of force", .factors = odd,
-                           .scale = force, .limit = rounded});
-    scaled_marches(study, {.subject = "unit-length", .parameter_name = "unit of length", .factors = decimal,
-                           .scale = length, .limit = rounded});
-    scaled_marches(study, {.subject = "unit-force", .parameter_name = "unit of force", .factors = decimal,
-                           .scale = force, .limit = rounded});
-    scaled_marches(study, {.subject = "unit-length-3d", .parameter_name = "unit of length",
-                           .factors = {1e-9, 1e-6, 1e-3, 1.0 / 0.0254, 1e3, 1e9}, .scale = length, .limit = rounded,
-                           .dimension = 3, .stride = 5});
+    scaled_marches(study,
+                   {"size", "length / 40 mm", powers(10.0, -6, 6, 1), size, rounded, "the march at 40 mm", 2, 4});
+    scaled_marches(study, {.subject = "unit-length-binary",
+                           .parameter_name = "unit of length",
+                           .factors = four,
+                           .scale = length,
+                           .limit = exact,
+                           .stride = 5});
+    scaled_marches(study, {.subject = "unit-force-binary",
+                           .parameter_name = "unit of force",
+                           .factors = four,
+                           .scale = force,
+                           .limit = exact,
+                           .stride = 5});
+    scaled_marches(study, {.subject = "unit-length-odd",
+                           .parameter_name = "unit of length",
+                           .factors = odd,
+                           .scale = length,
+                           .limit = exact});
+    scaled_marches(study, {.subject = "unit-force-odd",
+                           .parameter_name = "unit of force",
+                           .factors = odd,
+                           .scale = force,
+                           .limit = rounded});
+    scaled_marches(study, {.subject = "unit-length",
+                           .parameter_name = "unit of length",
+                           .factors = decimal,
+                           .scale = length,
+                           .limit = rounded});
+    scaled_marches(study, {.subject = "unit-force",
+                           .parameter_name = "unit of force",
+                           .factors = decimal,
+                           .scale = force,
+                           .limit = rounded});
+    scaled_marches(study, {.subject = "unit-length-3d",
+                           .parameter_name = "unit of length",
+                           .factors = {1e-9, 1e-6, 1e-3, 1.0 / 0.0254, 1e3, 1e9},
+                           .scale = length,
+                           .limit = rounded,
+                           .dimension = 3,
+                           .stride = 5});
 }
 
 }  // namespace harness

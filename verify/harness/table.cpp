@@ -55,7 +55,8 @@ void Table::print_json() const {
         std::printf("%s\n  [", r > 0 ? "," : "");
         for (std::size_t i = 0; i < rows[r].size(); ++i) {
             const Cell& cell = rows[r][i];
-            std::printf("%s%s", i > 0 ? ", " : "", cell.quoted ? quote(cell.text).c_str() : (cell.exact.empty() ? cell.text : cell.exact).c_str());
+            std::printf("%s%s", i > 0 ? ", " : "",
+                        cell.quoted ? quote(cell.text).c_str() : (cell.exact.empty() ? cell.text : cell.exact).c_str());
         }
         std::printf("]");
     }

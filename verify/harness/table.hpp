@@ -32,8 +32,8 @@ struct Table {
 struct Options {
     bool json = false;
     bool quick = false;
-    double finest = 0.0;  // m: finer meshes are left out
-    std::string scene;    // a scene file
+    double finest = 0.0;                // m: finer meshes are left out
+    std::string scene;                  // a scene file
     std::vector<std::string> settings;  // KEY=VALUE for it
     std::string subject;                // of stability: this one alone
     std::string specimen, solution;     // of tables over several: only this one

@@ -39,8 +39,13 @@ std::string Acceptance::text() const {
 }
 
 Acceptance accept(const Solver& solver, const Exported& exported) {
-    Fields fields{solver.value("time"),    solver.field("displacement"), solver.field("jump"), solver.field("traction"),
-                  solver.field("adhesion"), solver.field("reaction"),     {}};
+    Fields fields{solver.value("time"),
+                  solver.field("displacement"),
+                  solver.field("jump"),
+                  solver.field("traction"),
+                  solver.field("adhesion"),
+                  solver.field("reaction"),
+                  {}};
     for (const double flag : solver.field("contact")) fields.contact.push_back(flag != 0.0);
     return accept(solver.scene(), fields, exported);
 }
@@ -69,7 +74,8 @@ Acceptance accept(const Scene& scene, const Fields& fields, const Exported& expo
             const auto s = static_cast<std::size_t>(e);
             unbalance[i] += static_cast<long double>(exported.stiffness.value[s]) *
                             static_cast<long double>(u[static_cast<std::size_t>(exported.stiffness.column[s])]);
-            size[i] += std::abs(exported.stiffness.value[s] * u[static_cast<std::size_t>(exported.stiffness.column[s])]);
+            size[i] +=
+                std::abs(exported.stiffness.value[s] * u[static_cast<std::size_t>(exported.stiffness.column[s])]);
         }
     }
     for (std::size_t c = 0; c < exported.constraints.rows(); ++c) {
@@ -134,7 +140,8 @@ Acceptance accept(const Scene& scene, const Fields& fields, const Exported& expo
             long double& own = unbalance[static_cast<std::size_t>(tie.node) * d + k];
             for (const auto& [node, weight] : tie.of) {
                 unbalance[static_cast<std::size_t>(node) * d + k] += static_cast<long double>(weight) * own;
-                size[static_cast<std::size_t>(node) * d + k] += std::abs(weight) * size[static_cast<std::size_t>(tie.node) * d + k];
+                size[static_cast<std::size_t>(node) * d + k] +=
+                    std::abs(weight) * size[static_cast<std::size_t>(tie.node) * d + k];
             }
             own = 0.0L;
         }
@@ -143,7 +150,8 @@ Acceptance accept(const Scene& scene, const Fields& fields, const Exported& expo
     for (std::size_t i = 0; i < unbalance.size(); ++i) {
         const double rest = std::abs(static_cast<double>(unbalance[i]));
         worst = std::isnan(rest) ? rest : std::max(worst, rest);
-        beyond_rounding = std::max(beyond_rounding, rest - least.ulps * std::numeric_limits<double>::epsilon() * size[i]);
+        beyond_rounding =
+            std::max(beyond_rounding, rest - least.ulps * std::numeric_limits<double>::epsilon() * size[i]);
     }
     const double own = largest(reaction) > 0.0 ? largest(reaction) : std::max(largest_force, largest(force));
     const double scale = std::max(own, least.force);

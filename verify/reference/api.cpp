@@ -94,15 +94,18 @@ std::int64_t Scene::interface(std::int32_t body_a, std::int32_t body_b) {
 
 std::int64_t Scene::projected(std::int32_t body_a, std::int32_t body_b, double gap) {
     std::int64_t index = -1;
-    require(delam_mesh_add_projected_interface(mesh(), body_a, body_b, gap, &index), "delam_mesh_add_projected_interface");
+    require(delam_mesh_add_projected_interface(mesh(), body_a, body_b, gap, &index),
+            "delam_mesh_add_projected_interface");
     adopt_mesh();
     return index;
 }
 
-std::int64_t Scene::obstacle(const std::vector<std::int64_t>& nodes, const std::vector<double>& normals, std::int64_t control_node) {
+std::int64_t Scene::obstacle(const std::vector<std::int64_t>& nodes, const std::vector<double>& normals,
+                             std::int64_t control_node) {
     std::int64_t index = -1;
-    require(delam_mesh_add_obstacle(mesh(), length(nodes), nodes.data(), normals.data(), nullptr, control_node, 0, &index),
-            "delam_mesh_add_obstacle");
+    require(
+        delam_mesh_add_obstacle(mesh(), length(nodes), nodes.data(), normals.data(), nullptr, control_node, 0, &index),
+        "delam_mesh_add_obstacle");
     return index;
 }
 
@@ -170,10 +173,10 @@ void Scene::drive(const std::vector<std::int64_t>& nodes, const std::vector<doub
             "delam_problem_prescribe_nodes");
 }
 
-void Scene::equation(const std::vector<std::int64_t>& nodes, const std::vector<double>& coefficients, std::int64_t pattern,
-                     double coefficient) {
-    require(delam_problem_add_equation(problem(), length(nodes), nodes.data(), coefficients.data(), pattern < 0 ? 0 : 1, &pattern,
-                                       &coefficient, 0),
+void Scene::equation(const std::vector<std::int64_t>& nodes, const std::vector<double>& coefficients,
+                     std::int64_t pattern, double coefficient) {
+    require(delam_problem_add_equation(problem(), length(nodes), nodes.data(), coefficients.data(), pattern < 0 ? 0 : 1,
+                                       &pattern, &coefficient, 0),
             "delam_problem_add_equation");
 }
 

@@ -77,7 +77,8 @@ public:
 
     std::int64_t interface(std::int32_t body_a, std::int32_t body_b);
     std::int64_t projected(std::int32_t body_a, std::int32_t body_b, double gap = 0.0);
-    std::int64_t obstacle(const std::vector<std::int64_t>& nodes, const std::vector<double>& normals, std::int64_t control_node);
+    std::int64_t obstacle(const std::vector<std::int64_t>& nodes, const std::vector<double>& normals,
+                          std::int64_t control_node);
     // Between all bodies that touch; returns how many.
     std::int64_t all_interfaces();
     void begin();
@@ -94,8 +95,8 @@ public:
     void drive(const std::vector<std::int64_t>& nodes, const std::vector<double>& direction, std::int64_t pattern,
                const std::vector<double>& coefficients);
     // sum of coefficients[i][:] . u_nodes[i] = coefficient * factor of the pattern (-1: 0).
-    void equation(const std::vector<std::int64_t>& nodes, const std::vector<double>& coefficients, std::int64_t pattern = -1,
-                  double coefficient = 0.0);
+    void equation(const std::vector<std::int64_t>& nodes, const std::vector<double>& coefficients,
+                  std::int64_t pattern = -1, double coefficient = 0.0);
     void periodic(const std::vector<double>& periods, const std::vector<std::int64_t>& control_nodes);
     void contact(std::int64_t interface_index);
     void number(const char* key, double value);

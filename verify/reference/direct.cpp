@@ -249,7 +249,8 @@ State DirectReference::solve_linear(const std::vector<double>& values, const std
     }
     for (std::size_t p = 0; p < exported_.patterns; ++p) {
         if (!exported_.strains(p)) continue;
-        for (std::size_t i = 0; i < u.size(); ++i) bulk -= static_cast<long double>(factor_[p]) * exported_.forces[p][i] * u[i];
+        for (std::size_t i = 0; i < u.size(); ++i)
+            bulk -= static_cast<long double>(factor_[p]) * exported_.forces[p][i] * u[i];
         for (std::size_t q = 0; q < exported_.patterns; ++q)
             bulk += 0.5L * factor_[p] * exported_.strain_energy[p * exported_.patterns + q] * factor_[q];
     }

@@ -66,7 +66,7 @@ private:
     std::vector<Affine> displacement_;  // DOF in unknowns
     std::vector<Affine> jump_;          // [pairs][dim] in unknowns
     std::vector<bool> closed_;
-    std::vector<double> factor_;        // of the patterns, at the time that is solved for
+    std::vector<double> factor_;  // of the patterns, at the time that is solved for
     bool first_ = true;
 };
 

@@ -67,10 +67,13 @@ Exported::Exported(const Scene& scene) : dimension(scene.dimension()), dofs(scen
 
     std::int64_t tied = 0;
     std::int64_t tie_entries = 0;
-    scene.require(delam_mesh_node_ties(scene.mesh(), &tied, &tie_entries, nullptr, nullptr, nullptr, nullptr), "delam_mesh_node_ties");
-    std::vector<std::int64_t> tie_nodes(static_cast<std::size_t>(tied)), starts(tie_nodes.size() + 1), of(static_cast<std::size_t>(tie_entries));
+    scene.require(delam_mesh_node_ties(scene.mesh(), &tied, &tie_entries, nullptr, nullptr, nullptr, nullptr),
+                  "delam_mesh_node_ties");
+    std::vector<std::int64_t> tie_nodes(static_cast<std::size_t>(tied)), starts(tie_nodes.size() + 1),
+        of(static_cast<std::size_t>(tie_entries));
     std::vector<double> weights(of.size());
-    scene.require(delam_mesh_node_ties(scene.mesh(), &tied, &tie_entries, tie_nodes.data(), starts.data(), of.data(), weights.data()),
+    scene.require(delam_mesh_node_ties(scene.mesh(), &tied, &tie_entries, tie_nodes.data(), starts.data(), of.data(),
+                                       weights.data()),
                   "delam_mesh_node_ties");
     for (std::size_t i = 0; i < tie_nodes.size(); ++i) {
         ties.push_back({tie_nodes[i], {}});
@@ -109,7 +112,8 @@ Exported::Exported(const Scene& scene) : dimension(scene.dimension()), dofs(scen
                       "delam_problem_forces");
     }
     strain_energy.resize(patterns * patterns);
-    scene.require(delam_problem_eigenstrain_energy(scene.problem(), static_cast<std::int64_t>(strain_energy.size()), strain_energy.data()),
+    scene.require(delam_problem_eigenstrain_energy(scene.problem(), static_cast<std::int64_t>(strain_energy.size()),
+                                                   strain_energy.data()),
                   "delam_problem_eigenstrain_energy");
 }
 

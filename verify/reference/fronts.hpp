@@ -57,8 +57,8 @@ struct Crossing {
 
 class Fronts {
 public:
-    // Solves for all fronts at `load`; the last one leaves `kept` pairs intact at the right end. (With one alone the arms
-    // of the MMF at points are all but apart, and no contact set of theirs may be found.)
+    // Solves for all fronts at `load`; the last one leaves `kept` pairs intact at the right end. (With one alone the
+    // arms of the MMF at points are all but apart, and no contact set of theirs may be found.)
     explicit Fronts(const Flexure& data, double load = 1e-3, std::size_t kept = 2);
 
     const std::vector<Front>& list() const { return fronts_; }

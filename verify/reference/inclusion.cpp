@@ -64,7 +64,8 @@ std::array<double, 2> Inclusion::displacement(bool in_fibre, double x, double y,
     const Complex z = Complex(x, y) / radius_;
     const Potentials p = potentials(in_fibre, z, c);
     const Phase& phase = in_fibre ? fibre_ : matrix_;
-    const Complex u = (phase.kolosov() * p.phi - z * std::conj(p.phi1) - std::conj(p.psi)) * radius_ / (2.0 * phase.shear());
+    const Complex u =
+        (phase.kolosov() * p.phi - z * std::conj(p.phi1) - std::conj(p.psi)) * radius_ / (2.0 * phase.shear());
     return {u.real(), u.imag()};
 }
 
@@ -77,9 +78,10 @@ std::array<double, 3> Inclusion::stress(bool in_fibre, double x, double y, const
     return {0.5 * (sum - rest.real()), 0.5 * (sum + rest.real()), 0.5 * rest.imag()};
 }
 
-// All fields are a constant and a second harmonic: sigma_rr and [u_r] at 0 and 90 degrees, sigma_rt and [u_t] at 45, say everything.
-Inclusion::Inclusion(Phase fibre, Phase matrix, double radius, std::array<double, 2> remote_stress, double normal_compliance,
-                     double tangential_compliance, bool free)
+// All fields are a constant and a second harmonic: sigma_rr and [u_r] at 0 and 90 degrees, sigma_rt and [u_t] at 45,
+// say everything.
+Inclusion::Inclusion(Phase fibre, Phase matrix, double radius, std::array<double, 2> remote_stress,
+                     double normal_compliance, double tangential_compliance, bool free)
     : fibre_(fibre), matrix_(matrix), radius_(radius) {
     constexpr std::array<double, 3> angle{0.0, 0.5 * std::numbers::pi, 0.25 * std::numbers::pi};
     const auto conditions = [&](const std::array<double, 8>& c) {

@@ -21,7 +21,8 @@ inline std::atomic<long> live_bytes{0}, peak_bytes{0};
 inline constexpr bool counting = true;
 inline void* counted(void* pointer, long bytes) {
     const long now = live_bytes.fetch_add(bytes) + bytes;
-    for (long peak = peak_bytes; now > peak && !peak_bytes.compare_exchange_weak(peak, now);) {}
+    for (long peak = peak_bytes; now > peak && !peak_bytes.compare_exchange_weak(peak, now);) {
+    }
     return pointer;
 }
 #else

@@ -27,7 +27,7 @@ using namespace delam;
 namespace {
 
 const Elastic steel{210e9, 0.3};
-constexpr CellType all_types[] = {CellType::tri3, CellType::quad4, CellType::tet4,  CellType::hex8, CellType::tri6,
+constexpr CellType all_types[] = {CellType::tri3,  CellType::quad4, CellType::tet4,  CellType::hex8, CellType::tri6,
                                   CellType::quad8, CellType::quad9, CellType::tet10, CellType::hex20};
 
 int dimension_of(CellType type) { return topology(type).dimension; }
@@ -57,7 +57,8 @@ Mesh distorted_block(CellType type, double offset, double unit, std::int64_t div
 }
 
 SparseMatrix whole_stiffness(const Mesh& mesh, Plane plane) {
-    return assemble_stiffness(mesh, mesh.body_cells(0), mesh.body_nodes(0), BodyModel{steel, plane, Formulation::standard});
+    return assemble_stiffness(mesh, mesh.body_cells(0), mesh.body_nodes(0),
+                              BodyModel{steel, plane, Formulation::standard});
 }
 
 std::vector<double> dense(const SparseMatrix& k) {
@@ -184,9 +185,7 @@ double volume(const Mesh& mesh) {
             sum += curved_volume(mesh, c);
             continue;
         }
-        const auto x = [&](std::size_t i, std::size_t k) {
-            return mesh.node(cell[i])[k] - mesh.node(cell[0])[k];
-        };
+        const auto x = [&](std::size_t i, std::size_t k) { return mesh.node(cell[i])[k] - mesh.node(cell[0])[k]; };
         if (mesh.dimension() == 2) {
             for (std::size_t i = 0; i < cell.size(); ++i) {
                 const std::size_t j = (i + 1) % cell.size();
@@ -206,8 +205,10 @@ double volume(const Mesh& mesh) {
                         x(a, 2) * (x(b, 0) * x(d, 1) - x(b, 1) * x(d, 0))) /
                        6.0;
             };
-            if (shape.face_nodes == 3) sum += cone(0, 1, 2);
-            else sum += 0.5 * (cone(0, 1, 2) + cone(0, 2, 3) + cone(0, 1, 3) + cone(1, 2, 3));
+            if (shape.face_nodes == 3)
+                sum += cone(0, 1, 2);
+            else
+                sum += 0.5 * (cone(0, 1, 2) + cone(0, 2, 3) + cone(0, 1, 3) + cone(1, 2, 3));
         }
     }
     return sum;
@@ -402,7 +403,8 @@ START_TEST(assembly_of_parts) {
             }
             std::sort(nodes.begin(), nodes.end());
             nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-            const SparseMatrix part = assemble_stiffness(mesh, cells, nodes, BodyModel{steel, Plane::strain, Formulation::standard});
+            const SparseMatrix part =
+                assemble_stiffness(mesh, cells, nodes, BodyModel{steel, Plane::strain, Formulation::standard});
             const std::vector<double> full = dense(part);
             const std::size_t m = nodes.size() * dim;
             for (std::size_t i = 0; i < m; ++i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the condensed operator remembers decides its last digits. So its memory has to say all of it: an operator that recalls it goes on
-// with the same bits as the one that wrote it, whatever either has done before.
+// What the condensed operator remembers decides its last digits. So its memory has to say all of it: an operator that
+// recalls it goes on with the same bits as the one that wrote it, whatever either has done before.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -21,7 +21,8 @@ namespace {
 
 constexpr std::int64_t along = 60;
 
-// Two layers in plane strain with `along` + 1 pairs; the lower one is held at its bottom, the upper one lifted at its left edge.
+// Two layers in plane strain with `along` + 1 pairs; the lower one is held at its bottom, the upper one lifted at its
+// left edge.
 Problem peel() {
     const std::array<double, 1> lengths{60.0}, thickness_of{1.0};
     const std::array<std::int64_t, 1> divisions{along};

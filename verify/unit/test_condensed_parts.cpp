@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts of the condensed operator, each against brute force: dense kernels around their block borders, elimination and release, the zone
-// against its KKT system in quadruple precision, echelon forms, jump variables, slopes of the damage, extrapolation.
+// The parts of the condensed operator, each against brute force: dense kernels around their block borders, elimination
+// and release, the zone against its KKT system in quadruple precision, echelon forms, jump variables, slopes of the
+// damage, extrapolation.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,9 +18,9 @@
 #include "linalg/sparse.hpp"
 #include "mesh/layers.hpp"
 #include "reduction/condensed/dense_energy.hpp"
-#include "reduction/jump_variables.hpp"
 #include "reduction/condensed/rigid_jumps.hpp"
 #include "reduction/condensed/zone.hpp"
+#include "reduction/jump_variables.hpp"
 #include "scene/problem.hpp"
 
 // Last: its macro fail() would break delam::fail().
@@ -36,7 +37,9 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 class Random {
 public:
     explicit Random(unsigned seed) : engine_(seed) {}
-    double real(double low = -1.0, double high = 1.0) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+    double real(double low = -1.0, double high = 1.0) {
+        return std::uniform_real_distribution<double>(low, high)(engine_);
+    }
     bool one_in(int n) { return std::uniform_int_distribution<int>(1, n)(engine_) == 1; }
     Index below(Index n) { return std::uniform_int_distribution<Index>(0, n - 1)(engine_); }
     DenseMatrix matrix(Index rows, Index columns) {
@@ -75,7 +78,8 @@ double largest(std::span<const double> v) {
 double distance(std::span<const double> a, std::span<const double> b) {
     ck_assert_uint_eq(a.size(), b.size());
     double m = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) m = std::isnan(a[i] - b[i]) ? HUGE_VAL : std::max(m, std::abs(a[i] - b[i]));
+    for (std::size_t i = 0; i < a.size(); ++i)
+        m = std::isnan(a[i] - b[i]) ? HUGE_VAL : std::max(m, std::abs(a[i] - b[i]));
     return m;
 }
 
@@ -174,7 +178,8 @@ START_TEST(dense_kernels) {
     subtract_product(d, a, a);
     expect_close(c.value, d.value, 1e-12, "C - V^T V");
     const DenseMatrix product = plain_product(flipped(a), a);
-    for (std::size_t i = 0; i < d.value.size(); ++i) ck_assert(std::abs(s.value[i] - product.value[i] - d.value[i]) < 1e-10 * static_cast<double>(n));
+    for (std::size_t i = 0; i < d.value.size(); ++i)
+        ck_assert(std::abs(s.value[i] - product.value[i] - d.value[i]) < 1e-10 * static_cast<double>(n));
     DenseMatrix indefinite = s;
     indefinite(n - 1, n - 1) = -1.0;
     ck_assert(!factor_definite(indefinite));
@@ -200,7 +205,8 @@ START_TEST(congruences) {
     const DenseMatrix dk = dense_of(k), dt = dense_of(t);
     expect_close(dense_of(c).value, plain_product(flipped(dt), plain_product(dk, dt)).value, 1e-13, "T^T K T");
     for (Index r = 0; r < m; ++r)
-        for (Index e = c.start[at(r)]; e + 1 < c.start[at(r) + 1]; ++e) ck_assert(c.column[at(e)] < c.column[at(e) + 1]);
+        for (Index e = c.start[at(r)]; e + 1 < c.start[at(r) + 1]; ++e)
+            ck_assert(c.column[at(e)] < c.column[at(e) + 1]);
 }
 END_TEST
 
@@ -224,7 +230,8 @@ START_TEST(echelons) {
     expect_close(multiply(e.operations, q).value, e.rows.value, 1e-9, "operations Q");
     for (Index i = 0; i < rank; ++i)
         for (Index k = 0; k < rank; ++k) ck_assert(e.rows(i, e.pivot[at(k)]) == (i == k ? 1.0 : 0.0));
-    // Preferred columns carry as many pivots as they have rank, and all rows of Q are combinations of those of the echelon.
+    // Preferred columns carry as many pivots as they have rank, and all rows of Q are combinations of those of the
+    // echelon.
     DenseMatrix scaled = q;
     for (Index i = 0; i < rows; ++i) {
         double size = 0.0;
@@ -233,14 +240,18 @@ START_TEST(echelons) {
     }
     DenseMatrix first(rows, preferred);
     std::copy_n(scaled.value.begin(), first.value.size(), first.value.begin());
-    const auto rank_of = [](const DenseMatrix& a) { return a.columns == 0 || largest(a.value) == 0.0 ? 0 : pivoted_columns(a, 1e-9).rank; };
+    const auto rank_of = [](const DenseMatrix& a) {
+        return a.columns == 0 || largest(a.value) == 0.0 ? 0 : pivoted_columns(a, 1e-9).rank;
+    };
     ck_assert_int_eq(rank, rank_of(scaled));
-    ck_assert_int_eq(std::count_if(e.pivot.begin(), e.pivot.end(), [&](Index p) { return p < preferred; }), rank_of(first));
+    ck_assert_int_eq(std::count_if(e.pivot.begin(), e.pivot.end(), [&](Index p) { return p < preferred; }),
+                     rank_of(first));
     for (Index i = 0; i < rows; ++i)
         for (Index j = 0; j < columns; ++j) {
             double sum = 0.0;
             for (Index k = 0; k < rank; ++k) sum += scaled(i, e.pivot[at(k)]) * e.rows(k, j);
-            ck_assert_msg(std::abs(sum - scaled(i, j)) < 1e-9, "row %d, column %d", static_cast<int>(i), static_cast<int>(j));
+            ck_assert_msg(std::abs(sum - scaled(i, j)) < 1e-9, "row %d, column %d", static_cast<int>(i),
+                          static_cast<int>(j));
         }
 }
 END_TEST
@@ -257,7 +268,8 @@ void expect_same_energy(const Condensation& c, const DenseEnergy& parent, const 
     const Condensation scratch(parent, c.kept(), rest, stiffness);
     expect_close(c.energy().stiffness.value, scratch.energy().stiffness.value, tolerance, "stiffness");
     expect_close(c.energy().load.value, scratch.energy().load.value, tolerance, "load");
-    const std::vector<double> theta = random.vector(parent.load.columns), kept = random.vector(static_cast<Index>(c.kept().size()));
+    const std::vector<double> theta = random.vector(parent.load.columns),
+                              kept = random.vector(static_cast<Index>(c.kept().size()));
     std::vector<double> a(at(parent.rows()), 0.0), b(a);
     c.recover(theta, kept, a);
     scratch.recover(theta, kept, b);
@@ -293,13 +305,15 @@ START_TEST(releases) {
         }
     }
     std::vector<double> stiffness(at(n));
-    for (double& s : stiffness) s = kind == 0 ? random.real(0.0, 1.0) : std::pow(10.0, random.real(-3.0, kind == 1 ? 4.0 : 1.0)) * static_cast<double>(n);
+    for (double& s : stiffness)
+        s = kind == 0 ? random.real(0.0, 1.0)
+                      : std::pow(10.0, random.real(-3.0, kind == 1 ? 4.0 : 1.0)) * static_cast<double>(n);
     std::vector<Index> order(at(n));
     for (Index i = 0; i < n; ++i) order[at(i)] = i;
     random.shuffle(order);
     const Index keep = n / 5, hold = n / 4;
-    std::vector<Index> kept(order.begin(), order.begin() + keep), held(order.begin() + keep, order.begin() + keep + hold),
-        eliminated(order.begin() + keep + hold, order.end());
+    std::vector<Index> kept(order.begin(), order.begin() + keep),
+        held(order.begin() + keep, order.begin() + keep + hold), eliminated(order.begin() + keep + hold, order.end());
     Condensation c(parent, kept, eliminated, stiffness);
     const double tolerance = kind == 1 ? 1e-9 : 1e-10;
     expect_same_energy(c, parent, stiffness, eliminated, random, tolerance);
@@ -323,7 +337,8 @@ START_TEST(releases) {
     for (std::size_t j = 0; j < c.kept().size(); ++j)
         for (std::size_t i = 0; i < c.kept().size(); ++i) {
             const double exact = parent.stiffness(c.kept()[i], c.kept()[j]);
-            ck_assert(std::abs(c.energy().stiffness(static_cast<Index>(i), static_cast<Index>(j)) - exact) <= tolerance * 1e3 * static_cast<double>(n));
+            ck_assert(std::abs(c.energy().stiffness(static_cast<Index>(i), static_cast<Index>(j)) - exact) <=
+                      tolerance * 1e3 * static_cast<double>(n));
         }
 }
 END_TEST
@@ -432,7 +447,8 @@ ZoneCase zone_case(Random& random, Index n, Index more, Index motions, bool offs
     for (auto& column : z.stiffness) project(column);
     z.energy = {DenseMatrix(n, n), random.matrix(n, patterns)};
     for (Index j = 0; j < n; ++j)
-        for (Index i = 0; i < n; ++i) z.energy.stiffness(i, j) = static_cast<double>(z.stiffness[at(std::min(i, j))][at(std::max(i, j))]);
+        for (Index i = 0; i < n; ++i)
+            z.energy.stiffness(i, j) = static_cast<double>(z.stiffness[at(std::min(i, j))][at(std::max(i, j))]);
     for (Index i = 0; i < n; ++i) z.rows.push_back({{{i, 1.0}}, {}});
     for (Index r = 0; r < more; ++r) {
         Bulk::Row row;
@@ -451,7 +467,8 @@ ZoneCase zone_case(Random& random, Index n, Index more, Index motions, bool offs
     for (Index r = 0; r < rows; ++r) z.held[at(r)] = random.one_in(4) ? 1 : 0;
     for (Index r = 0; r + 1 < rows; r += 2) {
         if (random.one_in(5)) continue;
-        const double size = weak > 0.0 ? weak : std::pow(10.0, random.real(-2.0, 3.0)), cross = weak > 0.0 ? 0.0 : 0.3 * size * random.real();
+        const double size = weak > 0.0 ? weak : std::pow(10.0, random.real(-2.0, 3.0)),
+                     cross = weak > 0.0 ? 0.0 : 0.3 * size * random.real();
         z.couplings.push_back({r, r, size});
         z.couplings.push_back({r + 1, r + 1, 0.7 * size});
         if (cross == 0.0) continue;
@@ -474,18 +491,21 @@ std::vector<double> brute_force(const ZoneCase& z) {
     std::vector<Quad> b(size, 0);
     const auto offset = [&](std::size_t r) {
         Quad o = 0;
-        for (std::size_t p = 0; p < z.rows[r].offset.size(); ++p) o += static_cast<Quad>(z.rows[r].offset[p]) * static_cast<Quad>(z.theta[p]);
+        for (std::size_t p = 0; p < z.rows[r].offset.size(); ++p)
+            o += static_cast<Quad>(z.rows[r].offset[p]) * static_cast<Quad>(z.theta[p]);
         return o;
     };
     for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t j = 0; j < n; ++j) a[i][j] = z.stiffness[i][j];
         for (std::size_t p = 0; p < z.theta.size(); ++p)
-            b[i] += static_cast<Quad>(z.energy.load(static_cast<Index>(i), static_cast<Index>(p))) * static_cast<Quad>(z.theta[p]);
+            b[i] += static_cast<Quad>(z.energy.load(static_cast<Index>(i), static_cast<Index>(p))) *
+                    static_cast<Quad>(z.theta[p]);
     }
     for (const Zone::Coupling& c : z.couplings) {
         if (z.held[at(c.row)] != 0 || z.held[at(c.column)] != 0) continue;
         for (const auto& [i, u] : z.rows[at(c.row)].unknowns) {
-            for (const auto& [j, v] : z.rows[at(c.column)].unknowns) a[at(i)][at(j)] += static_cast<Quad>(c.value) * u * v;
+            for (const auto& [j, v] : z.rows[at(c.column)].unknowns)
+                a[at(i)][at(j)] += static_cast<Quad>(c.value) * u * v;
             b[at(i)] -= static_cast<Quad>(c.value) * u * offset(at(c.column));
         }
     }
@@ -507,7 +527,8 @@ void check_zone(ZoneCase& z, double tolerance, const char* what) {
     // Twice, with another held set and other couplings before: nothing of that may be left.
     std::vector<std::uint8_t> none(z.held.size(), 0);
     std::vector<Zone::Coupling> springs;
-    for (std::size_t r = 0; r < z.rows.size(); ++r) springs.push_back({static_cast<Index>(r), static_cast<Index>(r), 3.0});
+    for (std::size_t r = 0; r < z.rows.size(); ++r)
+        springs.push_back({static_cast<Index>(r), static_cast<Index>(r), 3.0});
     ck_assert(zone.factor(springs, none));
     ck_assert(zone.solve(z.theta, {}).balanced);
     ck_assert_msg(zone.factor(z.couplings, z.held), "%s: not definite", what);
@@ -526,13 +547,17 @@ void check_zone(ZoneCase& z, double tolerance, const char* what) {
     multiply(z.energy.load, z.theta, left);
     multiply_symmetric(z.energy.stiffness, solution.unknowns, image);
     // Where next to nothing holds a motion, S times it is rounding of large numbers.
-    const double scale = largest(left) + largest(image) + largest(force) + largest(z.energy.stiffness.value) * largest(solution.unknowns);
+    const double scale = largest(left) + largest(image) + largest(force) +
+                         largest(z.energy.stiffness.value) * largest(solution.unknowns);
     for (std::size_t i = 0; i < left.size(); ++i) left[i] -= image[i];
     for (std::size_t r = 0; r < jump.size(); ++r) {
-        if (z.held[r] != 0) ck_assert_msg(std::abs(jump[r]) <= tolerance * std::max(1.0, largest(exact)), "%s: held row moves by %.2e", what, jump[r]);
+        if (z.held[r] != 0)
+            ck_assert_msg(std::abs(jump[r]) <= tolerance * std::max(1.0, largest(exact)), "%s: held row moves by %.2e",
+                          what, jump[r]);
         for (const auto& [i, n] : z.rows[r].unknowns) left[at(i)] -= n * force[r];
     }
-    ck_assert_msg(largest(left) <= 1e-9 * scale, "%s: forces out of balance by %.2e of %.2e", what, largest(left), scale);
+    ck_assert_msg(largest(left) <= 1e-9 * scale, "%s: forces out of balance by %.2e of %.2e", what, largest(left),
+                  scale);
 }
 
 // Held rows of random cases may contradict each other through their offsets: then there is no solution to compare with.
@@ -607,8 +632,8 @@ END_TEST
 namespace {
 
 // A block of quads; nodes are moved by a linear map so that frames are slanted.
-void add_block(std::vector<double>& nodes, std::vector<Index>& cells, std::vector<std::int32_t>& bodies, std::int32_t body, double x0, double y0,
-               Index nx, Index ny, bool slanted) {
+void add_block(std::vector<double>& nodes, std::vector<Index>& cells, std::vector<std::int32_t>& bodies,
+               std::int32_t body, double x0, double y0, Index nx, Index ny, bool slanted) {
     const auto first = static_cast<Index>(nodes.size() / 2);
     for (Index j = 0; j <= ny; ++j)
         for (Index i = 0; i <= nx; ++i) {
@@ -635,7 +660,8 @@ Problem junction(int kind, bool slanted) {
         add_block(nodes, cells, bodies, 2, 0, 0, 3, 2, slanted);
         faces = {{0, 1}, {0, 2}, {1, 2}};
     } else {  // cross
-        for (std::int32_t b = 0; b < 4; ++b) add_block(nodes, cells, bodies, b, b % 2 == 0 ? -2 : 0, b / 2 == 0 ? -2 : 0, 2, 2, slanted);
+        for (std::int32_t b = 0; b < 4; ++b)
+            add_block(nodes, cells, bodies, b, b % 2 == 0 ? -2 : 0, b / 2 == 0 ? -2 : 0, 2, 2, slanted);
         faces = {{0, 1}, {2, 3}, {0, 2}, {1, 3}};
     }
     auto mesh = std::make_shared<Mesh>(2, nodes);
@@ -648,10 +674,11 @@ Problem plies(int dimension, std::size_t layers) {
     const std::vector<double> lengths{4.0, 2.0};
     const std::vector<Index> divisions{4, 2};
     const auto axes = static_cast<std::size_t>(dimension - 1);
-    auto mesh = std::make_shared<Mesh>(make_layers(dimension, std::span(lengths).first(axes), std::span(divisions).first(axes),
-                                                   std::vector<double>(layers, 1.0), std::vector<Index>(layers, 1),
-                                                   dimension == 2 ? CellType::quad8 : CellType::hex8));
-    for (std::size_t i = 0; i + 1 < layers; ++i) mesh->add_interface(static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1), 1e-6);
+    auto mesh = std::make_shared<Mesh>(make_layers(
+        dimension, std::span(lengths).first(axes), std::span(divisions).first(axes), std::vector<double>(layers, 1.0),
+        std::vector<Index>(layers, 1), dimension == 2 ? CellType::quad8 : CellType::hex8));
+    for (std::size_t i = 0; i + 1 < layers; ++i)
+        mesh->add_interface(static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1), 1e-6);
     return Problem(mesh);
 }
 
@@ -670,7 +697,8 @@ DenseMatrix jumps_of(const Problem& problem) {
     return b;
 }
 
-// Random constraints of all kinds: on single components, slanted, means over several nodes, on nodes of pairs and others.
+// Random constraints of all kinds: on single components, slanted, means over several nodes, on nodes of pairs and
+// others.
 void constrain(Problem& problem, Random& random, int count) {
     problem.patterns.push_back({"a", {0.0, 1.0}, {0.0, 1.0}, Pattern::Drives::displacement});
     problem.patterns.push_back({"b", {0.0, 1.0}, {0.0, 1.0}, Pattern::Drives::displacement});
@@ -724,7 +752,8 @@ START_TEST(variables) {
     for (std::size_t r = 0; r < v.row.size(); ++r)
         for (const auto& [j, c] : v.row[r]) expected(static_cast<Index>(r), v.leading + v.kept + j) += c;
     const DenseMatrix product = multiply(b, t);
-    ck_assert_msg(distance(product.value, expected.value) < 1e-13, "B T: %.2e", distance(product.value, expected.value));
+    ck_assert_msg(distance(product.value, expected.value) < 1e-13, "B T: %.2e",
+                  distance(product.value, expected.value));
     ck_assert_uint_eq(v.lift.size(), problem.patterns.size());
     for (std::size_t p = 0; p < v.lift.size(); ++p) {
         std::vector<double> jump(at(b.rows));
@@ -734,7 +763,8 @@ START_TEST(variables) {
         ck_assert_msg(largest(jump) < 1e-12, "B U: %.2e", largest(jump));
     }
 
-    // Trailing variables that satisfy the equations at some theta give displacements that satisfy the constraints, whatever leads.
+    // Trailing variables that satisfy the equations at some theta give displacements that satisfy the constraints,
+    // whatever leads.
     const std::vector<double> theta = random.vector(2);
     const auto equations = static_cast<Index>(v.equations.size());
     std::vector<double> values = random.vector(v.count());
@@ -755,7 +785,8 @@ START_TEST(variables) {
             double along = 0.0;
             for (Index i = 0; i < equations; ++i) along += eigen.vector(i, e) * off[at(i)];
             for (Index i = 0; i < equations; ++i)
-                for (Index k = 0; k < v.trailing(); ++k) values[at(v.leading + k)] += q(i, k) * eigen.vector(i, e) * along / eigen.value[at(e)];
+                for (Index k = 0; k < v.trailing(); ++k)
+                    values[at(v.leading + k)] += q(i, k) * eigen.vector(i, e) * along / eigen.value[at(e)];
         }
     }
     std::vector<double> u(at(dofs));
@@ -775,7 +806,8 @@ START_TEST(variables) {
     }
     // As many freedoms as there are: nothing is lost.
     Index alive = 0;
-    for (Index n = 0; n < problem.mesh->node_count(); ++n) alive += problem.mesh->node_body(n) >= 0 ? problem.mesh->dimension() : 0;
+    for (Index n = 0; n < problem.mesh->node_count(); ++n)
+        alive += problem.mesh->node_body(n) >= 0 ? problem.mesh->dimension() : 0;
     const auto rank = d.rows == 0 ? Index{0} : pivoted_columns(flipped(d), 1e-10).rank;
     ck_assert_int_eq(v.count() - equations, alive - rank);
     const Eigen gram = eigen_symmetric(multiply_transposed(t, t));
@@ -821,8 +853,8 @@ START_TEST(slopes) {
         }
         if (low >= old) continue;  // the kink
         const double difference = (high - low) / (2.0 * step);
-        ck_assert_msg(slope < 0.0 && std::abs(slope - difference) <= 1e-4 * std::abs(slope) + 1e-13 / step, "ratio %.3g, Y/Go %.6g: %.9g, difference %.9g", ratio,
-                      driving / onset, slope, difference);
+        ck_assert_msg(slope < 0.0 && std::abs(slope - difference) <= 1e-4 * std::abs(slope) + 1e-13 / step,
+                      "ratio %.3g, Y/Go %.6g: %.9g, difference %.9g", ratio, driving / onset, slope, difference);
     }
     ck_assert(shape.slope(t, 0.5 * onset, 1.0) == 0.0);
     ck_assert(shape.slope(t, 2.0 * end, 1.0) == 0.0);
@@ -831,7 +863,8 @@ START_TEST(slopes) {
 }
 END_TEST
 
-// z -> A z + b with few distinct eigenvalues: extrapolation from k differences is exact once k eigenvalues have been seen.
+// z -> A z + b with few distinct eigenvalues: extrapolation from k differences is exact once k eigenvalues have been
+// seen.
 START_TEST(extrapolated_contraction) {
     const int distinct = 1 + _i;
     Random random(static_cast<unsigned>(_i) + 3000U);

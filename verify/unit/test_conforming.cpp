@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Conforming meshes of touching bodies: doubled nodes, and interfaces between all bodies that touch, against counts taken
-// from the mesh as the mesher wrote it.
+// Conforming meshes of touching bodies: doubled nodes, and interfaces between all bodies that touch, against counts
+// taken from the mesh as the mesher wrote it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,7 +28,7 @@ using Indices = std::vector<std::int64_t>;
 using Numbers = std::vector<double>;
 using Place = std::array<double, 3>;
 
-constexpr CellType all_types[] = {CellType::tri3, CellType::quad4, CellType::tet4,  CellType::hex8, CellType::tri6,
+constexpr CellType all_types[] = {CellType::tri3,  CellType::quad4, CellType::tet4,  CellType::hex8, CellType::tri6,
                                   CellType::quad8, CellType::quad9, CellType::tet10, CellType::hex20};
 
 // Text of the error that an action ends with; empty when there is none.
@@ -41,9 +41,9 @@ std::string refusal(std::int32_t status, const std::function<void()>& action) {
     }
     return "";
 }
-#define ck_assert_refused(status, part, action)                                                     \
-    do {                                                                                            \
-        const std::string said = refusal(status, [&] { action; });                                  \
+#define ck_assert_refused(status, part, action)                                                         \
+    do {                                                                                                \
+        const std::string said = refusal(status, [&] { action; });                                      \
         ck_assert_msg(said.find(part) != std::string::npos, "\"%s\" lacks \"%s\"", said.c_str(), part); \
     } while (0)
 
@@ -68,9 +68,8 @@ using LabelOf = std::function<std::int32_t(const std::array<std::int64_t, 3>&)>;
 
 Written written(CellType type, std::int64_t n, const LabelOf& label_of) {
     const int dim = topology(type).dimension;
-    const Mesh block =
-        make_layers(dim, dim == 2 ? Numbers{1.0} : Numbers{1.0, 1.0}, dim == 2 ? Indices{n} : Indices{n, n}, Numbers{1.0},
-                    Indices{n}, type);
+    const Mesh block = make_layers(dim, dim == 2 ? Numbers{1.0} : Numbers{1.0, 1.0},
+                                   dim == 2 ? Indices{n} : Indices{n, n}, Numbers{1.0}, Indices{n}, type);
     Written w{dim, type, {block.nodes().begin(), block.nodes().end()}, {}, {}};
     for (std::int64_t c = 0; c < block.cell_count(); ++c) {
         std::array<std::int64_t, 3> box{};
@@ -139,8 +138,7 @@ void expect_doubled(const Written& w, const Mesh& mesh) {
         const std::int64_t origin = mesh.node_origin(n);
         ck_assert(n < before ? origin == n : origin >= 0 && origin < before);
         ck_assert(std::ranges::equal(mesh.node(n), mesh.node(origin)));
-        if (mesh.node_body(n) >= 0)
-            ck_assert_uint_eq(wanted.erase({mesh.body_label(mesh.node_body(n)), origin}), 1);
+        if (mesh.node_body(n) >= 0) ck_assert_uint_eq(wanted.erase({mesh.body_label(mesh.node_body(n)), origin}), 1);
     }
     ck_assert(wanted.empty());
     for (std::size_t i = 0; i < w.cells.size(); ++i) {
@@ -209,7 +207,7 @@ START_TEST(triple_junction) {
             }
             ck_assert(std::abs(area - 0.5) < 1e-14);
         }
-        const std::size_t line = dim == 2                                                        ? 1
+        const std::size_t line = dim == 2                                         ? 1
                                  : topology(type).nodes == topology(type).corners ? 5  // 4 cells along it
                                                                                   : 9;
         ck_assert_uint_eq(at_junction, 3 * line);
@@ -287,7 +285,8 @@ START_TEST(refused_cells) {
             ck_assert_int_eq(mesh.body_count(), 0);
             for (std::int64_t n = 0; n < mesh.node_count(); ++n) ck_assert_int_eq(mesh.node_body(n), -1);
         };
-        refused(DELAM_ERROR_ARGUMENT, "must be in 0..", [&](Indices& cells, Labels&) { cells.back() = mesh.node_count(); });
+        refused(DELAM_ERROR_ARGUMENT, "must be in 0..",
+                [&](Indices& cells, Labels&) { cells.back() = mesh.node_count(); });
         refused(DELAM_ERROR_ARGUMENT, "must be in 0..", [](Indices& cells, Labels&) { cells.back() = -1; });
         refused(DELAM_ERROR_ARGUMENT, "body -3", [](Indices&, Labels& labels) { labels.back() = -3; });
         refused(DELAM_ERROR_ARGUMENT, "body labels for", [](Indices&, Labels& labels) { labels.pop_back(); });
@@ -323,8 +322,8 @@ START_TEST(all_interfaces) {
             Mesh alone = w.doubled();
             alone.add_interface(all.body_label(i.body_a), all.body_label(i.body_b), 0.0);
             const InterfaceGeometry& one = alone.interfaces()[0];
-            ck_assert(one.node_a == i.node_a && one.node_b == i.node_b && one.weight == i.weight && one.frame == i.frame &&
-                      one.face == i.face);
+            ck_assert(one.node_a == i.node_a && one.node_b == i.node_b && one.weight == i.weight &&
+                      one.frame == i.frame && one.face == i.face);
         }
     }
     const std::int64_t n = 12;

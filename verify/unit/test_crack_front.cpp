@@ -97,11 +97,14 @@ START_TEST(fronts_on_a_line) {
 }
 END_TEST
 
-// With constant jumps int Y dzeta/dx dx = Y, whatever way the adhesion takes; a patch of lesser initial adhesion ahead adds nothing.
+// With constant jumps int Y dzeta/dx dx = Y, whatever way the adhesion takes; a patch of lesser initial adhesion ahead
+// adds nothing.
 START_TEST(rates_on_a_line) {
     Bed bed = Bed::layers({10.0}, {_i == 0 ? 20 : 10}, _i == 0 ? CellType::quad4 : CellType::quad8);
     bed.set(bed.initial, [](double x, double) { return x < 1.9 ? 0.0 : x > 7.9 ? 0.4 : 1.0; });
-    bed.set(bed.adhesion, [](double x, double) { return x < 1.9 ? 0.0 : x > 7.9 ? 0.4 : std::min(1.0, 0.2 * (x - 1.9)); });
+    bed.set(bed.adhesion, [](double x, double) {
+        return x < 1.9 ? 0.0 : x > 7.9 ? 0.4 : std::min(1.0, 0.2 * (x - 1.9));
+    });
     bed.open([](double, double) { return 0.1; }, [](double, double) { return -0.2; });
     const std::vector<CrackFront> fronts = bed.fronts();
     const FrontPoint& point = fronts[0].points[0];
@@ -123,7 +126,9 @@ START_TEST(ring) {
     const double radius[] = {1.0, 2.0, 2.0, 3.0};
     for (const double r : radius)
         for (std::int64_t i = 0; i < n; ++i)
-            for (const double x : {r * std::cos(2.0 * M_PI * static_cast<double>(i) / n), r * std::sin(2.0 * M_PI * static_cast<double>(i) / n)}) nodes.push_back(x);
+            for (const double x : {r * std::cos(2.0 * M_PI * static_cast<double>(i) / n),
+                                   r * std::sin(2.0 * M_PI * static_cast<double>(i) / n)})
+                nodes.push_back(x);
     for (const std::int64_t inner : {std::int64_t{0}, 2 * n})
         for (std::int64_t i = 0; i < n; ++i) {
             const std::int64_t j = (i + 1) % n;
@@ -145,7 +150,10 @@ START_TEST(ring) {
     for (const CrackFront& front : fronts) {
         const FrontPoint& point = front.points[0];
         near(point.length, opened, 1e-9);
-        near(std::acos((point.place[0] * std::cos(start) + point.place[1] * std::sin(start)) / std::hypot(point.place[0], point.place[1])) * 4.0, opened, 0.05);
+        near(std::acos((point.place[0] * std::cos(start) + point.place[1] * std::sin(start)) /
+                       std::hypot(point.place[0], point.place[1])) *
+                 4.0,
+             opened, 0.05);
         near(point.rate[0], 0.5 * 3.0 * 0.01, 1e-12);
         near(point.rate[1], 0.5 * 5.0 * std::cos(2.0 * M_PI / n), 1e-9);  // the tangents of two neighbours turn
     }
@@ -160,17 +168,21 @@ struct Kind {
 };
 constexpr Kind kinds[] = {{CellType::hex8, 20}, {CellType::tet4, 20}, {CellType::hex20, 10}, {CellType::tet10, 10}};
 
-// A stiff interface: the jump rises by unit steps from the onset s_0 = 1e-5 s_c to s_c = 8, where the adhesion is (s_0/s)(s_c - s)/(s_c - s_0),
-// at most 1e-5 in between. Its process zone is where the traction falls, not where the adhesion is far from 0 and 1.
+// A stiff interface: the jump rises by unit steps from the onset s_0 = 1e-5 s_c to s_c = 8, where the adhesion is
+// (s_0/s)(s_c - s)/(s_c - s_0), at most 1e-5 in between. Its process zone is where the traction falls, not where the
+// adhesion is far from 0 and 1.
 START_TEST(zone_of_a_stiff_interface) {
     const double s_c = 8.0, s_0 = 1e-5 * s_c;
     for (const bool space : {false, true}) {
-        Bed bed = space ? Bed::layers({20.0, 2.0}, {20, 2}, CellType::hex8) : Bed::layers({20.0}, {20}, CellType::quad4);
+        Bed bed =
+            space ? Bed::layers({20.0, 2.0}, {20, 2}, CellType::hex8) : Bed::layers({20.0}, {20}, CellType::quad4);
         bed.law.normal_onset = 0.5 * bed.law.normal_stiffness * s_0 * s_0;
         bed.law.normal_toughness = 0.5 * bed.law.normal_stiffness * s_0 * s_c;
         bed.law.tangential_onset = bed.law.normal_onset;
         bed.law.tangential_toughness = bed.law.normal_toughness;
-        const auto jump = [](double x, double) { return std::max(12.5 - x, 0.0); };  // onset ahead of x = 12, end at 4.5
+        const auto jump = [](double x, double) {
+            return std::max(12.5 - x, 0.0);
+        };  // onset ahead of x = 12, end at 4.5
         bed.open(jump, none);
         bed.set(bed.adhesion, [&](double x, double y) {
             const double s = jump(x, y);
@@ -192,7 +204,8 @@ START_TEST(contours) {
     const Kind kind = kinds[_i];
     Bed bed = Bed::layers({20.0, 20.0}, {kind.cells, kind.cells}, kind.type);
     bed.set(bed.adhesion, [](double x, double y) {
-        return std::clamp(std::min(0.5 + (x - 3.2) / 3.0, 0.5 + (std::hypot(x - 12.0, y - 10.0) - 4.0) / 3.0), 0.0, 1.0);
+        return std::clamp(std::min(0.5 + (x - 3.2) / 3.0, 0.5 + (std::hypot(x - 12.0, y - 10.0) - 4.0) / 3.0), 0.0,
+                          1.0);
     });
     bed.open([](double, double) { return 0.1; }, [](double, double) { return 0.2; });
     const std::vector<CrackFront> fronts = bed.fronts();

@@ -26,7 +26,7 @@ using namespace delam;
 namespace {
 
 const Elastic steel{210e9, 0.3};
-constexpr CellType all_types[] = {CellType::tri3, CellType::quad4, CellType::tet4,  CellType::hex8, CellType::tri6,
+constexpr CellType all_types[] = {CellType::tri3,  CellType::quad4, CellType::tet4,  CellType::hex8, CellType::tri6,
                                   CellType::quad8, CellType::quad9, CellType::tet10, CellType::hex20};
 
 std::size_t size(std::int64_t n) { return static_cast<std::size_t>(n); }
@@ -350,7 +350,7 @@ START_TEST(any_elasticity) {
             double h[3][3];
             for (auto& row : h)
                 for (double& v : row) v = draw(random);
-            const double e[] = {h[0][0], h[1][1], dim == 2 ? h[0][1] + h[1][0] : h[2][2],
+            const double e[] = {h[0][0],           h[1][1],           dim == 2 ? h[0][1] + h[1][0] : h[2][2],
                                 h[0][1] + h[1][0], h[1][2] + h[2][1], h[2][0] + h[0][2]};
             double density = 0.0;
             for (std::size_t i = 0; i < strains; ++i)

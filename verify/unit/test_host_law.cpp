@@ -163,7 +163,9 @@ START_TEST(failures) {
     data.failing = 17;
     const Law law = given(laws::adhesion, laws::dissipation, &data);
     expect(refusal([&] { law.validate(); }), "the dissipation callback failed with 17 at mixity B = 1, zeta = ");
-    expect(refusal([&] { law.minimiser({1.0, 2.0, 0.95}, 3.0, 1.0); }),
+    expect(refusal([&] {
+               law.minimiser({1.0, 2.0, 0.95}, 3.0, 1.0);
+           }),
            "the adhesion callback failed with 17 at mixity B = 0.95, Y = 3");
     expect(refusal([&] { law.toughness(0.91); }), "the dissipation callback failed with 17");
     ck_assert(law.toughness(0.5).onset > 0.0);
@@ -198,7 +200,8 @@ START_TEST(inconsistent_callbacks) {
     const Toughness t = law.toughness(0.5);
     spoilt.fault = g_negative;
     expect(refusal([&] { law.toughness(0.5); }), "dissipated energy -1 must be >= 0 at mixity B = 0.5, zeta = 0");
-    expect(refusal([&] { law.dissipated(t, 0.25); }), "dissipated energy -1 must be >= 0 at mixity B = 0.5, zeta = 0.25");
+    expect(refusal([&] { law.dissipated(t, 0.25); }),
+           "dissipated energy -1 must be >= 0 at mixity B = 0.5, zeta = 0.25");
 }
 END_TEST
 

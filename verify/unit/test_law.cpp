@@ -152,8 +152,7 @@ START_TEST(derivatives) {
         ck_assert(shape.stored_slides(t, z) <= 0.0);
         const double h = 1e-5;
         const double slope = (shape.dissipated(t, z + h) - shape.dissipated(t, z - h)) / (2.0 * h);
-        const double curvature =
-            shape.dissipated(t, z + h) - 2.0 * shape.dissipated(t, z) + shape.dissipated(t, z - h);
+        const double curvature = shape.dissipated(t, z + h) - 2.0 * shape.dissipated(t, z) + shape.dissipated(t, z - h);
         ck_assert(curvature > 0.0);
         ck_assert(std::abs(shape.minimiser(t, -slope, 1.0) - z) < 1e-8);
     }
@@ -180,8 +179,7 @@ START_TEST(griffith_limit) {
             // ((1 + D)/r - 1)/D with r^2 = y = 1 + 2 s D, without its cancellation
             const double r = std::sqrt(y), exact = (2.0 + d - 2.0 * s) / (r * (1.0 + d + r));
             const double z = shape.minimiser(t, y, 1.0);
-            ck_assert_msg(std::abs(z - exact) < 1e-14, "D = 2^-%d, s = %g: %.17g, not %.17g",
-                          k, s, z, exact);
+            ck_assert_msg(std::abs(z - exact) < 1e-14, "D = 2^-%d, s = %g: %.17g, not %.17g", k, s, z, exact);
             ck_assert(std::abs(z - (1.0 - s)) <= 2.0 * d);
         }
     }
@@ -197,9 +195,12 @@ START_TEST(interaction_closed_form) {
             for (int i = 0; i <= 40; ++i) {
                 const double b = i / 40.0;
                 const double g = delam::interaction(3.0, 3.0 * ratio, a, a, b);
-                if (i == 0) ck_assert(g == 3.0);
-                else if (i == 40) ck_assert(g == 3.0 * ratio);
-                else ck_assert(close(g, reference_interaction(3.0, 3.0 * ratio, a, a, b), 1e-13));
+                if (i == 0)
+                    ck_assert(g == 3.0);
+                else if (i == 40)
+                    ck_assert(g == 3.0 * ratio);
+                else
+                    ck_assert(close(g, reference_interaction(3.0, 3.0 * ratio, a, a, b), 1e-13));
             }
         }
     }

@@ -93,7 +93,8 @@ START_TEST(off_axis) {
         const double c = std::cos(angle), s = std::sin(angle);
         const SpaceElasticity d = rotated(space_elasticity(ply), turned_about(2, angle));
         const std::vector<double> softness = inverse<6>(d);
-        const double expected = std::pow(c, 4) / k[0] + std::pow(s, 4) / k[1] + (1.0 / k[6] - 2.0 * k[3] / k[0]) * c * c * s * s;
+        const double expected =
+            std::pow(c, 4) / k[0] + std::pow(s, 4) / k[1] + (1.0 / k[6] - 2.0 * k[3] / k[0]) * c * c * s * s;
         close(softness[0] / expected, 1.0, 10.0);
         const auto q = plane_elasticity(d, Plane::stress);
         const double share = 1.0 - k[3] * k[3] * k[1] / k[0];
@@ -141,7 +142,8 @@ START_TEST(bounds) {
     ck_assert(said(Orthotropic::nu12, 3.9).find("nu21") != std::string::npos);
     ck_assert(said(Orthotropic::nu13, -3.9).find("nu13 = -3.9") == 0);
     ck_assert(said(Orthotropic::nu23, 1.0).find("nu23 = 1") == 0);
-    ck_assert(said(Orthotropic::nu23, 0.999).find("nu23 = 0.999 is outside") == 0);  // each bound holds, not all together
+    ck_assert(said(Orthotropic::nu23, 0.999).find("nu23 = 0.999 is outside") ==
+              0);  // each bound holds, not all together
     ck_assert(said(Orthotropic::g23, 0.0).find("G23 = 0") == 0);
     ck_assert(said(Orthotropic::e3, std::nan("")).find("E3") == 0);
     // The bound that is named is the true one.
@@ -169,15 +171,16 @@ START_TEST(orientation_list) {
 }
 END_TEST
 
-// The stiffness of a body that is turned together with its material is the old one, turned; and what a linear field does in it
-// is what the elasticity says, out of the plane too.
+// The stiffness of a body that is turned together with its material is the old one, turned; and what a linear field
+// does in it is what the elasticity says, out of the plane too.
 START_TEST(cells_turn_with_the_body) {
     for (const CellType type : {CellType::quad4, CellType::hex8, CellType::tet10}) {
         const int dim = topology(type).dimension;
         const double lengths[] = {1.3, 0.9}, thickness[] = {0.7};
         const std::int64_t divisions[] = {2, 2}, layers[] = {2};
         const auto across = size(dim) - 1;
-        const Mesh plain = make_layers(dim, std::span(lengths).first(across), std::span(divisions).first(across), thickness, layers, type);
+        const Mesh plain = make_layers(dim, std::span(lengths).first(across), std::span(divisions).first(across),
+                                       thickness, layers, type);
         const Axes turn = dim == 2 ? turned_about(2, 0.6) : product(turned_about(0, 0.5), turned_about(2, 0.6));
         // x' = Q x with the columns of Q the rows of `turn`.
         std::vector<double> nodes(plain.nodes().size(), 0.0);

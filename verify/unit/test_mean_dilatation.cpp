@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells with a projected dilatation: the patch test on distorted cells, rigid motions alone without energy, and symmetry.
+// Cells with a projected dilatation: the patch test on distorted cells, rigid motions alone without energy, and
+// symmetry.
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -18,7 +19,8 @@ using namespace delam;
 
 namespace {
 
-constexpr CellType projected_types[] = {CellType::quad4, CellType::hex8, CellType::tri6, CellType::quad8, CellType::quad9, CellType::tet10, CellType::hex20};
+constexpr CellType projected_types[] = {CellType::quad4, CellType::hex8,  CellType::tri6, CellType::quad8,
+                                        CellType::quad9, CellType::tet10, CellType::hex20};
 const Elastic rubber{1.0, 0.4999};
 const Orthotropic ply{{20.0, 1.0, 1.5, 0.3, 0.2, 0.4, 0.5, 0.6, 0.35}};
 
@@ -30,7 +32,8 @@ Mesh distorted(CellType type, std::int64_t divisions) {
     const double lengths[] = {1.0, 0.9}, thickness[] = {1.1};
     const std::int64_t n[] = {divisions, divisions}, layers[] = {divisions};
     const auto across = size(dim) - 1;
-    const Mesh plain = make_layers(dim, std::span(lengths).first(across), std::span(n).first(across), thickness, layers, type);
+    const Mesh plain =
+        make_layers(dim, std::span(lengths).first(across), std::span(n).first(across), thickness, layers, type);
     std::mt19937 random(3);
     const double most = (topology(type).nodes > topology(type).corners ? 0.04 : 0.12) / static_cast<double>(divisions);
     std::uniform_real_distribution<double> shift(-most, most);
@@ -38,7 +41,8 @@ Mesh distorted(CellType type, std::int64_t divisions) {
     for (double& x : nodes) x += shift(random);
     Mesh mesh(dim, nodes);
     std::vector<std::int64_t> cells;
-    for (std::int64_t c = 0; c < plain.cell_count(); ++c) cells.insert(cells.end(), plain.cell(c).begin(), plain.cell(c).end());
+    for (std::int64_t c = 0; c < plain.cell_count(); ++c)
+        cells.insert(cells.end(), plain.cell(c).begin(), plain.cell(c).end());
     mesh.add_cells(type, cells, {});
     return mesh;
 }
@@ -57,12 +61,14 @@ START_TEST(patch) {
         for (const Material& material : materials()) {
             const Mesh mesh = distorted(type, 3);
             const auto dim = size(mesh.dimension());
-            const BodyModel projected{material, Plane::strain, Formulation::mean_dilatation}, plain{material, Plane::strain, Formulation::standard};
+            const BodyModel projected{material, Plane::strain, Formulation::mean_dilatation},
+                plain{material, Plane::strain, Formulation::standard};
             std::vector<double> u;
             for (std::int64_t n = 0; n < mesh.node_count(); ++n)
                 for (std::size_t i = 0; i < dim; ++i) {
                     double sum = 0.0;
-                    for (std::size_t j = 0; j < dim; ++j) sum += 1e-3 * static_cast<double>((3 * i + 5 * j) % 7 + 1) * mesh.node(n)[j];
+                    for (std::size_t j = 0; j < dim; ++j)
+                        sum += 1e-3 * static_cast<double>((3 * i + 5 * j) % 7 + 1) * mesh.node(n)[j];
                     u.push_back(sum);
                 }
             std::vector<double> f(u.size()), g(u.size());
@@ -71,7 +77,8 @@ START_TEST(patch) {
             double largest = 0.0;
             for (const double v : g) largest = std::max(largest, std::abs(v));
             for (std::size_t i = 0; i < f.size(); ++i) ck_assert(std::abs(f[i] - g[i]) < 1e-11 * largest);
-            const auto s = centre_stress(mesh, std::span(&projected, 1), u), t = centre_stress(mesh, std::span(&plain, 1), u);
+            const auto s = centre_stress(mesh, std::span(&projected, 1), u),
+                       t = centre_stress(mesh, std::span(&plain, 1), u);
             double most = 0.0;
             for (const double v : t) most = std::max(most, std::abs(v));
             for (std::size_t i = 0; i < s.size(); ++i) ck_assert(std::abs(s[i] - t[i]) < 1e-11 * most);
@@ -86,14 +93,16 @@ START_TEST(rank) {
             const SparseMatrix k = stiffness(mesh, {material, Plane::strain, Formulation::mean_dilatation});
             DenseMatrix full(k.rows, k.rows);
             for (std::int64_t r = 0; r < k.rows; ++r)
-                for (auto e = k.start[size(r)]; e < k.start[size(r) + 1]; ++e) full(r, k.column[size(e)]) = k.value[size(e)];
+                for (auto e = k.start[size(r)]; e < k.start[size(r) + 1]; ++e)
+                    full(r, k.column[size(e)]) = k.value[size(e)];
             for (std::int64_t r = 0; r < k.rows; ++r)
                 for (std::int64_t c = 0; c < r; ++c) ck_assert(full(r, c) == full(c, r));
             const Eigen eigen = eigen_symmetric(full);
             const std::size_t motions = mesh.dimension() == 2 ? 3 : 6;
             const double stiffest = eigen.value.back();
             for (std::size_t i = 0; i < motions; ++i) ck_assert(std::abs(eigen.value[i]) < 1e-12 * stiffest);
-            ck_assert_msg(eigen.value[motions] > 1e-3, "%s: %g of %g", topology(type).name, eigen.value[motions], stiffest);
+            ck_assert_msg(eigen.value[motions] > 1e-3, "%s: %g of %g", topology(type).name, eigen.value[motions],
+                          stiffest);
         }
 }
 END_TEST
@@ -106,7 +115,8 @@ START_TEST(refused) {
         } catch (const Error& e) {
             said = e.what();
         }
-        ck_assert(said.find(topology(type).name) != std::string::npos && said.find("constant already") != std::string::npos);
+        ck_assert(said.find(topology(type).name) != std::string::npos &&
+                  said.find("constant already") != std::string::npos);
     }
 }
 END_TEST

@@ -32,7 +32,7 @@ using Labels = std::vector<std::int32_t>;
 using Indices = std::vector<std::int64_t>;
 using Numbers = std::vector<double>;
 
-constexpr CellType all_types[] = {CellType::tri3, CellType::quad4, CellType::tet4,  CellType::hex8, CellType::tri6,
+constexpr CellType all_types[] = {CellType::tri3,  CellType::quad4, CellType::tet4,  CellType::hex8, CellType::tri6,
                                   CellType::quad8, CellType::quad9, CellType::tet10, CellType::hex20};
 
 bool quadratic(CellType type) { return topology(type).nodes > topology(type).corners; }
@@ -64,9 +64,9 @@ std::string refusal(std::int32_t status, const std::function<void()>& action) {
     }
     return "";
 }
-#define ck_assert_refused(status, part, action)                                                     \
-    do {                                                                                            \
-        const std::string said = refusal(status, [&] { action; });                                  \
+#define ck_assert_refused(status, part, action)                                                         \
+    do {                                                                                                \
+        const std::string said = refusal(status, [&] { action; });                                      \
         ck_assert_msg(said.find(part) != std::string::npos, "\"%s\" lacks \"%s\"", said.c_str(), part); \
     } while (0)
 
@@ -113,8 +113,10 @@ void check_frames(const Mesh& mesh, const InterfaceGeometry& i) {
                 for (std::size_t k = 0; k < dim; ++k) product += f[r * dim + k] * f[s * dim + k];
                 ck_assert(std::abs(product - (r == s ? 1.0 : 0.0)) <= 1e-15 * 4);
             }
-        if (dim == 3) ck_assert(f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6]) +
-                                    f[2] * (f[3] * f[7] - f[4] * f[6]) > 0.99);
+        if (dim == 3)
+            ck_assert(f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6]) +
+                          f[2] * (f[3] * f[7] - f[4] * f[6]) >
+                      0.99);
     }
 }
 
@@ -176,8 +178,8 @@ START_TEST(layered_blocks) {
         // Boundary: closed, of the right extent.
         for (std::int32_t b = 0; b < 3; ++b) {
             const Numbers box{2.0, plane ? std::array{0.3, 0.1, 0.2}[at(b)] : 1.5, std::array{0.3, 0.1, 0.2}[at(b)]};
-            const double extent = plane ? 2.0 * (box[0] + box[1])
-                                        : 2.0 * (box[0] * box[1] + box[1] * box[2] + box[2] * box[0]);
+            const double extent =
+                plane ? 2.0 * (box[0] + box[1]) : 2.0 * (box[0] * box[1] + box[1] * box[2] + box[2] * box[0]);
             double found = 0.0;
             for (std::size_t axis = 0; axis < lengths.size() + 1; ++axis)
                 for (const double sign : {-1.0, 1.0}) {
@@ -230,7 +232,10 @@ START_TEST(shuffled_nodes) {
         std::mt19937 random(11);
         std::uniform_real_distribution<double> jitter(-1e-9, 1e-9);
         Numbers noise(plain.nodes().size());
-        const auto upright = [](std::span<double> x) { std::swap(x[0], x.back()); x[0] = -x[0]; };
+        const auto upright = [](std::span<double> x) {
+            std::swap(x[0], x.back());
+            x[0] = -x[0];
+        };
         Mesh first = rebuilt(plain, 0, upright);
         Mesh second = rebuilt(plain, 5, upright);
         Mesh third = rebuilt(plain, 6, [&](std::span<double> x) {
@@ -308,8 +313,8 @@ START_TEST(weights_of_distorted_faces) {
 }
 END_TEST
 
-// Rings of quadratic cells with their middle nodes on the circle: normals are radial to the fourth order of the cell's angle,
-// at middle nodes exactly, weights positive with the length of the circle.
+// Rings of quadratic cells with their middle nodes on the circle: normals are radial to the fourth order of the cell's
+// angle, at middle nodes exactly, weights positive with the length of the circle.
 START_TEST(curved_cells) {
     for (const CellType type : {CellType::quad8, CellType::quad9, CellType::tri6}) {
         const int n = 24;
@@ -342,13 +347,14 @@ START_TEST(curved_cells) {
 }
 END_TEST
 
-// Weights of flat faces by hand; of faces with shifted middle nodes and of warped ones: positive, summing to the length,
-// to the area of what the nodes span.
+// Weights of flat faces by hand; of faces with shifted middle nodes and of warped ones: positive, summing to the
+// length, to the area of what the nodes span.
 START_TEST(weights_of_quadratic_faces) {
     const auto weights_of = [](CellType type, const std::function<void(std::span<double>)>& map) {
         const bool plane = topology(type).dimension == 2;
-        Mesh mesh = rebuilt(layers(type, plane ? Numbers{1} : Numbers{1, 1}, plane ? Indices{1} : Indices{1, 1},
-                                   {1, 1}, {1, 1}), 0, map);
+        Mesh mesh = rebuilt(
+            layers(type, plane ? Numbers{1} : Numbers{1, 1}, plane ? Indices{1} : Indices{1, 1}, {1, 1}, {1, 1}), 0,
+            map);
         mesh.add_interface(0, 1, 0.0);
         check_frames(mesh, mesh.interfaces()[0]);
         return mesh.interfaces()[0];
@@ -435,7 +441,8 @@ START_TEST(missing_middle_nodes) {
         if (!quadratic(type)) continue;
         const bool plane = topology(type).dimension == 2;
         const auto block = [&](CellType t) {
-            return layers(t, plane ? Numbers{1} : Numbers{1, 1}, plane ? Indices{2} : Indices{2, 2}, {0.5, 0.5}, {1, 1});
+            return layers(t, plane ? Numbers{1} : Numbers{1, 1}, plane ? Indices{2} : Indices{2, 2}, {0.5, 0.5},
+                          {1, 1});
         };
         // A middle node of the upper block on the interface, moved along an edge.
         const Mesh plain = block(type);
@@ -475,15 +482,16 @@ START_TEST(missing_middle_nodes) {
         }
     }
     // Within a body: two quad8 side by side, the edge between them with two middle nodes.
-    const Numbers nodes{0, 0, 1, 0, 1, 1, 0, 1, 2, 0, 2, 1, 0.5, 0, 1, 0.5, 0.5, 1, 0, 0.5, 1.5, 0, 2, 0.5, 1.5, 1, 1, 0.5};
+    const Numbers nodes{0, 0,   1,   0, 1, 1,   0,   1, 2, 0,   2,   1, 0.5, 0,
+                        1, 0.5, 0.5, 1, 0, 0.5, 1.5, 0, 2, 0.5, 1.5, 1, 1,   0.5};
     Mesh mesh(2, nodes);
     mesh.add_cells(CellType::quad8, Indices{0, 1, 2, 3, 6, 7, 8, 9, 1, 4, 5, 2, 10, 11, 12, 13}, {});
     ck_assert_refused(DELAM_ERROR_MESH, "not its mid-side nodes", boundary_faces(mesh, 0));
 }
 END_TEST
 
-// The integrals of the shape functions over whole faces, known by hand: 1/6, 2/3, 1/6 of an edge; nothing of a corner and a third
-// of a middle node on a triangle; -1/12 and 1/3 on an 8-node face.
+// The integrals of the shape functions over whole faces, known by hand: 1/6, 2/3, 1/6 of an edge; nothing of a corner
+// and a third of a middle node on a triangle; -1/12 and 1/3 on an 8-node face.
 START_TEST(patches_of_quadratic_faces) {
     const Mesh plane = layers(CellType::quad8, {1}, {1}, {1}, {1});
     const Patch edge = find_patch(plane, 0, Numbers{-1, 1}, Numbers{2, 1}, Numbers{0, 1});
@@ -682,8 +690,8 @@ START_TEST(patches) {
             }
         }
         ck_assert(find_patch(mesh, 0, Numbers{-9, -9, 5}, Numbers{9, plane ? -1.0 : 9.0, 9}, up).nodes.empty());
-        ck_assert_refused(DELAM_ERROR_ARGUMENT, "direction", find_patch(mesh, 0, Numbers{0, 0, 0}, Numbers{1, 1, 1},
-                                                                        Numbers(up.size(), 0.0)));
+        ck_assert_refused(DELAM_ERROR_ARGUMENT, "direction",
+                          find_patch(mesh, 0, Numbers{0, 0, 0}, Numbers{1, 1, 1}, Numbers(up.size(), 0.0)));
         // A box that ends on nodes takes nothing of the faces beyond, whatever the rounding.
         const Patch aligned = find_patch(mesh, 0, Numbers{2.0 * 3 / 7, -1, -1}, Numbers{2.0 * (4.0 / 7), 9, 9}, up);
         for (const std::int64_t n : aligned.nodes) ck_assert(mesh.node(n)[0] > 0.8 && mesh.node(n)[0] < 1.2);
@@ -832,7 +840,7 @@ START_TEST(box_search) {
     std::vector<Box> boxes;
     for (int i = 0; i < 500; ++i) {
         const Point p = draw();
-        boxes.push_back({p, {p[0] + 0.2 * point(random), p[1] + 0.2 * point(random), p[2]+ 0.2 * point(random)}});
+        boxes.push_back({p, {p[0] + 0.2 * point(random), p[1] + 0.2 * point(random), p[2] + 0.2 * point(random)}});
     }
     const BoxTree tree(boxes);
     for (int i = 0; i < 300; ++i) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Interfaces of unmatched meshes by projection, and obstacles: areas, normals, linear fields, and what is refused where.
+// Interfaces of unmatched meshes by projection, and obstacles: areas, normals, linear fields, and what is refused
+// where.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -25,7 +26,7 @@ using Labels = std::vector<std::int32_t>;
 using Indices = std::vector<std::int64_t>;
 using Numbers = std::vector<double>;
 
-constexpr CellType all_types[] = {CellType::tri3, CellType::quad4, CellType::tet4,  CellType::hex8, CellType::tri6,
+constexpr CellType all_types[] = {CellType::tri3,  CellType::quad4, CellType::tet4,  CellType::hex8, CellType::tri6,
                                   CellType::quad8, CellType::quad9, CellType::tet10, CellType::hex20};
 bool quadratic(CellType type) { return topology(type).nodes > topology(type).corners; }
 
@@ -39,9 +40,9 @@ std::string refusal(std::int32_t status, const std::function<void()>& action) {
     }
     return "";
 }
-#define ck_assert_refused(status, part, action)                                                     \
-    do {                                                                                            \
-        const std::string said = refusal(status, [&] { action; });                                  \
+#define ck_assert_refused(status, part, action)                                                         \
+    do {                                                                                                \
+        const std::string said = refusal(status, [&] { action; });                                      \
         ck_assert_msg(said.find(part) != std::string::npos, "\"%s\" lacks \"%s\"", said.c_str(), part); \
     } while (0)
 
@@ -84,8 +85,8 @@ Mesh blocks(const std::vector<Block>& list, const Map& map = {}, const Numbers& 
 }
 
 // A block of `lower` divisions below one of `upper`, which covers x from `start` on.
-std::vector<Block> stack(CellType lower_type, CellType upper_type, std::int64_t lower, std::int64_t upper, double start = 0.0,
-                         double length = 1.0) {
+std::vector<Block> stack(CellType lower_type, CellType upper_type, std::int64_t lower, std::int64_t upper,
+                         double start = 0.0, double length = 1.0) {
     if (topology(lower_type).dimension == 2)
         return {{lower_type, {0, 0}, {1, 0.5}, {lower, 2}}, {upper_type, {start, 0.5}, {length, 0.5}, {upper, 2}}};
     return {{lower_type, {0, 0, 0}, {1, 1, 0.5}, {lower, lower + 1, 1}},
@@ -185,7 +186,8 @@ END_TEST
 
 // Two rings around a quarter circle (a cylinder in 3D): b's nodes are off a's faces by what the chords are off the arc.
 START_TEST(curved) {
-    for (const CellType type : {CellType::quad4, CellType::quad8, CellType::tri6, CellType::hex8, CellType::hex20, CellType::tet10}) {
+    for (const CellType type :
+         {CellType::quad4, CellType::quad8, CellType::tri6, CellType::hex8, CellType::hex20, CellType::tet10}) {
         const std::size_t dim = at(topology(type).dimension);
         // x runs around, the last axis is the radius, turned so that cells stay positive.
         const Map bend = [&](std::span<double> x) {
@@ -261,7 +263,8 @@ START_TEST(partly_covered) {
     mesh.add_projected_interface(0, 1, 0.0);
     const std::int64_t tied = mesh.ties()[0].node;
     ck_assert_refused(DELAM_ERROR_MESH, "is tied", mesh.add_cells(CellType::tri3, Indices{tied, 0, 1}, Labels{7}));
-    ck_assert_refused(DELAM_ERROR_MESH, "is tied", mesh.add_conforming_cells(CellType::tri3, Indices{0, 1, tied}, Labels{7}));
+    ck_assert_refused(DELAM_ERROR_MESH, "is tied",
+                      mesh.add_conforming_cells(CellType::tri3, Indices{0, 1, tied}, Labels{7}));
     ck_assert_int_eq(mesh.node_body(tied), -1);
 }
 END_TEST
@@ -281,7 +284,8 @@ START_TEST(nearest_points) {
                 const FacePoint found = closest_point(mesh, face, x);
                 ck_assert(length(found.place - p.place) < 1e-12);
                 ck_assert(length(found.normal - p.normal) < 1e-11);
-                for (std::size_t k = 0; k < most_face_nodes; ++k) ck_assert(std::abs(found.weight[k] - p.weight[k]) < 1e-11);
+                for (std::size_t k = 0; k < most_face_nodes; ++k)
+                    ck_assert(std::abs(found.weight[k] - p.weight[k]) < 1e-11);
             }
         }
     }
@@ -316,15 +320,21 @@ START_TEST(obstacles) {
         ck_assert(mesh.interfaces()[1].weight == Numbers{0.25} && mesh.interfaces()[1].face_count() == 0);
 
         // A body that comes later moves no index of the obstacle, and the control node takes no cells.
-        ck_assert_refused(DELAM_ERROR_MESH, "control node", mesh.add_cells(type, Indices(at(topology(type).nodes), control), Labels{3}));
-        ck_assert_refused(DELAM_ERROR_ARGUMENT, "length 0", mesh.add_obstacle(one, Numbers(dim, 0.0), Numbers{1.0}, control));
-        ck_assert_refused(DELAM_ERROR_ARGUMENT, "weights[0] = 0", mesh.add_obstacle(one, normal, Numbers{0.0}, control));
+        ck_assert_refused(DELAM_ERROR_MESH, "control node",
+                          mesh.add_cells(type, Indices(at(topology(type).nodes), control), Labels{3}));
+        ck_assert_refused(DELAM_ERROR_ARGUMENT, "length 0",
+                          mesh.add_obstacle(one, Numbers(dim, 0.0), Numbers{1.0}, control));
+        ck_assert_refused(DELAM_ERROR_ARGUMENT, "weights[0] = 0",
+                          mesh.add_obstacle(one, normal, Numbers{0.0}, control));
         ck_assert_refused(DELAM_ERROR_MESH, "belongs to body 0", mesh.add_obstacle(one, normal, Numbers{1.0}, top[0]));
-        ck_assert_refused(DELAM_ERROR_ARGUMENT, "has no cells", mesh.add_obstacle(Indices{control}, normal, Numbers{1.0}, control));
-        ck_assert_refused(DELAM_ERROR_ARGUMENT, "control_node", mesh.add_obstacle(one, normal, Numbers{1.0}, control + 1));
+        ck_assert_refused(DELAM_ERROR_ARGUMENT, "has no cells",
+                          mesh.add_obstacle(Indices{control}, normal, Numbers{1.0}, control));
+        ck_assert_refused(DELAM_ERROR_ARGUMENT, "control_node",
+                          mesh.add_obstacle(one, normal, Numbers{1.0}, control + 1));
         Numbers both = normal;
         both.insert(both.end(), normal.begin(), normal.end());
-        ck_assert_refused(DELAM_ERROR_ARGUMENT, "twice", mesh.add_obstacle(Indices{top[0], top[0]}, both, Numbers{1, 1}, control));
+        ck_assert_refused(DELAM_ERROR_ARGUMENT, "twice",
+                          mesh.add_obstacle(Indices{top[0], top[0]}, both, Numbers{1, 1}, control));
         ck_assert_uint_eq(mesh.interfaces().size(), 2);
     }
     Mesh mesh = blocks(stack(CellType::quad4, CellType::quad4, 2, 2), {}, Numbers{0, 9});

@@ -2,8 +2,8 @@
 // Every shape of softening with every criterion, against brute force over the energy, quadrature of the traction, and
 // differences.
 #include <cmath>
-#include <limits>
 #include <cstdlib>
+#include <limits>
 #include <string>
 
 #include "base/error.hpp"
@@ -166,8 +166,8 @@ START_TEST(towards_griffith) {
                 for (const double z : {0.1, 0.5, 0.9}) {
                     ck_assert_msg(std::abs(law.dissipated(t, z) - (1.0 - z)) <= 2.0 * d, "%s", named.name.c_str());
                     const double y = law.driving(t, z);
-                    ck_assert_msg(y >= 1.0 && y <= 1.0 + 20.0 * d, "%s, D = 2^-%d: Y(%g) = 1 + %g",
-                                  named.name.c_str(), k, z, y - 1.0);
+                    ck_assert_msg(y >= 1.0 && y <= 1.0 + 20.0 * d, "%s, D = 2^-%d: Y(%g) = 1 + %g", named.name.c_str(),
+                                  k, z, y - 1.0);
                 }
             }
             const Toughness griffith{2.0, 2.0, 0.0};
@@ -269,7 +269,8 @@ END_TEST
 // Jumps whose energy is at the end of all numbers, or beyond.
 START_TEST(huge_jumps_break) {
     for (const laws::Named& named : laws::shapes(laws::criteria[0], 2.5))
-        for (const double driving : {1e300, std::numeric_limits<double>::max(), std::numeric_limits<double>::infinity()})
+        for (const double driving :
+             {1e300, std::numeric_limits<double>::max(), std::numeric_limits<double>::infinity()})
             for (const double zeta_old : {1.0, 0.4, 0.0}) {
                 const double zeta = named.law.minimiser(named.law.toughness(0.3), driving, zeta_old);
                 ck_assert_msg(zeta >= 0.0 && zeta <= 1e-140, "%s: %g at %g", named.name.c_str(), zeta, driving);

@@ -34,7 +34,8 @@ Law some_law(std::mt19937& random) {
 // A jump whose Y is about that of the softening branch, open.
 std::array<double, 3> some_jump(std::mt19937& random, const Law& law) {
     const auto real = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
-    const double size = std::sqrt(2.0 * law.normal_onset / law.normal_stiffness) * real(0.3, 2.5), angle = real(0.05, 1.5), turn = real(0.0, 6.28);
+    const double size = std::sqrt(2.0 * law.normal_onset / law.normal_stiffness) * real(0.3, 2.5),
+                 angle = real(0.05, 1.5), turn = real(0.0, 6.28);
     return {size * std::cos(angle), size * std::sin(angle) * std::cos(turn), size * std::sin(angle) * std::sin(turn)};
 }
 
@@ -50,13 +51,16 @@ START_TEST(toughness_slopes) {
         ck_assert_double_eq_tol(slope.onset, (high.onset - low.onset) / (2 * h), 1e-4 * law.normal_onset);
         ck_assert_double_eq_tol(slope.total, (high.total - low.total) / (2 * h), 1e-4 * law.normal_toughness);
         const double zeta = std::uniform_real_distribution<double>(0.02, 0.98)(random);
-        ck_assert_double_eq_tol(stored_slides_slope(law, b, zeta), (law.stored_slides(high, zeta) - law.stored_slides(low, zeta)) / (2 * h), 1e-4 * law.normal_toughness);
+        ck_assert_double_eq_tol(stored_slides_slope(law, b, zeta),
+                                (law.stored_slides(high, zeta) - law.stored_slides(low, zeta)) / (2 * h),
+                                1e-4 * law.normal_toughness);
         ck_assert(stored_slides_slope(law, b, 0.0) == 0.0 && stored_slides_slope(law, b, 1.0) == 0.0);
     }
     Law constant;
     constant.normal_onset = constant.tangential_onset = 100.0;
     constant.normal_toughness = constant.tangential_toughness = 250.0;
-    constant.onset_exponent_1 = constant.onset_exponent_2 = constant.toughness_exponent_1 = constant.toughness_exponent_2 = 1.0;
+    constant.onset_exponent_1 = constant.onset_exponent_2 = constant.toughness_exponent_1 =
+        constant.toughness_exponent_2 = 1.0;
     ck_assert(constant.toughness_slope(0.3).onset == 0.0 && constant.toughness_slope(0.3).total == 0.0);
 }
 END_TEST
@@ -77,7 +81,9 @@ START_TEST(force_and_tangent) {
             std::array<double, 3> low = j, high = j;
             low[c] -= h;
             high[c] += h;
-            const double slope = (pair.energy(std::span<const double>(high.data(), dim), zeta) - pair.energy(std::span<const double>(low.data(), dim), zeta)) / (2 * h);
+            const double slope = (pair.energy(std::span<const double>(high.data(), dim), zeta) -
+                                  pair.energy(std::span<const double>(low.data(), dim), zeta)) /
+                                 (2 * h);
             ck_assert_double_eq_tol(force[c], slope, 1e-6 * law.normal_stiffness * size);
         }
         const auto h2 = pair.tangent(local, 0.9);
@@ -91,7 +97,8 @@ START_TEST(force_and_tangent) {
             if ((za >= 0.9) != (zb >= 0.9) || (za <= 0.0) != (zb <= 0.0)) continue;  // a kink in between
             const auto fa = pair.force(a, za), fb = pair.force(b, zb);
             for (std::size_t r = 0; r < dim; ++r)
-                ck_assert_double_eq_tol(h2[r * dim + q], (fb[r] - fa[r]) / (2 * step), 2e-3 * law.normal_stiffness * (1.0 + law.normal_toughness / law.normal_onset));
+                ck_assert_double_eq_tol(h2[r * dim + q], (fb[r] - fa[r]) / (2 * step),
+                                        2e-3 * law.normal_stiffness * (1.0 + law.normal_toughness / law.normal_onset));
         }
     }
 }
@@ -102,11 +109,13 @@ START_TEST(damage_is_the_minimiser) {
     for (int trial = 0; trial < 200; ++trial) {
         const Law law = some_law(random);
         const std::array<double, 3> j = some_jump(random, law);
-        const double before = std::uniform_real_distribution<double>(0.0, 1.0)(random), old = std::uniform_real_distribution<double>(0.3, 1.0)(random);
+        const double before = std::uniform_real_distribution<double>(0.0, 1.0)(random),
+                     old = std::uniform_real_distribution<double>(0.3, 1.0)(random);
         const VariationalPair pair{law, before, law.toughness(before).total, 0.0};
         const double zeta = pair.minimiser(j, old), reached = pair.energy(j, zeta);
         ck_assert(zeta >= 0.0 && zeta <= old);
-        for (int i = 0; i <= 400; ++i) ck_assert(pair.energy(j, old * i / 400.0) >= reached - 1e-12 * law.normal_toughness);
+        for (int i = 0; i <= 400; ++i)
+            ck_assert(pair.energy(j, old * i / 400.0) >= reached - 1e-12 * law.normal_toughness);
     }
 }
 END_TEST
@@ -129,7 +138,8 @@ START_TEST(proximal_spring_bounds_the_curvature) {
             const std::array<double, 2> d{reach * std::cos(turn * 0.3927), reach * std::sin(turn * 0.3927)};
             const std::array<double, 2> to{j[0] + d[0], j[1] + d[1]};
             if (to[0] <= 0.0) continue;
-            const double curvature = 0.5 * (zeta + mu) * (law.normal_stiffness * d[0] * d[0] + law.tangential_stiffness * d[1] * d[1]);
+            const double curvature =
+                0.5 * (zeta + mu) * (law.normal_stiffness * d[0] * d[0] + law.tangential_stiffness * d[1] * d[1]);
             const double model = start + force[0] * d[0] + force[1] * d[1] + curvature;
             ck_assert_double_le(pair.energy(to, zeta), model + 0.1 * curvature + 1e-9 * law.normal_toughness);
         }
@@ -144,14 +154,16 @@ START_TEST(small_jumps_and_contact) {
     const VariationalPair pair{law, 0.3, law.toughness(0.3).total, law.normal_onset};
     for (const std::array<double, 2>& none : {std::array<double, 2>{0.0, 0.0}, {1e-18, 1e-18}}) {
         const auto force = pair.force(none, 0.5);
-        ck_assert(force[0] == 0.5 * law.normal_stiffness * none[0] && force[1] == 0.5 * law.tangential_stiffness * none[1]);
+        ck_assert(force[0] == 0.5 * law.normal_stiffness * none[0] &&
+                  force[1] == 0.5 * law.tangential_stiffness * none[1]);
         ck_assert(pair.proximal(none, 0.5) == 0.0);
     }
     const std::array<double, 2> closed{0.0, 1e-5};
     ck_assert(pair.force(closed, 0.5)[0] == 0.0);
     for (double size = 1e-4; size > 1e-16; size *= 0.1) {
         const std::array<double, 2> j{size, 0.7 * size};
-        ck_assert(std::isfinite(pair.force(j, 0.5)[0]) && std::abs(pair.energy(j, 0.5)) < 10.0 * law.tangential_toughness + law.normal_stiffness * size * size);
+        ck_assert(std::isfinite(pair.force(j, 0.5)[0]) &&
+                  std::abs(pair.energy(j, 0.5)) < 10.0 * law.tangential_toughness + law.normal_stiffness * size * size);
     }
 }
 END_TEST
@@ -199,7 +211,8 @@ START_TEST(broken_pairs_keep_theirs) {
     StepMixity frozen(pairs, MixityRule::frozen, 1e-6, std::vector<double>{0.1, 0.0});
     frozen.look(std::vector<double>{0.0, 0.5}, jump);
     ck_assert(frozen.used()[1] == 0.0);
-    ck_assert_double_eq_tol(frozen.error(std::vector<double>{0.0, 1.0}, std::vector<double>{0.0, 0.0}), std::sqrt(2.0) - 1.0, 1e-12);
+    ck_assert_double_eq_tol(frozen.error(std::vector<double>{0.0, 1.0}, std::vector<double>{0.0, 0.0}),
+                            std::sqrt(2.0) - 1.0, 1e-12);
     ck_assert(frozen.error(std::vector<double>{1.0, 1.0}, std::vector<double>{1.0, 1.0}) == 0.0);
 }
 END_TEST

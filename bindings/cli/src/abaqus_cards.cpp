@@ -73,8 +73,7 @@ std::array<double, 3> rotated(const std::array<double, 3>& point, const std::arr
     for (double& x : k) x /= length;
     const std::array<double, 3> v{point[0] - a[0], point[1] - a[1], point[2] - a[2]};
     const double along = k[0] * v[0] + k[1] * v[1] + k[2] * v[2];
-    const std::array<double, 3> across{k[1] * v[2] - k[2] * v[1], k[2] * v[0] - k[0] * v[2],
-                                       k[0] * v[1] - k[1] * v[0]};
+    const std::array<double, 3> across{k[1] * v[2] - k[2] * v[1], k[2] * v[0] - k[0] * v[2], k[0] * v[1] - k[1] * v[0]};
     std::array<double, 3> out{};
     for (std::size_t i = 0; i < 3; ++i)
         out[i] = a[i] + v[i] * std::cos(angle) + across[i] * std::sin(angle) + k[i] * along * (1 - std::cos(angle));
@@ -133,8 +132,9 @@ private:
         } else if (passed_over.contains(word)) {
             passed_.insert("*" + word);
         } else {
-            throw SceneFailure(card.place, "this keyword is not read; SCENE.md lists those that are, and those that "
-                                           "are passed over");
+            throw SceneFailure(card.place,
+                               "this keyword is not read; SCENE.md lists those that are, and those that "
+                               "are passed over");
         }
     }
 
@@ -231,8 +231,8 @@ private:
         const std::size_t per_element = shape_of(type.cell).nodes;
         if (!type.note.empty()) set_note(fmt::format("{}: {}", type.name, type.note));
         if (!type.formulation.empty())
-            set_note(fmt::format("{}: formulation \"{}\" unless the scene says otherwise", type.name,
-                                 type.formulation));
+            set_note(
+                fmt::format("{}: formulation \"{}\" unless the scene says otherwise", type.name, type.formulation));
         for (std::size_t i = 0; i < card.lines.size(); ++i) {
             // A line that ends with a comma goes on in the next.
             std::vector<std::string> fields = card.lines[i].fields;
@@ -265,14 +265,11 @@ private:
     }
 
     void take_set(const InpCard& card, std::map<std::string, Set>& sets, const std::string& key) {
-        card.only(key == "NSET"
-                      ? std::vector<std::string>{key, "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED", "ELSET"}
-                      : std::vector<std::string>{key, "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED"});
+        card.only(key == "NSET" ? std::vector<std::string>{key, "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED", "ELSET"}
+                                : std::vector<std::string>{key, "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED"});
         Set& set = set_named(sets, card.required(key), card.place);
-        const Part* scope =
-            card.has("INSTANCE") ? model_.instance_named(card.required("INSTANCE"), card.place) : open_;
-        if (key == "NSET" && card.has("ELSET"))
-            set.element_sets.push_back({scope, card.required("ELSET"), card.place});
+        const Part* scope = card.has("INSTANCE") ? model_.instance_named(card.required("INSTANCE"), card.place) : open_;
+        if (key == "NSET" && card.has("ELSET")) set.element_sets.push_back({scope, card.required("ELSET"), card.place});
         for (const InpLine& line : card.lines) {
             if (card.has("GENERATE")) {
                 generate(line, scope, set);
@@ -285,14 +282,14 @@ private:
 
     static void generate(const InpLine& line, const Part* scope, Set& set) {
         if (line.fields.size() < 2 || line.fields.size() > 3)
-            throw SceneFailure(line.place, fmt::format("{} entries: first, last and (1) increment are expected",
-                                                       line.fields.size()));
+            throw SceneFailure(
+                line.place, fmt::format("{} entries: first, last and (1) increment are expected", line.fields.size()));
         const std::int64_t first = inp_whole(line.fields[0], line.place);
         const std::int64_t last = inp_whole(line.fields[1], line.place);
         const std::int64_t by = line.fields.size() == 3 ? inp_whole(line.fields[2], line.place) : 1;
         if (by <= 0 || last < first || last - first > std::int64_t{1000000000} || (last - first) % by != 0)
-            throw SceneFailure(line.place, fmt::format("{}, {}, {}: from first up to last in whole increments > 0",
-                                                       first, last, by));
+            throw SceneFailure(
+                line.place, fmt::format("{}, {}, {}: from first up to last in whole increments > 0", first, last, by));
         for (std::int64_t id = first; id <= last; id += by)
             set.entries.push_back({scope, std::to_string(id), line.place});
     }

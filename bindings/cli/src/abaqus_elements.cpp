@@ -54,10 +54,11 @@ const ElementType& type_named(const InpCard& card) {
         known.emplace_back(type.name);
     }
     if (name.rfind("COH", 0) == 0)
-        throw SceneFailure(card.place, "type " + name + ": cohesive elements are not read: remove them, "
-                                       "[[interfaces]] hold bodies that touch");
-    throw SceneFailure(card.place, fmt::format("type {} is not read{}; these are: {}", name,
-                                               suggestion(name, known), listing(known)));
+        throw SceneFailure(card.place, "type " + name +
+                                           ": cohesive elements are not read: remove them, "
+                                           "[[interfaces]] hold bodies that touch");
+    throw SceneFailure(
+        card.place, fmt::format("type {} is not read{}; these are: {}", name, suggestion(name, known), listing(known)));
 }
 
 }  // namespace cli::abaqus

@@ -155,7 +155,9 @@ Context new_context() {
 
 void note_constraints(Model& model, const Place& place) {
     std::int64_t rows = 0;
-    call(model.context.get(), delam_problem_constraints(model.problem.get(), &rows, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr), place);
+    call(model.context.get(),
+         delam_problem_constraints(model.problem.get(), &rows, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr),
+         place);
     model.constraint_places.resize(static_cast<std::size_t>(rows), place);
 }
 
@@ -194,7 +196,8 @@ void fill(Model& model, const Scene& scene) {
     add_constraints(model, scene);
     for (const EigenstrainData& data : scene.eigenstrains)
         call(owner,
-             delam_problem_add_eigenstrain(problem, static_cast<std::int64_t>(data.pattern), data.body, data.strain.data()),
+             delam_problem_add_eigenstrain(problem, static_cast<std::int64_t>(data.pattern), data.body,
+                                           data.strain.data()),
              data.place);
     for (const SolverOption& option : scene.options) {
         const auto* number = std::get_if<double>(&option.value);

@@ -15,8 +15,8 @@ struct Model {
     Mesh mesh;
     Problem problem;
     std::vector<InterfaceData> interfaces;  // as the mesh has them, in its order
-    std::vector<bool> adheres;  // per interface: some pair does at the start
-    std::vector<Place> constraint_places;  // of each constraint of the problem: what asked for it
+    std::vector<bool> adheres;              // per interface: some pair does at the start
+    std::vector<Place> constraint_places;   // of each constraint of the problem: what asked for it
 };
 
 // Whatever the problem has gained of constraints is due to `place`.

@@ -32,9 +32,9 @@ void impose(const Model& model, const Equation& equation, const std::vector<Term
         prescribed.push_back(term.coefficient);
     }
     call(model.context.get(),
-         delam_problem_add_equation(model.problem.get(), static_cast<std::int64_t>(equation.nodes.size()), equation.nodes.data(),
-                                    equation.coefficients.data(), static_cast<std::int64_t>(patterns.size()), patterns.data(),
-                                    prescribed.data(), 0),
+         delam_problem_add_equation(model.problem.get(), static_cast<std::int64_t>(equation.nodes.size()),
+                                    equation.nodes.data(), equation.coefficients.data(),
+                                    static_cast<std::int64_t>(patterns.size()), patterns.data(), prescribed.data(), 0),
          place);
 }
 
@@ -44,7 +44,8 @@ void add_equation(const Model& model, const Scene& scene, const EquationData& da
         const Selected at = select(model.context.get(), model.mesh.get(), scene, term.where, true);
         const double total = std::accumulate(at.weights.begin(), at.weights.end(), 0.0);
         for (std::size_t i = 0; i < at.nodes.size(); ++i)
-            equation.add(at.nodes[i], term.direction, term.coefficient * (at.weights.empty() ? 1.0 : at.weights[i] / total));
+            equation.add(at.nodes[i], term.direction,
+                         term.coefficient * (at.weights.empty() ? 1.0 : at.weights[i] / total));
     }
     impose(model, equation, data.right, data.place);
 }
@@ -61,8 +62,8 @@ void couple(const Model& model, const Scene& scene, const CouplingData& data) {
         }
 }
 
-// Dual vectors g_k of the periods within the axes they lie along: g_k . p_l = 1 for k = l, else 0. Rows of the inverse of the
-// matrix whose columns are the periods, by cofactors: there are at most three.
+// Dual vectors g_k of the periods within the axes they lie along: g_k . p_l = 1 for k = l, else 0. Rows of the inverse
+// of the matrix whose columns are the periods, by cofactors: there are at most three.
 struct Dual {
     std::vector<std::vector<double>> vectors;
     double measure = 0;  // |det periods|
@@ -80,8 +81,10 @@ Dual dual_of(const CellData& cell) {
     };
     double determinant = 0, size = 1;
     for (std::size_t a = 0; a < n; ++a) determinant += at(0, a) * cofactor(0, a);
-    for (const auto& period : cell.periods) size *= std::sqrt(std::inner_product(period.begin(), period.end(), period.begin(), 0.0));
-    if (!(std::abs(determinant) > 1e-9 * size)) throw SceneFailure(cell.place, "periods: they lie in a line or plane, independent ones are expected");
+    for (const auto& period : cell.periods)
+        size *= std::sqrt(std::inner_product(period.begin(), period.end(), period.begin(), 0.0));
+    if (!(std::abs(determinant) > 1e-9 * size))
+        throw SceneFailure(cell.place, "periods: they lie in a line or plane, independent ones are expected");
     for (std::size_t k = 0; k < n; ++k)
         for (std::size_t a = 0; a < n; ++a) out.vectors[k][cell.axes[a]] = cofactor(k, a) / determinant;
     out.measure = std::abs(determinant);
@@ -129,10 +132,12 @@ std::int64_t corner_node(const Nodes& nodes, std::size_t dimension) {
     for (std::size_t a = 0; a < dimension; ++a) corner[a] = extent_of(nodes, a, dimension).lower;
     const auto distance = [&](std::int64_t node) {
         double sum = 0;
-        for (std::size_t a = 0; a < dimension; ++a) sum += nodes.coordinates[static_cast<std::size_t>(node) * dimension + a] - corner[a];
+        for (std::size_t a = 0; a < dimension; ++a)
+            sum += nodes.coordinates[static_cast<std::size_t>(node) * dimension + a] - corner[a];
         return sum;
     };
-    return *std::min_element(nodes.used.begin(), nodes.used.end(), [&](std::int64_t a, std::int64_t b) { return distance(a) < distance(b); });
+    return *std::min_element(nodes.used.begin(), nodes.used.end(),
+                             [&](std::int64_t a, std::int64_t b) { return distance(a) < distance(b); });
 }
 
 std::vector<double> unit(std::size_t dimension, std::size_t axis) {
@@ -141,8 +146,9 @@ std::vector<double> unit(std::size_t dimension, std::size_t axis) {
     return out;
 }
 
-// The average displacement gradient is H = sum_k u_k (x) g_k with the control nodes' displacements u_k. Strain components
-// (H_ii; H_ij + H_ji) are prescribed by equations; stresses s are dead forces F_k = V s g_k; the antisymmetric part is held.
+// The average displacement gradient is H = sum_k u_k (x) g_k with the control nodes' displacements u_k. Strain
+// components (H_ii; H_ij + H_ji) are prescribed by equations; stresses s are dead forces F_k = V s g_k; the
+// antisymmetric part is held.
 void add_cell(const Model& model, const Scene& scene, const CellData& cell) {
     const delam_context* context = model.context.get();
     const std::size_t dimension = cell.periods.front().size(), n = cell.periods.size();
@@ -154,17 +160,22 @@ void add_cell(const Model& model, const Scene& scene, const CellData& cell) {
         controls.push_back(control_node(context, model.mesh.get(), scene, cell.controls[k], cell.place));
     }
     call(context,
-         delam_problem_add_periodic(model.problem.get(), static_cast<std::int64_t>(n), periods.data(), controls.data(), cell.tolerance, 0),
+         delam_problem_add_periodic(model.problem.get(), static_cast<std::int64_t>(n), periods.data(), controls.data(),
+                                    cell.tolerance, 0),
          cell.place);
 
     const std::int64_t held = corner_node(nodes_of(model, cell), dimension);
     for (std::size_t a = 0; a < dimension; ++a)
-        call(context, delam_problem_prescribe_nodes(model.problem.get(), 1, &held, unit(dimension, a).data(), 0, nullptr, nullptr, 0),
-             {cell.place.file, cell.place.path + " holds its lower corner by itself (leave out supports there)", cell.place.line});
+        call(context,
+             delam_problem_prescribe_nodes(model.problem.get(), 1, &held, unit(dimension, a).data(), 0, nullptr,
+                                           nullptr, 0),
+             {cell.place.file, cell.place.path + " holds its lower corner by itself (leave out supports there)",
+              cell.place.line});
 
     const auto gradient = [&](Equation& equation, std::size_t i, std::size_t j, double factor) {
         for (std::size_t k = 0; k < n; ++k)
-            if (std::fpclassify(dual.vectors[k][j]) != FP_ZERO) equation.add(controls[k], unit(dimension, i), factor * dual.vectors[k][j]);
+            if (std::fpclassify(dual.vectors[k][j]) != FP_ZERO)
+                equation.add(controls[k], unit(dimension, i), factor * dual.vectors[k][j]);
     };
     for (const std::size_t i : cell.axes)
         for (const std::size_t j : cell.axes) {
@@ -177,8 +188,8 @@ void add_cell(const Model& model, const Scene& scene, const CellData& cell) {
     for (std::size_t a = 0; a < dimension; ++a)
         if (std::find(cell.axes.begin(), cell.axes.end(), a) == cell.axes.end())
             call(context,
-                 delam_problem_prescribe_nodes(model.problem.get(), static_cast<std::int64_t>(n), controls.data(), unit(dimension, a).data(), 0,
-                                               nullptr, nullptr, 0),
+                 delam_problem_prescribe_nodes(model.problem.get(), static_cast<std::int64_t>(n), controls.data(),
+                                               unit(dimension, a).data(), 0, nullptr, nullptr, 0),
                  cell.place);
 
     const double volume = cell_volume(model, scene);
@@ -198,8 +209,8 @@ void add_cell(const Model& model, const Scene& scene, const CellData& cell) {
                 if (i != j) forces[k * dimension + j] += term.coefficient * volume * dual.vectors[k][i];
             }
             call(context,
-                 delam_problem_add_forces(model.problem.get(), static_cast<std::int64_t>(term.pattern), static_cast<std::int64_t>(n),
-                                          controls.data(), forces.data(), 0),
+                 delam_problem_add_forces(model.problem.get(), static_cast<std::int64_t>(term.pattern),
+                                          static_cast<std::int64_t>(n), controls.data(), forces.data(), 0),
                  component.place);
         }
     }
@@ -242,10 +253,12 @@ std::array<double, 6> cell_strain(const Model& model, const Scene& scene, delam_
     std::int64_t nodes = 0;
     call(context, delam_mesh_size(model.mesh.get(), nullptr, &nodes, nullptr, nullptr, nullptr), cell.place);
     std::vector<double> u(static_cast<std::size_t>(nodes) * dimension);
-    call(context, delam_solver_field(solver, "displacement", -1, static_cast<std::int64_t>(u.size()), u.data()), cell.place);
+    call(context, delam_solver_field(solver, "displacement", -1, static_cast<std::int64_t>(u.size()), u.data()),
+         cell.place);
     std::array<std::array<double, 3>, 3> h{};
     for (std::size_t k = 0; k < cell.periods.size(); ++k) {
-        const auto node = static_cast<std::size_t>(control_node(context, model.mesh.get(), scene, cell.controls[k], cell.place));
+        const auto node =
+            static_cast<std::size_t>(control_node(context, model.mesh.get(), scene, cell.controls[k], cell.place));
         for (std::size_t i = 0; i < dimension; ++i)
             for (std::size_t j = 0; j < dimension; ++j) h[i][j] += u[node * dimension + i] * dual.vectors[k][j];
     }

@@ -31,7 +31,8 @@ delam_mesh* append_controls(Model& model, const Scene& scene) {
     std::vector<std::int64_t> connectivity(static_cast<std::size_t>(entries));
     call(context, delam_mesh_nodes(layers.get(), nodes * scene.geometry.dimension, coordinates.data()), place);
     call(context,
-         delam_mesh_cells(layers.get(), types.data(), bodies.data(), offsets.data(), entries, connectivity.data(), nullptr),
+         delam_mesh_cells(layers.get(), types.data(), bodies.data(), offsets.data(), entries, connectivity.data(),
+                          nullptr),
          place);
     for (const ControlData& control : scene.controls)
         coordinates.insert(coordinates.end(), control.at.begin(), control.at.end());
@@ -42,7 +43,8 @@ delam_mesh* append_controls(Model& model, const Scene& scene) {
     model.mesh.reset(handle);
     call(context, status, place);
     // All layers have cells of one type.
-    call(context, delam_mesh_add_cells(handle, scene.geometry.cell_type, cells, connectivity.data(), bodies.data(), 0), place);
+    call(context, delam_mesh_add_cells(handle, scene.geometry.cell_type, cells, connectivity.data(), bodies.data(), 0),
+         place);
     return handle;
 }
 
@@ -129,9 +131,8 @@ void add_named_interfaces(Model& model, const Scene& scene) {
         const auto label_a = static_cast<std::int32_t>(a);
         const auto label_b = static_cast<std::int32_t>(b);
         call(model.context.get(),
-             data.projected
-                 ? delam_mesh_add_projected_interface(model.mesh.get(), label_a, label_b, data.gap, &index)
-                 : delam_mesh_add_interface(model.mesh.get(), label_a, label_b, data.tolerance, &index),
+             data.projected ? delam_mesh_add_projected_interface(model.mesh.get(), label_a, label_b, data.gap, &index)
+                            : delam_mesh_add_interface(model.mesh.get(), label_a, label_b, data.tolerance, &index),
              data.place);
         push_interface(model, scene, data, a, b);
     }
@@ -163,8 +164,9 @@ void add_other_interfaces(Model& model, const Scene& scene) {
         if (!data.a.empty() && !is_pattern(data.a + data.b)) continue;
         if (first == nullptr) first = &data;
         if (data.tolerance != first->tolerance)
-            throw SceneFailure(data.place, fmt::format("tolerance is {}, that of {} {}: entries with all or with * share one", data.tolerance,
-                                                       first->place.path, first->tolerance));
+            throw SceneFailure(data.place,
+                               fmt::format("tolerance is {}, that of {} {}: entries with all or with * share one",
+                                           data.tolerance, first->place.path, first->tolerance));
     }
     const double tolerance = first != nullptr ? first->tolerance : 0.0;
     call(model.context.get(), delam_mesh_add_all_interfaces(model.mesh.get(), tolerance, &added), scene.geometry.place);
@@ -172,8 +174,7 @@ void add_other_interfaces(Model& model, const Scene& scene) {
     for (auto index = static_cast<std::int64_t>(model.interfaces.size()); added > 0; ++index, --added) {
         std::int32_t a = 0;
         std::int32_t b = 0;
-        call(model.context.get(),
-             delam_mesh_interface_size(model.mesh.get(), index, &a, &b, nullptr, nullptr, nullptr),
+        call(model.context.get(), delam_mesh_interface_size(model.mesh.get(), index, &a, &b, nullptr, nullptr, nullptr),
              scene.geometry.place);
         const std::string& name_a = scene.layers[static_cast<std::size_t>(a)].name;
         const std::string& name_b = scene.layers[static_cast<std::size_t>(b)].name;
@@ -199,8 +200,8 @@ void build_from(Model& model, const Scene& scene) {
     for (const ControlData& control : scene.controls) nodes.insert(nodes.end(), control.at.begin(), control.at.end());
     delam_mesh* handle = nullptr;
     const std::int32_t status =
-        delam_mesh_create(model.context.get(), data.dimension,
-                          static_cast<std::int64_t>(nodes.size()) / data.dimension, nodes.data(), &handle);
+        delam_mesh_create(model.context.get(), data.dimension, static_cast<std::int64_t>(nodes.size()) / data.dimension,
+                          nodes.data(), &handle);
     model.mesh.reset(handle);
     call(model.context.get(), status, place);
     for (const CellBlock& block : data.blocks)
@@ -310,8 +311,9 @@ bool set_mesh_adhesion(const Model& model, const Scene& scene, std::int64_t inde
         // One of an entry for several interfaces may well be on some of them alone.
         if (chosen.empty() && (data.a.empty() || is_pattern(data.a + data.b))) continue;
         if (chosen.empty())
-            throw SceneFailure(region.place, "no pair of the interface is in this region (pairs at its edge are its "
-                                             "own only where no face of the interface leads out of it)");
+            throw SceneFailure(region.place,
+                               "no pair of the interface is in this region (pairs at its edge are its "
+                               "own only where no face of the interface leads out of it)");
         const std::vector<double> adhesion(chosen.size(), region.adhesion);
         call(model.context.get(),
              delam_problem_set_adhesion(model.problem.get(), index, static_cast<std::int64_t>(chosen.size()),

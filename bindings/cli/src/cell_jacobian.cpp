@@ -95,11 +95,11 @@ constexpr double t = 1.0 / 3.0;
 const std::vector<Local>& checked_points(std::int32_t type) {
     static const std::vector<Local> triangle{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {h, h, 0, 0},
                                              {0, h, h, 0}, {h, 0, h, 0}, {t, t, t, 0}};
-    static const std::vector<Local> tetrahedron{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}, {h, h, 0, 0},
-                                                {0, h, h, 0}, {h, 0, h, 0}, {h, 0, 0, h}, {0, h, 0, h}, {0, 0, h, h},
-                                                {t, t, t, 0}, {t, t, 0, t}, {t, 0, t, t}, {0, t, t, t},
-                                                {0.25, 0.25, 0.25, 0.25}};
-    static const std::vector<Local> quadrilateral{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1},
+    static const std::vector<Local> tetrahedron{
+        {1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}, {h, h, 0, 0},
+        {0, h, h, 0}, {h, 0, h, 0}, {h, 0, 0, h}, {0, h, 0, h}, {0, 0, h, h},
+        {t, t, t, 0}, {t, t, 0, t}, {t, 0, t, t}, {0, t, t, t}, {0.25, 0.25, 0.25, 0.25}};
+    static const std::vector<Local> quadrilateral{{-1, -1}, {1, -1}, {1, 1},  {-1, 1}, {0, -1},
                                                   {1, 0},   {0, 1},  {-1, 0}, {0, 0}};
     if (!is_simplex(type)) return quadrilateral;
     return dimension_of(type) == 2 ? triangle : tetrahedron;
@@ -109,10 +109,16 @@ const std::vector<Local>& checked_points(std::int32_t type) {
 const Rule& measure_rule(std::int32_t type) {
     static const double g = 1.0 / std::sqrt(3.0);
     static const Rule triangle{{{h, h, 0, 0}, {0, h, h, 0}, {h, 0, h, 0}}, {1.0 / 6, 1.0 / 6, 1.0 / 6}};
-    static const Rule tetrahedron{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1},
-                                   {t, t, t, 0}, {t, t, 0, t}, {t, 0, t, t}, {0, t, t, t}},
-                                  {1.0 / 240, 1.0 / 240, 1.0 / 240, 1.0 / 240, 9.0 / 240, 9.0 / 240, 9.0 / 240,
-                                   9.0 / 240}};
+    static const Rule tetrahedron{
+        {{1, 0, 0, 0},
+         {0, 1, 0, 0},
+         {0, 0, 1, 0},
+         {0, 0, 0, 1},
+         {t, t, t, 0},
+         {t, t, 0, t},
+         {t, 0, t, t},
+         {0, t, t, t}},
+        {1.0 / 240, 1.0 / 240, 1.0 / 240, 1.0 / 240, 9.0 / 240, 9.0 / 240, 9.0 / 240, 9.0 / 240}};
     static const Rule quadrilateral{{{-g, -g}, {g, -g}, {g, g}, {-g, g}}, {1, 1, 1, 1}};
     if (!is_simplex(type)) return quadrilateral;
     return dimension_of(type) == 2 ? triangle : tetrahedron;

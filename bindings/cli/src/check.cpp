@@ -25,9 +25,8 @@ void say_mesh(const MeshData& mesh, const Scene& scene) {
     for (const auto& [name, nodes] : mesh.node_sets) {
         const auto faces = mesh.face_sets.find(name);
         say("set         \"{}\", {}{}\n", name, counted(static_cast<std::int64_t>(nodes.size()), "node"),
-            faces == mesh.face_sets.end()
-                ? ""
-                : ", " + counted(static_cast<std::int64_t>(faces->second.size()), "face"));
+            faces == mesh.face_sets.end() ? ""
+                                          : ", " + counted(static_cast<std::int64_t>(faces->second.size()), "face"));
     }
 }
 
@@ -65,7 +64,9 @@ int check(const std::string& scene_file, const std::vector<std::string>& setting
                                        nullptr, nullptr),
              data.place);
         say("interface   \"{}\", {}, {}, {} with adhesion of their own\n", data.name, counted(pairs, "pair"),
-            data.bonded ? "bonded for ever" : data.contact ? "contact alone" : "law \"" + scene.laws[data.law].name + "\"",
+            data.bonded    ? "bonded for ever"
+            : data.contact ? "contact alone"
+                           : "law \"" + scene.laws[data.law].name + "\"",
             counted(static_cast<std::int64_t>(data.regions.size()), "region"));
     }
     std::int64_t constraints = 0;
@@ -78,8 +79,8 @@ int check(const std::string& scene_file, const std::vector<std::string>& setting
     say("supports    {} (supports and loads)\n", counted(constraints, "prescribed displacement"));
     for (const PatternData& pattern : scene.patterns)
         say("pattern     \"{}\", {} from {} to {}\n", pattern.name,
-            counted(static_cast<std::int64_t>(pattern.times.size()), "instant"),
-                   pattern.times.front(), pattern.times.back());
+            counted(static_cast<std::int64_t>(pattern.times.size()), "instant"), pattern.times.front(),
+            pattern.times.back());
     say("time        {} to {} in {}\n", scene.times.front(), scene.times.back(),
         counted(static_cast<std::int64_t>(scene.step_count()), "step"));
     for (const std::string& text : process_zones(model)) say("zone        {}\n", text);

@@ -33,15 +33,24 @@ struct Topology {
 
 Topology topology(std::int32_t cell_type) {
     switch (cell_type) {
-        case DELAM_TRI3: return {"Triangle", 4};
-        case DELAM_TET4: return {"Tetrahedron", 6};
-        case DELAM_HEX8: return {"Hexahedron", 9};
-        case DELAM_TRI6: return {"Triangle_6", 36};
-        case DELAM_QUAD8: return {"Quadrilateral_8", 37};
-        case DELAM_QUAD9: return {"Quadrilateral_9", 35};
-        case DELAM_TET10: return {"Tetrahedron_10", 38};
-        case DELAM_HEX20: return {"Hexahedron_20", 48};
-        default: return {"Quadrilateral", 5};
+        case DELAM_TRI3:
+            return {"Triangle", 4};
+        case DELAM_TET4:
+            return {"Tetrahedron", 6};
+        case DELAM_HEX8:
+            return {"Hexahedron", 9};
+        case DELAM_TRI6:
+            return {"Triangle_6", 36};
+        case DELAM_QUAD8:
+            return {"Quadrilateral_8", 37};
+        case DELAM_QUAD9:
+            return {"Quadrilateral_9", 35};
+        case DELAM_TET10:
+            return {"Tetrahedron_10", 38};
+        case DELAM_HEX20:
+            return {"Hexahedron_20", 48};
+        default:
+            return {"Quadrilateral", 5};
     }
 }
 
@@ -177,7 +186,7 @@ void Fields::synchronise_steps() {
 }
 
 double Fields::assemble(const Model& model, const Scene& scene, std::size_t last, const std::string& problem_hash,
-                      const Concept& named) const {
+                        const Concept& named) const {
     const std::string path = folder_ + "/fields.h5";
     std::int64_t bytes = std::int64_t{1} << 20;
     for (const std::size_t step : chosen_)

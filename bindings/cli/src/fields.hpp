@@ -25,7 +25,7 @@ public:
     // Puts steps 0 .. last together as folder/fields.h5 and folder/fields.xdmf.
     // Largest rotation of a cell in them, rad (0 where no step has displacements).
     double assemble(const Model& model, const Scene& scene, std::size_t last, const std::string& problem_hash,
-                  const Concept& named) const;
+                    const Concept& named) const;
     void remove_steps() const;
 
 private:

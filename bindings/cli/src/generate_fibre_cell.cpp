@@ -126,8 +126,7 @@ MeshData generate_fibre_cell(const FibreCell& cell) {
     require(cell.cell == DELAM_TRI3 || quadratic || quadrilaterals, place, "cell",
             "must be tri3, tri6, quad4 or quad8");
     const double coarsest = 2 * std::numbers::pi / 8;
-    const double h = cell.h > 0 ? cell.h / cell.radius
-                                : 2 * std::numbers::pi / static_cast<double>(cell.cells_around);
+    const double h = cell.h > 0 ? cell.h / cell.radius : 2 * std::numbers::pi / static_cast<double>(cell.cells_around);
     require(cell.h >= 0 && h <= coarsest && h >= coarsest / 125, place, "h",
             fmt::format("must be in [{:.6g}, {:.6g}], 1000 to 8 cells around a fibre, got {}",
                         coarsest / 125 * cell.radius, coarsest * cell.radius, cell.h));

@@ -11,18 +11,18 @@
 namespace cli {
 
 struct FibreCell {
-    std::int64_t fibres = 1;   // random arrangement alone: a square one has 1, a hexagonal one 2
-    double fraction = 0.5;     // area of fibres over that of the cell
-    double radius = 1.0;       // L; the size of the cell follows
+    std::int64_t fibres = 1;             // random arrangement alone: a square one has 1, a hexagonal one 2
+    double fraction = 0.5;               // area of fibres over that of the cell
+    double radius = 1.0;                 // L; the size of the cell follows
     std::string arrangement = "random";  // square (one fibre in the middle) or hexagonal
-    double aspect = 1.0;       // height over width
-    double gap = 0.1;          // between fibres at least, in radii (random)
-    double edge_gap = 0.1;     // packing.hpp, in radii (random)
+    double aspect = 1.0;                 // height over width
+    double gap = 0.1;                    // between fibres at least, in radii (random)
+    double edge_gap = 0.1;               // packing.hpp, in radii (random)
     std::uint64_t seed = 1;
     std::int64_t cells_around = 32;  // a fibre; >= 8
-    double h = 0;              // L, instead: edge of a cell; 0: 2 pi radius / cells_around
-    std::int32_t cell = 0;     // DELAM_TRI3, TRI6, QUAD4, QUAD8 (with triangles where these do not fit)
-    Place place;               // of the table, for messages
+    double h = 0;                    // L, instead: edge of a cell; 0: 2 pi radius / cells_around
+    std::int32_t cell = 0;           // DELAM_TRI3, TRI6, QUAD4, QUAD8 (with triangles where these do not fit)
+    Place place;                     // of the table, for messages
 };
 
 // Origin in a corner of the cell; bodies matrix, fibre-1, fibre-2, ..; a fibre that the border cuts goes on at the

@@ -278,10 +278,10 @@ MeshData generate_weave(const WeaveCell& cell) {
     const double h = cell.h / unit;
     const double middle_z = cell.stacked ? height / 2 : 0.0;
 
-    const std::string subject = 
-        fmt::format("generator weave with h = {}, gap = {} (a smaller h or a larger gap helps where straight sides of "
-                    "cells cross the gap)",
-                    cell.h, cell.gap);
+    const std::string subject = fmt::format(
+        "generator weave with h = {}, gap = {} (a smaller h or a larger gap helps where straight sides of "
+        "cells cross the gap)",
+        cell.h, cell.gap);
     MeshData mesh = with_gmsh(key_of(place, "h"), subject, [&] {
         draw(section, all, height, cell.stacked);
         mesh_volumes(h);
@@ -309,13 +309,15 @@ MeshData generate_weave(const WeaveCell& cell) {
         total += volumes[b];
         if (mesh.body_names[b] != "matrix") in_yarns += volumes[b];
     }
-    mesh.notes.push_back(fmt::format("weave {:.6g} x {:.6g} x {:.6g}, yarns {:.4f} of its volume in this mesh, centre "
-                                     "lines swing by {:.6g} either way",
-                                     2 * unit, 2 * unit, height * unit, in_yarns / total, amplitude * unit));
+    mesh.notes.push_back(
+        fmt::format("weave {:.6g} x {:.6g} x {:.6g}, yarns {:.4f} of its volume in this mesh, centre "
+                    "lines swing by {:.6g} either way",
+                    2 * unit, 2 * unit, height * unit, in_yarns / total, amplitude * unit));
     if (off_surface > 0)
-        mesh.notes.push_back(fmt::format("{} sides of cells are off the yarns' surfaces: on them they would squeeze a "
-                                         "cell",
-                                         off_surface));
+        mesh.notes.push_back(
+            fmt::format("{} sides of cells are off the yarns' surfaces: on them they would squeeze a "
+                        "cell",
+                        off_surface));
     return mesh;
 }
 

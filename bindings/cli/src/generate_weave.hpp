@@ -13,15 +13,15 @@ namespace cli {
 // Lengths (L). Yarns of one direction are `spacing` apart, so the cell is 2 spacing x 2 spacing x height.
 struct WeaveCell {
     double spacing = 1.0;
-    double width = 0.8;      // of a yarn, < spacing
-    double thickness = 0.2;  // of a yarn, <= width
-    double gap = 0.02;       // of matrix between crossing yarns, measured along z
-    double height = 0;       // of the cell; 0: the fabric and gap above and below
+    double width = 0.8;            // of a yarn, < spacing
+    double thickness = 0.2;        // of a yarn, <= width
+    double gap = 0.02;             // of matrix between crossing yarns, measured along z
+    double height = 0;             // of the cell; 0: the fabric and gap above and below
     std::string section = "lens";  // two arcs of circles; or ellipse, whose tips need small cells
-    bool stacked = false;    // periodic along z too
-    double h = 0.16;         // edge of a cell
-    std::int32_t cell = 0;   // DELAM_TET4 or TET10
-    Place place;             // of the table, for messages
+    bool stacked = false;          // periodic along z too
+    double h = 0.16;               // edge of a cell
+    std::int32_t cell = 0;         // DELAM_TET4 or TET10
+    Place place;                   // of the table, for messages
 };
 
 // The cell is [0, 2 spacing]^2 x [-height/2, height/2] ([0, height] if stacked). Warp yarns run along x at

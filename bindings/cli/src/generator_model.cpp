@@ -172,7 +172,7 @@ void require_sound_cells(const MeshData& mesh, double flattest, const Place& pla
     for (const CellBlock& block : mesh.blocks) {
         const CellShape& shape = shape_of(block.type);
         // Area of an equilateral triangle, volume of a regular tetrahedron with edge 1; a square.
-        const double regular = shape.corners == 3   ? std::numbers::sqrt3 / 4
+        const double regular = shape.corners == 3    ? std::numbers::sqrt3 / 4
                                : mesh.dimension == 3 ? 1.0 / (6.0 * std::numbers::sqrt2)
                                                      : 1.0;
         for (std::size_t c = 0; c < block.bodies.size(); ++c) {

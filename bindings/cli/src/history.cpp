@@ -20,8 +20,8 @@ constexpr const char* counts[] = {"step",          "am_iterations", "linear_iter
                                   "refused_steps"};
 
 // Columns that are there when the library has the value.
-constexpr const char* where_known[] = {"revisions", "search_candidates", "search_margin", "search_gap",
-                                       "jumps",     "released",          "defect",        "defect_slides",
+constexpr const char* where_known[] = {"revisions",   "search_candidates", "search_margin", "search_gap",
+                                       "jumps",       "released",          "defect",        "defect_slides",
                                        "mixity_error"};
 
 // Of scenes in which something may break.
@@ -29,7 +29,8 @@ constexpr const char* of_cracks[] = {"crack_length", "energy_release_rate", "fro
 
 }  // namespace
 
-History::History(const Model& model, const delam_solver* solver, const Scene& scene) : model_(model), scene_(scene), context_(model.context.get()) {
+History::History(const Model& model, const delam_solver* solver, const Scene& scene)
+    : model_(model), scene_(scene), context_(model.context.get()) {
     std::int64_t count = 0;
     call(context_, delam_solver_value_count(solver, &count), std::string("history"));
     std::vector<std::string> known;
@@ -64,15 +65,17 @@ History::History(const Model& model, const delam_solver* solver, const Scene& sc
     if (std::any_of(model.interfaces.begin(), model.interfaces.end(), breaks))
         for (const char* key : of_cracks)
             if (knows(key)) add(key, key);
-    if (const auto forces = force_patterns(scene); std::find(forces.begin(), forces.end(), true) != forces.end()) add("load_potential", "load_potential");
+    if (const auto forces = force_patterns(scene); std::find(forces.begin(), forces.end(), true) != forces.end())
+        add("load_potential", "load_potential");
     for (const std::string& key : scene.output.columns) {
         const std::optional<AverageColumn> average = average_column(key, scene);
         if (average) averages_[key] = *average;
         if (!knows(key) && !average)
             throw SceneFailure(
                 scene.output.columns_place,
-                fmt::format("\"{}\": no such value{}; one of {}, strain_xx or stress_xx (any component) and with :{} behind it{}", key,
-                            suggestion(key, known), listing(known), scene.mesh ? "BODY" : "LAYER",
+                fmt::format("\"{}\": no such value{}; one of {}, strain_xx or stress_xx (any component) and with :{} "
+                            "behind it{}",
+                            key, suggestion(key, known), listing(known), scene.mesh ? "BODY" : "LAYER",
                             scene.cell ? ", cell_strain_xx, cell_stress_xx (strains along its periods)" : ""));
         const auto same_key = [&key](const Column& column) { return column.key == key; };
         if (std::none_of(columns_.begin(), columns_.end(), same_key)) add(key, key);
@@ -94,7 +97,8 @@ std::string History::header() const {
 
 double History::value(delam_solver* solver, const std::string& key) const {
     double out = 0;
-    if (const auto average = averages_.find(key); average != averages_.end()) return average_of(model_, scene_, solver, average->second);
+    if (const auto average = averages_.find(key); average != averages_.end())
+        return average_of(model_, scene_, solver, average->second);
     if (!key.empty()) call(context_, delam_solver_value(solver, key.c_str(), &out), "value " + key);
     return out;
 }

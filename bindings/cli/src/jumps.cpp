@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "jumps.hpp"
 
-
 #include <fmt/format.h>
 
 #include "call.hpp"

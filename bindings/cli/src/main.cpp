@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <hdf5.h>
+#include <CLI/CLI.hpp>
 
 #include "commands.hpp"
 #include "delam/delam.h"
@@ -69,8 +69,7 @@ int guarded(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? cli::exit_done : cli::exit_scene;
     }
-    return run->parsed() ? cli::run(scene, settings, folder, resume, joined(argc, argv))
-                         : cli::check(scene, settings);
+    return run->parsed() ? cli::run(scene, settings, folder, resume, joined(argc, argv)) : cli::check(scene, settings);
 }
 
 int reported(int argc, char** argv) {

@@ -34,9 +34,11 @@ std::string named(const std::string& message, const Scene& scene, const Model& m
     const std::string noun = scene.mesh ? "body" : "layer", nouns = scene.mesh ? "bodies" : "layers";
     // "bodies 0 and 1", "bodies 0, 1, 2", "body 3"; not within a name that somebody has given.
     std::string out = replaced(message, std::regex(R"(\bbodies (\d+(?:(?:, | and )\d+)*))"), [&](const std::smatch& m) {
-        return nouns + " " + replaced(m[1].str(), std::regex(R"(\d+)"), [&](const std::smatch& n) { return body(n.str()); });
+        return nouns + " " +
+               replaced(m[1].str(), std::regex(R"(\d+)"), [&](const std::smatch& n) { return body(n.str()); });
     });
-    out = replaced(out, std::regex(R"((^|[^"\w-])body (\d+)\b(?!["-]))"), [&](const std::smatch& m) { return m[1].str() + noun + " " + body(m[2].str()); });
+    out = replaced(out, std::regex(R"((^|[^"\w-])body (\d+)\b(?!["-]))"),
+                   [&](const std::smatch& m) { return m[1].str() + noun + " " + body(m[2].str()); });
     out = replaced(out, std::regex(R"(\bcontrol node (\d+))"), [&](const std::smatch& m) {
         if (scene.controls.empty() || model.mesh == nullptr) return m.str();
         const std::int64_t first = control_node(model.context.get(), model.mesh.get(), scene, 0, scene.geometry.place);

@@ -61,9 +61,10 @@ void patch_warnings(const Scene& scene, const Selection& where, std::vector<std:
         }
         const char* letter = axis + 1 < patch->lower.size() ? (axis == 0 ? "x" : "y") : (axis == 1 ? "y" : "z");
         if (patch->lower[axis] < lower - slack || patch->upper[axis] > upper + slack)
-            out.push_back(fmt::format("{}.patch reaches from {} = {:.6g} to {:.6g}, the body from {:.6g} to {:.6g}: "
-                                      "only what is on the body counts",
-                                      where.place.path, letter, patch->lower[axis], patch->upper[axis], lower, upper));
+            out.push_back(
+                fmt::format("{}.patch reaches from {} = {:.6g} to {:.6g}, the body from {:.6g} to {:.6g}: "
+                            "only what is on the body counts",
+                            where.place.path, letter, patch->lower[axis], patch->upper[axis], lower, upper));
     }
 }
 
@@ -83,9 +84,10 @@ std::vector<std::string> warnings_of(const Model& model, const Scene& scene) {
              std::string("factors"));
     for (std::size_t i = 0; i < factors.size(); ++i)
         if (std::fpclassify(factors[i]) != FP_ZERO)
-            out.push_back(fmt::format("{} \"{}\" is {} at the start, time {}: the initial state is loaded: its stored "
-                                      "energy is not in `work`",
-                                      scene.patterns[i].place.path, scene.patterns[i].name, factors[i], start));
+            out.push_back(
+                fmt::format("{} \"{}\" is {} at the start, time {}: the initial state is loaded: its stored "
+                            "energy is not in `work`",
+                            scene.patterns[i].place.path, scene.patterns[i].name, factors[i], start));
     return out;
 }
 
@@ -100,15 +102,16 @@ std::vector<std::string> notes_of(const Scene& scene) {
         const auto* isotropic = std::get_if<Isotropic>(&material.elastic);
         if (isotropic != nullptr && isotropic->poisson > 0.49 && material.formulation != "mean-dilatation" &&
             geometry.plane != "plane-stress")
-            out.push_back(fmt::format("{} \"{}\": poisson = {} locks with full integration: far too stiff (use formulation = "
-                                      "\"mean-dilatation\")",
-                                      scene.mesh ? "body" : "layer", layer.name, isotropic->poisson));
+            out.push_back(
+                fmt::format("{} \"{}\": poisson = {} locks with full integration: far too stiff (use formulation = "
+                            "\"mean-dilatation\")",
+                            scene.mesh ? "body" : "layer", layer.name, isotropic->poisson));
         if (simplices && layer.divisions < 4)
-            out.push_back(fmt::format("layer \"{}\": {} of {} across the thickness: far too stiff in bending (use {}, "
-                                      "or 4 cells and more)",
-                                      layer.name, counted(layer.divisions, "cell"),
-                                      geometry.dimension == 2 ? "tri3" : "tet4",
-                                      geometry.dimension == 2 ? "tri6 or quad8" : "tet10 or hex20"));
+            out.push_back(
+                fmt::format("layer \"{}\": {} of {} across the thickness: far too stiff in bending (use {}, "
+                            "or 4 cells and more)",
+                            layer.name, counted(layer.divisions, "cell"), geometry.dimension == 2 ? "tri3" : "tet4",
+                            geometry.dimension == 2 ? "tri6 or quad8" : "tet10 or hex20"));
     }
     return out;
 }

@@ -131,8 +131,8 @@ std::vector<Point> drop(const Cell& cell, std::int64_t count, Random& random) {
     for (std::int64_t i = 0; i < count; ++i) {
         Point at = cell.anywhere(random);
         for (int k = 0; k < drops; ++k) {
-            const bool free = std::all_of(centres.begin(), centres.end(),
-                                          [&](const Point& c) { return cell.apart(c, at); });
+            const bool free =
+                std::all_of(centres.begin(), centres.end(), [&](const Point& c) { return cell.apart(c, at); });
             if (free && cell.clear_of_edges(at)) break;
             at = cell.anywhere(random);
         }
@@ -186,11 +186,11 @@ Packing pack_discs(const PackingRequest& request) {
         packing.centres = drop(cell, request.count, random);
         if (push_apart(cell, packing.centres, random)) return packing;
     }
-    throw std::domain_error(fmt::format("fraction = {}: no arrangement of {} fibres was found with seed {}, gap {} and "
-                                        "edge_gap {} radii in {} attempts; take another seed, smaller gaps or a "
-                                        "smaller fraction",
-                                        request.fraction, request.count, request.seed, request.gap, request.edge_gap,
-                                        attempts));
+    throw std::domain_error(
+        fmt::format("fraction = {}: no arrangement of {} fibres was found with seed {}, gap {} and "
+                    "edge_gap {} radii in {} attempts; take another seed, smaller gaps or a "
+                    "smaller fraction",
+                    request.fraction, request.count, request.seed, request.gap, request.edge_gap, attempts));
 }
 
 Packing square_packing(double fraction, double aspect) {

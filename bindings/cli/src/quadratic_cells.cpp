@@ -34,10 +34,14 @@ const Quadratic& quadratic_of(std::int32_t linear) {
     static const Quadratic quadrilateral{DELAM_QUAD8, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
     static const Quadratic tetrahedron{DELAM_TET10, {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
     switch (linear) {
-        case DELAM_TRI3: return triangle;
-        case DELAM_QUAD4: return quadrilateral;
-        case DELAM_TET4: return tetrahedron;
-        default: throw std::logic_error("only tri3, quad4 and tet4 are made quadratic");
+        case DELAM_TRI3:
+            return triangle;
+        case DELAM_QUAD4:
+            return quadrilateral;
+        case DELAM_TET4:
+            return tetrahedron;
+        default:
+            throw std::logic_error("only tri3, quad4 and tet4 are made quadratic");
     }
 }
 
@@ -48,18 +52,18 @@ public:
 
     std::int64_t run(const Bend& bend) {
         for (CellBlock& block : mesh_.blocks) add_middles(block);
-        straight_.assign(mesh_.nodes.begin() + static_cast<std::ptrdiff_t>(first_) *
-                                                   static_cast<std::ptrdiff_t>(dimension_),
-                         mesh_.nodes.end());
+        straight_.assign(
+            mesh_.nodes.begin() + static_cast<std::ptrdiff_t>(first_) * static_cast<std::ptrdiff_t>(dimension_),
+            mesh_.nodes.end());
         for (std::size_t e = 0; e < edges_.size(); ++e) {
             Edge& edge = edges_[e];
             if (edge.bodies.size() < 2) continue;
             edge.part = 0;
             bend(edge.bodies, mesh_.nodes.data() + (static_cast<std::size_t>(first_) + e) * dimension_);
         }
-        bent_.assign(mesh_.nodes.begin() + static_cast<std::ptrdiff_t>(first_) *
-                                               static_cast<std::ptrdiff_t>(dimension_),
-                     mesh_.nodes.end());
+        bent_.assign(
+            mesh_.nodes.begin() + static_cast<std::ptrdiff_t>(first_) * static_cast<std::ptrdiff_t>(dimension_),
+            mesh_.nodes.end());
         straighten();
         extend_sets();
         return std::count_if(edges_.begin(), edges_.end(),
@@ -117,8 +121,8 @@ private:
                 const std::size_t corners = shape_of(block.type).corners;
                 for (std::size_t c = 0; c < block.bodies.size(); ++c) {
                     const std::int64_t* cell = block.connectivity.data() + c * per_cell;
-                    const bool any_bent = std::any_of(cell + corners, cell + per_cell,
-                                                      [&](std::int64_t n) { return bent(edge_of(n)); });
+                    const bool any_bent =
+                        std::any_of(cell + corners, cell + per_cell, [&](std::int64_t n) { return bent(edge_of(n)); });
                     if (!any_bent || sound(block.type, cell)) continue;
                     again = true;
                     for (std::size_t k = corners; k < per_cell; ++k)

@@ -61,8 +61,9 @@ private:
             scope->first_node = static_cast<std::int64_t>(mesh_.nodes.size() / dimension);
             for (const Node& node : scope->nodes) {
                 if (plane && std::abs(node.at[2]) > 1e-12 * extent)
-                    throw SceneFailure(model_.file, fmt::format("node {} is at z = {}: a plane mesh must lie in z = 0",
-                                                          full_name(*scope, std::to_string(node.id)), node.at[2]));
+                    throw SceneFailure(model_.file,
+                                       fmt::format("node {} is at z = {}: a plane mesh must lie in z = 0",
+                                                   full_name(*scope, std::to_string(node.id)), node.at[2]));
                 mesh_.nodes.insert(mesh_.nodes.end(), node.at.begin(),
                                    node.at.begin() + static_cast<std::ptrdiff_t>(dimension));
             }
@@ -164,9 +165,9 @@ private:
             const Element& element = at.scope->elements[at.index];
             const CellShape& shape = shape_of(element.type->cell);
             if (side.side >= shape.sides.size())
-                throw SceneFailure(side.elements.place, fmt::format("S{}: element {} ({}) has sides S1 .. S{}",
-                                                                    side.side + 1, element.id, element.type->name,
-                                                                    shape.sides.size()));
+                throw SceneFailure(side.elements.place,
+                                   fmt::format("S{}: element {} ({}) has sides S1 .. S{}", side.side + 1, element.id,
+                                               element.type->name, shape.sides.size()));
             std::array<std::int64_t, 9> face{};
             face.fill(-1);
             for (std::size_t k = 0; k < shape.sides[side.side].size(); ++k) {

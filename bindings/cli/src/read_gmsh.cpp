@@ -30,17 +30,26 @@ struct CellFrom {
 
 std::optional<CellFrom> cell_from(int gmsh_type) {
     switch (gmsh_type) {
-        case 2: return CellFrom{DELAM_TRI3, {}};
-        case 3: return CellFrom{DELAM_QUAD4, {}};
-        case 4: return CellFrom{DELAM_TET4, {}};
-        case 5: return CellFrom{DELAM_HEX8, {}};
-        case 9: return CellFrom{DELAM_TRI6, {}};
-        case 10: return CellFrom{DELAM_QUAD9, {}};
-        case 11: return CellFrom{DELAM_TET10, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}};
-        case 16: return CellFrom{DELAM_QUAD8, {}};
+        case 2:
+            return CellFrom{DELAM_TRI3, {}};
+        case 3:
+            return CellFrom{DELAM_QUAD4, {}};
+        case 4:
+            return CellFrom{DELAM_TET4, {}};
+        case 5:
+            return CellFrom{DELAM_HEX8, {}};
+        case 9:
+            return CellFrom{DELAM_TRI6, {}};
+        case 10:
+            return CellFrom{DELAM_QUAD9, {}};
+        case 11:
+            return CellFrom{DELAM_TET10, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}};
+        case 16:
+            return CellFrom{DELAM_QUAD8, {}};
         case 17:
             return CellFrom{DELAM_HEX20, {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15}};
-        default: return std::nullopt;
+        default:
+            return std::nullopt;
     }
 }
 
@@ -53,8 +62,8 @@ void require_mesh_format(const std::string& path, const std::string& bytes, cons
     std::string version;
     if (line.rfind("$MeshFormat", 0) != 0 || !(lines >> version))
         throw SceneFailure(place, path + ": no mesh of Gmsh: $MeshFormat is expected first");
-    const bool known = version == "2" || version.rfind("2.", 0) == 0 || version == "4" || version == "4.0" ||
-                       version == "4.1";
+    const bool known =
+        version == "2" || version.rfind("2.", 0) == 0 || version == "4" || version == "4.0" || version == "4.1";
     if (!known)
         throw SceneFailure(place, fmt::format("{}: mesh format {:.20} is not read: 2.2 and 4.1 are", path, version));
     for (const char* section : {"Nodes", "Elements"})

@@ -88,8 +88,8 @@ std::int64_t checked_whole(const toml::node& node, const Place& where, std::int6
 // words: what is allowed, for people; "" where anything is.
 std::string checked_word(const toml::node& node, const Place& where, const std::string& words) {
     if (!node.is_string())
-        throw SceneFailure(where, fmt::format("{}: a text in quotes is expected{}{}", shown(node),
-                                              words.empty() ? "" : ": ", words));
+        throw SceneFailure(
+            where, fmt::format("{}: a text in quotes is expected{}{}", shown(node), words.empty() ? "" : ": ", words));
     return *node.value<std::string>();
 }
 
@@ -220,12 +220,11 @@ std::vector<double> Table::numbers(std::string_view key, const Range& range, std
 }
 
 std::vector<std::vector<double>> Table::points(std::string_view key, const Range& range, std::size_t count) const {
-    return checked_list<std::vector<double>>(
-        need(key), place(key), 0, [&](const toml::node& entry, const Place& at) {
-            return checked_list<double>(entry, at, count, [&range](const toml::node& node, const Place& where) {
-                return checked_number(node, where, range);
-            });
+    return checked_list<std::vector<double>>(need(key), place(key), 0, [&](const toml::node& entry, const Place& at) {
+        return checked_list<double>(entry, at, count, [&range](const toml::node& node, const Place& where) {
+            return checked_number(node, where, range);
         });
+    });
 }
 
 std::vector<std::int64_t> Table::wholes(std::string_view key, std::int64_t least, std::size_t count) const {

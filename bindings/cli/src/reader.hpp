@@ -28,8 +28,8 @@ struct Range {
 extern const Range any_number;
 extern const Range positive;
 extern const Range not_negative;
-extern const Range fraction;       // [0, 1]
-extern const Range poisson_range;  // (-1, 0.5)
+extern const Range fraction;           // [0, 1]
+extern const Range poisson_range;      // (-1, 0.5)
 extern const Range pairing_tolerance;  // [0, 0.5)
 
 class Table {

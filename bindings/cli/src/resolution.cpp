@@ -53,11 +53,11 @@ std::vector<std::string> resolution_warnings(const Model& model, const delam_sol
     for (std::size_t i = 0; i < model.interfaces.size(); ++i) {
         const Prediction zone = prediction(model, i);
         if (!(zone.length > 0) || zone.length >= resolving_pairs * zone.spacing) continue;
-        out.push_back(fmt::format("interface \"{}\": the process zone, about {:.2g}, is shorter than {:g} pairs of spacing "
-                                  "{:.2g}: a local solution then depends on the mesh; a spacing of {:.2g} would do, or "
-                                  "solution = \"energetic\"",
-                                  model.interfaces[i].name, zone.length, resolving_pairs, zone.spacing,
-                                  zone.length / resolving_pairs));
+        out.push_back(fmt::format(
+            "interface \"{}\": the process zone, about {:.2g}, is shorter than {:g} pairs of spacing "
+            "{:.2g}: a local solution then depends on the mesh; a spacing of {:.2g} would do, or "
+            "solution = \"energetic\"",
+            model.interfaces[i].name, zone.length, resolving_pairs, zone.spacing, zone.length / resolving_pairs));
     }
     return out;
 }
@@ -86,9 +86,10 @@ std::vector<std::int64_t> unresolved_steps(std::string_view history, const Model
 
 std::string unresolved_line(const std::vector<std::int64_t>& steps) {
     if (steps.empty()) return "";
-    return fmt::format("warning: in {} (the first is step {}) a crack grew with fewer than {:g} pairs in its process zone: when and "
-                       "how far depends on the mesh\n",
-                       steps.size() == 1 ? "1 step" : fmt::format("{} steps", steps.size()), steps.front(), resolving_pairs);
+    return fmt::format(
+        "warning: in {} (the first is step {}) a crack grew with fewer than {:g} pairs in its process zone: when and "
+        "how far depends on the mesh\n",
+        steps.size() == 1 ? "1 step" : fmt::format("{} steps", steps.size()), steps.front(), resolving_pairs);
 }
 
 std::string rotation_line(double largest) {

@@ -23,8 +23,8 @@ Json options(const delam_solver* solver) {
     return out;
 }
 
-// Of a periodic cell: its volume, and d2 E / d factor2 over it at the last state, at held adhesion and contact. Of patterns that each drive one
-// strain by coefficient 1 these are the moduli.
+// Of a periodic cell: its volume, and d2 E / d factor2 over it at the last state, at held adhesion and contact. Of
+// patterns that each drive one strain by coefficient 1 these are the moduli.
 Json cell_of(const Model& model, delam_solver* solver, const Scene& scene, bool complete) {
     if (!scene.cell) return nullptr;
     const double volume = cell_volume(model, scene);
@@ -73,7 +73,9 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
         const bool strain = std::any_of(scene.eigenstrains.begin(), scene.eigenstrains.end(),
                                         [i](const EigenstrainData& e) { return e.pattern == i; });
         patterns.push_back({{"name", scene.patterns[i].name},
-                            {"drives", strain ? "strain" : force[i] ? "force" : "displacement"}});
+                            {"drives", strain     ? "strain"
+                                       : force[i] ? "force"
+                                                  : "displacement"}});
     }
     Json layers = Json::array();
     for (const Layer& layer : scene.layers) layers.push_back(layer.name);

@@ -18,8 +18,7 @@ RowFile::RowFile(std::string path, std::size_t rows) : path_(std::move(path)) {
     for (std::size_t end = bytes.find('\n'); end != std::string::npos && ends_.size() <= rows;
          end = bytes.find('\n', end + 1))
         ends_.push_back(end + 1);
-    if (ends_.size() <= rows)
-        throw Failure(exit_scene, path_ + ": rows are missing; run again without --resume");
+    if (ends_.size() <= rows) throw Failure(exit_scene, path_ + ": rows are missing; run again without --resume");
     file_.emplace(path_, static_cast<std::int64_t>(ends_.back()));
 }
 

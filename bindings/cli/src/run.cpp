@@ -113,8 +113,8 @@ public:
         outcome.resumed = state_.resumed;
         outcome.started = state_.started;
         outcome.problem_hash = state_.problem_hash;
-        outcome.rotation_max = fields_.assemble(model_, scene_, static_cast<std::size_t>(state_.step), state_.problem_hash,
-                         concept_of(solver_.get()));
+        outcome.rotation_max = fields_.assemble(model_, scene_, static_cast<std::size_t>(state_.step),
+                                                state_.problem_hash, concept_of(solver_.get()));
         if (locates_jumps(solver_.get()))
             write_atomic(folder_.running() + "/jumps.csv", jumps_text(model_, solver_.get()));
         write_atomic(folder_.running() + "/result.json", result_text(model_, solver_.get(), scene_, outcome));
@@ -190,10 +190,9 @@ std::optional<State> find_state(const OutputFolder& folder, const Scene& scene, 
     if (!std::filesystem::exists(path)) return std::nullopt;
     State state = unpack(path, read_bytes(path));
     if (state.content_hash != scene.content_hash || state.problem_hash != hash_of(model))
-        throw Failure(exit_scene,
-                      fmt::format("{}: the scene, with its --set, is not the one that {} was started with; "
-                                  "run again without --resume",
-                                  scene.file, folder.path()));
+        throw Failure(exit_scene, fmt::format("{}: the scene, with its --set, is not the one that {} was started with; "
+                                              "run again without --resume",
+                                              scene.file, folder.path()));
     return state;
 }
 
@@ -221,10 +220,9 @@ int already_complete(const OutputFolder& folder, const Scene& scene) {
     if (std::filesystem::exists(folder.running() + "/state.bin") || folder.status(content, converged) != "complete")
         return -1;
     if (content != scene.content_hash)
-        throw Failure(exit_scene,
-                      fmt::format("{}: the scene, with its --set, is not the one of the result in {}; "
-                                  "run again without --resume",
-                                  scene.file, folder.path()));
+        throw Failure(exit_scene, fmt::format("{}: the scene, with its --set, is not the one of the result in {}; "
+                                              "run again without --resume",
+                                              scene.file, folder.path()));
     say("{}: complete already\n", folder.path());
     const double eta = estimate_tolerance(scene);
     say("{}", estimate_line(violated_steps(read_bytes(folder.path() + "/history.csv"), eta), eta));
@@ -250,9 +248,8 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
     delam_context_set_log(model.context.get(), on_log, &progress);
     delam_context_set_progress(model.context.get(), on_progress, &progress);
     say("delam {} ({}): {}{}\n", delam_version(), delam_commit(), scene_file,
-               scene.title.empty() ? "" : ", " + scene.title);
-    if (resume)
-        say("{}\n", state ? fmt::format("resumed after step {}", first) : "nothing to resume: started anew");
+        scene.title.empty() ? "" : ", " + scene.title);
+    if (resume) say("{}\n", state ? fmt::format("resumed after step {}", first) : "nothing to resume: started anew");
     for (const std::string& text : warnings_of(model, scene)) say("warning: {}\n", text);
     std::fflush(stdout);
 
@@ -294,8 +291,7 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
             complain("delam: {} before any of {} was finished; {} holds the initial state, marked incomplete\n", how,
                      counted(total, "step"), folder_path);
         if (code == exit_interrupted)
-            complain("delam: {} with: {}{}\n", done > 0 ? "go on" : "start again", again,
-                     done > 0 ? " --resume" : "");
+            complain("delam: {} with: {}{}\n", done > 0 ? "go on" : "start again", again, done > 0 ? " --resume" : "");
         else
             complain("delam: {}\n", outcome.reason);
         return code;

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <locale>
+#include <map>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -34,7 +34,8 @@ std::vector<double> divided_lengths(const Table& root) {
 std::int64_t cells_of_size(const Table& root, const Table& table, std::string_view key, double length, double h) {
     constexpr double most = 2147483648.0;  // what the library takes
     const double cells = std::round(length / h);
-    if (!(cells <= most)) table.fail(key, fmt::format("h = {} makes {:.6g} cells of {}: at most {:.0f}", h, cells, length, most));
+    if (!(cells <= most))
+        table.fail(key, fmt::format("h = {} makes {:.6g} cells of {}: at most {:.0f}", h, cells, length, most));
     if (divides(h, length)) return static_cast<std::int64_t>(cells);
     const std::string better = suggested_size(divided_lengths(root), h);
     table.fail(key, fmt::format("h = {} does not divide {} evenly ({:.6g} cells); {}", h, length, length / h,
@@ -227,8 +228,8 @@ void read_output(const Table& root, Scene& scene) {
     table.only({"fields", "every", "snapshots", "displacement_scale", "columns"});
     Output& output = scene.output;
     output.place = table.place();
-    const std::vector<std::string> known{"displacement", "stress", "zeta", "jump", "traction", "contact", "mixity",
-                                         "rotation", "front"};
+    const std::vector<std::string> known{"displacement", "stress", "zeta",     "jump", "traction",
+                                         "contact",      "mixity", "rotation", "front"};
     output.fields = {"displacement", "stress", "zeta", "jump", "traction", "contact", "front"};
     if (table.has("fields")) {
         output.fields = table.texts("fields");
@@ -282,9 +283,9 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& settin
     if (!root.has("schema")) root.fail("schema", "is missing: schema = 1 is expected");
     if (const auto schema = root.whole("schema", 1); schema != 1)
         root.fail("schema", fmt::format("{} is not known to this program: 1 is", schema));
-    root.only({"schema", "title", "geometry", "layers", "mesh", "bodies", "materials", "laws", "interfaces", "patterns",
-               "supports", "loads", "forces", "thermal", "eigenstrains", "controls", "equations", "couplings", "obstacles",
-               "cell", "time", "solver", "output", "units"});
+    root.only({"schema",     "title",     "geometry",  "layers", "mesh",   "bodies",  "materials",    "laws",
+               "interfaces", "patterns",  "supports",  "loads",  "forces", "thermal", "eigenstrains", "controls",
+               "equations",  "couplings", "obstacles", "cell",   "time",   "solver",  "output",       "units"});
     scene.title = root.text("title", "");
     if (root.has("mesh")) {
         for (const char* key : {"geometry", "layers"})

@@ -234,8 +234,8 @@ struct Units {
 struct Scene {
     std::string file;
     std::string title;
-    std::string file_hash;     // of the bytes
-    std::string content_hash;  // of the content, settings included: comments, order and layout do not matter
+    std::string file_hash;              // of the bytes
+    std::string content_hash;           // of the content, settings included: comments, order and layout do not matter
     std::vector<std::string> settings;  // KEY=VALUE of the command line
     Geometry geometry;
     std::shared_ptr<const MeshData> mesh;  // null: a block of layers

@@ -42,7 +42,8 @@ EquationTerm read_left(const Table& table, const Scene& scene) {
     EquationTerm term;
     term.where = read_selection(table, scene, places);
     const auto directions = read_directions(table, "component", scene.geometry);
-    if (directions.size() != 1) table.fail("component", fmt::format("has {} entries: 1 is expected", directions.size()));
+    if (directions.size() != 1)
+        table.fail("component", fmt::format("has {} entries: 1 is expected", directions.size()));
     term.direction = directions.front();
     // Directions are of length 1 here as everywhere in a scene.
     double square = 0;
@@ -70,7 +71,8 @@ CellComponent read_component(const Table& table, const Scene& scene, bool stress
     const auto found = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
     const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
     if (found == names.size() || std::max(axes[found][0], axes[found][1]) >= dimension)
-        table.fail("component", fmt::format("\"{}\": {} is expected", name, dimension == 2 ? "xx, yy or xy" : "xx, yy, zz, xy, yz or zx"));
+        table.fail("component", fmt::format("\"{}\": {} is expected", name,
+                                            dimension == 2 ? "xx, yy or xy" : "xx, yy, zz, xy, yz or zx"));
     CellComponent out;
     out.i = axes[found][0];
     out.j = axes[found][1];
@@ -84,7 +86,9 @@ CellComponent read_component(const Table& table, const Scene& scene, bool stress
 std::vector<std::size_t> axes_of(const Table& table, const std::vector<std::vector<double>>& periods) {
     std::vector<std::size_t> axes;
     for (std::size_t a = 0; a < periods.front().size(); ++a)
-        if (std::any_of(periods.begin(), periods.end(), [a](const auto& p) { return std::fpclassify(p[a]) != FP_ZERO; })) axes.push_back(a);
+        if (std::any_of(periods.begin(), periods.end(),
+                        [a](const auto& p) { return std::fpclassify(p[a]) != FP_ZERO; }))
+            axes.push_back(a);
     if (axes.size() != periods.size())
         table.fail("periods", fmt::format("{} vectors have components along {} axes: as many are expected "
                                           "(turn the mesh so that the periods lie along axes, or in a plane of them)",
@@ -113,7 +117,8 @@ CellData read_cell(const Table& table, const Scene& scene) {
                 if (other.i == component.i && other.j == component.j)
                     entry.fail("component", fmt::format("\"{}\" is given twice: a strain or a stress, not both",
                                                         entry.text("component")));
-            if (stress && component.terms.empty()) entry.fail("pattern", "is needed: a stress that is not given is zero");
+            if (stress && component.terms.empty())
+                entry.fail("pattern", "is needed: a stress that is not given is zero");
             cell.components.push_back(std::move(component));
         }
     return cell;
@@ -139,7 +144,8 @@ void read_controls(const Table& root, Scene& scene) {
         control.name = fmt::format("period-{}", k + 1);
         for (const ControlData& other : scene.controls)
             if (other.name == control.name)
-                table.fail("periods", fmt::format("have control nodes of their own: call yours otherwise than \"{}\"", control.name));
+                table.fail("periods", fmt::format("have control nodes of their own: call yours otherwise than \"{}\"",
+                                                  control.name));
         control.at = corner;
         control.place = table.place();
         scene.controls.push_back(std::move(control));
@@ -151,7 +157,8 @@ void read_constraints(const Table& root, Scene& scene) {
         table.only({"name", "left", "pattern", "coefficient", "terms"});
         EquationData equation;
         for (const Table& term : table.tables("left")) equation.left.push_back(read_left(term, scene));
-        if (equation.left.empty()) table.fail("left", "is needed: [{ point = [..], component = [\"y\"], coefficient = 1.0 }, ..]");
+        if (equation.left.empty())
+            table.fail("left", "is needed: [{ point = [..], component = [\"y\"], coefficient = 1.0 }, ..]");
         equation.right = read_right(table, scene);
         equation.place = table.place();
         scene.equations.push_back(std::move(equation));

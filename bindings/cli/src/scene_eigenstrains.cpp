@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// [[thermal]]: a change of temperature acts through the expansions of the materials. [[eigenstrains]]: any other strain that is prescribed.
+// [[thermal]]: a change of temperature acts through the expansions of the materials. [[eigenstrains]]: any other strain
+// that is prescribed.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -44,10 +45,11 @@ void read_eigenstrains(const Table& root, Scene& scene) {
         for (const std::size_t layer : read_places(table, scene)) {
             const Material& material = scene.materials[scene.layers[layer].material];
             if (!material.expansion)
-                table.fail(table.has(key_of_places(scene)) ? key_of_places(scene) : "pattern",
-                           fmt::format("material \"{}\" of {} \"{}\" has no expansion (0 is allowed); or name the {} that are heated",
-                                       material.name, scene.mesh ? "body" : "layer", scene.layers[layer].name,
-                                       key_of_places(scene)));
+                table.fail(
+                    table.has(key_of_places(scene)) ? key_of_places(scene) : "pattern",
+                    fmt::format(
+                        "material \"{}\" of {} \"{}\" has no expansion (0 is allowed); or name the {} that are heated",
+                        material.name, scene.mesh ? "body" : "layer", scene.layers[layer].name, key_of_places(scene)));
             const auto& along = *material.expansion;
             scene.eigenstrains.push_back(
                 {static_cast<std::int32_t>(layer), {along[0], along[1], along[2], 0, 0, 0}, pattern, table.place()});
@@ -58,11 +60,14 @@ void read_eigenstrains(const Table& root, Scene& scene) {
         const std::size_t pattern = find_named(table, "pattern", table.text("pattern"), scene.patterns, "pattern");
         const std::vector<double> given = table.numbers("strain", any_number);
         if (given.size() != 3 && given.size() != 6)
-            table.fail("strain", fmt::format("has {} entries: 3 (xx, yy, zz) or 6 (and 2xy, 2yz, 2zx) are expected", given.size()));
+            table.fail("strain", fmt::format("has {} entries: 3 (xx, yy, zz) or 6 (and 2xy, 2yz, 2zx) are expected",
+                                             given.size()));
         std::array<double, 6> strain{};
         std::copy(given.begin(), given.end(), strain.begin());
-        if (scene.geometry.dimension == 2 && (std::fpclassify(strain[4]) != FP_ZERO || std::fpclassify(strain[5]) != FP_ZERO))
-            table.fail("strain", fmt::format("has 2yz = {}, 2zx = {}: 0 is expected in the plane", strain[4], strain[5]));
+        if (scene.geometry.dimension == 2 &&
+            (std::fpclassify(strain[4]) != FP_ZERO || std::fpclassify(strain[5]) != FP_ZERO))
+            table.fail("strain",
+                       fmt::format("has 2yz = {}, 2zx = {}: 0 is expected in the plane", strain[4], strain[5]));
         for (const std::size_t layer : read_places(table, scene))
             scene.eigenstrains.push_back({static_cast<std::int32_t>(layer), strain, pattern, table.place()});
     }

@@ -12,9 +12,9 @@ namespace cli {
 namespace {
 
 std::int32_t cell_type(const std::string& name) {
-    constexpr std::pair<const char*, std::int32_t> types[] = {
-        {"tri3", DELAM_TRI3}, {"tri6", DELAM_TRI6}, {"quad4", DELAM_QUAD4},
-        {"quad8", DELAM_QUAD8}, {"tet4", DELAM_TET4}, {"tet10", DELAM_TET10}};
+    constexpr std::pair<const char*, std::int32_t> types[] = {{"tri3", DELAM_TRI3},   {"tri6", DELAM_TRI6},
+                                                              {"quad4", DELAM_QUAD4}, {"quad8", DELAM_QUAD8},
+                                                              {"tet4", DELAM_TET4},   {"tet10", DELAM_TET10}};
     for (const auto& [known, type] : types)
         if (name == known) return type;
     return 0;

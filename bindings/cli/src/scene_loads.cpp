@@ -79,7 +79,8 @@ Selection read_selection(const Table& table, const Scene& scene, const Places& a
         out.body = static_cast<std::int32_t>(find_named(table, body, table.text(body), scene.layers, body));
     const Places places = places_of(scene, allowed);
     const auto is_place = [&](const char* key) { return std::find(places.begin(), places.end(), key) != places.end(); };
-    const auto given = std::count_if(places.begin(), places.end(), [&](const std::string& p) { return p != "body" && table.has(p); });
+    const auto given =
+        std::count_if(places.begin(), places.end(), [&](const std::string& p) { return p != "body" && table.has(p); });
     const bool whole = is_place("body") && given == 0 && table.has("body");
     if (given != 1 && !whole)
         table.fail(places.front(), fmt::format("give one of {} ({} are given)", listing(places), given));

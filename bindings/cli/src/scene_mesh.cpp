@@ -30,8 +30,8 @@ double shortest_edge(const MeshData& mesh) {
                 const std::size_t corners = dimension == 2 ? corners_2d : (shape.corners == 4 ? 3 : 4);
                 for (std::size_t i = 0; i < corners; ++i) {
                     const auto node = [&](std::size_t k) {
-                        return mesh.nodes.data() + dimension * static_cast<std::size_t>(
-                                                                   block.connectivity[c * shape.nodes + side[k]]);
+                        return mesh.nodes.data() +
+                               dimension * static_cast<std::size_t>(block.connectivity[c * shape.nodes + side[k]]);
                     };
                     double square = 0;
                     for (std::size_t a = 0; a < dimension; ++a)
@@ -46,9 +46,9 @@ double shortest_edge(const MeshData& mesh) {
 void require_body(const Table& table, std::string_view key, const std::string& name, const Scene& scene) {
     const auto& names = scene.mesh->body_names;
     if (std::none_of(names.begin(), names.end(), [&](const std::string& n) { return fits(name, n); }))
-        table.fail(key, fmt::format("\"{}\": no body of the mesh {}{}; it has: {}", name,
-                                    is_pattern(name) ? "fits" : "has this name", suggestion(name, names),
-                                    listing(names)));
+        table.fail(key,
+                   fmt::format("\"{}\": no body of the mesh {}{}; it has: {}", name,
+                               is_pattern(name) ? "fits" : "has this name", suggestion(name, names), listing(names)));
 }
 
 Region read_region(const Table& table, const Scene& scene, bool with_value) {
@@ -108,8 +108,8 @@ void read_mesh_table(const Table& root, Scene& scene) {
     geometry.place = table.place();
     geometry.dimension = mesh.dimension;
     if (mesh.dimension == 2)
-        geometry.plane = table.choice("plane", {"plane-strain", "plane-stress"},
-                                      mesh.plane.empty() ? "plane-strain" : mesh.plane);
+        geometry.plane =
+            table.choice("plane", {"plane-strain", "plane-stress"}, mesh.plane.empty() ? "plane-strain" : mesh.plane);
     else if (table.has("plane"))
         table.fail("plane", "is for plane meshes only");
     geometry.smallest_edge = shortest_edge(mesh);
@@ -133,8 +133,8 @@ void read_bodies(const Table& root, Scene& scene) {
             for (std::size_t i = 0; i < names.size(); ++i) {
                 if (!fits(name, names[i])) continue;
                 if (chosen[i] != nullptr && is_pattern(chosen[i]->text("name")) == is_pattern(name))
-                    table.fail("name", fmt::format("\"{}\" is described by {} already", names[i],
-                                                   chosen[i]->place().path));
+                    table.fail("name",
+                               fmt::format("\"{}\" is described by {} already", names[i], chosen[i]->place().path));
                 if (chosen[i] == nullptr) chosen[i] = &table;
             }
         }

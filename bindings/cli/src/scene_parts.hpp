@@ -27,11 +27,13 @@ void read_controls(const Table& root, Scene& scene);
 // [[equations]], [[couplings]], [[obstacles]] and [cell].
 void read_constraints(const Table& root, Scene& scene);
 
-// Where something acts, and along which components: common to supports, loads, forces and constraints (scene_loads.cpp).
-// places: which of point, box, patch, set, body (alone) and control are meant; those that a scene of layers has not are left out.
+// Where something acts, and along which components: common to supports, loads, forces and constraints
+// (scene_loads.cpp). places: which of point, box, patch, set, body (alone) and control are meant; those that a scene of
+// layers has not are left out.
 using Places = std::vector<std::string>;
 extern const Places any_place;
-std::vector<std::string> with_selection(const Scene& scene, std::vector<std::string> keys, const Places& places = any_place);
+std::vector<std::string> with_selection(const Scene& scene, std::vector<std::string> keys,
+                                        const Places& places = any_place);
 Selection read_selection(const Table& table, const Scene& scene, const Places& places = any_place);
 std::vector<std::vector<double>> read_directions(const Table& table, std::string_view key, const Geometry& geometry);
 std::vector<Term> read_terms(const Table& table, const Scene& scene);

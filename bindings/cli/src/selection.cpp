@@ -60,18 +60,18 @@ Selected select_point(const delam_context* context, const delam_mesh* mesh, cons
     const Place where{selection.place.file, selection.place.path + ".point", selection.place.line};
     if (hits.empty()) {
         const auto* at = nodes.coordinates.data() + nearest_node * dimension;
-        throw SceneFailure(where,
-                           fmt::format("{}: no node within {:.3g}; the nearest is at [{}] in {} \"{}\", {:.3g} away",
-                                       point.at, selection.tolerance, fmt::join(at, at + dimension, ", "), noun(scene),
-                                       layer_name(scene, nodes.bodies[nearest_node]), nearest));
+        throw SceneFailure(
+            where, fmt::format("{}: no node within {:.3g}; the nearest is at [{}] in {} \"{}\", {:.3g} away", point.at,
+                               selection.tolerance, fmt::join(at, at + dimension, ", "), noun(scene),
+                               layer_name(scene, nodes.bodies[nearest_node]), nearest));
     }
     if (hits.size() > 1) {
         std::vector<std::string> names;
         for (const std::int64_t node : hits)
             names.push_back(layer_name(scene, nodes.bodies[static_cast<std::size_t>(node)]));
-        throw SceneFailure(where, fmt::format("{}: {} nodes are there, of {} {}; name one with {} = \"..\"",
-                                              point.at, hits.size(), scene.mesh ? "bodies" : "layers",
-                                              fmt::join(names, ", "), noun(scene)));
+        throw SceneFailure(
+            where, fmt::format("{}: {} nodes are there, of {} {}; name one with {} = \"..\"", point.at, hits.size(),
+                               scene.mesh ? "bodies" : "layers", fmt::join(names, ", "), noun(scene)));
     }
     return {hits, {}, {}};
 }

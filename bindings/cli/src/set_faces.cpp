@@ -165,9 +165,9 @@ std::vector<Point3> points_of(std::size_t dimension, std::size_t nodes) {
 void integrate(const MeshArrays& mesh, const Face& face, std::map<std::int64_t, std::array<double, 4>>& out) {
     const std::size_t n = face.nodes.size();
     for (const Point3& point : points_of(mesh.dimension, n)) {
-        const Shape shape = mesh.dimension == 2             ? line_shape(n, point.x)
+        const Shape shape = mesh.dimension == 2       ? line_shape(n, point.x)
                             : corner_count(3, n) == 3 ? triangle_shape(n, point.x, point.y)
-                                                            : quadrilateral_shape(n, point.x, point.y);
+                                                      : quadrilateral_shape(n, point.x, point.y);
         std::array<double, 3> t{};
         std::array<double, 3> s{};
         for (std::size_t i = 0; i < n; ++i)

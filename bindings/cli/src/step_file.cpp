@@ -126,7 +126,8 @@ std::string step_bytes(const Model& model, delam_solver* solver, const Scene& sc
         }
         double largest = 0;
         if (wants(scene, "displacement") || wants(scene, "stress") || wants(scene, "rotation"))
-            call(model.context.get(), delam_solver_value(solver, "rotation_max", &largest), std::string("rotation_max"));
+            call(model.context.get(), delam_solver_value(solver, "rotation_max", &largest),
+                 std::string("rotation_max"));
         h5::attribute(group.get(), "rotation_max", largest);
         for (std::size_t i = 0; i < model.interfaces.size(); ++i)
             write_interface(model, solver, scene, group.get(), static_cast<std::int64_t>(i), displacement);

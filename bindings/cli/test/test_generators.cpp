@@ -91,8 +91,7 @@ void hand_over(const MeshData& mesh, const std::string& what) {
                           mesh.nodes.data(), &handle);
     for (const cli::CellBlock& block : mesh.blocks)
         if (status == DELAM_OK)
-            status = delam_mesh_add_conforming_cells(handle, block.type,
-                                                     static_cast<std::int64_t>(block.bodies.size()),
+            status = delam_mesh_add_conforming_cells(handle, block.type, static_cast<std::int64_t>(block.bodies.size()),
                                                      block.connectivity.data(), block.bodies.data(), 0);
     expect(status == DELAM_OK, what + ": the library takes all cells " + delam_context_message(context));
     std::int64_t count = 0;
@@ -195,9 +194,8 @@ void weave(cli::WeaveCell cell, const std::string& what) {
     const double a = cell.width / 2;
     const double b = cell.thickness / 2;
     const double radius = (a * a + b * b) / (2 * b);
-    const double section = cell.section == "lens"
-                               ? 2 * (radius * radius * std::asin(a / radius) - a * (radius - b))
-                               : pi * a * b;
+    const double section =
+        cell.section == "lens" ? 2 * (radius * radius * std::asin(a / radius) - a * (radius - b)) : pi * a * b;
     const double yarn = section * 2 * cell.spacing;
     double error = 0;
     for (std::size_t i = 0; i < volumes.size(); ++i)
@@ -205,7 +203,8 @@ void weave(cli::WeaveCell cell, const std::string& what) {
     std::printf("      %s: %zu nodes, yarns off by %.2g\n", what.c_str(), mesh.nodes.size() / 3, error);
     for (const std::string& note : mesh.notes) std::printf("      %s\n", note.c_str());
     expect(mesh.body_names == std::vector<std::string>{"matrix", "warp-1", "warp-2", "weft-1", "weft-2"} &&
-               std::abs(all / box - 1) < 1e-9, what + ": the block has its volume");
+               std::abs(all / box - 1) < 1e-9,
+           what + ": the block has its volume");
     // The tips of ellipses are sharper than cells are small.
     expect(error < (cell.section == "lens" ? 5e-3 : 0.15), what + ": each yarn has its volume");
     bool borders = periodic(mesh, "left", "right", 0) && periodic(mesh, "front", "back", 1);

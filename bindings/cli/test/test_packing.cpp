@@ -52,8 +52,8 @@ void dense_enough() {
         for (const double fraction : {0.1, 0.4, 0.55, 0.65})
             for (const std::uint64_t seed : {1U, 2U}) {
                 cli::PackingRequest request{count, fraction, 0.06, 0.1, count == 7 ? 1.7 : 1.0, seed};
-                const std::string name = std::to_string(count) + " at " + std::to_string(fraction) + ", seed " +
-                                         std::to_string(seed) + ": ";
+                const std::string name =
+                    std::to_string(count) + " at " + std::to_string(fraction) + ", seed " + std::to_string(seed) + ": ";
                 const cli::Packing packing = cli::pack_discs(request);
                 const double area = packing.width * packing.height;
                 const bool inside = std::all_of(packing.centres.begin(), packing.centres.end(), [&](const auto& c) {

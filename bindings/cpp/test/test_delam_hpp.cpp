@@ -87,13 +87,11 @@ delam::Solver make_solver(const delam::Context& context, bool by_host, const boo
 }
 
 void test_errors() {
-    static_assert(!std::is_copy_constructible_v<delam::Solver> &&
-                  std::is_nothrow_move_constructible_v<delam::Solver>);
+    static_assert(!std::is_copy_constructible_v<delam::Solver> && std::is_nothrow_move_constructible_v<delam::Solver>);
     static_assert(!std::is_copy_constructible_v<delam::Context> && !std::is_copy_assignable_v<delam::Law>);
     const delam::Context context;
     std::string message;
-    expect(status_of([&] { delam::Law(context, "no-such-law"); }, &message) == DELAM_ERROR_ARGUMENT,
-           "an unknown law");
+    expect(status_of([&] { delam::Law(context, "no-such-law"); }, &message) == DELAM_ERROR_ARGUMENT, "an unknown law");
     expect(message.find("no-such-law") != std::string::npos && message == context.message(),
            "the message has the value");
     delam::Law law(context, "piecewise-linear");
@@ -113,8 +111,7 @@ void test_errors() {
 
 void test_descriptions() {
     bool found = false;
-    for (const auto& option : delam::options())
-        found = found || (option.key == "solution" && !option.meaning.empty());
+    for (const auto& option : delam::options()) found = found || (option.key == "solution" && !option.meaning.empty());
     expect(found, "options are described");
     found = false;
     for (const auto& one : delam::law_parameters("tabulated"))
@@ -140,9 +137,8 @@ void test_mesh() {
     expect(mesh.nodes()[10] == 2.0 && mesh.node_bodies()[7] == 1 && mesh.node_bodies()[9] == -1, "nodes");
     const auto cells = mesh.cells();
     expect(cells.offsets == Indices{0, 4, 8} && cells.connectivity == Indices{0, 1, 3, 2, 4, 5, 7, 6}, "cells");
-    expect(
-        cells.types == std::vector<std::int32_t>(2, DELAM_QUAD4) && cells.bodies == std::vector<std::int32_t>{0, 1},
-        "types");
+    expect(cells.types == std::vector<std::int32_t>(2, DELAM_QUAD4) && cells.bodies == std::vector<std::int32_t>{0, 1},
+           "types");
     const auto of = mesh.interface_size(0);
     expect(of.body_a == 0 && of.body_b == 1 && of.pairs == 2 && of.faces == 1 && of.nodes_per_face == 2,
            "an interface");
@@ -205,9 +201,8 @@ void test_problem() {
     expect(all.coefficients[6] == 7.0 && all.coefficients[9] == 2.0 && all.coefficients[12] == 6.0,
            "what they prescribe");
     const auto matrix = problem.body_matrix(0);
-    expect(
-        matrix.row_starts.size() == 9 && matrix.row_starts.back() == static_cast<std::int64_t>(matrix.values.size()),
-        "a body");
+    expect(matrix.row_starts.size() == 9 && matrix.row_starts.back() == static_cast<std::int64_t>(matrix.values.size()),
+           "a body");
     expect(problem.hash().size() == 16 && problem.dofs().dual == 4, "hash and DOFs");
 
     delam::Mesh square(context, 2, {0., 0., 1., 0., 0., 1., 1., 1., 9., 9., 9., 8.});
@@ -317,14 +312,15 @@ void test_callbacks() {
     expect(stopped([&] { (void)solver.advance(0.5); }) && calls == last + 1, "what it throws comes out of the call");
     throwing = false;
     context.on_progress(nullptr);
-    expect(solver.advance(0.5) == delam::Outcome::done && calls == last + 1,
-           "switched off, and the solver is usable");
+    expect(solver.advance(0.5) == delam::Outcome::done && calls == last + 1, "switched off, and the solver is usable");
     solver.rollback();
     context.cancel();
     expect(solver.advance(0.5) == delam::Outcome::cancelled, "a request for the next call");
     // From inside, nothing is switched off or asked; the step is none the worse, and so is the next.
     int refused = 0;
-    const auto meddle = [&](const std::function<void()>& action) { refused += status_of(action) == DELAM_ERROR_STATE ? 1 : 0; };
+    const auto meddle = [&](const std::function<void()>& action) {
+        refused += status_of(action) == DELAM_ERROR_STATE ? 1 : 0;
+    };
     context.on_progress([&](std::string_view, std::int64_t, std::int64_t) {
         meddle([&] { context.on_progress({}); });
         meddle([&] { context.on_log({}); });
@@ -333,7 +329,8 @@ void test_callbacks() {
     });
     for (int step = 0; step < 2; ++step) {
         const int before = refused;
-        expect(solver.advance(0.5) == delam::Outcome::done && refused > before && refused % 3 == 0, "a callback that meddles");
+        expect(solver.advance(0.5) == delam::Outcome::done && refused > before && refused % 3 == 0,
+               "a callback that meddles");
         solver.rollback();
     }
     context.on_progress({});

@@ -191,9 +191,13 @@ void test_refusals() {
     const auto own = strip(context);
     auto mesh = without_cells(context, own_mesh, true);
     expect(status_of([&] { mesh.add_host_body(0, {0}); }) == DELAM_ERROR_MESH, "a body that is there");
-    expect(status_of([&] { mesh.add_pairs(0, 1, {0}, {62, 63}, {0.0, 1.0}, {1.0}); }) == DELAM_ERROR_ARGUMENT,
+    expect(status_of([&] {
+               mesh.add_pairs(0, 1, {0}, {62, 63}, {0.0, 1.0}, {1.0});
+           }) == DELAM_ERROR_ARGUMENT,
            "unequal sizes");
-    expect(status_of([&] { mesh.add_pairs(0, 1, {0}, {62}, {0.0, 1.0}, {1.0}, {0}); }) == DELAM_ERROR_ARGUMENT,
+    expect(status_of([&] {
+               mesh.add_pairs(0, 1, {0}, {62}, {0.0, 1.0}, {1.0}, {0});
+           }) == DELAM_ERROR_ARGUMENT,
            "faces of no nodes");
     delam::Problem problem(context, mesh);
     const auto nodes = nodes_of(mesh, 0);

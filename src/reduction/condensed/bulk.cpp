@@ -37,7 +37,8 @@ SparseMatrix assemble(const Problem& problem, const Look& look) {
     k.start.assign(index(dofs) + 1, 0);
     for (std::size_t b = 0; b < part.size(); ++b)
         for (std::int64_t r = 0; r < part[b].rows; ++r)
-            k.start[index(nodes[b][index(r / dim)] * dim + r % dim) + 1] = part[b].start[index(r) + 1] - part[b].start[index(r)];
+            k.start[index(nodes[b][index(r / dim)] * dim + r % dim) + 1] =
+                part[b].start[index(r) + 1] - part[b].start[index(r)];
     std::partial_sum(k.start.begin(), k.start.end(), k.start.begin());
     k.column.resize(index(k.start.back()));
     k.value.resize(index(k.start.back()));
@@ -66,8 +67,10 @@ SparseMatrix jump_matrix(const Problem& problem) {
                 for (std::int64_t k = 0; k < dim; ++k) {
                     const double q = face.frame[(p * index(dim) + index(r)) * index(dim) + index(k)];
                     if (q == 0.0) continue;
-                    for (const auto& [node, weight] : carriers.of(face.node_b[p])) triplets.push_back({row, node * dim + k, q * weight});
-                    for (const auto& [node, weight] : carriers.of(face.node_a[p])) triplets.push_back({row, node * dim + k, -q * weight});
+                    for (const auto& [node, weight] : carriers.of(face.node_b[p]))
+                        triplets.push_back({row, node * dim + k, q * weight});
+                    for (const auto& [node, weight] : carriers.of(face.node_a[p]))
+                        triplets.push_back({row, node * dim + k, -q * weight});
                 }
     return from_triplets(row, problem.mesh->node_count() * dim, std::move(triplets));
 }
@@ -143,7 +146,8 @@ std::vector<double> iterated_reactions(std::span<const Constraint* const> list, 
     return rho;
 }
 
-// A control node that only long constraints refer to has no stiffness at all: its diagonal entry is to be there all the same.
+// A control node that only long constraints refer to has no stiffness at all: its diagonal entry is to be there all the
+// same.
 SparseMatrix with_diagonal(SparseMatrix k, std::int64_t first) {
     std::vector<Triplet> missing;
     for (std::int64_t r = first; r < k.rows; ++r) {
@@ -153,7 +157,8 @@ SparseMatrix with_diagonal(SparseMatrix k, std::int64_t first) {
     if (missing.empty()) return k;
     std::vector<Triplet> all;
     for (std::int64_t r = 0; r < k.rows; ++r)
-        for (std::int64_t e = k.start[index(r)]; e < k.start[index(r) + 1]; ++e) all.push_back({r, k.column[index(e)], k.value[index(e)]});
+        for (std::int64_t e = k.start[index(r)]; e < k.start[index(r) + 1]; ++e)
+            all.push_back({r, k.column[index(e)], k.value[index(e)]});
     all.insert(all.end(), missing.begin(), missing.end());
     return from_triplets(k.rows, k.columns, std::move(all));
 }
@@ -161,7 +166,8 @@ SparseMatrix with_diagonal(SparseMatrix k, std::int64_t first) {
 }  // namespace
 
 Bulk::Bulk(const Problem& problem, Monitor& monitor) : problem_(problem) {
-    const Look assembling = [&monitor] { monitor.progress("assemble", 0, 0); }, analysing = [&monitor] { monitor.progress("analyse", 0, 0); };
+    const Look assembling = [&monitor] { monitor.progress("assemble", 0, 0); },
+               analysing = [&monitor] { monitor.progress("analyse", 0, 0); };
     ask(assembling);
     stiffness_ = assemble(problem_, assembling);
     ask(assembling);
@@ -195,14 +201,16 @@ void Bulk::condense(Monitor& monitor) {
     ++factorisations_;
     if (!factor_->factorise(transformed_))
         fail(DELAM_ERROR_NUMERICAL,
-             "the stiffness of the bonded structure is not positive definite: check supports, materials and the shapes of cells");
+             "the stiffness of the bonded structure is not positive definite: check supports, materials and the shapes "
+             "of cells");
     transformed_ = SparseMatrix();
     const Look condensing = [&monitor] { monitor.progress("condense", 0, 0); };
     ask(condensing);
     energy_.stiffness = lower_times_transpose(factor_->trailing_factor(), condensing);
     for (std::int64_t t = 0; t < trailing; ++t) energy_.stiffness(t, t) -= shift[index(t)];
 
-    // Loads: with t = 0 each pattern has the displacements u_p; the forces K u_p - f_p that are left act on the trailing variables.
+    // Loads: with t = 0 each pattern has the displacements u_p; the forces K u_p - f_p that are left act on the
+    // trailing variables.
     force_.assign(patterns, {});
     for (const NodalForce& f : problem_.forces) {
         auto& force = force_[index(f.pattern)];
@@ -228,14 +236,16 @@ void Bulk::condense(Monitor& monitor) {
         double squares = 0.0;
         for (std::size_t i = 0; i < index(leading); ++i) squares += carried[i] * carried[i] * v[i] * v[i];
         left_over_.push_back(std::sqrt(squares));
-        std::copy(carried.begin() + leading, carried.end(), energy_.load.value.begin() + static_cast<std::int64_t>(p) * trailing);
+        std::copy(carried.begin() + leading, carried.end(),
+                  energy_.load.value.begin() + static_cast<std::int64_t>(p) * trailing);
         bonded.push_back(std::move(u));
         ask(condensing);
     }
     resolve_equations(condensing);
     ask(condensing);
 
-    // A_pq = u_p^T K u_q - f_p^T u_q - f_q^T u_p + W_pq, W of the eigenstrains: no difference of large numbers, whatever the lift was.
+    // A_pq = u_p^T K u_q - f_p^T u_q - f_q^T u_p + W_pq, W of the eigenstrains: no difference of large numbers,
+    // whatever the lift was.
     const std::vector<double> closed(index(energy().rows()), 0.0);
     std::vector<std::vector<double>> stressed;
     for (std::size_t p = 0; p < patterns; ++p) {
@@ -271,8 +281,8 @@ double Bulk::rounding_energy(std::span<const double> theta) const {
     return sum;
 }
 
-// Eigenstrains do no work on rigid motions. Where nothing resists them their load may be all rounding, of which this leaves nothing on
-// a motion that is free.
+// Eigenstrains do no work on rigid motions. Where nothing resists them their load may be all rounding, of which this
+// leaves nothing on a motion that is free.
 void Bulk::balance_strains() {
     const auto rows = index(rigid_.rows);
     for (std::size_t p = 0; p < problem_.patterns.size(); ++p) {
@@ -329,14 +339,16 @@ void Bulk::resolve_equations(const Look& look) {
         DenseMatrix right = multiply(s_pp, prescribed_);
         for (std::size_t i = 0; i < right.value.size(); ++i) right.value[i] = l_p.value[i] - right.value[i];
         const DenseMatrix through = multiply_transposed(bound_, right), direct = multiply_transposed(s_pr, prescribed_);
-        for (std::size_t i = 0; i < reduced.load.value.size(); ++i) reduced.load.value[i] += through.value[i] - direct.value[i];
+        for (std::size_t i = 0; i < reduced.load.value.size(); ++i)
+            reduced.load.value[i] += through.value[i] - direct.value[i];
         energy_ = std::move(reduced);
     }
     if (kept_rest_ > 0) {
         std::vector<std::int64_t> eliminated(index(kept_rest_)), stay(index(rest - kept_rest_));
         std::iota(eliminated.begin(), eliminated.end(), 0);
         std::iota(stay.begin(), stay.end(), kept_rest_);
-        base_ = std::make_unique<Condensation>(energy_, std::move(stay), std::move(eliminated), std::vector<double>(index(rest), 0.0), look);
+        base_ = std::make_unique<Condensation>(energy_, std::move(stay), std::move(eliminated),
+                                               std::vector<double>(index(rest), 0.0), look);
         energy_ = DenseEnergy();
     }
 
@@ -364,7 +376,8 @@ void Bulk::resolve_equations(const Look& look) {
     }
     row_of_unknown_.assign(index(rest - kept_rest_), -1);
     for (std::size_t r = 0; r < rows_.size(); ++r) {
-        if (rows_[r].unknowns.size() != 1 || rows_[r].unknowns.front().second != 1.0 || !rows_[r].offset.empty()) continue;
+        if (rows_[r].unknowns.size() != 1 || rows_[r].unknowns.front().second != 1.0 || !rows_[r].offset.empty())
+            continue;
         std::int64_t& first = row_of_unknown_[index(rows_[r].unknowns.front().first)];
         if (first < 0) first = static_cast<std::int64_t>(r);
     }
@@ -374,7 +387,8 @@ std::vector<double> Bulk::leading_solve(std::span<const double> nodal) const {
     std::vector<double> carried(index(variables_.count())), v(index(variables_.leading), 0.0);
     multiply_transposed(variables_.transform, nodal, carried);
     carried.resize(v.size());
-    if (std::any_of(carried.begin(), carried.end(), [](double x) { return x != 0.0; })) factor_->solve_leading(carried, v);
+    if (std::any_of(carried.begin(), carried.end(), [](double x) { return x != 0.0; }))
+        factor_->solve_leading(carried, v);
     return v;
 }
 
@@ -424,9 +438,10 @@ std::vector<double> Bulk::residual(std::span<const double> theta, std::span<cons
     return r;
 }
 
-// D^T rho = residual on the DOFs of the constraints, in the least-squares sense with the smallest forces where they depend on each other.
-// Constraints that share DOFs of bodies are solved together, densely. A control node joins thousands: those it joins are solved by
-// conjugate gradients on D D^T, which has few distinct eigenvalues then (rows of few nodes, and one direction a control DOF).
+// D^T rho = residual on the DOFs of the constraints, in the least-squares sense with the smallest forces where they
+// depend on each other. Constraints that share DOFs of bodies are solved together, densely. A control node joins
+// thousands: those it joins are solved by conjugate gradients on D D^T, which has few distinct eigenvalues then (rows
+// of few nodes, and one direction a control DOF).
 std::vector<double> Bulk::reaction(std::span<const double> theta, std::span<const double> displacement,
                                    std::span<const double> force) const {
     const std::vector<double> left = residual(theta, displacement, force);
@@ -453,11 +468,13 @@ std::vector<double> Bulk::reaction(std::span<const double> theta, std::span<cons
         glance("recover", static_cast<std::int64_t>(list.size()));
         const bool controlled = std::any_of(list.begin(), list.end(), [&](std::size_t c) {
             const auto& dofs = problem_.constraints[c].dof;
-            return std::any_of(dofs.begin(), dofs.end(), [&](std::int64_t dof) { return carriers.kind(dof / dim) == Carriers::Kind::control; });
+            return std::any_of(dofs.begin(), dofs.end(),
+                               [&](std::int64_t dof) { return carriers.kind(dof / dim) == Carriers::Kind::control; });
         });
         std::vector<const Constraint*> rows;
         for (const std::size_t c : list) rows.push_back(&problem_.constraints[c]);
-        const std::vector<double> own = controlled && list.size() > dense_reactions ? iterated_reactions(rows, left) : direct_reactions(rows, left);
+        const std::vector<double> own =
+            controlled && list.size() > dense_reactions ? iterated_reactions(rows, left) : direct_reactions(rows, left);
         for (std::size_t i = 0; i < list.size(); ++i) rho[list[i]] = own[i];
     }
     return rho;

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // All bodies condensed onto the jumps, once.
 //
-// In the variables of jump_variables.hpp the stiffness is T^T K T. Its factor, with the jumps eliminated last, holds the Schur complement in
-// its trailing block: S = L_tt L_tt^T - tau, where a shift tau on the trailing diagonal keeps the factor definite for bodies that float.
-// Constraints that bind several unknowns are resolved in the dense stage. What remains is an energy of the unknown jumps x,
+// In the variables of jump_variables.hpp the stiffness is T^T K T. Its factor, with the jumps eliminated last, holds
+// the Schur complement in its trailing block: S = L_tt L_tt^T - tau, where a shift tau on the trailing diagonal keeps
+// the factor definite for bodies that float. Constraints that bind several unknowns are resolved in the dense stage.
+// What remains is an energy of the unknown jumps x,
 //
 //   E(theta, x) = 1/2 x^T S x - theta^T L^T x + 1/2 theta^T A theta,      jump rows  j = N x + O theta
 //
-// (N: the identity but for rows that close a ring of bodies or that a constraint binds; O: jumps that the device prescribes).
+// (N: the identity but for rows that close a ring of bodies or that a constraint binds; O: jumps that the device
+// prescribes).
 #pragma once
 
 #include <cstdint>
@@ -50,12 +52,14 @@ public:
     double defect(std::span<const double> theta, std::span<const double> displacement, std::span<const double> force,
                   std::span<const double> reaction) const;
 
-    // Energy that the factor's rounding leaves in the displacements of the loads themselves, with the unknowns at rest, F L.
+    // Energy that the factor's rounding leaves in the displacements of the loads themselves, with the unknowns at rest,
+    // F L.
     double rounding_energy(std::span<const double> theta) const;
 
     std::int64_t dofs() const { return stiffness_.rows; }
     const FactorSize& size() const { return size_; }  // of the factor with the jumps last
-    // Before condense(): unknowns that are eliminated last, entries of K and T^T K T, numbers that the factor will hold.
+    // Before condense(): unknowns that are eliminated last, entries of K and T^T K T, numbers that the factor will
+    // hold.
     std::int64_t trailing() const { return variables_.trailing(); }
     std::int64_t stiffness_entries() const { return stiffness_.entries(); }
     std::int64_t transformed_entries() const { return transformed_.entries(); }
@@ -74,10 +78,10 @@ private:
     void add_variables(std::span<const double> variables, std::span<double> displacement) const;
 
     const Problem& problem_;
-    SparseMatrix stiffness_;   // K, all mesh DOFs
-    SparseMatrix jump_rows_;   // B, [rows][mesh DOFs]
+    SparseMatrix stiffness_;  // K, all mesh DOFs
+    SparseMatrix jump_rows_;  // B, [rows][mesh DOFs]
     JumpVariables variables_;
-    SparseMatrix transformed_; // T^T K T, until it is factored
+    SparseMatrix transformed_;  // T^T K T, until it is factored
     std::unique_ptr<SparseCholesky> factor_;
     FactorSize size_;
     std::int64_t factorisations_ = 0;
@@ -85,18 +89,18 @@ private:
     std::vector<std::vector<double>> force_;  // [patterns][mesh DOFs], empty: none; dead ones and those of eigenstrains
 
     // Trailing variables: t = M r + d theta, r = [kept ones that no equation fixes | unknown jumps].
-    std::vector<std::int64_t> rest_;    // trailing index of r
-    std::vector<std::int64_t> pivot_;   // trailing index of what equations fix
-    DenseMatrix bound_;                 // [pivots][rest]
-    DenseMatrix prescribed_;            // [pivots][patterns]
-    std::int64_t kept_rest_ = 0;        // of r, the displacements
+    std::vector<std::int64_t> rest_;   // trailing index of r
+    std::vector<std::int64_t> pivot_;  // trailing index of what equations fix
+    DenseMatrix bound_;                // [pivots][rest]
+    DenseMatrix prescribed_;           // [pivots][patterns]
+    std::int64_t kept_rest_ = 0;       // of r, the displacements
 
     DenseEnergy energy_;
     std::unique_ptr<Condensation> base_;
     std::vector<Row> rows_;
     std::vector<std::int64_t> row_of_unknown_;
     DenseMatrix pattern_stiffness_;
-    std::vector<double> left_over_;     // [patterns] work of the forces that leading_solve() left, of signs at random
+    std::vector<double> left_over_;  // [patterns] work of the forces that leading_solve() left, of signs at random
     DenseMatrix rigid_;
 };
 

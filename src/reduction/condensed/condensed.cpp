@@ -13,7 +13,8 @@ namespace {
 
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-// A spring weaker than this part of the bodies' stiffness is no hold to factor with: such rows stay in the zone, which can.
+// A spring weaker than this part of the bodies' stiffness is no hold to factor with: such rows stay in the zone, which
+// can.
 constexpr double weak = 1e-9;
 // A spring stiffer than this multiple of the bodies' own stiffness hides it.
 constexpr double stiff = 1e3;
@@ -35,7 +36,8 @@ Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor
     for (std::size_t r = 0; r < bulk_->rows().size(); ++r) {
         const Bulk::Row& row = bulk_->rows()[r];
         prescribed_.push_back(row.prescribed() ? 1 : 0);
-        const bool own = row.unknowns.size() == 1 && bulk_->row_of_unknown()[index(row.unknowns.front().first)] == static_cast<std::int64_t>(r);
+        const bool own = row.unknowns.size() == 1 &&
+                         bulk_->row_of_unknown()[index(row.unknowns.front().first)] == static_cast<std::int64_t>(r);
         for (const auto& [i, n] : row.unknowns) {
             rows_of_[index(i)].push_back(static_cast<std::int64_t>(r));
             if (!own) always_[index(i)] = 1;
@@ -52,7 +54,8 @@ Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor
     // Unknowns are neighbours when their pairs share a face of the interface, or are one pair.
     const std::int64_t dim = problem_.mesh->dimension();
     std::vector<std::int64_t> unknown_of(bulk_->rows().size(), -1);
-    for (std::size_t i = 0; i < unknowns; ++i) unknown_of[index(bulk_->row_of_unknown()[i])] = static_cast<std::int64_t>(i);
+    for (std::size_t i = 0; i < unknowns; ++i)
+        unknown_of[index(bulk_->row_of_unknown()[i])] = static_cast<std::int64_t>(i);
     std::vector<Triplet> links;
     std::int64_t first = 0;
     for (const InterfaceGeometry& face : problem_.mesh->interfaces()) {
@@ -68,7 +71,8 @@ Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor
                         }
         first += face.pair_count();
     }
-    SparseMatrix graph = from_triplets(static_cast<std::int64_t>(unknowns), static_cast<std::int64_t>(unknowns), std::move(links));
+    SparseMatrix graph =
+        from_triplets(static_cast<std::int64_t>(unknowns), static_cast<std::int64_t>(unknowns), std::move(links));
     neighbour_start_ = std::move(graph.start);
     neighbour_ = std::move(graph.column);
     age_.assign(unknowns, forgotten);
@@ -147,7 +151,8 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
     std::vector<double> now(unknowns);
     for (std::size_t i = 0; i < unknowns; ++i) {
         now[i] = spring_of(springs, i);
-        age_[i] = wanted[i] != 0 ? std::uint8_t{0} : std::min<std::uint8_t>(forgotten, static_cast<std::uint8_t>(age_[i] + 1));
+        age_[i] = wanted[i] != 0 ? std::uint8_t{0}
+                                 : std::min<std::uint8_t>(forgotten, static_cast<std::uint8_t>(age_[i] + 1));
         const double body = bulk_->energy().stiffness(static_cast<std::int64_t>(i), static_cast<std::int64_t>(i));
         if (age_[i] < forgotten || (now[i] > 0.0 && now[i] < weak * body)) set[i] = 1;
     }
@@ -156,20 +161,25 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
 
     bool renew = outer_ == nullptr, far = false;
     std::vector<std::int64_t> back;
-    for (std::size_t i = 0; i < unknowns && !renew; ++i) far = far || (near_[i] == 0 && (set[i] != 0 || spring_[i] != now[i]));
+    for (std::size_t i = 0; i < unknowns && !renew; ++i)
+        far = far || (near_[i] == 0 && (set[i] != 0 || spring_[i] != now[i]));
     const std::vector<std::uint8_t> ahead = far ? grown(set, count(set) + unknowns / 32) : std::vector<std::uint8_t>();
     for (std::size_t i = 0; i < unknowns && far; ++i) {
         if (near_[i] != 0 || (ahead[i] == 0 && spring_[i] == now[i])) continue;
         back.push_back(static_cast<std::int64_t>(i));
         // What a stiff spring hides cannot be got back by subtracting it.
-        renew = renew || outer_spring_[i] > stiff * bulk_->energy().stiffness(static_cast<std::int64_t>(i), static_cast<std::int64_t>(i));
+        renew = renew || outer_spring_[i] > stiff * bulk_->energy().stiffness(static_cast<std::int64_t>(i),
+                                                                              static_cast<std::int64_t>(i));
     }
-    // Releases, and second steps over what they have piled up, go on until they have cost as much as a new first step would.
+    // Releases, and second steps over what they have piled up, go on until they have cost as much as a new first step
+    // would.
     const std::vector<std::uint8_t> near = grown(set, count(set) + std::max<std::size_t>(64, unknowns / 10));
     std::size_t far_ones = 0;
     for (std::size_t i = 0; i < unknowns; ++i) far_ones += near[i] == 0 && now[i] >= 0.0 ? 1 : 0;
-    if (!renew) renew = spent_ + (back.empty() ? 0.0 : outer_->release_cost(back)) > Condensation::cost(far_ones, count(near));
-    // From here to the end of condense_inner there is no zone: what is interrupted half-way is never taken for a choice that holds.
+    if (!renew)
+        renew = spent_ + (back.empty() ? 0.0 : outer_->release_cost(back)) > Condensation::cost(far_ones, count(near));
+    // From here to the end of condense_inner there is no zone: what is interrupted half-way is never taken for a choice
+    // that holds.
     zone_.reset();
     spring_ = std::move(now);
     inside_ = std::move(set);
@@ -201,7 +211,8 @@ void Condensed::condense_outer(std::span<const std::uint8_t> near) {
     }
     // Far ones first: what a front reaches next then lies at the end of the factor, where a release is cheap.
     const std::vector<std::int64_t> away = distance(near_);
-    std::stable_sort(eliminated.begin(), eliminated.end(), [&](std::int64_t a, std::int64_t b) { return away[index(a)] > away[index(b)]; });
+    std::stable_sort(eliminated.begin(), eliminated.end(),
+                     [&](std::int64_t a, std::int64_t b) { return away[index(a)] > away[index(b)]; });
     outer_ = std::make_unique<Condensation>(bulk_->energy(), std::move(kept), std::move(eliminated), stiffness, look());
 }
 
@@ -235,18 +246,22 @@ void Condensed::condense_inner() {
     }
     for (const std::int64_t k : kept) zone_unknowns_.push_back(near[index(k)]);
     zone_.reset();
-    inner_ = std::make_unique<Condensation>(outer_->energy(), std::move(kept), std::move(eliminated), stiffness, look());
+    inner_ =
+        std::make_unique<Condensation>(outer_->energy(), std::move(kept), std::move(eliminated), stiffness, look());
     spent_ += Condensation::cost(near.size() - zone_unknowns_.size(), zone_unknowns_.size());
 
     const std::size_t unknowns = inside_.size();
     std::vector<std::int64_t> place(unknowns, -1);
-    for (std::size_t z = 0; z < zone_unknowns_.size(); ++z) place[index(zone_unknowns_[z])] = static_cast<std::int64_t>(z);
+    for (std::size_t z = 0; z < zone_unknowns_.size(); ++z)
+        place[index(zone_unknowns_[z])] = static_cast<std::int64_t>(z);
     zone_rows_.clear();
     std::vector<Bulk::Row> rows;
     const auto dim = index(problem_.mesh->dimension());
     const auto pair_inside = [&](std::size_t pair) {
         for (std::size_t r = pair * dim; r < (pair + 1) * dim; ++r)
-            if (const Bulk::Row& row = bulk_->rows()[r]; !row.prescribed() && place[index(row.unknowns.front().first)] >= 0) return true;
+            if (const Bulk::Row& row = bulk_->rows()[r];
+                !row.prescribed() && place[index(row.unknowns.front().first)] >= 0)
+                return true;
         return false;
     };
     for (std::size_t r = 0; r < bulk_->rows().size(); ++r) {
@@ -309,8 +324,10 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
     std::vector<double> load(now.size());
     multiply(bulk_->energy().load, theta, load);
     bool loaded = std::any_of(load.begin(), load.end(), [](double v) { return v != 0.0; });
-    for (std::size_t r = 0; r < springs.force.size(); ++r) loaded = loaded || (springs.force[r] != 0.0 && springs.held[r] == 0);
-    for (const Bulk::Row& row : bulk_->rows()) loaded = loaded || (!row.offset.empty() && dot(row.offset, theta) != 0.0);
+    for (std::size_t r = 0; r < springs.force.size(); ++r)
+        loaded = loaded || (springs.force[r] != 0.0 && springs.held[r] == 0);
+    for (const Bulk::Row& row : bulk_->rows())
+        loaded = loaded || (!row.offset.empty() && dot(row.offset, theta) != 0.0);
     if (all_held || !loaded) {
         respond(springs, theta, nullptr, response);
         return;
@@ -340,7 +357,8 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
             couplings.push_back({static_cast<std::int64_t>(z), static_cast<std::int64_t>(z), springs.stiffness[r]});
     }
     if (!zone_->factor(couplings, held))
-        fail(DELAM_ERROR_NUMERICAL, "the condensed stiffness of the process zone (", zone_rows_.size(), " rows) is not positive definite");
+        fail(DELAM_ERROR_NUMERICAL, "the condensed stiffness of the process zone (", zone_rows_.size(),
+             " rows) is not positive definite");
     std::vector<double> force(springs.force.empty() ? 0 : zone_rows_.size());
     for (std::size_t z = 0; z < force.size(); ++z) force[z] = springs.force[index(zone_rows_[z])];
     const Zone::Solution solution = zone_->solve(theta, force);
@@ -348,7 +366,8 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
 }
 
 // Along the minimiser S x = L theta - sum_r N_r^T lambda_r, which gives the energies without another product with S:
-//   stored + potential = 1/2 (x.L theta - sum lambda_r (N x)_r) - x.L theta + 1/2 theta.A theta,   dE/dtheta = A theta - L^T x + O^T lambda
+//   stored + potential = 1/2 (x.L theta - sum lambda_r (N x)_r) - x.L theta + 1/2 theta.A theta,   dE/dtheta = A theta
+//   - L^T x + O^T lambda
 void Condensed::respond(const Springs& springs, std::span<const double> theta, const Zone::Solution* solution,
                         Response& response) const {
     response.balanced = solution == nullptr || solution->balanced;
@@ -377,7 +396,8 @@ void Condensed::respond(const Springs& springs, std::span<const double> theta, c
             response.force[r] = springs.stiffness[r] * response.jump[r];
             if (!springs.force.empty()) response.force[r] -= springs.force[r];
         }
-        const bool own = row.unknowns.size() == 1 && bulk_->row_of_unknown()[index(row.unknowns.front().first)] == static_cast<std::int64_t>(r);
+        const bool own = row.unknowns.size() == 1 &&
+                         bulk_->row_of_unknown()[index(row.unknowns.front().first)] == static_cast<std::int64_t>(r);
         if (!own)
             for (const auto& [i, n] : row.unknowns) left[index(i)] -= n * response.force[r];
     }
@@ -433,8 +453,9 @@ double Condensed::equilibrium_defect(std::span<const double> theta, const Respon
     return bulk_->defect(theta, u, response.force, bulk_->reaction(theta, u, response.force));
 }
 
-// Entries of S carry an error of the order of eps S_ii, and so does x^T S x, however little of it is left: plies bend at a stiffness that is
-// (thickness/length)^2 of that of their cells. What the factor itself has lost inside the bodies shows where it is used for the loads.
+// Entries of S carry an error of the order of eps S_ii, and so does x^T S x, however little of it is left: plies bend
+// at a stiffness that is (thickness/length)^2 of that of their cells. What the factor itself has lost inside the bodies
+// shows where it is used for the loads.
 double Condensed::rounding_energy(std::span<const double> theta, const Response& response) const {
     const DenseMatrix& stiffness = bulk_->energy().stiffness;
     const std::vector<double> x = unknowns_of(response);
@@ -451,7 +472,8 @@ std::vector<std::uint8_t> Condensed::first_near() const {
     return near;
 }
 
-// Per unknown: springs (outer, now, last) and a code of age, inside and near before any release; then the groups that were released.
+// Per unknown: springs (outer, now, last) and a code of age, inside and near before any release; then the groups that
+// were released.
 std::vector<double> Condensed::memory() const {
     if (zone_ == nullptr) return {};
     const std::size_t unknowns = always_.size();
@@ -536,7 +558,8 @@ void Condensed::recall(std::span<const double> memory) {
     age_ = std::move(age);
     inside_ = std::move(inside);
     last_ = std::move(last);
-    const bool same_outer = outer_ != nullptr && near == first_near() && outer_spring == outer_spring_ && groups == released_;
+    const bool same_outer =
+        outer_ != nullptr && near == first_near() && outer_spring == outer_spring_ && groups == released_;
     if (!same_outer) {
         spring_ = std::move(outer_spring);
         condense_outer(near);
@@ -549,8 +572,8 @@ void Condensed::recall(std::span<const double> memory) {
 
 std::string Condensed::description() const {
     const double unknowns = static_cast<double>(always_.size());
-    return text("condensed: ", always_.size(), " unknown jumps, sparse factor with ", bulk_->size().entries, " entries, dense operator ",
-                8.0 * unknowns * unknowns / 1048576.0, " MiB");
+    return text("condensed: ", always_.size(), " unknown jumps, sparse factor with ", bulk_->size().entries,
+                " entries, dense operator ", 8.0 * unknowns * unknowns / 1048576.0, " MiB");
 }
 
 }  // namespace delam

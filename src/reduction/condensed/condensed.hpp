@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The jump operator with the bodies condensed onto the jumps once, dense.
 //
-// Between two solves only the process zone and the contact set change. So most unknowns are minimised out at the springs they have
-// (dense_energy.hpp), in two nested steps: far ones rarely, near ones more often; what is left, the zone, is factored in each solve. An unknown
-// whose spring changes although it was minimised out makes the zone be chosen anew; a far one is released by a low-rank update while that
-// is cheaper than minimising all far ones again.
+// Between two solves only the process zone and the contact set change. So most unknowns are minimised out at the
+// springs they have (dense_energy.hpp), in two nested steps: far ones rarely, near ones more often; what is left, the
+// zone, is factored in each solve. An unknown whose spring changes although it was minimised out makes the zone be
+// chosen anew; a far one is released by a low-rank update while that is cheaper than minimising all far ones again.
 #pragma once
 
 #include <memory>
@@ -27,19 +27,24 @@ public:
     const Bulk* bulk() const override { return bulk_.get(); }
     std::int64_t factorisations() const override { return bulk_->factorisations(); }
     std::int64_t recoveries() const override { return bulk_->recoveries(); }
-    std::unique_ptr<JumpOperator> twin() const override { return std::make_unique<Condensed>(bulk_, problem_, monitor_); }
+    std::unique_ptr<JumpOperator> twin() const override {
+        return std::make_unique<Condensed>(bulk_, problem_, monitor_);
+    }
     std::string description() const override;
     std::vector<double> memory() const override;
     void recall(std::span<const double> memory) override;
-    void require_memory(std::span<const double> memory) const override { if (!memory.empty()) parse(memory); }
+    void require_memory(std::span<const double> memory) const override {
+        if (!memory.empty()) parse(memory);
+    }
 
-    // For minimisers that work within the zone: makes all rows in `rows` part of it, with the other unknowns at these springs.
-    // tight: a zone that is much larger than what is wanted is chosen anew.
+    // For minimisers that work within the zone: makes all rows in `rows` part of it, with the other unknowns at these
+    // springs. tight: a zone that is much larger than what is wanted is chosen anew.
     Zone& zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight = false);
     // Jump rows of the zone, in its order.
     const std::vector<std::int64_t>& zone_rows() const { return zone_rows_; }
     // All rows, forces and energies from a zone solution under these springs; none: no unknown moves.
-    void respond(const Springs& springs, std::span<const double> theta, const Zone::Solution* solution, Response& response) const;
+    void respond(const Springs& springs, std::span<const double> theta, const Zone::Solution* solution,
+                 Response& response) const;
 
 private:
     // What memory() says.
@@ -66,20 +71,21 @@ private:
     std::shared_ptr<Bulk> bulk_;
     Problem problem_;
     Monitor& monitor_;
-    std::vector<std::uint8_t> prescribed_;               // [rows]
-    std::vector<std::uint8_t> always_;                   // [unknowns] stay in the zone: anchors of rigid motions, rows that share unknowns
+    std::vector<std::uint8_t> prescribed_;  // [rows]
+    std::vector<std::uint8_t>
+        always_;  // [unknowns] stay in the zone: anchors of rigid motions, rows that share unknowns
     std::vector<std::int64_t> neighbour_start_, neighbour_;  // of unknowns
-    std::vector<std::vector<std::int64_t>> rows_of_;     // [unknowns]
+    std::vector<std::vector<std::int64_t>> rows_of_;         // [unknowns]
 
     // The choice that holds, [unknowns]. Springs: -1 is held.
-    std::vector<std::uint8_t> near_;       // not minimised out in the first step
-    std::vector<std::uint8_t> inside_;     // in the zone
-    std::vector<double> outer_spring_;     // at the time of the first step
-    std::vector<double> spring_;           // at which they are minimised out now
-    std::vector<double> last_;             // of the solve before; all 0: none, or nothing held then
-    std::vector<std::uint8_t> age_;        // choices since it last changed or was asked for, up to `forgotten`
+    std::vector<std::uint8_t> near_;    // not minimised out in the first step
+    std::vector<std::uint8_t> inside_;  // in the zone
+    std::vector<double> outer_spring_;  // at the time of the first step
+    std::vector<double> spring_;        // at which they are minimised out now
+    std::vector<double> last_;          // of the solve before; all 0: none, or nothing held then
+    std::vector<std::uint8_t> age_;     // choices since it last changed or was asked for, up to `forgotten`
     std::vector<std::vector<std::int64_t>> released_;  // from the first step, group after group
-    double spent_ = 0.0;  // multiplications since the first step
+    double spent_ = 0.0;                               // multiplications since the first step
     std::unique_ptr<Condensation> outer_, inner_;
     std::unique_ptr<Zone> zone_;
     std::vector<std::int64_t> zone_unknowns_, zone_rows_;

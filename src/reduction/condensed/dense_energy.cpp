@@ -49,8 +49,8 @@ void append_columns(DenseMatrix& a, const DenseMatrix& more) {
 
 }  // namespace
 
-Condensation::Condensation(const DenseEnergy& parent, std::vector<std::int64_t> kept, std::vector<std::int64_t> eliminated,
-                           std::span<const double> stiffness, const Look& look)
+Condensation::Condensation(const DenseEnergy& parent, std::vector<std::int64_t> kept,
+                           std::vector<std::int64_t> eliminated, std::span<const double> stiffness, const Look& look)
     : kept_(std::move(kept)), eliminated_(std::move(eliminated)) {
     factor_ = block(parent.stiffness, eliminated_, eliminated_);
     for (std::int64_t i = 0; i < factor_.rows; ++i)
@@ -81,8 +81,9 @@ double Condensation::release_cost(std::span<const std::int64_t> rows) const {
         first = e;
         --held;
     }
-    const auto e = static_cast<double>(eliminated_.size()), tail = e - static_cast<double>(first), h = static_cast<double>(held),
-               r = static_cast<double>(rows.size()), k = static_cast<double>(kept_.size());
+    const auto e = static_cast<double>(eliminated_.size()), tail = e - static_cast<double>(first),
+               h = static_cast<double>(held), r = static_cast<double>(rows.size()),
+               k = static_cast<double>(kept_.size());
     return e * (e + k) * h + tail * (tail + k) * (r - h) + (k + r) * (k + r) * r;
 }
 
@@ -91,9 +92,11 @@ double Condensation::cost(std::size_t eliminated, std::size_t kept) {
     return e * e * e / 3.0 + e * e * k + e * k * k;
 }
 
-void Condensation::release(const DenseEnergy& parent, std::span<const std::int64_t> rows, std::span<const double> stiffness, const Look& look) {
+void Condensation::release(const DenseEnergy& parent, std::span<const std::int64_t> rows,
+                           std::span<const double> stiffness, const Look& look) {
     std::vector<std::int64_t> place(static_cast<std::size_t>(parent.rows()), -1), held, places;
-    for (std::size_t e = 0; e < eliminated_.size(); ++e) place[static_cast<std::size_t>(eliminated_[e])] = static_cast<std::int64_t>(e);
+    for (std::size_t e = 0; e < eliminated_.size(); ++e)
+        place[static_cast<std::size_t>(eliminated_[e])] = static_cast<std::int64_t>(e);
     for (const std::int64_t r : rows) {
         const std::int64_t e = place[static_cast<std::size_t>(r)];
         if (e < 0)
@@ -126,7 +129,8 @@ void Condensation::admit(const DenseEnergy& parent, std::span<const std::int64_t
     append_columns(image_, follow);
     DenseMatrix among = block(parent.stiffness, members, rows);
     subtract_product(among, coupling_, column);
-    const DenseMatrix through = multiply_transposed(image_, follow), on_released = multiply_transposed(inverse_, follow);
+    const DenseMatrix through = multiply_transposed(image_, follow),
+                      on_released = multiply_transposed(inverse_, follow);
     ask(look);
     DenseMatrix load = rows_of(parent.load, rows);
     subtract_product(load, column, load_);
@@ -149,7 +153,8 @@ void Condensation::admit(const DenseEnergy& parent, std::span<const std::int64_t
 
 // With the new rows of C^-1 (x_R - W x_k - w theta) = N x_R - P x_k - p theta the energy grows by half their square:
 //   S += Q^T Q,   L += Q^T p,   Q = [- P | N],   less the springs that S_ee + s_e had.
-void Condensation::take_back(std::span<const std::int64_t> places, std::span<const double> stiffness, const Look& look) {
+void Condensation::take_back(std::span<const std::int64_t> places, std::span<const double> stiffness,
+                             const Look& look) {
     const auto old = static_cast<std::int64_t>(kept_.size()), fresh = static_cast<std::int64_t>(places.size());
     const std::int64_t before = unit_.columns;
     DenseMatrix unit(factor_.rows, fresh);
@@ -166,8 +171,10 @@ void Condensation::take_back(std::span<const std::int64_t> places, std::span<con
     DenseMatrix corner = multiply_transposed(unit, unit, first);
     subtract_gram(corner, cross);
     ask(look);
-    if (!factor_definite(corner, look)) fail(DELAM_ERROR_NUMERICAL, "the flexibility of ", fresh, " released jumps is not positive definite");
-    DenseMatrix image = multiply_transposed(unit, coupling_, first), image_load = multiply_transposed(unit, load_, first), own(fresh, fresh);
+    if (!factor_definite(corner, look))
+        fail(DELAM_ERROR_NUMERICAL, "the flexibility of ", fresh, " released jumps is not positive definite");
+    DenseMatrix image = multiply_transposed(unit, coupling_, first),
+                image_load = multiply_transposed(unit, load_, first), own(fresh, fresh);
     for (double& v : image.value) v = -v;
     subtract_product(image, cross, image_);
     ask(look);
@@ -191,7 +198,8 @@ void Condensation::take_back(std::span<const std::int64_t> places, std::span<con
     add_gram(energy_.stiffness, rows, look);
     mirror_lower(energy_.stiffness);
     for (std::int64_t j = 0; j < fresh; ++j)
-        energy_.stiffness(old + j, old + j) -= stiffness[static_cast<std::size_t>(kept_[static_cast<std::size_t>(old + j)])];
+        energy_.stiffness(old + j, old + j) -=
+            stiffness[static_cast<std::size_t>(kept_[static_cast<std::size_t>(old + j)])];
     const DenseMatrix load = multiply_transposed(rows, image_load);
     for (std::size_t i = 0; i < load.value.size(); ++i) energy_.load.value[i] += load.value[i];
 
@@ -215,7 +223,8 @@ void Condensation::take_back(std::span<const std::int64_t> places, std::span<con
 }
 
 // x_e = L^-T (L^-1 L_e theta - V x_k + Z mu),   mu = D^-1 (x_R - x_R*)
-void Condensation::recover(std::span<const double> theta, std::span<const double> kept_values, std::span<double> parent) const {
+void Condensation::recover(std::span<const double> theta, std::span<const double> kept_values,
+                           std::span<double> parent) const {
     std::vector<double> x(eliminated_.size()), coupled(x.size()), base(original_.size()), mu(released_.size());
     for (std::size_t i = 0; i < base.size(); ++i) base[i] = kept_values[static_cast<std::size_t>(original_[i])];
     for (std::size_t i = 0; i < mu.size(); ++i) mu[i] = kept_values[static_cast<std::size_t>(released_[i])];

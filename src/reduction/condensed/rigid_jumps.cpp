@@ -13,13 +13,14 @@ namespace delam {
 
 namespace {
 
-// Eigenvalues of a Gram matrix below this part of the largest one are zero: singular values below 1e-6. Lever arms of supports are longer.
+// Eigenvalues of a Gram matrix below this part of the largest one are zero: singular values below 1e-6. Lever arms of
+// supports are longer.
 constexpr double zero = 1e-12;
 
 using Row = std::map<std::int64_t, double>;
 
-// Eigenvectors of A^T A, small eigenvalues (up to `limit`) first: squared, rows tell null vectors to half the digits or less, and what these
-// still do to the rows themselves, image(v) = A^T (A v), tells the rest.
+// Eigenvectors of A^T A, small eigenvalues (up to `limit`) first: squared, rows tell null vectors to half the digits or
+// less, and what these still do to the rows themselves, image(v) = A^T (A v), tells the rest.
 template <class Image>
 DenseMatrix null_vectors(const Eigen& eigen, double limit, const Image& image) {
     const std::int64_t size = eigen.vector.rows;
@@ -29,21 +30,25 @@ DenseMatrix null_vectors(const Eigen& eigen, double limit, const Image& image) {
     std::copy_n(eigen.vector.value.begin(), null.value.size(), null.value.begin());
     for (int pass = 0; pass < 2; ++pass)
         for (std::int64_t c = 0; c < count; ++c) {
-            const auto v = std::span<double>(null.value).subspan(static_cast<std::size_t>(c * size), static_cast<std::size_t>(size));
+            const auto v = std::span<double>(null.value)
+                               .subspan(static_cast<std::size_t>(c * size), static_cast<std::size_t>(size));
             const std::vector<double> off = image(std::span<const double>(v));
             for (std::int64_t h = count; h < size; ++h) {
-                const auto held = std::span<const double>(eigen.vector.value).subspan(static_cast<std::size_t>(h * size), static_cast<std::size_t>(size));
+                const auto held = std::span<const double>(eigen.vector.value)
+                                      .subspan(static_cast<std::size_t>(h * size), static_cast<std::size_t>(size));
                 add_scaled(-dot(held, off) / eigen.value[static_cast<std::size_t>(h)], held, v);
             }
         }
     return null;
 }
 
-// Motions that no row resists. Control nodes have units of their own: a strain, a length, by what the rows make of them.
+// Motions that no row resists. Control nodes have units of their own: a strain, a length, by what the rows make of
+// them.
 DenseMatrix unresisted(std::vector<Row> rows, std::int64_t count, std::int64_t first_control) {
     std::vector<double> unit(static_cast<std::size_t>(count), 0.0);
     for (const Row& row : rows)
-        for (const auto& [i, a] : row) unit[static_cast<std::size_t>(i)] = std::max(unit[static_cast<std::size_t>(i)], std::abs(a));
+        for (const auto& [i, a] : row)
+            unit[static_cast<std::size_t>(i)] = std::max(unit[static_cast<std::size_t>(i)], std::abs(a));
     for (std::int64_t i = 0; i < count; ++i)
         if (double& u = unit[static_cast<std::size_t>(i)]; i < first_control || !(u > 0.0)) u = 1.0;
     DenseMatrix gram(count, count);
@@ -68,8 +73,8 @@ DenseMatrix unresisted(std::vector<Row> rows, std::int64_t count, std::int64_t f
     return null;
 }
 
-// A piece that hangs together through whole faces moves rigidly: translations, and rotations about its centre with unit displacement at
-// its edge. A control node moves by translations.
+// A piece that hangs together through whole faces moves rigidly: translations, and rotations about its centre with unit
+// displacement at its edge. A control node moves by translations.
 struct Piece {
     std::array<double, 3> centre{};
     double size = 0.0;
@@ -105,7 +110,9 @@ public:
 
     // Of the pieces, then the translations of each control node.
     std::int64_t first_control() const { return static_cast<std::int64_t>(pieces_.size()) * modes_; }
-    std::int64_t count() const { return first_control() + static_cast<std::int64_t>(carriers_.controls().size()) * dim_; }
+    std::int64_t count() const {
+        return first_control() + static_cast<std::int64_t>(carriers_.controls().size()) * dim_;
+    }
 
     // row += factor * (component k of all motions at a node of a piece)
     void add(Row& row, std::int64_t node, std::int64_t piece, std::int64_t k, double factor) const {
@@ -137,7 +144,8 @@ public:
     // What holds pieces that cannot move at all.
     void hold(std::vector<Row>& rows) const {
         for (std::size_t p = 0; p < fixed_.size(); ++p)
-            for (std::int64_t m = 0; fixed_[p] != 0 && m < modes_; ++m) rows.push_back({{static_cast<std::int64_t>(p) * modes_ + m, 1.0}});
+            for (std::int64_t m = 0; fixed_[p] != 0 && m < modes_; ++m)
+                rows.push_back({{static_cast<std::int64_t>(p) * modes_ + m, 1.0}});
     }
     std::int64_t dimension() const { return dim_; }
 
@@ -185,7 +193,8 @@ DenseMatrix rigid_jumps(const Problem& problem) {
                 Row row;
                 for (std::int64_t k = 0; k < dim; ++k) {
                     const double q = face.frame[(p * static_cast<std::size_t>(dim) + static_cast<std::size_t>(r)) *
-                                                    static_cast<std::size_t>(dim) + static_cast<std::size_t>(k)];
+                                                    static_cast<std::size_t>(dim) +
+                                                static_cast<std::size_t>(k)];
                     motions.add(row, face.node_b[p], k, q);
                     motions.add(row, face.node_a[p], k, -q);
                 }
@@ -227,7 +236,8 @@ Combinations split_motions(const DenseMatrix& z, std::span<const std::uint8_t> a
     Combinations result;
     result.free = null_vectors(eigen, zero / static_cast<double>(std::max<std::int64_t>(z.rows, 1)), image);
     result.held = DenseMatrix(z.columns, z.columns - result.free.columns);
-    std::copy(eigen.vector.value.begin() + static_cast<std::ptrdiff_t>(result.free.value.size()), eigen.vector.value.end(), result.held.value.begin());
+    std::copy(eigen.vector.value.begin() + static_cast<std::ptrdiff_t>(result.free.value.size()),
+              eigen.vector.value.end(), result.held.value.begin());
     return result;
 }
 

@@ -7,12 +7,12 @@
 
 namespace delam {
 
-// Orthonormal columns, [jump rows][motions]; no column when the supports hold every part by themselves. These are the motions in which a
-// part floats once its interfaces have come apart.
+// Orthonormal columns, [jump rows][motions]; no column when the supports hold every part by themselves. These are the
+// motions in which a part floats once its interfaces have come apart.
 DenseMatrix rigid_jumps(const Problem& problem);
 
-// Combinations of the columns of z (of unit length over rows that include these) that vanish on all active rows, and their orthogonal
-// complement: [columns of z][combinations].
+// Combinations of the columns of z (of unit length over rows that include these) that vanish on all active rows, and
+// their orthogonal complement: [columns of z][combinations].
 struct Combinations {
     DenseMatrix free;
     DenseMatrix held;

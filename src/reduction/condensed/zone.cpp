@@ -13,9 +13,9 @@ namespace {
 
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-constexpr double dependent = 1e-10;   // coefficients of dependent rows below this are rounding
-constexpr double rounded = 1e-11;     // of motion times load, what is taken for rounding (measured: up to 5e-13)
-constexpr double unbalanced = 1e-8;   // largest part of a load that may be left on a free motion
+constexpr double dependent = 1e-10;  // coefficients of dependent rows below this are rounding
+constexpr double rounded = 1e-11;    // of motion times load, what is taken for rounding (measured: up to 5e-13)
+constexpr double unbalanced = 1e-8;  // largest part of a load that may be left on a free motion
 
 }  // namespace
 
@@ -33,7 +33,8 @@ Zone::Zone(const DenseEnergy& energy, std::vector<Bulk::Row> rows, DenseMatrix r
     rigid_rows_ = DenseMatrix(static_cast<std::int64_t>(rows_.size()), rigid_.columns);
     for (std::int64_t c = 0; c < rigid_.columns; ++c)
         for (std::size_t r = 0; r < rows_.size(); ++r)
-            for (const auto& [i, n] : rows_[r].unknowns) rigid_rows_(static_cast<std::int64_t>(r), c) += n * rigid_(i, c);
+            for (const auto& [i, n] : rows_[r].unknowns)
+                rigid_rows_(static_cast<std::int64_t>(r), c) += n * rigid_(i, c);
     shifted_ = energy.stiffness;
     double rho = 0.0;
     for (std::int64_t i = 0; i < shifted_.rows; ++i) rho = std::max(rho, shifted_(i, i));
@@ -42,7 +43,8 @@ Zone::Zone(const DenseEnergy& energy, std::vector<Bulk::Row> rows, DenseMatrix r
             for (std::int64_t i = 0; i < shifted_.rows; ++i) shifted_(i, j) += rho * rigid_(i, c) * rigid_(j, c);
 }
 
-// A held row that is an unknown of its own (the first such row of it) takes it out; other held rows fix one unknown each by the rest.
+// A held row that is an unknown of its own (the first such row of it) takes it out; other held rows fix one unknown
+// each by the rest.
 void Zone::hold(std::span<const std::uint8_t> held) {
     held_.assign(held.begin(), held.end());
     std::vector<std::uint8_t> out(index(energy_->rows()), 0);
@@ -192,7 +194,8 @@ bool Zone::factor(std::span<const Coupling> couplings, std::span<const std::uint
         std::vector<double> image(index(z.rows)), springs(image.size(), 0.0);
         multiply_symmetric(shifted_, column(motion_y_, c), image);
         for (const Triplet& t : springs_) springs[index(t.row)] += t.value * column(motion_x_, c)[index(t.column)];
-        for (std::int64_t d = 0; d < z.columns; ++d) schur(d, c) = dot(column(motion_y_, d), image) + dot(column(motion_x_, d), springs);
+        for (std::int64_t d = 0; d < z.columns; ++d)
+            schur(d, c) = dot(column(motion_y_, d), image) + dot(column(motion_x_, d), springs);
         for (std::size_t i = 0; i < image.size(); ++i) image[i] += springs[i];
         const std::vector<double> w = reduce(image);
         std::copy(w.begin(), w.end(), motion_coupling_.value.begin() + c * n);
@@ -226,10 +229,12 @@ Zone::Solution Zone::solve(std::span<const double> theta, std::span<const double
     if (with_offsets_) {
         const std::vector<double> offset = offsets(theta);
         for (const Coupling& c : couplings_)
-            if (held_[index(c.row)] == 0 && held_[index(c.column)] == 0) pull(index(c.row), -c.value * offset[index(c.column)]);
+            if (held_[index(c.row)] == 0 && held_[index(c.column)] == 0)
+                pull(index(c.row), -c.value * offset[index(c.column)]);
         for (std::size_t b = 0; b < bound_.size(); ++b)
             for (std::size_t i = 0; i < bound_rows_.size(); ++i)
-                fixed[b] -= operations_(static_cast<std::int64_t>(b), static_cast<std::int64_t>(i)) * offset[index(bound_rows_[i])];
+                fixed[b] -= operations_(static_cast<std::int64_t>(b), static_cast<std::int64_t>(i)) *
+                            offset[index(bound_rows_[i])];
     }
     const std::vector<double> load = g;
     std::vector<double> start(g.size(), 0.0);
@@ -249,7 +254,8 @@ Zone::Solution Zone::solve(std::span<const double> theta, std::span<const double
             motion += z * z;
             pull_size += g[index(i)] * g[index(i)];
         }
-        // A load that is at right angles to the motion everywhere (a pressed fibre that may turn) leaves nothing but rounding in both sums.
+        // A load that is at right angles to the motion everywhere (a pressed fibre that may turn) leaves nothing but
+        // rounding in both sums.
         if (std::abs(total) > std::max(unbalanced * size, rounded * std::sqrt(motion * pull_size))) {
             solution.balanced = false;
             return solution;
@@ -282,10 +288,12 @@ Zone::Solution Zone::solve(std::span<const double> theta, std::span<const double
     for (const Triplet& t : springs_) spring[index(t.row)] += t.value * solution.unknowns[index(t.column)];
     for (std::size_t b = 0; b < bound_.size(); ++b) {
         const auto u = index(bound_[b]);
-        const auto column = std::span<const double>(energy_->stiffness.value).subspan(u * index(energy_->rows()), index(energy_->rows()));
+        const auto column = std::span<const double>(energy_->stiffness.value)
+                                .subspan(u * index(energy_->rows()), index(energy_->rows()));
         const double left = load[u] - spring[u] - dot(column, solution.unknowns);
         for (std::size_t i = 0; i < bound_rows_.size(); ++i)
-            solution.multiplier[index(bound_rows_[i])] += operations_(static_cast<std::int64_t>(b), static_cast<std::int64_t>(i)) * left;
+            solution.multiplier[index(bound_rows_[i])] +=
+                operations_(static_cast<std::int64_t>(b), static_cast<std::int64_t>(i)) * left;
     }
     return solution;
 }

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The small dense system that is left when everything that does not change has been condensed: unknowns x of an energy, rows j = N x + O theta
-// with springs (or, for Newton's method, coupled 2x2 or 3x3 tangents) and rows that are held at zero.
+// The small dense system that is left when everything that does not change has been condensed: unknowns x of an energy,
+// rows j = N x + O theta with springs (or, for Newton's method, coupled 2x2 or 3x3 tangents) and rows that are held at
+// zero.
 //
-//   minimise  1/2 x^T S x - theta^T L^T x + 1/2 sum_rq j_r C_rq j_q - sum_r h_r j_r      subject to j_r = 0 on held rows
+//   minimise  1/2 x^T S x - theta^T L^T x + 1/2 sum_rq j_r C_rq j_q - sum_r h_r j_r      subject to j_r = 0 on held
+//   rows
 //
-// Rigid motions Z that nothing outside resists (S Z = 0) are unknowns alpha of their own, x = Z alpha + y, with S + rho Z Z^T for y: however
-// weak the springs that hold them are, nothing cancels. Which motions are held at all is read off the active rows, not off pivots.
+// Rigid motions Z that nothing outside resists (S Z = 0) are unknowns alpha of their own, x = Z alpha + y, with S + rho
+// Z Z^T for y: however weak the springs that hold them are, nothing cancels. Which motions are held at all is read off
+// the active rows, not off pivots.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +36,9 @@ public:
 
     struct Solution {
         std::vector<double> unknowns;
-        std::vector<double> multiplier;  // [rows] force of held rows that are not an unknown of their own; zero elsewhere
-        bool balanced = true;            // false: a free motion carries a load; the rest is then not set
+        std::vector<double>
+            multiplier;        // [rows] force of held rows that are not an unknown of their own; zero elsewhere
+        bool balanced = true;  // false: a free motion carries a load; the rest is then not set
     };
     // row_force: h, [rows] or empty.
     Solution solve(std::span<const double> theta, std::span<const double> row_force) const;
@@ -60,14 +64,14 @@ private:
     std::vector<Bulk::Row> rows_;
     std::vector<std::int64_t> plain_;
     bool with_offsets_ = false;
-    DenseMatrix rigid_;      // Z
-    DenseMatrix rigid_rows_; // N Z
-    DenseMatrix shifted_;    // S + rho Z Z^T where Z is not empty
+    DenseMatrix rigid_;       // Z
+    DenseMatrix rigid_rows_;  // N Z
+    DenseMatrix shifted_;     // S + rho Z Z^T where Z is not empty
 
     Look look_;
     // Of the last factor():
     std::vector<std::uint8_t> held_;
-    std::vector<Triplet> springs_;          // C in unknowns, sum N^T C N
+    std::vector<Triplet> springs_;  // C in unknowns, sum N^T C N
     std::vector<Coupling> couplings_;
     std::vector<std::int64_t> free_;        // unknowns that are solved for
     std::vector<std::int64_t> bound_rows_;  // held rows that bind several unknowns or have an offset
@@ -76,10 +80,10 @@ private:
     DenseMatrix operations_;                // echelon: [bound][bound_rows]
     DenseMatrix factor_;
     Combinations motions_;
-    DenseMatrix motion_y_, motion_x_;       // Y (what y must do), X = Z + Y
-    DenseMatrix motion_coupling_;           // H_r,alpha
-    DenseMatrix motion_solved_;             // H_rr^-1 H_r,alpha
-    DenseMatrix motion_factor_;             // of the Schur complement in held motions, scaled
+    DenseMatrix motion_y_, motion_x_;  // Y (what y must do), X = Z + Y
+    DenseMatrix motion_coupling_;      // H_r,alpha
+    DenseMatrix motion_solved_;        // H_rr^-1 H_r,alpha
+    DenseMatrix motion_factor_;        // of the Schur complement in held motions, scaled
     std::vector<double> motion_scale_;
 };
 

@@ -16,11 +16,13 @@ CoarseProblem::CoarseProblem(const DualRows& rows, std::span<const Subdomain> su
     }
     std::vector<Triplet> forward, backward;
     for (std::int64_t r = 0; r < rows.b.rows; ++r) {
-        for (std::int64_t e = rows.b.start[static_cast<std::size_t>(r)]; e < rows.b.start[static_cast<std::size_t>(r) + 1]; ++e) {
+        for (std::int64_t e = rows.b.start[static_cast<std::size_t>(r)];
+             e < rows.b.start[static_cast<std::size_t>(r) + 1]; ++e) {
             const std::int64_t dof = rows.b.column[static_cast<std::size_t>(e)];
             const auto s = static_cast<std::size_t>(owner[static_cast<std::size_t>(dof)]);
             for (std::int64_t k = 0; k < subdomains[s].rigid_count; ++k) {
-                const double value = rows.b.value[static_cast<std::size_t>(e)] * subdomains[s].rigid_boundary(dof - rows.offset[s], k);
+                const double value =
+                    rows.b.value[static_cast<std::size_t>(e)] * subdomains[s].rigid_boundary(dof - rows.offset[s], k);
                 forward.push_back({first[s] + k, r, value});
                 backward.push_back({r, first[s] + k, value});
             }
@@ -35,7 +37,8 @@ DenseMatrix CoarseProblem::weighted_product(std::span<const double> weight) cons
     for (std::int64_t r = 0; r < gt_.rows; ++r) {
         const double w = weight[static_cast<std::size_t>(r)];
         if (w == 0.0) continue;
-        const std::int64_t begin = gt_.start[static_cast<std::size_t>(r)], end = gt_.start[static_cast<std::size_t>(r) + 1];
+        const std::int64_t begin = gt_.start[static_cast<std::size_t>(r)],
+                           end = gt_.start[static_cast<std::size_t>(r) + 1];
         for (std::int64_t i = begin; i < end; ++i)
             for (std::int64_t j = begin; j < end; ++j)
                 product(gt_.column[static_cast<std::size_t>(i)], gt_.column[static_cast<std::size_t>(j)]) +=
@@ -44,8 +47,9 @@ DenseMatrix CoarseProblem::weighted_product(std::span<const double> weight) cons
     return product;
 }
 
-// With springs of every stiffness the pivots of G Q G^T fall over many decades, and a soft hold cannot be told from none by their
-// size. Which motions are held at all is decided by G over the rows that carry force, whatever their stiffness.
+// With springs of every stiffness the pivots of G Q G^T fall over many decades, and a soft hold cannot be told from
+// none by their size. Which motions are held at all is decided by G over the rows that carry force, whatever their
+// stiffness.
 void CoarseProblem::set_weights(std::span<const double> weight) {
     if (std::equal(weight.begin(), weight.end(), weight_.begin(), weight_.end())) return;
     std::vector<double> carries(weight.size());

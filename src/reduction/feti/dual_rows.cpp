@@ -10,7 +10,8 @@
 
 namespace delam {
 
-DualRowBuilder::DualRowBuilder(const Problem& problem, std::span<const Subdomain> subdomains, const std::string& gluing) {
+DualRowBuilder::DualRowBuilder(const Problem& problem, std::span<const Subdomain> subdomains,
+                               const std::string& gluing) {
     const Mesh& mesh = *problem.mesh;
     const int dim = mesh.dimension();
     copies_.resize(static_cast<std::size_t>(mesh.node_count()));

@@ -31,7 +31,8 @@ const HostPiece& piece_with(const HostStiffness& own, const std::vector<std::int
 }
 
 // The part of a matrix over the DOFs of `nodes` that belongs to some of them.
-SparseMatrix restricted(const SparseMatrix& k, std::span<const std::int64_t> nodes, std::span<const std::int64_t> some, std::int64_t dim) {
+SparseMatrix restricted(const SparseMatrix& k, std::span<const std::int64_t> nodes, std::span<const std::int64_t> some,
+                        std::int64_t dim) {
     std::vector<std::int64_t> place(index(k.rows), -1), rows;
     for (const std::int64_t node : some) {
         const std::int64_t i = std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
@@ -72,29 +73,36 @@ Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monito
     DualRowBuilder builder(problem_, subdomains_, problem_.options.gluing);
     parting();
     const auto touched = builder.touched(subdomains_.size());
-    const bool with_schur = problem_.options.preconditioner == "dirichlet" || problem_.options.preconditioner == "series";
+    const bool with_schur =
+        problem_.options.preconditioner == "dirichlet" || problem_.options.preconditioner == "series";
     const auto parts = static_cast<std::int64_t>(subdomains_.size());
     const Look look = monitor_.look_from("condense", parts, parts);
     const auto condense = [&](std::int64_t i) {
         const std::size_t s = index(i);
         Subdomain& subdomain = subdomains_[s];
         if (subdomain.body < 0) {
-            subdomain.hold_controls(builder.scale(static_cast<std::int32_t>(s), static_cast<std::int64_t>(subdomain.nodes.size()) * problem_.mesh->dimension()));
+            subdomain.hold_controls(
+                builder.scale(static_cast<std::int32_t>(s),
+                              static_cast<std::int64_t>(subdomain.nodes.size()) * problem_.mesh->dimension()));
             return;
         }
         subdomain.boundary = touched[s];
         if (const auto& own = problem_.stiffness[index(subdomain.body)]; own == nullptr) {
-            subdomain.stiffness = assemble_stiffness(*problem_.mesh, cells[s], subdomain.nodes, problem_.model(subdomain.body), look);
+            subdomain.stiffness =
+                assemble_stiffness(*problem_.mesh, cells[s], subdomain.nodes, problem_.model(subdomain.body), look);
             subdomain.rigid = DenseMatrix(subdomain.stiffness.rows, problem_.mesh->dimension() == 2 ? 3 : 6);
             subdomain.rigid.value = rigid_modes(*problem_.mesh, subdomain.nodes);
         } else {
             const HostPiece& piece = piece_with(*own, subdomain.nodes);
-            subdomain.stiffness = restricted(own->matrix, problem_.mesh->body_nodes(subdomain.body), piece.nodes, problem_.mesh->dimension());
+            subdomain.stiffness = restricted(own->matrix, problem_.mesh->body_nodes(subdomain.body), piece.nodes,
+                                             problem_.mesh->dimension());
             subdomain.rigid = piece.free;
         }
         subdomain.condense(problem_.mesh->body_label(subdomain.body), with_schur, look);
     };
-    Team(problem_.options.threads).run(parts, condense, [&](std::int64_t done) { monitor_.progress("condense", done, parts); });
+    Team(problem_.options.threads).run(parts, condense, [&](std::int64_t done) {
+        monitor_.progress("condense", done, parts);
+    });
     ask(look);
     rows_ = builder.finish(subdomains_);
     ask(look);
@@ -120,7 +128,8 @@ Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monito
                                                        subdomains_[s].flexibility(di - first, dj - first);
                 }
     }
-    // Rows among control nodes alone know no flexibility; the coarse problem decides their forces, whatever their weight.
+    // Rows among control nodes alone know no flexibility; the coarse problem decides their forces, whatever their
+    // weight.
     double sum = 0.0;
     std::int64_t known = 0;
     for (const double f : flexibility_diagonal_) {
@@ -139,9 +148,11 @@ std::vector<std::vector<std::int64_t>> Feti::cut() {
     const Mesh& mesh = *problem_.mesh;
     const std::vector<std::uint8_t> given = given_by_host(problem_);
     std::int64_t whole = 0, cut_cells = 0;  // pieces of the host's, each a subdomain; cells of the other bodies
-    for (const auto& own : problem_.stiffness) whole += own != nullptr ? static_cast<std::int64_t>(own->pieces.size()) : 0;
+    for (const auto& own : problem_.stiffness)
+        whole += own != nullptr ? static_cast<std::int64_t>(own->pieces.size()) : 0;
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c) cut_cells += given[index(mesh.cell_body(c))] == 0 ? 1 : 0;
-    const std::int64_t wanted = whole == 0 ? feti_subdomains(problem_) : std::clamp<std::int64_t>(feti_subdomains(problem_) - whole, 0, cut_cells);
+    const std::int64_t wanted = whole == 0 ? feti_subdomains(problem_)
+                                           : std::clamp<std::int64_t>(feti_subdomains(problem_) - whole, 0, cut_cells);
     const Partition parts = partition(mesh, wanted, given);
     subdomains_.resize(parts.subdomain_body.size());
     for (std::size_t s = 0; s < subdomains_.size(); ++s) subdomains_[s].body = parts.subdomain_body[s];
@@ -240,9 +251,11 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     monitor_.progress("displacement", 0, 0);
     Team team(problem_.options.threads);
 
-    // Rows whose jump the device prescribes have a known force s j: the system is solved without them, and that force is shared out
-    // between spring and device afterwards (B_i = sum_k y_k B_k).
-    const auto pulled = [&springs](std::size_t row) { return springs.force.empty() || springs.held[row] != 0 ? 0.0 : springs.force[row]; };
+    // Rows whose jump the device prescribes have a known force s j: the system is solved without them, and that force
+    // is shared out between spring and device afterwards (B_i = sum_k y_k B_k).
+    const auto pulled = [&springs](std::size_t row) {
+        return springs.force.empty() || springs.held[row] != 0 ? 0.0 : springs.force[row];
+    };
     Springs unknown = springs;
     for (const Scaling::Prescribed& p : scaling_.prescribed_jumps) {
         unknown.stiffness[index(p.jump_row)] = 0.0;
@@ -259,7 +272,8 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
         else
             active[i] = 0;
     }
-    for (std::size_t i = 0; i < rows; ++i) weight[i] = active[i] != 0 ? 1.0 / (flexibility_diagonal_[i] + compliance[i]) : 0.0;
+    for (std::size_t i = 0; i < rows; ++i)
+        weight[i] = active[i] != 0 ? 1.0 / (flexibility_diagonal_[i] + compliance[i]) : 0.0;
     coarse_->set_weights(weight);
     preconditioner_->update(unknown);
 
@@ -319,9 +333,9 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     for (std::size_t i = 0; i < rows; ++i) load += weight[i] * rhs[i] * rhs[i];
     // Eigenstrains that are free to act cancel in B u: their rounding is that of larger numbers.
     const double floor = (problem_.eigenstrains.empty() ? 1.0 : 100.0) * rounding * std::sqrt(load);
-    const CgResult cg = projected_cg(system, rhs, lambda, problem_.options.linear_tolerance, floor,
-                                     problem_.options.linear_limit,
-                                     [&](std::int64_t iteration) { monitor_.progress("linear solve", iteration, 0); });
+    const CgResult cg =
+        projected_cg(system, rhs, lambda, problem_.options.linear_tolerance, floor, problem_.options.linear_limit,
+                     [&](std::int64_t iteration) { monitor_.progress("linear solve", iteration, 0); });
     response.iterations = cg.iterations;
     response.residual = cg.residual;
     response.converged = cg.converged;
@@ -353,7 +367,8 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     }
     response.force.assign(lambda.begin(), lambda.begin() + rows_.jump_count);
     double work_of_multipliers = dot(response.force, response.jump);
-    for (std::size_t d = 0; d < prescribed.size(); ++d) work_of_multipliers += lambda[first_constraint + d] * prescribed[d];
+    for (std::size_t d = 0; d < prescribed.size(); ++d)
+        work_of_multipliers += lambda[first_constraint + d] * prescribed[d];
     response.conjugate.assign(patterns, 0.0);
     response.load_potential = 0.0;
     double stretched = 0.0;  // f.u of eigenstrains less theta^T W theta
@@ -372,11 +387,12 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
             continue;
         }
         for (std::size_t q = 0; q < patterns; ++q)
-            response.conjugate[p] += strain_energy_(static_cast<std::int64_t>(p), static_cast<std::int64_t>(q)) * theta[q];
+            response.conjugate[p] +=
+                strain_energy_(static_cast<std::int64_t>(p), static_cast<std::int64_t>(q)) * theta[q];
         stretched -= theta[p] * response.conjugate[p];
     }
-    // 1/2 int (eps - e*) : C : (eps - e*) = 1/2 (f_dead - f_strain).u - 1/2 lambda.B u + 1/2 theta^T W theta; zero but for rounding where
-    // the strains are free to follow e*.
+    // 1/2 int (eps - e*) : C : (eps - e*) = 1/2 (f_dead - f_strain).u - 1/2 lambda.B u + 1/2 theta^T W theta; zero but
+    // for rounding where the strains are free to follow e*.
     response.stored_bulk = 0.5 * (-response.load_potential - stretched - work_of_multipliers);
     if (!problem_.eigenstrains.empty()) response.stored_bulk = std::max(0.0, response.stored_bulk);
     response.multipliers = std::move(lambda);
@@ -388,7 +404,8 @@ std::vector<double> Feti::reaction(std::span<const double>, const Response& resp
     return force;
 }
 
-std::vector<double> Feti::local_displacement(std::size_t subdomain, std::span<const double> theta, const Response& response) const {
+std::vector<double> Feti::local_displacement(std::size_t subdomain, std::span<const double> theta,
+                                             const Response& response) const {
     const Subdomain& sub = subdomains_[subdomain];
     std::vector<double> f(index(sub.dofs()), 0.0);
     for (std::size_t p = 0; p < theta.size(); ++p)
@@ -422,7 +439,8 @@ std::vector<double> Feti::displacement(std::span<const double> theta, const Resp
         for (std::size_t i = 0; i < subdomains_[s].nodes.size(); ++i) {
             const std::size_t node = index(subdomains_[s].nodes[i]);
             for (int k = 0; k < dim; ++k)  // copies agree up to the tolerance of the solve: their mean
-                u[node * index(dim) + index(k)] += local[i * index(dim) + index(k)] / static_cast<double>(copies_[node].size());
+                u[node * index(dim) + index(k)] +=
+                    local[i * index(dim) + index(k)] / static_cast<double>(copies_[node].size());
         }
     }
     for (const NodeTie& tie : problem_.mesh->ties())
@@ -470,10 +488,11 @@ std::string Feti::description() const {
         bytes += 8.0 * static_cast<double>(n) * static_cast<double>(n) * (s.schur.rows > 0 ? 2.0 : 1.0);
     }
     const bool controls = subdomains_.back().body < 0;
-    return text("total FETI: ", subdomains_.size() - (controls ? 1 : 0), " subdomains", controls ? " and control nodes, " : ", ", rows_.jump_count, " jump + ", rows_.glue_count, " gluing + ",
-                rows_.constraint_count, " constraint multipliers, coarse problem ", coarse_->size(), ", preconditioner ",
-                problem_.options.preconditioner, ", largest boundary ", largest, " DOFs, dense blocks ", bytes / 1048576.0,
-                " MiB");
+    return text("total FETI: ", subdomains_.size() - (controls ? 1 : 0), " subdomains",
+                controls ? " and control nodes, " : ", ", rows_.jump_count, " jump + ", rows_.glue_count, " gluing + ",
+                rows_.constraint_count, " constraint multipliers, coarse problem ", coarse_->size(),
+                ", preconditioner ", problem_.options.preconditioner, ", largest boundary ", largest,
+                " DOFs, dense blocks ", bytes / 1048576.0, " MiB");
 }
 
 }  // namespace delam

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Total FETI as a jump operator: all bodies are cut into floating subdomains; supports, gluing and interfaces act through multipliers.
+// Total FETI as a jump operator: all bodies are cut into floating subdomains; supports, gluing and interfaces act
+// through multipliers.
 //
 //   [ F + C   -G^T ] [lambda]   [ B K^+ f - c ]        u = K^+ (f - B^T lambda) + R alpha
 //   [ -G        0  ] [alpha ] = [ -R^T f      ]        F = B K^+ B^T,  G = R^T B^T
 //
-// C is the compliance 1/s of the springs on jump rows, zero elsewhere; a row with s = 0 carries no force and is left out
-// (tagged primal in the slides), its jump follows from u. Slides: "FETI formulation", "Dual problem", "Active set strategy".
+// C is the compliance 1/s of the springs on jump rows, zero elsewhere; a row with s = 0 carries no force and is left
+// out (tagged primal in the slides), its jump follows from u. Slides: "FETI formulation", "Dual problem", "Active set
+// strategy".
 #pragma once
 
 #include <memory>
@@ -30,7 +32,7 @@ public:
     std::vector<double> displacement(std::span<const double> theta, const Response& response) const override;
     double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
     std::span<const std::uint8_t> prescribed_rows() const override { return scaling_.prescribed; }
-    std::int64_t factorisations() const override { 
+    std::int64_t factorisations() const override {
         return static_cast<std::int64_t>(subdomains_.size()) - (subdomains_.back().body < 0 ? 1 : 0);
     }
     std::int64_t recoveries() const override { return recoveries_; }
@@ -40,7 +42,8 @@ private:
     std::vector<std::vector<std::int64_t>> cut();
     void precompute_forces(std::span<const std::vector<std::int64_t>> cells, const Look& look);
     void apply_flexibility(Team& team, std::span<const double> lambda, std::span<double> jumps) const;
-    std::vector<double> local_displacement(std::size_t subdomain, std::span<const double> theta, const Response& response) const;
+    std::vector<double> local_displacement(std::size_t subdomain, std::span<const double> theta,
+                                           const Response& response) const;
 
     const Problem problem_;
     Monitor& monitor_;
@@ -56,12 +59,12 @@ private:
     mutable std::int64_t recoveries_ = 0;
 
     // Dead forces, per pattern, on the first copy of their nodes; those of eigenstrains, each on its own subdomain.
-    std::vector<double> prescribed_;                     // [constraints][patterns]
-    std::vector<std::vector<double>> force_jump_;        // B K^+ f, [rows]
-    std::vector<std::vector<double>> force_resultant_;   // R^T f, [coarse]
-    DenseMatrix force_work_;                             // f_p^T K^+ f_q
-    DenseMatrix strain_energy_;                          // W of 1/2 theta^T W theta, of the eigenstrains alone
-    std::vector<std::vector<std::vector<double>>> force_; // [pattern][subdomain] local vector, empty where none
+    std::vector<double> prescribed_;                       // [constraints][patterns]
+    std::vector<std::vector<double>> force_jump_;          // B K^+ f, [rows]
+    std::vector<std::vector<double>> force_resultant_;     // R^T f, [coarse]
+    DenseMatrix force_work_;                               // f_p^T K^+ f_q
+    DenseMatrix strain_energy_;                            // W of 1/2 theta^T W theta, of the eigenstrains alone
+    std::vector<std::vector<std::vector<double>>> force_;  // [pattern][subdomain] local vector, empty where none
 };
 
 }  // namespace delam

@@ -62,7 +62,10 @@ SparseMatrix coupled(std::int64_t count, const std::vector<std::vector<std::int6
 FetiPreconditioner::FetiPreconditioner(const DualRows& rows, const std::vector<Subdomain>& subdomains,
                                        const Scaling& scaling, const std::string& kind, const Look& look)
     : rows_(rows), subdomains_(subdomains), scaling_(scaling) {
-    kind_ = kind == "none" ? Kind::none : kind == "lumped" ? Kind::lumped : kind == "dirichlet" ? Kind::dirichlet : Kind::series;
+    kind_ = kind == "none"        ? Kind::none
+            : kind == "lumped"    ? Kind::lumped
+            : kind == "dirichlet" ? Kind::dirichlet
+                                  : Kind::series;
     if (kind_ == Kind::none) return;
     scaled_transposed_ = transpose(scaling_.b_d);
     if (kind_ == Kind::lumped)
@@ -70,8 +73,9 @@ FetiPreconditioner::FetiPreconditioner(const DualRows& rows, const std::vector<S
     if (kind_ == Kind::series) build_pattern(look);
 }
 
-// base = E^T S~ E, assembled subdomain by subdomain from the jump rows that meet it: W S W^T with W the subdomain's part of E^T B_D. A row
-// has one entry in W where two nodes are paired, but all of a face's where nodes are tied to faces: two products, not a double sum.
+// base = E^T S~ E, assembled subdomain by subdomain from the jump rows that meet it: W S W^T with W the subdomain's
+// part of E^T B_D. A row has one entry in W where two nodes are paired, but all of a face's where nodes are tied to
+// faces: two products, not a double sum.
 void FetiPreconditioner::build_pattern(const Look& look) {
     struct Touch {
         std::int64_t row;  // position among the rows that meet the subdomain
@@ -79,13 +83,15 @@ void FetiPreconditioner::build_pattern(const Look& look) {
         double value;
     };
     std::vector<std::vector<Touch>> touched(subdomains_.size());
-    std::vector<std::vector<std::int64_t>> groups(subdomains_.size());  // rows that couple: those that meet a subdomain, ascending
+    std::vector<std::vector<std::int64_t>> groups(
+        subdomains_.size());  // rows that couple: those that meet a subdomain, ascending
     for (std::size_t s = 0; s < subdomains_.size(); ++s) {
         std::vector<std::int64_t>& met = groups[s];
         for (std::int64_t d = rows_.offset[s]; d < rows_.offset[s + 1]; ++d)
             for (std::int64_t e = scaled_transposed_.start[index(d)]; e < scaled_transposed_.start[index(d) + 1]; ++e)
                 if (scaled_transposed_.column[index(e)] < rows_.jump_count) {
-                    touched[s].push_back({scaled_transposed_.column[index(e)], d - rows_.offset[s], scaled_transposed_.value[index(e)]});
+                    touched[s].push_back(
+                        {scaled_transposed_.column[index(e)], d - rows_.offset[s], scaled_transposed_.value[index(e)]});
                     met.push_back(touched[s].back().row);
                 }
         std::sort(met.begin(), met.end());
@@ -129,8 +135,9 @@ void FetiPreconditioner::update(const Springs& springs) {
     in_e_.assign(index(rows_.jump_count), 0);
     for (std::int64_t r = 0; r < rows_.jump_count; ++r) in_e_[index(r)] = springs.held[index(r)] == 0 ? 1 : 0;
 
-    // On a dependent direction z (B^T z = 0) the bodies are rigid, and springs alone decide: z^T C z. In the series form S~^-1 -> 0
-    // there: S~ gets z z^T / delta with a delta well below the compliance of springs and bodies. The others get z z^T / (z^T C z) itself.
+    // On a dependent direction z (B^T z = 0) the bodies are rigid, and springs alone decide: z^T C z. In the series
+    // form S~^-1 -> 0 there: S~ gets z z^T / delta with a delta well below the compliance of springs and bodies. The
+    // others get z z^T / (z^T C z) itself.
     dependency_weight_.assign(scaling_.dependencies.size(), 0.0);
     for (std::size_t k = 0; k < scaling_.dependencies.size(); ++k) {
         const auto& dependency = scaling_.dependencies[k];
@@ -139,7 +146,8 @@ void FetiPreconditioner::update(const Springs& springs) {
             const std::int64_t r = dependency.row[i];
             if (r >= rows_.jump_count || in_e_[index(r)] == 0) continue;
             stiffest = std::max(stiffest, springs.stiffness[index(r)]);
-            compliance += dependency.z[i] * dependency.z[i] / springs.stiffness[index(r)];  // infinite: z carries no force
+            compliance +=
+                dependency.z[i] * dependency.z[i] / springs.stiffness[index(r)];  // infinite: z carries no force
         }
         dependency_weight_[k] = kind_ == Kind::series ? 1e3 * stiffest : compliance > 0.0 ? 1.0 / compliance : 0.0;
     }

@@ -5,8 +5,8 @@
 //   lumped     B_D K_bb B_D^T
 //   dirichlet  S~ = B_D S B_D^T, optimal for perfect bonds (C = 0), worse than none on a compliant interface
 //   series     (S~^-1 + C)^-1 = S~ - S~ E T^-1 E^T S~,  T = E^T S~ E + C^-1,  E: the jump rows that are not held.
-//              If c1 S~^-1 <= F <= c2 S~^-1 then the same constants (and 1) bound F + C, whatever C >= 0 is: flat in k and zeta.
-//              C^-1 = s (weight k zeta) makes the debonded limit s = 0 harmless; held rows (C = 0) leave E.
+//              If c1 S~^-1 <= F <= c2 S~^-1 then the same constants (and 1) bound F + C, whatever C >= 0 is: flat in k
+//              and zeta. C^-1 = s (weight k zeta) makes the debonded limit s = 0 harmless; held rows (C = 0) leave E.
 // T is sparse: dense blocks where two jump rows meet the same subdomain. Only its diagonal changes as the damage grows.
 #pragma once
 
@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "linalg/cholesky.hpp"
 #include "base/team.hpp"
+#include "linalg/cholesky.hpp"
 #include "reduction/feti/scaling.hpp"
 #include "reduction/jump_operator.hpp"
 
@@ -39,11 +39,11 @@ private:
     const DualRows& rows_;
     const std::vector<Subdomain>& subdomains_;
     const Scaling& scaling_;
-    SparseMatrix scaled_transposed_;       // B_D^T
-    std::vector<SparseMatrix> lumped_;     // K_bb per subdomain
+    SparseMatrix scaled_transposed_;    // B_D^T
+    std::vector<SparseMatrix> lumped_;  // K_bb per subdomain
     Kind kind_;
     std::vector<double> dependency_weight_;
-    SparseMatrix base_;                    // E^T B_D S B_D^T E over all jump rows
+    SparseMatrix base_;  // E^T B_D S B_D^T E over all jump rows
     SparseMatrix t_;
     std::unique_ptr<SparseCholesky> t_factor_;
     std::vector<std::uint8_t> in_e_;

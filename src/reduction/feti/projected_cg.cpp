@@ -18,17 +18,19 @@ struct Direction {
 
 constexpr std::size_t kept_directions = 400;  // beyond that the memory is better used elsewhere
 constexpr int rounds = 6;
-// Close to rounding the kept directions lose their conjugacy: the residual stops, then grows. A fresh start from there converges again.
+// Close to rounding the kept directions lose their conjugacy: the residual stops, then grows. A fresh start from there
+// converges again.
 constexpr int idle_limit = 100;
 constexpr double growth_limit = 1e3;
-constexpr double noise_zone = 1e3;  // times the floor of rounding
-constexpr double rounding = 1e-14;  // of the energy norm of the start
+constexpr double noise_zone = 1e3;          // times the floor of rounding
+constexpr double rounding = 1e-14;          // of the energy norm of the start
 constexpr double stagnation_slack = 100.0;  // times the tolerance or the floor
 
 }  // namespace
 
-CgResult projected_cg(const ProjectedSystem& system, std::span<const double> b, std::span<double> lambda, double tolerance,
-                      double floor, std::int64_t limit, const std::function<void(std::int64_t)>& each_iteration) {
+CgResult projected_cg(const ProjectedSystem& system, std::span<const double> b, std::span<double> lambda,
+                      double tolerance, double floor, std::int64_t limit,
+                      const std::function<void(std::int64_t)>& each_iteration) {
     const std::size_t n = b.size();
     CgResult result;
     std::vector<double> a_lambda(n), r(n), z(n), ap(n), best, at_lowest;
@@ -61,8 +63,8 @@ CgResult projected_cg(const ProjectedSystem& system, std::span<const double> b, 
                     best_norm = norm;
                     best.assign(lambda.begin(), lambda.end());
                     result.residual = energy > 0.0 ? norm / energy : 0.0;
-                    result.converged = reached || norm <= stagnation_slack * floor ||
-                                       result.residual <= stagnation_slack * tolerance;
+                    result.converged =
+                        reached || norm <= stagnation_slack * floor || result.residual <= stagnation_slack * tolerance;
                 }
                 if (reached || stagnated || result.iterations >= limit || round == rounds) {
                     std::copy(best.begin(), best.end(), lambda.begin());

@@ -13,9 +13,9 @@ namespace delam {
 struct ProjectedSystem {
     std::function<void(std::span<const double>, std::span<double>)> apply;         // y = A x
     std::function<void(std::span<const double>, std::span<double>)> precondition;  // z = M r
-    std::function<void(std::span<double>)> balance;                                // lambda <- nearest with G lambda = e
-    std::function<void(std::span<double>)> project;                                // lambda <- P lambda
-    std::function<void(std::span<double>)> project_transposed;                     // r <- P^T r
+    std::function<void(std::span<double>)> balance;             // lambda <- nearest with G lambda = e
+    std::function<void(std::span<double>)> project;             // lambda <- P lambda
+    std::function<void(std::span<double>)> project_transposed;  // r <- P^T r
 };
 
 struct CgResult {
@@ -24,11 +24,13 @@ struct CgResult {
     bool converged = false;
 };
 
-// lambda: start in, balanced solution out. Stops at sqrt(r^T z) <= tolerance * sqrt(lambda^T A lambda) for the true residual: the
-// recursion is restarted until a freshly computed residual agrees. Where rounding (sqrt(r^T z) <= floor) ends the descent first,
-// that is the solution: a structure in pieces moves without any force, and no relative measure of forces applies. A descent that
-// rounding ends within 100 times either bound counts as converged too; the residual says so.
-CgResult projected_cg(const ProjectedSystem& system, std::span<const double> b, std::span<double> lambda, double tolerance,
-                      double floor, std::int64_t limit, const std::function<void(std::int64_t)>& each_iteration);
+// lambda: start in, balanced solution out. Stops at sqrt(r^T z) <= tolerance * sqrt(lambda^T A lambda) for the true
+// residual: the recursion is restarted until a freshly computed residual agrees. Where rounding (sqrt(r^T z) <= floor)
+// ends the descent first, that is the solution: a structure in pieces moves without any force, and no relative measure
+// of forces applies. A descent that rounding ends within 100 times either bound counts as converged too; the residual
+// says so.
+CgResult projected_cg(const ProjectedSystem& system, std::span<const double> b, std::span<double> lambda,
+                      double tolerance, double floor, std::int64_t limit,
+                      const std::function<void(std::int64_t)>& each_iteration);
 
 }  // namespace delam

@@ -14,10 +14,12 @@ constexpr double dependence = 1e-9;  // relative size below which a row counts a
 // Columns are sorted, control nodes last.
 bool of_bodies(const SparseMatrix& b, std::int64_t row, std::int64_t body_dofs) {
     const auto first = static_cast<std::size_t>(b.start[static_cast<std::size_t>(row)]);
-    return b.start[static_cast<std::size_t>(row)] < b.start[static_cast<std::size_t>(row) + 1] && b.column[first] < body_dofs;
+    return b.start[static_cast<std::size_t>(row)] < b.start[static_cast<std::size_t>(row) + 1] &&
+           b.column[first] < body_dofs;
 }
 
-// Rows that hang together through shared boundary DOFs of bodies, by union-find over DOFs. Rows among control nodes alone are in none.
+// Rows that hang together through shared boundary DOFs of bodies, by union-find over DOFs. Rows among control nodes
+// alone are in none.
 std::vector<std::vector<std::int64_t>> clusters(const SparseMatrix& b, std::int64_t body_dofs) {
     std::vector<std::int64_t> parent(static_cast<std::size_t>(b.columns));
     std::iota(parent.begin(), parent.end(), std::int64_t{0});
@@ -38,7 +40,8 @@ std::vector<std::vector<std::int64_t>> clusters(const SparseMatrix& b, std::int6
     std::vector<std::int64_t> group_of(static_cast<std::size_t>(b.columns), -1);
     for (std::int64_t r = 0; r < b.rows; ++r) {
         if (!of_bodies(b, r, body_dofs)) continue;
-        const auto root = static_cast<std::size_t>(find(b.column[static_cast<std::size_t>(b.start[static_cast<std::size_t>(r)])]));
+        const auto root =
+            static_cast<std::size_t>(find(b.column[static_cast<std::size_t>(b.start[static_cast<std::size_t>(r)])]));
         if (group_of[root] < 0) {
             group_of[root] = static_cast<std::int64_t>(groups.size());
             groups.emplace_back();
@@ -55,8 +58,10 @@ struct ClusterBlock {
 
     ClusterBlock(const SparseMatrix& matrix, const std::vector<std::int64_t>& rows, std::int64_t end) {
         for (const std::int64_t r : rows)
-            for (std::int64_t e = matrix.start[static_cast<std::size_t>(r)]; e < matrix.start[static_cast<std::size_t>(r) + 1]; ++e)
-                if (matrix.column[static_cast<std::size_t>(e)] < end) dof.push_back(matrix.column[static_cast<std::size_t>(e)]);
+            for (std::int64_t e = matrix.start[static_cast<std::size_t>(r)];
+                 e < matrix.start[static_cast<std::size_t>(r) + 1]; ++e)
+                if (matrix.column[static_cast<std::size_t>(e)] < end)
+                    dof.push_back(matrix.column[static_cast<std::size_t>(e)]);
         std::sort(dof.begin(), dof.end());
         dof.erase(std::unique(dof.begin(), dof.end()), dof.end());
         b = DenseMatrix(static_cast<std::int64_t>(rows.size()), static_cast<std::int64_t>(dof.size()));
@@ -64,7 +69,8 @@ struct ClusterBlock {
             const auto r = static_cast<std::size_t>(rows[i]);
             for (std::int64_t e = matrix.start[r]; e < matrix.start[r + 1]; ++e) {
                 if (matrix.column[static_cast<std::size_t>(e)] >= end) continue;
-                const auto at = std::lower_bound(dof.begin(), dof.end(), matrix.column[static_cast<std::size_t>(e)]) - dof.begin();
+                const auto at =
+                    std::lower_bound(dof.begin(), dof.end(), matrix.column[static_cast<std::size_t>(e)]) - dof.begin();
                 b(static_cast<std::int64_t>(i), at) = matrix.value[static_cast<std::size_t>(e)];
             }
         }
@@ -100,10 +106,12 @@ void find_prescribed(const std::vector<std::int64_t>& rows, std::int64_t jump_co
     DenseMatrix gram(others, others);
     for (std::int64_t i = 0; i < others; ++i)
         for (std::int64_t j = 0; j < others; ++j)
-            for (std::int64_t d = 0; d < block.b.columns; ++d) gram(i, j) += block.b(jumps + i, d) * block.b(jumps + j, d);
+            for (std::int64_t d = 0; d < block.b.columns; ++d)
+                gram(i, j) += block.b(jumps + i, d) * block.b(jumps + j, d);
     const DenseMatrix inverse = pseudo_inverse(eigen_symmetric(gram));
     for (std::int64_t r = 0; r < jumps; ++r) {
-        std::vector<double> rest(static_cast<std::size_t>(block.b.columns)), along(static_cast<std::size_t>(others), 0.0);
+        std::vector<double> rest(static_cast<std::size_t>(block.b.columns)),
+            along(static_cast<std::size_t>(others), 0.0);
         double size = 0.0, left = 0.0;
         for (std::int64_t d = 0; d < block.b.columns; ++d) rest[static_cast<std::size_t>(d)] = block.b(r, d);
         for (const double v : rest) size += v * v;
@@ -114,7 +122,8 @@ void find_prescribed(const std::vector<std::int64_t>& rows, std::int64_t jump_co
         for (std::int64_t i = 0; i < others; ++i) {
             double y = 0.0;
             for (std::int64_t j = 0; j < others; ++j) y += inverse(i, j) * along[static_cast<std::size_t>(j)];
-            for (std::int64_t d = 0; d < block.b.columns; ++d) rest[static_cast<std::size_t>(d)] -= y * block.b(jumps + i, d);
+            for (std::int64_t d = 0; d < block.b.columns; ++d)
+                rest[static_cast<std::size_t>(d)] -= y * block.b(jumps + i, d);
             if (std::abs(y) <= dependence) continue;
             found.row.push_back(rows[static_cast<std::size_t>(jumps + i)]);
             found.y.push_back(y);
@@ -153,7 +162,8 @@ Scaling make_scaling(const DualRows& rows, const std::vector<Subdomain>& subdoma
         for (std::int64_t i = 0; i < n; ++i)
             for (std::int64_t d = 0; d < b_d.columns; ++d)
                 if (b_d(i, d) != 0.0)
-                    triplets.push_back({cluster[static_cast<std::size_t>(i)], block.dof[static_cast<std::size_t>(d)], b_d(i, d)});
+                    triplets.push_back(
+                        {cluster[static_cast<std::size_t>(i)], block.dof[static_cast<std::size_t>(d)], b_d(i, d)});
         if (n == 1 && control_rows.empty()) continue;
         const double largest = eigen.value.back();
         for (std::int64_t j = 0; j < n && eigen.value[static_cast<std::size_t>(j)] <= dependence * largest; ++j) {

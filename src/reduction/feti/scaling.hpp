@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The scaled operator B_D of the FETI preconditioners, S~ = B_D S B_D^T, with
 //   B_D = (B W^-1 B^T)^+ B W^-1,   W diagonal: the stiffness's diagonal, or 1 (multiplicity scaling),
-// so that B_D^T B is the W-orthogonal projector off the continuous fields, whatever basis the rows use (D. Rixen, C. Farhat, IJNME 44,
-// 1999, for signed rows). B W^-1 B^T falls apart into small clusters of rows that share boundary DOFs. Control nodes have no stiffness and stay
-// out of it: what they must do, the coarse problem states.
+// so that B_D^T B is the W-orthogonal projector off the continuous fields, whatever basis the rows use (D. Rixen, C.
+// Farhat, IJNME 44, 1999, for signed rows). B W^-1 B^T falls apart into small clusters of rows that share boundary
+// DOFs. Control nodes have no stiffness and stay out of it: what they must do, the coarse problem states.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,16 @@ namespace delam {
 struct Scaling {
     SparseMatrix b_d;  // [rows][boundary DOFs], as B
 
-    // Directions z with B^T z = 0 (rows that depend on each other: a triple junction, redundant gluing): the bodies give them no flexibility,
-    // only springs do. Those with an entry in a jump row are kept.
+    // Directions z with B^T z = 0 (rows that depend on each other: a triple junction, redundant gluing): the bodies
+    // give them no flexibility, only springs do. Those with an entry in a jump row are kept.
     struct Dependency {
         std::vector<std::int64_t> row;
         std::vector<double> z;
         double stiffness;  // scale of the bodies' stiffness there
     };
     std::vector<Dependency> dependencies;
-    // Jump rows that are combinations of gluing and constraint rows alone, B_i = sum_k y_k B_k: the device prescribes their jump.
+    // Jump rows that are combinations of gluing and constraint rows alone, B_i = sum_k y_k B_k: the device prescribes
+    // their jump.
     struct Prescribed {
         std::int64_t jump_row;
         std::vector<std::int64_t> row;

@@ -21,7 +21,8 @@ DenseMatrix motions_at(const DenseMatrix& rigid, std::span<const std::int64_t> d
 // The matrix over a subset of its DOFs in a new order.
 SparseMatrix permuted(const SparseMatrix& k, std::span<const std::int64_t> order) {
     std::vector<std::int64_t> position(static_cast<std::size_t>(k.rows), -1);
-    for (std::size_t i = 0; i < order.size(); ++i) position[static_cast<std::size_t>(order[i])] = static_cast<std::int64_t>(i);
+    for (std::size_t i = 0; i < order.size(); ++i)
+        position[static_cast<std::size_t>(order[i])] = static_cast<std::int64_t>(i);
     SparseMatrix p;
     p.rows = p.columns = static_cast<std::int64_t>(order.size());
     p.start.assign(1, 0);
@@ -29,7 +30,8 @@ SparseMatrix permuted(const SparseMatrix& k, std::span<const std::int64_t> order
     std::vector<std::pair<std::int64_t, double>> row;
     for (const std::int64_t dof : order) {
         row.clear();
-        for (std::int64_t e = k.start[static_cast<std::size_t>(dof)]; e < k.start[static_cast<std::size_t>(dof) + 1]; ++e) {
+        for (std::int64_t e = k.start[static_cast<std::size_t>(dof)]; e < k.start[static_cast<std::size_t>(dof) + 1];
+             ++e) {
             const std::int64_t c = position[static_cast<std::size_t>(k.column[static_cast<std::size_t>(e)])];
             if (c >= 0) row.emplace_back(c, k.value[static_cast<std::size_t>(e)]);
         }
@@ -83,7 +85,8 @@ void Subdomain::condense(std::int32_t label, bool with_schur, const Look& look) 
     const double tau = *std::max_element(diagonal.begin(), diagonal.end());
     const auto ni = static_cast<std::int64_t>(interior_.size());
     for (std::int64_t r = ni; r < shifted.rows; ++r)
-        for (std::int64_t e = shifted.start[static_cast<std::size_t>(r)]; e < shifted.start[static_cast<std::size_t>(r) + 1]; ++e)
+        for (std::int64_t e = shifted.start[static_cast<std::size_t>(r)];
+             e < shifted.start[static_cast<std::size_t>(r) + 1]; ++e)
             if (shifted.column[static_cast<std::size_t>(e)] == r) shifted.value[static_cast<std::size_t>(e)] += tau;
     ask(look);
     factor_ = std::make_unique<SparseCholesky>(shifted, nb, look);

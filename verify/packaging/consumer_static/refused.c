@@ -33,7 +33,8 @@ int main(void) {
     wrong += status_is("a good length", layers(context, 1.5, 4, &mesh), DELAM_OK);
     delam_mesh_destroy(&mesh);
     setrlimit(RLIMIT_AS, &little);
-    wrong += status_is("a hundred million cells in 256 MiB", layers(context, 1.5, 100000000, &mesh), DELAM_ERROR_MEMORY);
+    wrong +=
+        status_is("a hundred million cells in 256 MiB", layers(context, 1.5, 100000000, &mesh), DELAM_ERROR_MEMORY);
     delam_context_destroy(&context);
     if (wrong == 0) puts("refused with a status, twice");
     return wrong == 0 ? 0 : 1;

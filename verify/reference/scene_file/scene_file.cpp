@@ -40,7 +40,8 @@ SceneFile read_scene_file(const std::string& path, const std::vector<std::string
         }
         stiffness.push_back(own);
     }
-    return {Scene::adopt(Context(model.context.release()), Mesh(model.mesh.release()), Problem(model.problem.release()), std::move(stiffness)),
+    return {Scene::adopt(Context(model.context.release()), Mesh(model.mesh.release()), Problem(model.problem.release()),
+                         std::move(stiffness)),
             scene.times};
 }
 
@@ -68,7 +69,8 @@ std::vector<Judged> judge(SceneFile& file, const std::vector<std::size_t>& steps
         const State state = direct.solve(time, adhesion[i]);
         Judged row;
         row.time = time;
-        row.debonded = static_cast<double>(std::count_if(adhesion[i].begin(), adhesion[i].end(), [](double z) { return z <= 1e-3; })) /
+        row.debonded = static_cast<double>(
+                           std::count_if(adhesion[i].begin(), adhesion[i].end(), [](double z) { return z <= 1e-3; })) /
                        static_cast<double>(adhesion[i].size());
         row.closed = static_cast<int>(std::count(state.contact.begin(), state.contact.end(), true));
         // A contact whose gap or pressure is of the size of rounding may be called either way.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene file of the command line, as the reference takes scenes: whatever it has of meshes, materials, constraints and laws.
+// A scene file of the command line, as the reference takes scenes: whatever it has of meshes, materials, constraints
+// and laws.
 #pragma once
 
 #include <string>
@@ -28,8 +29,8 @@ struct Judged {
     bool stalled = false;            // FETI did not meet its linear tolerance (DELAM_NOT_CONVERGED)
     double linear_iterations = 0.0;  // of FETI's one displacement step
 };
-// steps: which of the march are judged; 0 is the initial state. subdomains: of FETI, 0 for its own choice. The options reduction and subdomains
-// of `file` are changed by it.
+// steps: which of the march are judged; 0 is the initial state. subdomains: of FETI, 0 for its own choice. The options
+// reduction and subdomains of `file` are changed by it.
 std::vector<Judged> judge(SceneFile& file, const std::vector<std::size_t>& steps, std::int64_t subdomains);
 
 }  // namespace reference

@@ -21,9 +21,8 @@ public:
     View(std::initializer_list<T> list) noexcept : size_(list.size()) {
         data_ = list.begin();  // lives as long as the call's full expression
     }
-    template <
-        class Container,
-        class = std::enable_if_t<std::is_convertible_v<decltype(std::declval<const Container&>().data()), const T*>>>
+    template <class Container, class = std::enable_if_t<
+                                   std::is_convertible_v<decltype(std::declval<const Container&>().data()), const T*>>>
     View(const Container& container) noexcept : data_(container.data()), size_(container.size()) {}
     const T* data() const noexcept { return data_; }
     std::size_t size() const noexcept { return size_; }

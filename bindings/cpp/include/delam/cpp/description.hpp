@@ -34,8 +34,7 @@ std::vector<Description> describe(std::int64_t count, Ask&& ask) {
         std::array<const char*, 6> texts{};
         const auto status = ask(i, texts);
         if (status != DELAM_OK) throw Error(status, "a description that was counted is not there");
-        all.push_back(
-            {copy(texts[0]), copy(texts[1]), copy(texts[2]), copy(texts[3]), copy(texts[4]), copy(texts[5])});
+        all.push_back({copy(texts[0]), copy(texts[1]), copy(texts[2]), copy(texts[3]), copy(texts[4]), copy(texts[5])});
     }
     return all;
 }

@@ -81,8 +81,7 @@ public:
         return values;
     }
     // jump: [count][dimension]
-    Response respond(std::int32_t dimension, View<double> jump, View<double> mixity,
-                     View<double> adhesion_old) const {
+    Response respond(std::int32_t dimension, View<double> jump, View<double> mixity, View<double> adhesion_old) const {
         detail::require(dimension > 0 && jump.size() == mixity.size() * detail::length(dimension) &&
                             adhesion_old.size() == mixity.size(),
                         "jump, mixity and adhesion_old: unequal sizes");

@@ -59,8 +59,7 @@ public:
         detail::require(dimension > 0 && nodes.size() % detail::length(dimension) == 0,
                         "nodes: not a whole number of points");
         delam_mesh* made = nullptr;
-        const auto status =
-            delam_mesh_create(context.get(), dimension, nodes.count() / dimension, nodes.data(), &made);
+        const auto status = delam_mesh_create(context.get(), dimension, nodes.count() / dimension, nodes.data(), &made);
         handle_.reset(made);
         shared_->check(status);
     }
@@ -86,8 +85,7 @@ public:
         shared_->check(delam_mesh_add_cells(get(), cell_type, count, connectivity.data(),
                                             bodies.size() == 0 ? nullptr : bodies.data(), 0));
     }
-    void add_conforming_cells(std::int32_t cell_type, View<std::int64_t> connectivity,
-                              View<std::int32_t> bodies = {}) {
+    void add_conforming_cells(std::int32_t cell_type, View<std::int64_t> connectivity, View<std::int32_t> bodies = {}) {
         const auto count = cells_in(cell_type, connectivity, bodies);
         shared_->check(delam_mesh_add_conforming_cells(get(), cell_type, count, connectivity.data(),
                                                        bodies.size() == 0 ? nullptr : bodies.data(), 0));
@@ -110,13 +108,11 @@ public:
     // weights: none for the nodal ones.
     std::int64_t add_obstacle(View<std::int64_t> nodes, View<double> normals, std::int64_t control_node,
                               View<double> weights = {}) {
-        detail::require(normals.size() == nodes.size() * detail::length(dimension()),
-                        "normals: not one for each node");
+        detail::require(normals.size() == nodes.size() * detail::length(dimension()), "normals: not one for each node");
         detail::require(weights.size() == 0 || weights.size() == nodes.size(), "weights: not one for each node");
         std::int64_t made = -1;
         shared_->check(delam_mesh_add_obstacle(get(), nodes.count(), nodes.data(), normals.data(),
-                                               weights.size() == 0 ? nullptr : weights.data(), control_node, 0,
-                                               &made));
+                                               weights.size() == 0 ? nullptr : weights.data(), control_node, 0, &made));
         return made;
     }
     // A body without cells, whose stiffness Problem::set_stiffness takes.

@@ -82,10 +82,9 @@ public:
                         "kernel: not a whole number of motions");
         std::int64_t motions = -1;
         if (kernel) motions = kernel->size() == 0 ? 0 : static_cast<std::int64_t>(kernel->size() / rows);
-        shared_->check(delam_problem_set_stiffness(get(), nodes.count(), nodes.data(),
-                                                   dofs.size() == 0 ? nullptr : dofs.data(), row_starts.data(),
-                                                   columns.data(), values.data(), motions,
-                                                   motions > 0 ? kernel->data() : nullptr, 0));
+        shared_->check(delam_problem_set_stiffness(
+            get(), nodes.count(), nodes.data(), dofs.size() == 0 ? nullptr : dofs.data(), row_starts.data(),
+            columns.data(), values.data(), motions, motions > 0 ? kernel->data() : nullptr, 0));
     }
     void set_stiffness(View<std::int64_t> nodes, const Matrix& matrix, View<std::int64_t> dofs = {},
                        std::optional<View<double>> kernel = std::nullopt) {
@@ -95,9 +94,7 @@ public:
         if (law.host()) laws_.push_back(law.host());
         shared_->check(delam_problem_set_law(get(), interface_index, law.get()));
     }
-    void set_bonded(std::int64_t interface_index) {
-        shared_->check(delam_problem_set_bonded(get(), interface_index));
-    }
+    void set_bonded(std::int64_t interface_index) { shared_->check(delam_problem_set_bonded(get(), interface_index)); }
     void set_contact(std::int64_t interface_index) {
         shared_->check(delam_problem_set_contact(get(), interface_index));
     }
@@ -110,8 +107,7 @@ public:
     std::int64_t add_pattern(Text name, View<double> times, View<double> values) {
         detail::require(times.size() == values.size(), "times and values: unequal sizes");
         std::int64_t made = -1;
-        shared_->check(
-            delam_problem_add_pattern(get(), name.get(), times.count(), times.data(), values.data(), &made));
+        shared_->check(delam_problem_add_pattern(get(), name.get(), times.count(), times.data(), values.data(), &made));
         return made;
     }
     // coefficients: [nodes][patterns]; without patterns: held at zero.
@@ -223,8 +219,7 @@ public:
 
 private:
     void in_space(std::size_t components, std::size_t vectors) const {
-        detail::require(components == vectors * detail::length(dimension_),
-                        "a vector has not the problem's dimension");
+        detail::require(components == vectors * detail::length(dimension_), "a vector has not the problem's dimension");
     }
     static Matrix sized(std::int64_t rows, std::int64_t entries) {
         Matrix matrix;

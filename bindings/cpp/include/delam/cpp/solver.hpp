@@ -233,9 +233,7 @@ public:
     }
     void load(View<std::uint8_t> bytes) { shared_->check(delam_solver_load(get(), bytes.count(), bytes.data())); }
     // The same bytes as a file.
-    void save(const std::filesystem::path& path) const {
-        shared_->check(delam_solver_save_file(get(), path.c_str()));
-    }
+    void save(const std::filesystem::path& path) const { shared_->check(delam_solver_save_file(get(), path.c_str())); }
     void load(const std::filesystem::path& path) { shared_->check(delam_solver_load_file(get(), path.c_str())); }
 
 private:
