@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "base/room.hpp"
 #include "capi/handles.hpp"
-#include "linalg/room.hpp"
 
 int32_t delam_context_create(delam_context** out) {
     if (out == nullptr) return DELAM_ERROR_ARGUMENT;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "interface/law.hpp"
+#include "law/law.hpp"
 
 #include <cstring>
 #include <string>
 #include <utility>
 
 #include "capi/handles.hpp"
-#include "interface/law_parameters.hpp"
+#include "law/law_parameters.hpp"
 
 namespace {
 

@@ -8,11 +8,11 @@
 
 #include "base/file.hpp"
 #include "capi/handles.hpp"
+#include "evolution/condensed_matrices.hpp"
 #include "evolution/fields.hpp"
 #include "evolution/snapshot.hpp"
 #include "evolution/solver.hpp"
 #include "evolution/values.hpp"
-#include "reduction/condensed/bulk.hpp"
 
 using namespace delam;
 
@@ -33,14 +33,6 @@ void copy_out(const std::vector<T>& values, std::int64_t capacity, T* out, const
 const std::vector<CrackFront>& fronts_of(const delam_solver& solver, std::int64_t interface_index) {
     const auto count = static_cast<std::int64_t>(solver.core->problem().interfaces.size());
     return solver.core->crack_fronts(require_index(interface_index, count, 0, "interface_index"));
-}
-
-const Bulk& bulk_of(const delam_solver& solver) {
-    const Bulk* bulk = solver.core->jump_operator().bulk();
-    if (bulk == nullptr)
-        fail(DELAM_ERROR_STATE,
-             "the solver works by FETI, which has no condensed operator: option reduction = condensed");
-    return *bulk;
 }
 
 }  // namespace
@@ -249,11 +241,9 @@ int32_t delam_solver_step_tangent(delam_solver* solver, int64_t capacity, double
 
 int32_t delam_solver_condensed_size(const delam_solver* solver, int64_t* unknowns, int64_t* entries) {
     return guard(solver, [&] {
-        const Bulk& bulk = bulk_of(*solver);
-        if (unknowns != nullptr) *unknowns = bulk.energy().rows();
-        if (entries == nullptr) return;
-        *entries = 0;
-        for (const Bulk::Row& row : bulk.rows()) *entries += static_cast<std::int64_t>(row.unknowns.size());
+        const CondensedSize size = condensed_size(*solver->core);
+        if (unknowns != nullptr) *unknowns = size.unknowns;
+        if (entries != nullptr) *entries = size.entries;
     });
 }
 
@@ -261,33 +251,9 @@ int32_t delam_solver_condensed(const delam_solver* solver, int64_t capacity, dou
                                double* constant, int64_t* row_starts, int64_t* columns, double* values,
                                double* offset) {
     return guard_read(solver, [&] {
-        const Bulk& bulk = bulk_of(*solver);
-        const DenseEnergy& energy = bulk.energy();
-        const std::size_t patterns = solver->core->problem().patterns.size();
-        if (stiffness != nullptr) {
-            require_capacity(capacity, energy.rows() * energy.rows(), "stiffness");
-            for (std::int64_t j = 0; j < energy.rows(); ++j) {  // its lower triangle is the one that holds
-                glance("copy", 1 + energy.rows() / 64);
-                for (std::int64_t i = j; i < energy.rows(); ++i)
-                    stiffness[i * energy.rows() + j] = stiffness[j * energy.rows() + i] = energy.stiffness(i, j);
-            }
-        }
-        if (load != nullptr) std::copy(energy.load.value.begin(), energy.load.value.end(), load);
-        if (constant != nullptr)
-            std::copy(bulk.pattern_stiffness().value.begin(), bulk.pattern_stiffness().value.end(), constant);
-        std::int64_t entry = 0;
-        if (row_starts != nullptr) row_starts[0] = 0;
-        for (std::size_t r = 0; r < bulk.rows().size(); ++r) {
-            const Bulk::Row& row = bulk.rows()[r];
-            for (const auto& [unknown, value] : row.unknowns) {
-                if (columns != nullptr) columns[entry] = unknown;
-                if (values != nullptr) values[entry] = value;
-                ++entry;
-            }
-            if (row_starts != nullptr) row_starts[r + 1] = entry;
-            for (std::size_t p = 0; p < patterns && offset != nullptr; ++p)
-                offset[r * patterns + p] = row.offset.empty() ? 0.0 : row.offset[p];
-        }
+        const CondensedSize size = condensed_size(*solver->core);
+        if (stiffness != nullptr) require_capacity(capacity, size.unknowns * size.unknowns, "stiffness");
+        copy_condensed(*solver->core, {stiffness, load, constant, row_starts, columns, values, offset});
     });
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the library is: version, commit, binary interface, names of statuses.
+#include "base/blas_threads.hpp"
 #include "delam/delam.h"
 #include "delam_commit.h"
-#include "linalg/blas_threads.hpp"
 
 const char* delam_version(void) { return DELAM_VERSION_TEXT; }
 

@@ -12,7 +12,7 @@
 #include <map>
 #include <span>
 
-#include "evolution/stepper.hpp"
+#include "evolution/step/stepper.hpp"
 
 namespace delam {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "interface/mixity.hpp"
+#include "law/mixity.hpp"
 #include "mesh/faces.hpp"
 
 namespace delam {

@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-#include "interface/law.hpp"
+#include "law/law.hpp"
 #include "mesh/mesh.hpp"
 
 namespace delam {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/blas_threads.hpp"
 #include "base/error.hpp"
 #include "evolution/solver.hpp"
-#include "linalg/blas_threads.hpp"
 
 namespace delam {
 

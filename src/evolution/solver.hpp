@@ -13,7 +13,7 @@
 #include "evolution/jump.hpp"
 #include "evolution/plan.hpp"
 #include "evolution/record.hpp"
-#include "evolution/stepper.hpp"
+#include "evolution/step/stepper.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {

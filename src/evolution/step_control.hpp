@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "evolution/jump.hpp"
-#include "evolution/stepper.hpp"
+#include "evolution/step/stepper.hpp"
 
 namespace delam {
 

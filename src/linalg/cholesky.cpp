@@ -11,8 +11,8 @@
 
 #include "base/error.hpp"
 #include "base/glance.hpp"
+#include "base/room.hpp"
 #include "delam/delam.h"
-#include "linalg/room.hpp"
 
 // Only modules under the LGPL are called by name (Core, Cholesky, Partition/CAMD); the supernodal kernels (GPL) are
 // reached through cholmod_l_factorize where the CHOLMOD at hand has them, and never when DELAM_CHOLMOD_SIMPLICIAL is

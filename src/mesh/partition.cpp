@@ -16,8 +16,8 @@
 
 #include "base/error.hpp"
 #include "base/glance.hpp"
+#include "base/room.hpp"
 #include "delam/delam.h"
-#include "linalg/room.hpp"
 #include "mesh/faces.hpp"
 
 namespace delam {

@@ -11,7 +11,7 @@
 #include "body/eigenstrain.hpp"
 #include "body/host_stiffness.hpp"
 #include "body/model.hpp"
-#include "interface/law.hpp"
+#include "law/law.hpp"
 #include "linalg/sparse.hpp"
 #include "mesh/mesh.hpp"
 #include "scene/options.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../cases/host_bilinear.hpp"
-#include "interface/law.hpp"
+#include "law/law.hpp"
 
 namespace laws {
 

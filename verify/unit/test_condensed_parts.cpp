@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "evolution/extrapolation.hpp"
-#include "interface/law.hpp"
+#include "evolution/increment/extrapolation.hpp"
+#include "law/law.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/echelon.hpp"
 #include "linalg/sparse.hpp"

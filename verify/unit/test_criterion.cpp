@@ -9,9 +9,9 @@
 
 #include "base/error.hpp"
 #include "delam/delam.h"
-#include "interface/criterion.hpp"
-#include "interface/law.hpp"
-#include "interface/law_parameters.hpp"
+#include "law/criterion.hpp"
+#include "law/law.hpp"
+#include "law/law_parameters.hpp"
 #include "laws.hpp"
 
 #include <check.h>  // last: it has a macro named fail

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "evolution/fronts.hpp"
+#include "evolution/step/fronts.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
 

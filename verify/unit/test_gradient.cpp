@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "interface/coupled_damage.hpp"
-#include "interface/gradient.hpp"
+#include "evolution/increment/coupled_damage.hpp"
+#include "evolution/increment/gradient.hpp"
 #include "mesh/layers.hpp"
 
 #include <check.h>  // last: it has a macro named fail

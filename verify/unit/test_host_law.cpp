@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "delam/delam.h"
-#include "interface/law.hpp"
+#include "law/law.hpp"
 #include "laws.hpp"
 
 #include <check.h>  // last: it has a macro named fail

@@ -14,9 +14,9 @@
 
 #include "base/error.hpp"
 #include "delam/delam.h"
-#include "interface/criterion.hpp"
-#include "interface/law.hpp"
-#include "interface/mixity.hpp"
+#include "law/criterion.hpp"
+#include "law/law.hpp"
+#include "law/mixity.hpp"
 
 #include <check.h>  // last: it has a macro named fail
 

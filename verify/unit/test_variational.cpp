@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "evolution/mixity_rule.hpp"
-#include "interface/variational.hpp"
+#include "evolution/increment/mixity_rule.hpp"
+#include "law/variational.hpp"
 
 #include <check.h>
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The displacement step of the variational rule: at frozen damage, f(B(u), zeta) is no quadratic form of u.
+//
+// Around the last jumps it is replaced by its linear part and a spring that bounds its curvature from above
+// (variational.hpp), which leaves an ordinary step with springs w k (zeta + mu) and forces of their own. Each solution
+// is a search direction: along the segment between two admissible answers of the operator the bulk energy is exactly
+// quadratic,
+//
+//   E(s) = (1-s) E_0 + s E_1 - s (1-s)/2 Q,     Q = (u_1-u_0)^T K (u_1-u_0) = -(j_1-j_0).(lambda_1-lambda_0),
+//
+// so the energy of every point on it is known without a solve, and none that raises it is taken. The end is where the
+// traction of the law is that of the bodies.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "evolution/increment/contact.hpp"
+#include "evolution/increment/damage_step.hpp"
+#include "evolution/increment/state.hpp"
+#include "law/variational.hpp"
+
+namespace delam {
+
+class CurvedDisplacement {
+public:
+    // mixity: B of jumps that are rounding, [pairs].
+    CurvedDisplacement(const PairLaws& pairs, std::span<const double> adhesion, std::span<const double> mixity)
+        : pairs_(pairs), adhesion_(adhesion), mixity_(mixity) {}
+
+    // Is the energy a quadratic form after all, because no adhesion lies between 0 and 1?
+    bool plain() const;
+    // One ordinary displacement step: springs, forces of their own, answer. Returns whether it converged.
+    using Solve = std::function<bool(std::span<const double> stiffness, std::span<const double> row_force,
+                                     std::vector<std::uint8_t>& closed, Response& response)>;
+    // closed, response: the start in (an empty or zero jump says nothing), the answer out. False: a limit.
+    bool run(const Solve& solve, std::vector<std::uint8_t>& closed, Response& response) const;
+
+private:
+    struct Model {
+        std::vector<double> stiffness, force;
+    };
+    Model model(std::span<const double> jump) const;
+    // w f(B, zeta) + springs; without the bulk.
+    double interface_energy(std::span<const double> jump) const;
+    // Largest difference between the forces of the law and those of the answer, over the largest force.
+    double mismatch(const std::vector<std::uint8_t>& closed, const Response& response) const;
+    VariationalPair pair(std::size_t p, double largest) const { return {*pairs_.law[p], mixity_[p], 0.0, largest}; }
+
+    const PairLaws& pairs_;
+    std::span<const double> adhesion_, mixity_;
+};
+
+}  // namespace delam

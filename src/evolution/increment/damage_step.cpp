@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/increment/damage_step.hpp"
+
+#include <algorithm>
+
+#include "evolution/increment/coupled_damage.hpp"
+#include "law/mixity.hpp"
+
+namespace delam {
+
+Driving driving_energy(const PairLaws& pairs, std::size_t pair, std::span<const double> jump) {
+    const auto dim = static_cast<std::size_t>(pairs.dimension);
+    return driving_energy(*pairs.law[pair], jump.subspan(pair * dim, dim));
+}
+
+double largest_driving(const PairLaws& pairs, std::span<const double> jump) {
+    double largest = 0.0;
+    for (std::size_t p = 0; p < pairs.law.size(); ++p)
+        if (pairs.law[p] != nullptr) largest = std::max(largest, driving_energy(pairs, p, jump).total());
+    return largest;
+}
+
+std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump, std::span<const double> known) {
+    std::vector<double> b(known.begin(), known.end());
+    bool any = false;
+    for (std::size_t p = 0; p < b.size() && !any; ++p) any = pairs.mixed(p);
+    if (!any) return b;
+    const double largest = largest_driving(pairs, jump);
+    for (std::size_t p = 0; p < b.size(); ++p) {
+        if (!pairs.mixed(p)) continue;
+        const Driving y = driving_energy(pairs, p, jump);
+        if (tells_mixity(*pairs.law[p], y, largest)) b[p] = mode_mixity(y.normal, y.tangential);
+    }
+    return b;
+}
+
+bool any_jump(const PairLaws& pairs, std::span<const double> jump) {
+    for (std::size_t p = 0; p < pairs.law.size(); ++p)
+        if (pairs.law[p] != nullptr &&
+            driving_energy(pairs, p, jump).total() > driving_rounding * pairs.law[p]->least_onset())
+            return true;
+    return false;
+}
+
+std::vector<double> spring_stiffness(const PairLaws& pairs, std::span<const double> adhesion) {
+    const auto dim = static_cast<std::size_t>(pairs.dimension);
+    std::vector<double> s(pairs.law.size() * dim, 0.0);
+    for (std::size_t p = 0; p < pairs.law.size(); ++p) {
+        if (pairs.law[p] == nullptr) continue;
+        const double scale =
+            pairs.weight[p] * adhesion[p] + 0.0;  // never -0: springs that are equal have the same bits
+        s[p * dim] = scale * pairs.law[p]->normal_stiffness;
+        for (std::size_t c = 1; c < dim; ++c) s[p * dim + c] = scale * pairs.law[p]->tangential_stiffness;
+    }
+    return s;
+}
+
+std::vector<Toughness> toughnesses(const PairLaws& pairs, std::span<const double> mixity) {
+    std::vector<Toughness> t(mixity.size(), Toughness{0.0, 0.0});
+    for (std::size_t p = 0; p < t.size(); ++p)
+        if (pairs.law[p] != nullptr) t[p] = pairs.toughness(p, mixity[p]);
+    return t;
+}
+
+std::vector<double> damage_step(const PairLaws& pairs, std::span<const Toughness> toughness,
+                                std::span<const double> adhesion_old, std::span<const double> adhesion,
+                                std::span<const double> jump) {
+    std::vector<double> driving(adhesion.size(), 0.0);
+    for (std::size_t p = 0; p < driving.size(); ++p)
+        if (pairs.law[p] != nullptr) driving[p] = driving_energy(pairs, p, jump).total();
+    return damage_at(pairs, toughness, driving, adhesion_old, adhesion);
+}
+
+std::vector<double> damage_at(const PairLaws& pairs, std::span<const Toughness> toughness,
+                              std::span<const double> driving, std::span<const double> adhesion_old,
+                              std::span<const double> adhesion) {
+    std::vector<double> zeta(adhesion_old.begin(), adhesion_old.end());
+    for (std::size_t p = 0; p < zeta.size(); ++p)
+        if (pairs.law[p] != nullptr && zeta[p] > 0.0)
+            zeta[p] = pairs.law[p]->minimiser(toughness[p], driving[p], zeta[p]);
+    for (const auto& term : pairs.gradient) {
+        const std::size_t first = term->first(), count = term->pairs();
+        const std::span<double> own = std::span(zeta).subspan(first, count);
+        const CoupledDamage coupled =
+            coupled_damage(*term, *pairs.law[first], toughness.subspan(first, count), driving.subspan(first, count),
+                           adhesion_old.subspan(first, count), own, adhesion.subspan(first, count));
+        std::copy(coupled.adhesion.begin(), coupled.adhesion.end(), own.begin());
+    }
+    return zeta;
+}
+
+double gradient_energy(const PairLaws& pairs, std::span<const double> adhesion) {
+    double sum = 0.0;
+    for (const auto& term : pairs.gradient) sum += term->energy(adhesion.subspan(term->first(), term->pairs()));
+    return sum;
+}
+
+double stored_energy(const PairLaws& pairs, std::span<const double> adhesion, std::span<const double> jump) {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < adhesion.size(); ++p)
+        if (pairs.law[p] != nullptr && adhesion[p] > 0.0)
+            sum += pairs.weight[p] * adhesion[p] * driving_energy(pairs, p, jump).total();
+    return sum + gradient_energy(pairs, adhesion);
+}
+
+double stored_slides(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion) {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < adhesion.size(); ++p)
+        if (pairs.law[p] != nullptr)
+            sum += pairs.weight[p] * pairs.law[p]->stored_slides(pairs.toughness(p, mixity[p]), adhesion[p]);
+    return sum;
+}
+
+double dissipation(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
+                   std::span<const double> adhesion) {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < adhesion.size(); ++p) {
+        if (pairs.law[p] == nullptr || adhesion[p] == adhesion_old[p]) continue;
+        const Toughness t = pairs.toughness(p, mixity[p]);
+        sum +=
+            pairs.weight[p] * (pairs.law[p]->dissipated(t, adhesion[p]) - pairs.law[p]->dissipated(t, adhesion_old[p]));
+    }
+    return sum;
+}
+
+double dissipation_slides(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
+                          std::span<const double> adhesion) {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < adhesion.size(); ++p)
+        if (pairs.law[p] != nullptr && adhesion[p] != adhesion_old[p])
+            sum += pairs.weight[p] * pairs.toughness(p, mixity[p]).total * (adhesion_old[p] - adhesion[p]);
+    return sum;
+}
+
+}  // namespace delam

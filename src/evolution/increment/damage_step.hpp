@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Damage over all pairs: driving energies, mixities, the damage step (pointwise, or coupled on interfaces with a
+// gradient term), and interface energies.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "evolution/increment/gradient.hpp"
+#include "law/driving.hpp"
+#include "law/law.hpp"
+
+namespace delam {
+
+// One entry a pair; law null where the pair is bonded for ever or only touches.
+struct PairLaws {
+    int dimension = 2;
+    std::vector<const Law*> law;
+    std::vector<double> weight;  // L (2D) or L2 (3D)
+    // Toughness of pairs whose mixity is not computed because their law does not depend on it; empty: all are computed.
+    std::vector<std::optional<Toughness>> fixed;
+    // Of interfaces whose law has kappa > 0; empty: the damage step is pointwise everywhere.
+    std::vector<std::shared_ptr<const GradientTerm>> gradient;
+
+    bool mixed(std::size_t pair) const { return law[pair] != nullptr && (fixed.empty() || !fixed[pair]); }
+    Toughness toughness(std::size_t pair, double mixity) const {
+        return mixed(pair) ? law[pair]->toughness(mixity) : *fixed[pair];
+    }
+};
+
+Driving driving_energy(const PairLaws& pairs, std::size_t pair, std::span<const double> jump);
+
+// Largest Y of all pairs.
+double largest_driving(const PairLaws& pairs, std::span<const double> jump);
+// B of every pair, [pairs]. A pair whose jump is rounding (below 1e-10 of the onset's or of the largest one) keeps its
+// `known` B, and so does one whose mixity is not computed.
+std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump, std::span<const double> known);
+// Does any pair have a jump that is more than rounding of its onset?
+bool any_jump(const PairLaws& pairs, std::span<const double> jump);
+// s = weight k zeta of every row, [rows].
+std::vector<double> spring_stiffness(const PairLaws& pairs, std::span<const double> adhesion);
+// Go and Gc at the mixities, [pairs]; zero where there is no law.
+std::vector<Toughness> toughnesses(const PairLaws& pairs, std::span<const double> mixity);
+// zeta = argmin over 0 <= zeta <= adhesion_old at the frozen mixity of `toughness`; returns [pairs]. adhesion: [pairs]
+// where coupled interfaces start their search (coupled_damage.hpp); the problem is convex, so it decides no more than
+// the last digits.
+std::vector<double> damage_step(const PairLaws& pairs, std::span<const Toughness> toughness,
+                                std::span<const double> adhesion_old, std::span<const double> adhesion,
+                                std::span<const double> jump);
+// The same at given driving energies, [pairs].
+std::vector<double> damage_at(const PairLaws& pairs, std::span<const Toughness> toughness,
+                              std::span<const double> driving, std::span<const double> adhesion_old,
+                              std::span<const double> adhesion);
+
+double stored_energy(const PairLaws& pairs, std::span<const double> adhesion,
+                     std::span<const double> jump);                               // sum w zeta Y + gradient
+double gradient_energy(const PairLaws& pairs, std::span<const double> adhesion);  // its second part alone
+double stored_slides(const PairLaws& pairs, std::span<const double> mixity,
+                     std::span<const double> adhesion);  // sum w f
+// sum w (g(B, zeta) - g(B, zeta_old)), the ledger whose stored part does not depend on the mixity
+double dissipation(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
+                   std::span<const double> adhesion);
+// sum w Gc(B) (zeta_old - zeta)
+double dissipation_slides(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
+                          std::span<const double> adhesion);
+
+}  // namespace delam

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/increment/gradient.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+#include "mesh/shape.hpp"
+
+namespace delam {
+
+namespace {
+
+using Node = std::array<double, 3>;
+using Local = std::array<double, most_face_nodes * most_face_nodes>;
+
+// A face as an element of its own: its pairs without the entries that only fill the list up (interface_geometry.hpp).
+struct Face {
+    std::vector<std::int64_t> pair;  // corners, then mid-sides
+    std::size_t corners;
+};
+
+Face unpadded(std::span<const std::int64_t> listed, int dimension) {
+    const std::size_t nodes = listed.size();
+    const std::size_t corners = dimension == 2 ? 2 : nodes > 4 ? nodes / 2 : nodes;
+    const std::size_t own = corners == 4 && listed[3] == listed[2] ? 3 : corners;
+    const auto corner = listed.first(own);
+    Face face{{corner.begin(), corner.end()}, own};
+    const auto is_corner = [&](std::int64_t pair) {
+        return std::find(corner.begin(), corner.end(), pair) != corner.end();
+    };
+    for (std::size_t side = corners; side < nodes; ++side)
+        if (!is_corner(listed[side])) face.pair.push_back(listed[side]);
+    return face;
+}
+
+// int N_a' N_b' / |x'| dxi, three Gauss points: exact on straight edges with the middle node midway.
+Local line_stiffness(std::span<const Node> x) {
+    const double outer = std::sqrt(0.6);
+    const std::array<double, 3> point{-outer, 0.0, outer}, weight{5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+    Local local{};
+    for (std::size_t q = 0; q < 3; ++q) {
+        const double xi = point[q];
+        const std::array<double, 3> g =
+            x.size() == 2 ? std::array{-0.5, 0.5, 0.0} : std::array{xi - 0.5, xi + 0.5, -2.0 * xi};
+        Node tangent{};
+        for (std::size_t a = 0; a < x.size(); ++a)
+            for (std::size_t i = 0; i < 3; ++i) tangent[i] += g[a] * (x[a][i] - x[0][i]);
+        const double length = std::hypot(tangent[0], tangent[1], tangent[2]);
+        for (std::size_t a = 0; a < x.size(); ++a)
+            for (std::size_t b = 0; b < x.size(); ++b) local[a * x.size() + b] += weight[q] * g[a] * g[b] / length;
+    }
+    return local;
+}
+
+// int g_a^T G^-1 g_b sqrt(det G) dxi
+Local surface_stiffness(CellType type, std::span<const Node> x) {
+    const Quadrature& gauss = quadrature(type);
+    Local local{};
+    for (std::size_t q = 0; q < gauss.points.size(); ++q) {
+        const ShapeGradient& g = gauss.gradients[q];
+        Node u{}, v{};
+        for (std::size_t a = 0; a < x.size(); ++a)
+            for (std::size_t i = 0; i < 3; ++i) {
+                u[i] += g[2 * a] * (x[a][i] - x[0][i]);
+                v[i] += g[2 * a + 1] * (x[a][i] - x[0][i]);
+            }
+        const double uu = u[0] * u[0] + u[1] * u[1] + u[2] * u[2], vv = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+        const double uv = u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+        const double area = std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+        for (std::size_t a = 0; a < x.size(); ++a)
+            for (std::size_t b = 0; b < x.size(); ++b)
+                local[a * x.size() + b] += gauss.weights[q] / area *
+                                           (g[2 * a] * (vv * g[2 * b] - uv * g[2 * b + 1]) +
+                                            g[2 * a + 1] * (uu * g[2 * b + 1] - uv * g[2 * b]));
+    }
+    return local;
+}
+
+Local stiffness_of(const Face& face, int dimension, std::span<const Node> x) {
+    if (dimension == 2) return line_stiffness(x);
+    if (face.corners == 3) return surface_stiffness(x.size() == 3 ? CellType::tri3 : CellType::tri6, x);
+    return surface_stiffness(x.size() == 4 ? CellType::quad4 : CellType::quad8, x);
+}
+
+}  // namespace
+
+SparseMatrix surface_stiffness(const Mesh& mesh, const InterfaceGeometry& interface, std::span<const double> adhesion) {
+    const auto per_face = static_cast<std::size_t>(interface.nodes_per_face);
+    std::vector<Triplet> entries;
+    for (std::int64_t p = 0; p < interface.pair_count(); ++p) entries.push_back({p, p, 0.0});
+    for (std::size_t f = 0; f + per_face <= interface.face.size(); f += per_face) {
+        const Face face = unpadded(std::span(interface.face).subspan(f, per_face), mesh.dimension());
+        if (std::any_of(face.pair.begin(), face.pair.end(),
+                        [&](std::int64_t p) { return !(adhesion[static_cast<std::size_t>(p)] > 0.0); }))
+            continue;
+        const std::size_t n = face.pair.size();
+        std::vector<Node> x(n, Node{});
+        for (std::size_t a = 0; a < n; ++a) {
+            const auto node = mesh.node(interface.node_a[static_cast<std::size_t>(face.pair[a])]);
+            std::copy(node.begin(), node.end(), x[a].begin());
+        }
+        const Local local = stiffness_of(face, mesh.dimension(), x);
+        for (std::size_t a = 0; a < n; ++a)
+            for (std::size_t b = 0; b < n; ++b)
+                entries.push_back({face.pair[a], face.pair[b], 0.5 * (local[a * n + b] + local[b * n + a])});
+    }
+    return from_triplets(interface.pair_count(), interface.pair_count(), std::move(entries));
+}
+
+GradientTerm::GradientTerm(double kappa, const SparseMatrix& stiffness, std::vector<double> weight, std::size_t first)
+    : kappa_(kappa),
+      matrix_(stiffness),
+      weight_(std::move(weight)),
+      diagonal_(weight_.size(), 0.0),
+      first_(first),
+      work_(stiffness),
+      factor_(stiffness) {
+    if (matrix_.rows != static_cast<std::int64_t>(weight_.size()))
+        fail(DELAM_ERROR_INTERNAL, "gradient term: ", weight_.size(), " weights for ", matrix_.rows, " pairs");
+    for (double& value : matrix_.value) value *= kappa;
+    for (std::size_t r = 0; r < weight_.size(); ++r)
+        for (auto e = static_cast<std::size_t>(matrix_.start[r]); e < static_cast<std::size_t>(matrix_.start[r + 1]);
+             ++e)
+            if (matrix_.column[e] == static_cast<std::int64_t>(r)) diagonal_[r] = matrix_.value[e];
+}
+
+std::int64_t GradientTerm::coupled_pairs() const {
+    return std::count_if(diagonal_.begin(), diagonal_.end(), [](double d) { return d > 0.0; });
+}
+
+std::vector<double> GradientTerm::force(std::span<const double> zeta) const {
+    std::vector<double> out(zeta.size(), 0.0);
+    for (std::size_t r = 0; r < zeta.size(); ++r)
+        for (auto e = static_cast<std::size_t>(matrix_.start[r]); e < static_cast<std::size_t>(matrix_.start[r + 1]);
+             ++e)
+            out[r] += matrix_.value[e] * (zeta[static_cast<std::size_t>(matrix_.column[e])] - zeta[r]);
+    return out;
+}
+
+// With rows that sum to zero, z^T A z = -1/2 sum_ij A_ij (z_i - z_j)^2.
+double GradientTerm::energy(std::span<const double> zeta) const {
+    double sum = 0.0;
+    for (std::size_t r = 0; r < zeta.size(); ++r)
+        for (auto e = static_cast<std::size_t>(matrix_.start[r]); e < static_cast<std::size_t>(matrix_.start[r + 1]);
+             ++e) {
+            const double difference = zeta[r] - zeta[static_cast<std::size_t>(matrix_.column[e])];
+            sum -= matrix_.value[e] * difference * difference;
+        }
+    return 0.25 * sum;
+}
+
+bool GradientTerm::solve(std::span<const double> diag, std::span<const std::uint8_t> held, std::span<const double> b,
+                         std::span<double> x) const {
+    for (std::size_t r = 0; r < diag.size(); ++r)
+        for (auto e = static_cast<std::size_t>(matrix_.start[r]); e < static_cast<std::size_t>(matrix_.start[r + 1]);
+             ++e) {
+            const auto c = static_cast<std::size_t>(matrix_.column[e]);
+            work_.value[e] = r == c                         ? matrix_.value[e] + diag[r]
+                             : held[r] != 0 || held[c] != 0 ? 0.0
+                                                            : matrix_.value[e];
+        }
+    if (!factor_.factorise(work_)) return false;
+    factor_.solve(b, x);
+    return true;
+}
+
+}  // namespace delam

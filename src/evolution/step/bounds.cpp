@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/step/bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+
+namespace delam {
+
+Lift::Lift(JumpOperator& op, std::span<const std::uint8_t> bonded_rows, std::span<const BoundRow> bound,
+           std::size_t patterns)
+    : a_(static_cast<std::int64_t>(patterns), static_cast<std::int64_t>(patterns)) {
+    const std::size_t rows = bonded_rows.size();
+    std::vector<std::uint8_t> moving(op.prescribed_rows().begin(), op.prescribed_rows().end());
+    // Of each equation among jumps one row has to give way: its own, or one that is not bonded.
+    for (const BoundRow& equation : bound) {
+        std::int64_t gives = bonded_rows[static_cast<std::size_t>(equation.row)] == 0 ? equation.row : -1;
+        for (const std::int64_t other : equation.others)
+            if (gives < 0 && bonded_rows[static_cast<std::size_t>(other)] == 0 &&
+                moving[static_cast<std::size_t>(other)] == 0)
+                gives = other;
+        if (gives >= 0)
+            moving[static_cast<std::size_t>(gives)] = 1;
+        else if (std::any_of(equation.offset.begin(), equation.offset.end(), [](double o) { return o != 0.0; }))
+            fail(DELAM_ERROR_PROBLEM, "prescribed displacements tear jump row ", equation.row, " and ",
+                 equation.others.size(), " others apart, whose interfaces are bonded for ever");
+    }
+    Springs bonded{std::vector<double>(rows, 0.0), std::vector<std::uint8_t>(rows, 1)};
+    for (std::size_t i = 0; i < rows; ++i) {
+        if (moving[i] == 0) continue;
+        bonded.held[i] = 0;
+        prescribed_.push_back(i);
+    }
+    jump_.assign(prescribed_.size(), std::vector<double>(patterns, 0.0));
+    for (std::size_t p = 0; p < patterns; ++p) {
+        std::vector<double> unit(patterns, 0.0);
+        unit[p] = 1.0;
+        Response response;
+        op.solve(bonded, unit, response);
+        if (!response.balanced)
+            fail(DELAM_ERROR_PROBLEM,
+                 "a dead force acts on a part that no support holds even when all interfaces are bonded");
+        for (std::size_t q = 0; q < patterns; ++q)
+            a_(static_cast<std::int64_t>(q), static_cast<std::int64_t>(p)) = response.conjugate[q];
+        for (std::size_t i = 0; i < prescribed_.size(); ++i) jump_[i][p] = response.jump[prescribed_[i]];
+    }
+}
+
+std::vector<std::size_t> Lift::driven_rows(double rounding) const {
+    std::vector<std::size_t> rows;
+    for (std::size_t i = 0; i < prescribed_.size(); ++i)
+        if (std::any_of(jump_[i].begin(), jump_[i].end(), [&](double v) { return std::abs(v) > rounding; }))
+            rows.push_back(prescribed_[i]);
+    return rows;
+}
+
+double Lift::half_quadratic(std::span<const double> d, std::span<const double> stiffness) const {
+    double twice = 0.0;
+    for (std::size_t p = 0; p < d.size(); ++p)
+        for (std::size_t q = 0; q < d.size(); ++q)
+            twice += d[p] * a_(static_cast<std::int64_t>(p), static_cast<std::int64_t>(q)) * d[q];
+    for (std::size_t i = 0; i < prescribed_.size(); ++i) {
+        const double along = dot(jump_[i], d);
+        twice += stiffness[prescribed_[i]] * along * along;
+    }
+    return 0.5 * twice;
+}
+
+}  // namespace delam

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How the forces of the device change with the load factors at a state, its contact set held.
+//
+// With the adhesion held, all is linear: conjugates of unit factors are the columns of d2E/dtheta2. In a step the
+// adhesion follows. With J the jumps of unit factors at the springs s = w k zeta that the state has, each pair that
+// damages adds a force v_a dzeta_a, v_a = w k j, to which the bodies answer by jumps -U_a, and
+//
+//   g''_a dzeta_a + (kappa A / w dzeta)_a = -(dY_a - D_B dB_a) =: -omega_a . dj,     dj = J dtheta - U dzeta
+//
+// (from Y = D(B, zeta) = -dg/dzeta where a pair damages; dB = 0 but with mixity_rule = converged). That is a small
+// dense system. Under the variational rule the force of a pair is that of VariationalPair with the damage minimised
+// out; what it differs from the springs takes the place of v omega^T.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "evolution/increment/contact.hpp"
+#include "evolution/increment/damage_step.hpp"
+#include "evolution/increment/mixity_rule.hpp"
+#include "evolution/increment/state.hpp"
+#include "reduction/jump_operator.hpp"
+#include "scene/problem.hpp"
+
+namespace delam {
+
+class Linearised {
+public:
+    Linearised(JumpOperator& op, const PairLaws& pairs, const ContactScene& contact, const State& state);
+    // From the state's own memory, so that the last digits are a function of the state; every other call that solves
+    // recalls that of its state likewise.
+
+    // At the adhesion of the state, [patterns][patterns]. Error(DELAM_ERROR_STATE): a pattern acts along what nothing
+    // holds.
+    std::vector<double> tangent(std::span<const Pattern> patterns);
+    // Of a step that began at adhesion_old. tolerance: of the adhesion.
+    std::vector<double> step_tangent(std::span<const Pattern> patterns, MixityRule rule,
+                                     std::span<const double> adhesion_old, double tolerance);
+
+private:
+    // A force v x that appears as the state moves, own x = omega . dj: x = dzeta and own = -g''; variational: own = 1.
+    struct Direction {
+        std::size_t pair;
+        std::vector<double> force;  // [dimension], v
+        std::vector<double> form;   // [dimension], omega
+        double own;                 // factor of its amount
+    };
+    Response unit(std::span<const double> theta, const std::vector<double>& force);
+    std::vector<Direction> damaging(MixityRule rule, std::span<const double> adhesion_old, double tolerance) const;
+    std::vector<Direction> variational(std::span<const double> adhesion_old) const;
+    // dB/dj and dD/dB of a pair, as the last part of its form.
+    void add_mixity(Direction& direction, double zeta) const;
+    double along(const Direction& direction, std::span<const double> jump) const;
+
+    JumpOperator& op_;
+    const PairLaws& pairs_;
+    const State& state_;
+    std::size_t dim_;
+    Springs springs_;
+    std::vector<Response> columns_;  // of unit factors
+};
+
+}  // namespace delam

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/step/stepper.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "evolution/increment/contact_levels.hpp"
+#include "evolution/step/step_tangent.hpp"
+#include "scene/strain_loads.hpp"
+
+namespace delam {
+
+namespace {
+
+constexpr double rounding = 1e-10;      // of the larger of energy and work: two states that differ by less are as good
+constexpr std::size_t most_starts = 2;  // candidates of a search that a step is minimised from
+constexpr double promising =
+    0.5;  // of its dissipation: by how much a candidate may lie above the step and still be relaxed
+
+double scale_of(const Ledger& ledger) { return std::max(std::abs(ledger.energy()), std::abs(ledger.work)); }
+
+}  // namespace
+
+Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), monitor_(monitor) {
+    const Look checking = [this] { monitor_.progress("check", 0, 0); };
+    validate(problem_, checking);
+    const Mesh& mesh = *problem_.mesh;
+    pairs_.dimension = contact_.dimension = mesh.dimension();
+    contact_.limit = problem_.options.contact_limit;
+    contact_.always = problem_.options.contact == "always";
+    for (std::size_t i = 0; i < mesh.interfaces().size(); ++i) {
+        const InterfaceProperties& properties = problem_.interfaces[i];
+        std::optional<Toughness> fixed;
+        const Law* law = properties.law ? &*properties.law : nullptr;  // none: bonded for ever, or contact alone
+        if (law != nullptr && problem_.options.mixity == "auto" && !law->depends_on_mixity())
+            fixed = law->toughness(0.0);
+        if (law != nullptr && law->gradient > 0.0)
+            pairs_.gradient.push_back(std::make_shared<const GradientTerm>(
+                law->gradient, surface_stiffness(mesh, mesh.interfaces()[i], properties.adhesion),
+                mesh.interfaces()[i].weight, pairs_.weight.size()));
+        for (const double weight : mesh.interfaces()[i].weight) {
+            pairs_.weight.push_back(weight);
+            pairs_.law.push_back(law);
+            pairs_.fixed.push_back(fixed);
+            contact_.bonded.push_back(properties.bonded ? 1 : 0);
+        }
+        initial_adhesion_.insert(initial_adhesion_.end(), properties.adhesion.begin(), properties.adhesion.end());
+    }
+    contact_.level = contact_levels(mesh.interfaces());
+    if (!problem_.eigenstrains.empty()) {
+        StrainSizes sizes = strain_sizes(problem_);
+        contact_.strain_jump = std::move(sizes.displacement);
+        contact_.strain_force = std::move(sizes.force);
+    }
+    rule_ = mixity_rule(pairs_, problem_.options.mixity_rule);
+    ask(checking);
+    ChosenOperator chosen = choose_operator(problem_, monitor_);
+    operator_ = std::move(chosen.op);
+    reduction_ = std::move(chosen.choice);
+    std::vector<std::uint8_t> bonded_rows;
+    for (const std::uint8_t b : contact_.bonded)
+        bonded_rows.insert(bonded_rows.end(), static_cast<std::size_t>(mesh.dimension()), b);
+    lift_ = Lift(*operator_, bonded_rows, bound_rows(problem_), problem_.patterns.size());
+    double largest = 0.0;
+    for (const double c : problem_.prescribed_matrix()) largest = std::max(largest, std::abs(c));
+    for (const std::size_t row : lift_.driven_rows(1e-9 * largest)) {
+        const std::size_t pair = row / static_cast<std::size_t>(mesh.dimension());
+        if (contact_.bonded[pair] != 0)
+            fail(DELAM_ERROR_PROBLEM, "prescribed displacements tear pair ", pair,
+                 " apart, whose interface is bonded for ever");
+    }
+}
+
+Minimiser Stepper::minimiser() const {
+    return {
+        *operator_, pairs_, contact_, monitor_, problem_.options.damage_tolerance, problem_.options.minimisation_limit,
+        rule_};
+}
+
+Stepper::Result Stepper::initial(double time) {
+    Result result;
+    State& state = result.state;
+    state.time = time;
+    state.theta = problem_.factors(time);
+    state.adhesion = initial_adhesion_;
+    const auto dim = static_cast<std::size_t>(problem_.mesh->dimension());
+    // A notch starts closed: that is where it stays unless something opens it.
+    for (std::size_t p = 0; p < state.adhesion.size(); ++p)
+        state.closed.push_back(
+            contact_.bonded[p] == 0 && state.adhesion[p] == 0.0 && operator_->prescribed_rows()[p * dim] == 0 ? 1 : 0);
+    result.converged = minimiser().displace(state);
+    state.mixity = mixities(pairs_, state.response.jump, std::vector<double>(state.adhesion.size(), 0.0));
+    state.mixity_before = state.mixity;
+    state.loaded = any_jump(pairs_, state.response.jump) ? 1 : 0;
+    book_energies(state);
+    state.ledger.initial = state.ledger.energy();
+    state.ledger.initial_slides = state.ledger.energy_slides();
+    state.memory = operator_->memory();
+    return result;
+}
+
+void Stepper::begin(State& next, const State& before, double time) const {
+    next.time = time;
+    next.theta = problem_.factors(time);
+    next.counts = Counts{};
+    next.counts.revised_from = before.step;
+    operator_->recall(before.memory);
+}
+
+// Energies of a state at its own mixity; cumulative columns are not touched.
+void Stepper::book_energies(State& state) const {
+    Ledger& ledger = state.ledger;
+    ledger.stored_bulk = state.response.stored_bulk;
+    ledger.load_potential = state.response.load_potential;
+    ledger.stored_interface = stored_energy(pairs_, state.adhesion, state.response.jump);
+    ledger.stored_interface_slides = ledger.stored_interface + stored_slides(pairs_, state.mixity, state.adhesion);
+}
+
+void Stepper::book_step(State& next, const State& before) const {
+    book_energies(next);
+    Ledger& ledger = next.ledger;
+    const Ledger& last = before.ledger;
+    const double dissipated = dissipation(pairs_, next.mixity, before.adhesion, next.adhesion);
+    const double dissipated_before = dissipation(pairs_, next.mixity_before, before.adhesion, next.adhesion);
+    const double change = ledger.energy() - last.energy();
+    ledger.increment = change + dissipated;
+    ledger.increment_lower = change + dissipated_before;
+    std::vector<double> d(next.theta.size());
+    for (std::size_t p = 0; p < d.size(); ++p) d[p] = next.theta[p] - before.theta[p];
+    ledger.lower = dot(d, next.response.conjugate) - lift_.half_quadratic(d, spring_stiffness(pairs_, next.adhesion));
+    ledger.upper =
+        dot(d, before.response.conjugate) + lift_.half_quadratic(d, spring_stiffness(pairs_, before.adhesion));
+    ledger.work = last.work + 0.5 * (ledger.lower + ledger.upper);
+    ledger.dissipated = last.dissipated + dissipated;
+    ledger.dissipated_slides = last.dissipated_slides;
+    if (rule_ != MixityRule::variational) {
+        ledger.dissipated_slides += dissipation_slides(pairs_, next.mixity, before.adhesion, next.adhesion);
+        return;
+    }
+    // What was minimised is the slides' split, with the dissipation at the mixity of the state before.
+    const double change_slides = ledger.energy_slides() - last.energy_slides();
+    const double spent = dissipation_slides(pairs_, next.mixity_before, before.adhesion, next.adhesion);
+    const std::vector<double>& before_last = before.loaded != 0 ? before.mixity_before : next.mixity_before;
+    ledger.dissipated_slides += spent;
+    ledger.increment = change_slides + spent;
+    ledger.increment_lower = change_slides + dissipation_slides(pairs_, before_last, before.adhesion, next.adhesion);
+}
+
+bool Stepper::minimise(State& next, const State& before) const {
+    const bool converged = problem_.options.minimisation == "alternate" ? minimiser().alternate(next, before.adhesion)
+                                                                        : minimiser().accelerate(next, before.adhesion);
+    refuse_runaway(next);
+    next.loaded = before.loaded != 0 || any_jump(pairs_, next.response.jump) ? 1 : 0;
+    book_step(next, before);
+    next.memory = operator_->memory();
+    return converged;
+}
+
+// Beyond the limit of a dead load alternation takes adhesion to zero by ever smaller steps, and displacements to
+// infinity: what holds a part by no more adhesion than the tolerance does not hold it. Without that adhesion the
+// displacement step finds nothing that balances (DELAM_LIMIT).
+void Stepper::refuse_runaway(const State& state) const {
+    bool dead = false, faint = false;
+    for (std::size_t p = 0; p < state.theta.size(); ++p)
+        dead = dead || (problem_.patterns[p].drives == Pattern::Drives::force && state.theta[p] != 0.0);
+    State without;
+    for (std::size_t p = 0; dead && p < state.adhesion.size(); ++p) {
+        if (pairs_.law[p] == nullptr || !(state.adhesion[p] > 0.0) ||
+            state.adhesion[p] > problem_.options.damage_tolerance)
+            continue;
+        if (!faint) without = state;
+        faint = true;
+        without.adhesion[p] = 0.0;
+    }
+    if (!faint) return;
+    const std::vector<double> memory = operator_->memory();
+    minimiser().displace(without);
+    operator_->recall(memory);
+}
+
+double Stepper::lower_excess(const State& state) const {
+    const double scale = scale_of(state.ledger);
+    return scale > 0.0 ? (state.ledger.lower - state.ledger.increment_lower) / scale : 0.0;
+}
+
+Stepper::Result Stepper::step(const State& before, double time, std::span<const Start> also) {
+    State start = before;
+    begin(start, before, time);
+    ++start.step;
+    start.counts.revised_from = start.step;
+    bool converged = true;
+    if (before.loaded == 0) {
+        // Before the first load there is no jump to take the mixity from: the elastic solution of this step gives it.
+        State elastic = start;
+        converged = minimiser().displace(elastic, true);
+        start.counts = elastic.counts;
+        start.mixity = mixities(pairs_, elastic.response.jump, before.mixity);
+        start.mixity_before = start.mixity;
+        start.response = std::move(elastic.response);
+        start.closed = std::move(elastic.closed);
+    } else {
+        start.mixity_before = before.mixity;
+        start.mixity = starting_mixity(pairs_, rule_, before);
+    }
+    if (rule_ == MixityRule::variational) start.mixity_before = start.mixity;
+    Result best{start, true};
+    best.converged = minimise(best.state, before) && converged;
+    for (const Start& from : also) {
+        State other = start;
+        other.counts = best.state.counts;
+        for (std::size_t p = 0; p < other.adhesion.size(); ++p) {
+            other.adhesion[p] = std::min(from.adhesion[p], before.adhesion[p]);
+            if (rule_ == MixityRule::converged && other.adhesion[p] <= 0.0) other.mixity[p] = from.mixity[p];
+        }
+        keep_lower(best, std::move(other), before);
+    }
+    if (problem_.options.solution == "energetic") search(best, before, start);
+    return best;
+}
+
+// Minimises from another start and keeps what is lower. All effort is counted.
+void Stepper::keep_lower(Result& best, State other, const State& before) const {
+    const bool converged = minimise(other, before);
+    const Counts counts = other.counts, kept = best.state.counts;
+    const bool taken = other.ledger.increment < best.state.ledger.increment - rounding * scale_of(best.state.ledger);
+    if (taken) best = {std::move(other), converged};
+    best.state.counts = counts;
+    if (taken) return;
+    best.state.counts.damage_change = kept.damage_change;
+    best.state.counts.mixity_held = kept.mixity_held;
+}
+
+// A zone's energy takes the contact outside as it was and may be too low: candidates that seem to lie below the state
+// kept are held against it by displacements of their own. Returns the lowest candidate.
+double Stepper::hold_against(Result& best, const SearchResult& found, const State& before) const {
+    double lowest = std::numeric_limits<double>::infinity();
+    bool held = false;
+    for (const Candidate& candidate : found.starts) {
+        const double kept = best.state.ledger.increment;
+        if (candidate.incremental >= kept - rounding * scale_of(best.state.ledger))
+            return std::min(lowest, held ? candidate.incremental : found.lowest);
+        held = true;
+        State own = best.state;
+        own.adhesion = candidate.adhesion;
+        own.mixity = candidate.mixity;
+        minimiser().displace(own);
+        if (rule_ == MixityRule::variational) own.mixity = mixities(pairs_, own.response.jump, own.mixity);
+        book_step(own, before);
+        lowest = std::min(lowest, own.ledger.increment);
+        best.state.counts = own.counts;
+        if (own.ledger.increment < kept) keep_lower(best, std::move(own), before);
+    }
+    return held ? lowest : found.lowest;
+}
+
+void Stepper::search(Result& best, const State& before, const State& start) {
+    if (!search_) {
+        twin_ = operator_->twin();
+        search_.emplace(problem_, pairs_, contact_, monitor_, twin_ ? *twin_ : *operator_);
+    }
+    const State from = best.state;
+    const double level = from.ledger.increment;
+    if (twin_) twin_->recall(before.search_memory);
+    SearchResult found = search_->run(before, from, start.mixity);
+    if (!twin_) operator_->recall(from.memory);
+    std::size_t minimised = 0;
+    for (const Candidate& candidate : found.starts) {
+        const double spent = dissipation(pairs_, candidate.mixity, before.adhesion, candidate.adhesion);
+        if (minimised == most_starts) break;
+        if (candidate.incremental > level + promising * spent) continue;
+        ++minimised;
+        State other = best.state;
+        other.adhesion = candidate.adhesion;
+        other.mixity = candidate.mixity;
+        keep_lower(best, std::move(other), before);
+    }
+    const double lowest = hold_against(best, found, before);
+    if (twin_) best.state.search_memory = twin_->memory();
+    Counts& counts = best.state.counts;
+    const double kept = best.state.ledger.increment;
+    counts.search_candidates += found.candidates;
+    counts.search_margin = std::isfinite(lowest) ? lowest - kept : 0.0;
+    // Candidates under the variational rule are energies at the mixities of the start: no bound.
+    counts.search_gap =
+        rule_ == MixityRule::variational ? std::numeric_limits<double>::infinity() : std::max(0.0, kept - found.bound);
+    searched_ = text("step ", best.state.step, " at time ", best.state.time, ": ", found.candidates, " candidates, ",
+                     minimised, " of them minimised from; lowest candidate less the state kept: ", counts.search_margin,
+                     "\n", found.words);
+}
+
+Stepper::Result Stepper::equilibrate(const State& before, double time, std::span<const double> adhesion) {
+    Result result{before, true};
+    State& next = result.state;
+    begin(next, before, time);
+    if (!adhesion.empty()) next.adhesion.assign(adhesion.begin(), adhesion.end());
+    for (std::size_t p = 0; p < next.adhesion.size(); ++p)
+        if (!(next.adhesion[p] >= 0.0 && next.adhesion[p] <= 1.0))
+            fail(DELAM_ERROR_ARGUMENT, "adhesion of pair ", p, " is ", next.adhesion[p], ", allowed: 0 to 1");
+    result.converged = minimiser().displace(next);
+    if (rule_ == MixityRule::variational) next.mixity = mixities(pairs_, next.response.jump, next.mixity);
+    book_energies(next);
+    next.ledger.initial += next.ledger.energy() - before.ledger.energy();
+    next.ledger.initial_slides += next.ledger.energy_slides() - before.ledger.energy_slides();
+    next.memory = operator_->memory();
+    return result;
+}
+
+std::vector<double> Stepper::tangent(const State& state) const {
+    return Linearised(*operator_, pairs_, contact_, state).tangent(problem_.patterns);
+}
+
+std::vector<double> Stepper::step_tangent(const State& before, const State& state) const {
+    return Linearised(*operator_, pairs_, contact_, state)
+        .step_tangent(problem_.patterns, rule_, before.adhesion, problem_.options.damage_tolerance);
+}
+
+}  // namespace delam

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One load step: from the state before it to a state at a later time, under the solution concept asked for.
+//
+// A step minimises  I(z, u) = E(t, u, z) + D(z_before, z)  over 0 <= z <= z_before from one or several starts and keeps
+// the lowest; `local` starts from z_before, `energetic` also from the best states of a search (search.hpp).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "evolution/step/bounds.hpp"
+#include "evolution/step/minimise.hpp"
+#include "evolution/step/search.hpp"
+#include "reduction/choose.hpp"
+#include "scene/problem.hpp"
+
+namespace delam {
+
+class Stepper {
+public:
+    // problem and monitor must outlive it. Checks the problem; cuts and factors the bodies.
+    Stepper(const Problem& problem, Monitor& monitor);
+    Stepper(const Stepper&) = delete;
+    Stepper& operator=(const Stepper&) = delete;
+
+    struct Result {
+        State state;
+        bool converged = true;
+    };
+    // The initial state: displacements at the initial adhesion.
+    Result initial(double time);
+    // Another state of the same scene to start from: its adhesion, clipped to `before`, and where pairs are broken the
+    // mixity with which they broke.
+    struct Start {
+        std::vector<double> adhesion, mixity;  // [pairs]
+    };
+    Result step(const State& before, double time, std::span<const Start> also = {});
+    // Displacements alone, at the state's adhesion and a time.
+    Result equilibrate(const State& before, double time, std::span<const double> adhesion);
+    // d2E / dtheta2 at the state's adhesion and contact set, [patterns][patterns].
+    std::vector<double> tangent(const State& state) const;
+    // d conjugate / d theta of a step from `before` to `state` (step_tangent.hpp).
+    std::vector<double> step_tangent(const State& before, const State& state) const;
+    // Does the lower bound of a step fail by more than eta: is there a lower state than `before` at its own time?
+    // Relative excess over the larger of energy and work.
+    double lower_excess(const State& state) const;
+
+    const PairLaws& pairs() const { return pairs_; }
+    const ContactScene& contact() const { return contact_; }
+    JumpOperator& op() const { return *operator_; }
+    const ReductionChoice& reduction() const { return reduction_; }
+    const std::vector<double>& initial_adhesion() const { return initial_adhesion_; }
+    // To the host: what it should know about the mixity of a step that is kept.
+    void warn(const State& state) const { warn_of_snap(monitor_, rule_, state); }
+    // What the last search looked at, in words; empty: none.
+    const std::string& searched() const { return searched_; }
+
+private:
+    Minimiser minimiser() const;
+    void begin(State& next, const State& before, double time) const;
+    bool minimise(State& next, const State& before) const;
+    void refuse_runaway(const State& state) const;
+    void book_energies(State& state) const;
+    void book_step(State& next, const State& before) const;
+    void keep_lower(Result& best, State other, const State& before) const;
+    double hold_against(Result& best, const SearchResult& found, const State& before) const;
+    void search(Result& best, const State& before, const State& start);
+
+    const Problem& problem_;
+    Monitor& monitor_;
+    PairLaws pairs_;
+    ContactScene contact_;
+    MixityRule rule_ = MixityRule::frozen;
+    std::vector<double> initial_adhesion_;
+    std::unique_ptr<JumpOperator> operator_;
+    ReductionChoice reduction_;
+    Lift lift_;
+    std::unique_ptr<JumpOperator> twin_;  // of the search, so that its zone does not disturb the march's
+    std::optional<Search> search_;
+    std::string searched_;
+};
+
+}  // namespace delam

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "law/admissible.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+
+namespace delam {
+
+namespace {
+
+constexpr double rounding = 1e-12;  // by how much, relatively, Gc may fall short of Go
+
+// The natural coordinate of a mixity is x = ln(psi^2), B = 1/(1+exp(-x)): either toughness runs from one asymptote to
+// the other around its own crossing psi^2 = G_t/G_n, over a width of one over the exponents. The range is what
+// doubles can tell.
+double mixity_of(double x) { return 1.0 / (1.0 + std::exp(-x)); }
+double excess(const Law& law, double x) {
+    const double b = mixity_of(x);
+    const double onset = toughness_at(law.criterion, law.onset_modes(), b);
+    return std::log(toughness_at(law.criterion, law.total_modes(), b) / onset);
+}
+
+// Where a toughness passes from one of its modes to the other: for Benzeggagh and Kenane B^eta |G_t/G_n - 1| = 1.
+double crossing(Criterion criterion, const Modes& modes) {
+    const double ratio = modes.tangential / modes.normal;
+    if (criterion != Criterion::benzeggagh_kenane) return std::log(ratio);
+    const double share = -std::log(std::abs(ratio - 1.0)) / modes.first;  // ln B
+    return share - std::log(-std::expm1(std::min(share, -1e-16)));
+}
+
+// Smallest ln(Gc/Go) over the mixities between the pure modes: where, how much. Sampled evenly in B, and around both
+// crossings with a spacing that grows with the distance; the deepest dips of the samples are then refined by golden
+// sections.
+std::pair<double, double> least_excess(const Law& law) {
+    constexpr double lowest = -740.0;
+    constexpr double highest = 36.5;
+    std::vector<double> x{lowest, highest};
+    for (int i = 1; i < 1024; ++i) x.push_back(std::log(i / (1024.0 - i)));
+    for (const Modes& modes : {law.onset_modes(), law.total_modes()}) {
+        const double centre = crossing(law.criterion, modes);
+        x.push_back(centre);
+        for (double distance = 0.002; distance < 1500.0; distance += 0.002 + 0.02 * distance) {
+            x.push_back(centre - distance);
+            x.push_back(centre + distance);
+        }
+    }
+    std::erase_if(x, [](double v) { return !(v >= lowest && v <= highest); });
+    std::sort(x.begin(), x.end());
+
+    std::vector<double> y(x.size());
+    std::transform(x.begin(), x.end(), y.begin(), [&](double v) { return excess(law, v); });
+    std::vector<std::size_t> dips;
+    for (std::size_t i = 1; i + 1 < x.size(); ++i)
+        if (y[i] <= y[i - 1] && y[i] <= y[i + 1]) dips.push_back(i);
+    std::sort(dips.begin(), dips.end(), [&](std::size_t i, std::size_t j) { return y[i] < y[j]; });
+    if (dips.size() > 16) dips.resize(16);
+
+    const auto first = static_cast<std::size_t>(std::min_element(y.begin(), y.end()) - y.begin());
+    std::pair<double, double> least{x[first], y[first]};
+    constexpr double golden = 0.6180339887498949;
+    for (const std::size_t i : dips) {
+        double a = x[i - 1];
+        double b = x[i + 1];
+        for (int k = 0; k < 60; ++k) {
+            const double c = b - golden * (b - a);
+            const double d = a + golden * (b - a);
+            const double fc = excess(law, c);
+            const double fd = excess(law, d);
+            least =
+                std::min({least, {c, fc}, {d, fd}}, [](const auto& u, const auto& v) { return u.second < v.second; });
+            if (fc < fd)
+                b = d;
+            else
+                a = c;
+        }
+    }
+    return least;
+}
+
+}  // namespace
+
+void require_admissible(const Law& law) {
+    const Modes onset = law.onset_modes(), total = law.total_modes();
+    if (total.normal < onset.normal * (1.0 - rounding))
+        fail(DELAM_ERROR_PROBLEM, "law: normal_toughness ", total.normal, " < normal_onset ", onset.normal);
+    if (total.tangential < onset.tangential * (1.0 - rounding))
+        fail(DELAM_ERROR_PROBLEM, "law: tangential_toughness ", total.tangential, " < tangential_onset ",
+             onset.tangential);
+
+    // G(B) grows with G_n and G_t, so with the same exponents on both sides the pure modes decide. With different ones
+    // Gc may dip below Go in between.
+    if (onset.first == total.first && onset.second == total.second) return;
+    const auto [x, value] = least_excess(law);
+    if (value >= -rounding) return;
+    const double b = mixity_of(x);
+    fail(DELAM_ERROR_PROBLEM, "law: toughness ", toughness_at(law.criterion, total, b), " < onset ",
+         toughness_at(law.criterion, onset, b), " at mixity B = ", b,
+         " although the pure modes are fine: Gc(B) >= Go(B) is needed for every B in [0,1]; change the exponents");
+}
+
+}  // namespace delam

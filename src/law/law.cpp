@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "law/law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+#include "law/admissible.hpp"
+#include "law/host_check.hpp"
+#include "law/law_parameters.hpp"
+
+namespace delam {
+
+bool Law::set(const std::string& key, double value) {
+    const LawParameter* p = find_parameter(*this, key);
+    if (p == nullptr) return false;
+    if (p->value != nullptr) {
+        this->*p->value = value;
+        if (p->second != nullptr) this->*p->second = value;
+    } else if (auto* trapezium = std::get_if<TrapezoidalSoftening>(&softening)) {
+        trapezium->set_plateau(value);
+    }
+    return p->type == std::string("real");
+}
+
+void Law::set_criterion(Criterion chosen) {
+    if (chosen == criterion) return;
+    criterion = chosen;
+    onset_exponent_1 = onset_exponent_2 = toughness_exponent_1 = toughness_exponent_2 = 2.0;
+}
+
+void Law::validate() const {
+    for (const LawParameter& p : law_parameters()) {
+        if (!applies(p, *this) || p.type != std::string("real")) continue;
+        double value = 0.0;
+        if (p.value != nullptr)
+            value = this->*p.value;
+        else if (const auto* trapezium = std::get_if<TrapezoidalSoftening>(&softening))
+            value = trapezium->plateau();
+        if (!p.allows(value)) fail(DELAM_ERROR_PROBLEM, "law: ", p.key, " ", value, ": must be ", p.range);
+    }
+    if (const auto* table = std::get_if<TabulatedSoftening>(&softening); table != nullptr && table->corners().empty())
+        fail(DELAM_ERROR_PROBLEM, "law: softening is missing: a tabulated law needs its table (delam_law_set_table)");
+    if (const HostSoftening* given = host())
+        require_consistent(*given);
+    else
+        require_admissible(*this);
+}
+
+bool Law::depends_on_mixity() const {
+    if (host() != nullptr) return true;
+    return delam::depends_on_mixity(criterion, onset_modes()) || delam::depends_on_mixity(criterion, total_modes());
+}
+
+Modes Law::onset_modes() const {
+    if (std::holds_alternative<GriffithSoftening>(softening)) return total_modes();
+    return {normal_onset, tangential_onset, onset_exponent_1, onset_exponent_2};
+}
+Modes Law::total_modes() const {
+    return {normal_toughness, tangential_toughness, toughness_exponent_1, toughness_exponent_2};
+}
+
+Toughness Law::toughness(double mixity) const {
+    if (const HostSoftening* given = host()) return given->toughness(mixity);
+    const double onset = toughness_at(criterion, onset_modes(), mixity);
+    return {onset, std::max(onset, toughness_at(criterion, total_modes(), mixity)), mixity};
+}
+
+ToughnessSlope Law::toughness_slope(double mixity) const {
+    if (const HostSoftening* given = host()) return given->toughness_slope(mixity);
+    return {toughness_slope_at(criterion, onset_modes(), mixity), toughness_slope_at(criterion, total_modes(), mixity)};
+}
+
+double Law::least_onset() const {
+    if (const HostSoftening* given = host()) return std::min(given->toughness(0.0).onset, given->toughness(1.0).onset);
+    const Modes modes = onset_modes();
+    return std::min(modes.normal, modes.tangential);
+}
+
+double Law::dissipated(const Toughness& t, double zeta) const {
+    return std::visit([&](const auto& shape) { return shape.dissipated(t, zeta); }, softening);
+}
+
+double Law::stored_slides(const Toughness& t, double zeta) const {
+    return std::visit(
+        [&](const auto& shape) {
+            if constexpr (requires { shape.stored_slides(t, zeta); })
+                return shape.stored_slides(t, zeta);
+            else
+                return std::min(0.0, shape.dissipated(t, zeta) - t.total * (1.0 - zeta));
+        },
+        softening);
+}
+
+double Law::driving(const Toughness& t, double zeta) const {
+    return std::visit([&](const auto& shape) { return shape.driving(t, zeta); }, softening);
+}
+
+double Law::driving_slope(const Toughness& t, double zeta) const {
+    return std::visit([&](const auto& shape) { return shape.driving_slope(t, zeta); }, softening);
+}
+
+double Law::minimiser(const Toughness& t, double driving, double zeta_old) const {
+    if (std::isinf(driving)) return 0.0;  // of a jump whose energy is beyond all numbers
+    return std::visit([&](const auto& shape) { return shape.minimiser(t, driving, zeta_old); }, softening);
+}
+
+double Law::slope(const Toughness& t, double driving, double zeta_old) const {
+    return std::visit([&](const auto& shape) { return shape.slope(t, driving, zeta_old); }, softening);
+}
+
+// g = Go G(Gc/Go, zeta) has degree one in the toughnesses: with a = dg/dGc, dg/dGo = (g - Gc a)/Go.
+double Law::dissipated_slope_mixity(double mixity, double zeta) const {
+    if (const HostSoftening* given = host()) return given->dissipation(mixity, zeta).mixity_slope;
+    const Toughness t = toughness(mixity);
+    const ToughnessSlope by_mixity = toughness_slope(mixity);
+    return std::visit(
+        [&](const auto& shape) {
+            if constexpr (requires { shape.total_share(t, zeta); }) {
+                const double share = shape.total_share(t, zeta);
+                const double rest = (shape.dissipated(t, zeta) - t.total * share) / t.onset;
+                return share * by_mixity.total + rest * by_mixity.onset;
+            } else
+                return 0.0;
+        },
+        softening);
+}
+
+}  // namespace delam

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The law of an interface at one point: stiffness, a criterion for the toughness at a mixity, a shape of softening.
+//
+// With Y = Y_n + Y_t, Y_c = k_c [u]_c^2 / 2, and onset and total toughness Go, Gc at the mixity B = Y_t/Y, every law
+// has energetic form: adhesion zeta minimises zeta Y + g(B, zeta) over 0 <= zeta <= zeta_old, where g is convex and
+// decreasing, g(1) = 0, g(0) = Gc.
+//   stored       zeta Y                dissipated   g(zeta)
+//   or (slides)  zeta Y + f(zeta)      dissipated   Gc (zeta_old - zeta),    f(zeta) = g(zeta) - Gc (1-zeta) <= 0
+// Both splits have the same minimiser. The area under the traction-jump curve of a first loading is Gc at any fixed
+// mixity, its peak sqrt(2 k Go).
+//
+// A value: copies are independent.
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "law/criterion.hpp"
+#include "law/softening.hpp"
+#include "law/toughness.hpp"
+
+namespace delam {
+
+struct Law {
+    double normal_stiffness = 0.0;      // k_n, F/L3
+    double tangential_stiffness = 0.0;  // k_t
+    double normal_onset = 0.0;          // G^o_n, F/L; none of Griffith's law, nor of one that the host gives
+    double tangential_onset = 0.0;
+    double normal_toughness = 0.0;  // G^c_n
+    double tangential_toughness = 0.0;
+    double onset_exponent_1 = 2.0;  // p, q or eta of the onset; the criteria with one exponent read the first
+    double onset_exponent_2 = 2.0;
+    double toughness_exponent_1 = 2.0;  // likewise of the total toughness
+    double toughness_exponent_2 = 2.0;
+    double gradient = 0.0;  // kappa >= 0 of the gradient term kappa/2 |grad zeta|^2, F L; 0: none
+    Criterion criterion = Criterion::valoroso_champaney;
+    Softening softening;
+
+    // Sets a number by its public name (delam_law_set), whatever its value; false: the law has no such number.
+    bool set(const std::string& key, double value);
+    // Another criterion starts with its own exponents, 2.
+    void set_criterion(Criterion chosen);
+    // Throws Error(DELAM_ERROR_PROBLEM) naming the parameter, its value and range, or the mixity where Gc(B) < Go(B),
+    // or where the callbacks of the host contradict each other.
+    void validate() const;
+    // False: Go and Gc are the same at every mixity.
+    bool depends_on_mixity() const;
+    const char* kind() const { return softening_names[softening.index()]; }
+    const HostSoftening* host() const { return std::get_if<HostSoftening>(&softening); }
+    // Go and Gc as the criterion needs them; not for laws given by the host.
+    Modes onset_modes() const;
+    Modes total_modes() const;
+
+    // 0 <= mixity <= 1.
+    Toughness toughness(double mixity) const;
+    ToughnessSlope toughness_slope(double mixity) const;  // where infinite, cut off: toughness_slope_at
+    double least_onset() const;                           // min Go of the pure modes
+
+    // Energies per unit area, F/L, of one point; `t` at the mixity that holds, 0 <= zeta <= 1.
+    double dissipated(const Toughness& t, double zeta) const;     // g >= 0
+    double stored_slides(const Toughness& t, double zeta) const;  // f <= 0
+    // Y(zeta) = -dg/dzeta, what it takes to damage further from zeta; nonincreasing in zeta. Its slope is
+    // -g'' <= 0; at a corner of the traction-jump curve that of the more damaged side. Both are infinite where no
+    // driving energy suffices (exponential, zeta = 0).
+    double driving(const Toughness& t, double zeta) const;
+    double driving_slope(const Toughness& t, double zeta) const;
+    // argmin of zeta Y + g over 0 <= zeta <= zeta_old, the smallest where there are several, and its derivative by
+    // driving = Y where it is strictly inside, else 0; <= 0.
+    double minimiser(const Toughness& t, double driving, double zeta_old) const;
+    double slope(const Toughness& t, double driving, double zeta_old) const;
+    // dg/dB at the same zeta.
+    double dissipated_slope_mixity(double mixity, double zeta) const;
+};
+
+}  // namespace delam

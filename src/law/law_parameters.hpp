@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The parameters of laws: by key, with unit, default, range and meaning in one table.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "law/law.hpp"
+
+namespace delam {
+
+struct LawParameter {
+    const char* key;
+    const char* type;  // real, text or table
+    const char* unit;
+    const char* initial;  // "": must be given
+    const char* range;
+    const char* meaning;
+    unsigned kinds;                 // bit i: softening i has it
+    unsigned criteria;              // bit i: criterion i has it
+    double Law::*value = nullptr;   // null: it belongs to the shape
+    double Law::*second = nullptr;  // set along with it
+    bool (*allows)(double) = nullptr;
+};
+std::span<const LawParameter> law_parameters();
+// Has the law this parameter, with its kind and its criterion?
+bool applies(const LawParameter& parameter, const Law& law);
+// Null: it has none of this name.
+const LawParameter* find_parameter(const Law& law, const std::string& key);
+// "normal_stiffness, ...", of one type
+std::string known_parameters(const Law& law, const std::string& type);
+
+}  // namespace delam
