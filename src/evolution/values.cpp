@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
 
 namespace delam {
@@ -14,12 +15,6 @@ namespace {
 double count(std::int64_t n) { return static_cast<double>(n); }
 std::int64_t count_of_interfaces(const Problem& problem) {
     return static_cast<std::int64_t>(problem.interfaces.size());
-}
-
-double largest(std::span<const double> values) {
-    double m = 0.0;
-    for (const double v : values) m = std::max(m, std::abs(v));
-    return m;
 }
 
 // Sum of weight * f(adhesion) over the pairs that adhered at first.
@@ -61,7 +56,7 @@ double ratio(double a, double b) { return b > 0.0 ? a / b : a; }
 double kkt_gap(const Solver& s) {
     double deepest = 0.0;
     for (const double gap : gaps(s)) deepest = std::max(deepest, -gap);
-    return ratio(deepest, largest(s.state().response.jump));
+    return ratio(deepest, max_abs(s.state().response.jump));
 }
 
 double kkt_pressure(const Solver& s) {
@@ -70,7 +65,7 @@ double kkt_pressure(const Solver& s) {
     double pull = 0.0;
     for (std::size_t p = 0; p < state.closed.size(); ++p)
         if (s.contact().bonded[p] == 0 && state.closed[p] != 0) pull = std::max(pull, state.response.force[p * dim]);
-    return ratio(pull, largest(state.response.force));
+    return ratio(pull, max_abs(state.response.force));
 }
 
 double kkt_complementarity(const Solver& s) {
@@ -81,7 +76,7 @@ double kkt_complementarity(const Solver& s) {
     for (std::size_t p = 0; p < state.closed.size(); ++p)
         if (s.contact().bonded[p] == 0 && state.closed[p] != 0)
             product = std::max(product, std::abs(gap[p] * state.response.force[p * dim]));
-    return ratio(product, largest(state.response.jump) * largest(state.response.force));
+    return ratio(product, max_abs(state.response.jump) * max_abs(state.response.force));
 }
 
 // The point of an interface's fronts (-1: of all) with the largest energy release rate; a point of zeros where there is

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Small helpers for numbers and arrays.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace delam {
+
+// An index or a count of the public interface as an index into an array. The value is not negative.
+inline constexpr std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+// The largest absolute value; 0 for no values. A NaN among them is passed over.
+inline double max_abs(std::span<const double> values) {
+    double largest = 0.0;
+    for (const double v : values) largest = std::max(largest, std::abs(v));
+    return largest;
+}
+
+}  // namespace delam
