@@ -3,8 +3,8 @@
 
 #include <thread>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 
 namespace delam {
 
@@ -16,34 +16,34 @@ namespace {
 
 void Monitor::progress(const char* stage, std::int64_t done, std::int64_t total) {
     bool wanted = progress_callback != nullptr && progress_callback(stage, done, total, progress_user) != 0;
-    // After the callback, which may ask for it too.
-    if (asked_to_stop()) wanted = true;
+    // After the callback, which may itself have made a request.
+    if (take_requests()) wanted = true;
     if (wanted) stop(stage);
 }
 
-Look Monitor::look_from(const char* stage, std::int64_t done, std::int64_t total) {
+Poll Monitor::poll_at(const char* stage, std::int64_t done, std::int64_t total) {
     return [this, stage, done, total, host = std::this_thread::get_id()] {
         if (std::this_thread::get_id() == host) return progress(stage, done, total);
-        if (asked_to_stop()) stop(stage);
+        if (take_requests()) stop(stage);
     };
 }
 
-constinit thread_local Listening* listening = nullptr;
+constinit thread_local CancelScope* cancel_scope = nullptr;
 
-Listening::Listening(Monitor& monitor, Call call)
+CancelScope::CancelScope(Monitor& monitor, Call call)
     : monitor_(monitor), call_(call), before_(monitor.requests_.load(std::memory_order_relaxed)) {
-    listening = this;
+    cancel_scope = this;
 }
 
-Listening::~Listening() { listening = nullptr; }
+CancelScope::~CancelScope() { cancel_scope = nullptr; }
 
-void Listening::look(const char* stage) {
+void CancelScope::poll(const char* stage) {
     left_ = interval;
     if (call_ == Call::marches) return monitor_.progress(stage, 0, 0);
-    const bool told =
+    const bool refused =
         monitor_.progress_callback != nullptr && monitor_.progress_callback(stage, 0, 0, monitor_.progress_user) != 0;
-    const bool asked = monitor_.requests_.load(std::memory_order_relaxed) != before_ && monitor_.asked_to_stop();
-    if ((told && call_ == Call::builds) || asked) stop(stage);
+    const bool requested = monitor_.requests_.load(std::memory_order_relaxed) != before_ && monitor_.take_requests();
+    if ((refused && call_ == Call::builds) || requested) stop(stage);
 }
 
 }  // namespace delam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The host's ears inside long work: log, progress and cancel. Lives in the context; the core only calls it.
+// The host's log and progress callbacks and its cancel requests. Belongs to the context; the core only calls it.
 #pragma once
 
 #include <atomic>
@@ -11,11 +11,10 @@
 
 namespace delam {
 
-// Asked for between parts of long work that knows no monitor: leaves by an exception when the host wants to stop.
-// Empty: nobody asks.
-using Look = std::function<void()>;
-inline void ask(const Look& look) {
-    if (look) look();
+// Called between parts of long work that does not know the monitor; throws when the host wants to stop. May be empty.
+using Poll = std::function<void()>;
+inline void call_if_set(const Poll& poll) {
+    if (poll) poll();
 }
 
 class Monitor {
@@ -28,17 +27,18 @@ public:
     void log(std::int32_t level, const std::string& line) const {
         if (log_callback != nullptr) log_callback(level, line.c_str(), log_user);
     }
-    // To be called at least once per linear solve. Throws Error(DELAM_CANCELLED) when the host wants to stop.
+    // Calls the progress callback; to be called at least once per linear solve. Throws Error(DELAM_CANCELLED) when the
+    // host wants to stop.
     void progress(const char* stage, std::int64_t done, std::int64_t total);
-    // The same where other threads of the library may come by: the callback is for the host's thread alone.
-    Look look_from(const char* stage, std::int64_t done, std::int64_t total);
+    // The same for code that other threads of the library run too: only the host's thread calls the callback.
+    Poll poll_at(const char* stage, std::int64_t done, std::int64_t total);
     void cancel() noexcept { requests_.fetch_add(1, std::memory_order_relaxed); }
 
 private:
-    friend class Listening;
-    // Requests are counted, so that one that waited before a call can be told from one that comes while it runs. The
-    // first check that sees some answers them all; one of several threads that see them.
-    bool asked_to_stop() {
+    friend class CancelScope;
+    // Counting the requests distinguishes one made before a call from one made during it. The first check that finds
+    // open requests answers them all, in exactly one of the threads that find them.
+    bool take_requests() {
         const std::uint32_t now = requests_.load(std::memory_order_relaxed);
         std::uint32_t answered = answered_.load(std::memory_order_relaxed);
         return answered != now && answered_.compare_exchange_strong(answered, now, std::memory_order_relaxed);

@@ -5,8 +5,8 @@
 #include <array>
 #include <limits>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 #include "body/cell_elasticity.hpp"
 #include "body/element.hpp"
 #include "delam/delam.h"
@@ -41,7 +41,7 @@ LocalCells local_cells(const Mesh& mesh, std::span<const std::int64_t> cells, st
     if (!cells.empty()) local.node.reserve(cells.size() * mesh.cell(cells.front()).size());
     std::array<std::size_t, most_cell_nodes> hint{};
     for (const std::int64_t c : cells) {
-        glance("assemble");
+        poll_cancel("assemble");
         const auto cell = mesh.cell(c);
         for (std::size_t a = 0; a < cell.size(); ++a) {
             std::size_t place = hint[a] + 1;
@@ -96,7 +96,7 @@ NodeGraph node_graph(const LocalCells& cells, std::size_t nodes) {
     graph.start.reserve(nodes + 1);
     graph.start.push_back(0);
     for (std::size_t i = 0; i < nodes; ++i) {
-        glance("assemble");
+        poll_cancel("assemble");
         for (std::size_t e = begin[i]; e < begin[i + 1]; ++e) {
             const auto c = at(corner[e].cell);
             for (std::size_t k = cells.start[c]; k < cells.start[c + 1]; ++k) {
@@ -116,7 +116,7 @@ NodeGraph node_graph(const LocalCells& cells, std::size_t nodes) {
 
     graph.place.resize(places);
     for (std::size_t i = 0; i < nodes; ++i) {
-        glance("assemble");
+        poll_cancel("assemble");
         const std::size_t first = graph.start[i];
         for (std::size_t k = first; k < graph.start[i + 1]; ++k)
             mark[at(graph.neighbour[k])] = static_cast<std::int32_t>(k - first);
@@ -142,7 +142,7 @@ SparseMatrix empty_matrix(const NodeGraph& graph, std::size_t dim) {
     std::size_t entry = 0;
     k.start[0] = 0;
     for (std::size_t i = 0; i < nodes; ++i) {
-        glance("assemble");
+        poll_cancel("assemble");
         for (std::size_t row = 0; row < dim; ++row) {
             for (std::size_t e = graph.start[i]; e < graph.start[i + 1]; ++e)
                 for (std::size_t j = 0; j < dim; ++j)
@@ -153,7 +153,7 @@ SparseMatrix empty_matrix(const NodeGraph& graph, std::size_t dim) {
     return k;
 }
 
-constexpr std::size_t cells_a_look = 256;
+constexpr std::size_t cells_per_poll = 256;
 
 // The matrix of a cell and where its nodes and pairs of nodes stand.
 struct Block {
@@ -183,21 +183,21 @@ void add(const Block& block, SparseMatrix& k) {
 // places, cell after cell, and no list of all their entries ever exists. Both triangles receive the same numbers in
 // the same order.
 SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> cells,
-                                std::span<const std::int64_t> nodes, const BodyModel& model, const Look& look) {
+                                std::span<const std::int64_t> nodes, const BodyModel& model, const Poll& poll) {
     if (std::max(nodes.size(), cells.size()) > at(std::numeric_limits<std::int32_t>::max()))
         fail(DELAM_ERROR_ARGUMENT, nodes.size(), " nodes, ", cells.size(),
              " cells in one part of a body: at most 2^31 - 1");
     const std::size_t dim = at(mesh.dimension());
     const LocalCells local = local_cells(mesh, cells, nodes);
-    ask(look);
+    call_if_set(poll);
     const NodeGraph graph = node_graph(local, nodes.size());
-    ask(look);
+    call_if_set(poll);
     SparseMatrix k = empty_matrix(graph, dim);
 
     CellElasticity elasticity(model, mesh.dimension());
     std::vector<double> matrix(9 * most_cell_nodes * most_cell_nodes);
     for (std::size_t c = 0; c < cells.size(); ++c) {
-        if (c % cells_a_look == 0) ask(look);
+        if (c % cells_per_poll == 0) call_if_set(poll);
         const Coordinates x = cell_coordinates(mesh, cells[c]);
         const std::span<const double> own = elasticity.matrix(cells[c]);
         if (model.formulation == Formulation::mean_dilatation)
@@ -222,7 +222,7 @@ std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> m
     stress.reserve(at(mesh.cell_count()) * (dim == 2 ? 4 : 6));
     std::vector<double> u;
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
-        glance("recover");
+        poll_cancel("recover");
         u.clear();
         for (const std::int64_t n : mesh.cell(c))
             for (std::size_t i = 0; i < dim; ++i) u.push_back(displacement[at(n) * dim + i]);

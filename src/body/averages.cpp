@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/glance.hpp"
+#include "base/cancel_scope.hpp"
 #include "body/cell_elasticity.hpp"
 #include "mesh/faces.hpp"
 #include "mesh/shape.hpp"
@@ -69,7 +69,7 @@ VolumeAverage volume_average(const Mesh& mesh, std::span<const BodyModel> models
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
         const std::int32_t own = mesh.cell_body(c);
         if (body >= 0 && own != body) continue;
-        glance("recover");
+        poll_cancel("recover");
         std::array<double, 6> strain{};
         const double volume = integrate(mesh, c, displacement, strain);
         sum.volume += volume;

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 #include "body/cell_elasticity.hpp"
 #include "body/element.hpp"
 #include "delam/delam.h"
@@ -26,7 +26,7 @@ EigenstrainLoads eigenstrain_loads(const Mesh& mesh, std::span<const std::int64_
     std::vector<Strain> strain(count);
     std::vector<std::array<double, 6>> stress(count);
     for (const std::int64_t c : cells) {
-        glance("loads");
+        poll_cancel("loads");
         const auto cell = mesh.cell(c);
         x.clear();
         for (const std::int64_t n : cell) x.insert(x.end(), mesh.node(n).begin(), mesh.node(n).end());

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "base/glance.hpp"
+#include "base/cancel_scope.hpp"
 
 namespace delam {
 
@@ -53,7 +53,7 @@ Orientation oriented(const Orientation& before, std::int64_t mesh_cells, std::sp
     Orientation after;
     std::map<Axes, std::int32_t> number;
     for (std::int32_t& cell : of_cell) {
-        glance("orientation");
+        poll_cancel("orientation");
         if (cell < 0) continue;
         const auto k = static_cast<std::size_t>(cell);
         const Axes& own = cell < old ? before.axes[k] : chosen[k - before.axes.size()];

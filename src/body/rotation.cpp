@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/glance.hpp"
+#include "base/cancel_scope.hpp"
 #include "mesh/faces.hpp"
 #include "mesh/shape.hpp"
 
@@ -16,7 +16,7 @@ std::vector<double> centre_rotation(const Mesh& mesh, std::span<const double> di
     std::vector<double> rotation, x;
     rotation.reserve(at(mesh.cell_count()) * (dim == 2 ? 1 : 3));
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
-        glance("recover");
+        poll_cancel("recover");
         const auto cell = mesh.cell(c);
         x.clear();
         for (const std::int64_t n : cell) x.insert(x.end(), mesh.node(n).begin(), mesh.node(n).end());

@@ -37,7 +37,7 @@ const SparseMatrix& body_matrix(const delam_problem& problem, std::int32_t body)
     const BodyModel model = core.model(body);
     delam_problem::BodyMatrix& last = problem.assembled;
     if (last.body != body || last.model != model) {
-        last = {body, model, core.body_stiffness(body, [] { look_up("assemble"); })};
+        last = {body, model, core.body_stiffness(body, [] { poll_cancel_now("assemble"); })};
     }
     return last.matrix;
 }
@@ -64,7 +64,7 @@ int32_t delam_problem_constraints(const delam_problem* problem, int64_t* rows, i
         matrix.rows = static_cast<std::int64_t>(core.constraints.size());
         matrix.columns = core.mesh->node_count() * core.mesh->dimension();
         for (const Constraint& constraint : core.constraints) {
-            glance("loads", 1 + static_cast<std::int64_t>(constraint.dof.size()) / 16);
+            poll_cancel("loads", 1 + static_cast<std::int64_t>(constraint.dof.size()) / 16);
             matrix.column.insert(matrix.column.end(), constraint.dof.begin(), constraint.dof.end());
             matrix.value.insert(matrix.value.end(), constraint.coefficient.begin(), constraint.coefficient.end());
             matrix.start.push_back(matrix.entries());

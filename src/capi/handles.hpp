@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
 #include "base/float_environment.hpp"
-#include "base/glance.hpp"
 #include "base/monitor.hpp"
 #include "body/model.hpp"
 #include "delam/delam.h"
@@ -140,7 +140,7 @@ std::int32_t guard(const H* self, Body&& body) noexcept {
     if (context->busy) return refuse_callback(*context);
     const Busy busy(*context);
     const DefaultFloats floats;
-    const Silence silence;
+    const NoCancelScope silence;
     try {
         if constexpr (std::is_void_v<decltype(body())>) {
             body();
@@ -161,25 +161,25 @@ std::int32_t guard(const H* self, Body&& body) noexcept {
     }
 }
 
-// As guard, for calls that list `cancelled`: what may stop them is said at Listening.
+// As guard(), for calls whose contract lists `cancelled`. CancelScope::Call says what may stop each of the three.
 template <class H, class Body>
-std::int32_t guard_listening(const H* self, Listening::Call call, Body&& body) noexcept {
+std::int32_t guard_cancellable(const H* self, CancelScope::Call call, Body&& body) noexcept {
     return guard(self, [&] {
-        const Listening ears(self->context->monitor, call);
+        const CancelScope scope(self->context->monitor, call);
         return body();
     });
 }
 template <class H, class Body>
 std::int32_t guard_march(const H* self, Body&& body) noexcept {
-    return guard_listening(self, Listening::Call::marches, body);
+    return guard_cancellable(self, CancelScope::Call::marches, body);
 }
 template <class H, class Body>
 std::int32_t guard_build(const H* self, Body&& body) noexcept {
-    return guard_listening(self, Listening::Call::builds, body);
+    return guard_cancellable(self, CancelScope::Call::builds, body);
 }
 template <class H, class Body>
 std::int32_t guard_read(const H* self, Body&& body) noexcept {
-    return guard_listening(self, Listening::Call::reads, body);
+    return guard_cancellable(self, CancelScope::Call::reads, body);
 }
 
 template <class H>

@@ -77,7 +77,7 @@ public:
     Constraint constraint(std::vector<double> prescribed) const {
         Constraint c;
         for (const auto& [dof, coefficient] : sum_) {
-            glance("loads");
+            poll_cancel("loads");
             if (coefficient == 0.0) continue;
             require_no_overflow(coefficient, "a coefficient of node ", dof / mesh_.dimension());
             c.dof.push_back(dof);
@@ -141,7 +141,7 @@ std::unordered_map<std::int64_t, std::vector<Direction>> held_directions(const P
     const std::int64_t dimension = problem.mesh->dimension();
     std::unordered_map<std::int64_t, std::vector<Direction>> held;
     for (const Constraint& constraint : problem.constraints) {
-        glance("loads");
+        poll_cancel("loads");
         if (constraint.dof.front() / dimension != constraint.dof.back() / dimension) continue;
         Direction direction{};
         double length = 0.0;
@@ -217,7 +217,7 @@ int32_t delam_problem_prescribe_nodes(delam_problem* problem, int64_t count, con
         auto held = held_directions(core);
         std::vector<Constraint> added;
         for (std::int64_t i = 0; i < count; ++i) {
-            glance("loads");
+            poll_cancel("loads");
             const std::int64_t node = require_node(*core.mesh, nodes[i], index_base, text("nodes[", i, "]"));
             std::vector<Direction>& others = held[node];
             if (depends(others, unit)) {
@@ -254,7 +254,7 @@ int32_t delam_problem_prescribe_mean(delam_problem* problem, int64_t count, cons
         double sum = 0.0;
         std::vector<std::pair<std::int64_t, double>> members;
         for (std::int64_t i = 0; i < count; ++i) {
-            glance("loads");
+            poll_cancel("loads");
             members.emplace_back(require_node(*core.mesh, nodes[i], index_base, text("nodes[", i, "]")), weights[i]);
             sum += weights[i];
         }
@@ -267,7 +267,7 @@ int32_t delam_problem_prescribe_mean(delam_problem* problem, int64_t count, cons
             if (i > 0 && members[i].first == members[i - 1].first) {
                 fail(DELAM_ERROR_ARGUMENT, "nodes: node ", members[i].first + index_base, " is listed twice");
             }
-            glance("loads");
+            poll_cancel("loads");
             for (std::int64_t d = 0; d < dimension; ++d)
                 terms.add(members[i].first, d, members[i].second / sum * unit[size(d)]);
         }
@@ -293,7 +293,7 @@ int32_t delam_problem_add_equation(delam_problem* problem, int64_t count, const 
         Terms terms(*core.mesh);
         double largest = 0.0;
         for (std::int64_t i = 0; i < count; ++i) {
-            glance("loads");
+            poll_cancel("loads");
             const std::int64_t node = require_node(*core.mesh, nodes[i], index_base, text("nodes[", i, "]"));
             for (std::int64_t d = 0; d < dimension; ++d) {
                 terms.add(node, d, coefficients[i * dimension + d]);
@@ -366,7 +366,7 @@ int32_t delam_problem_add_forces(delam_problem* problem, int64_t pattern, int64_
         const auto list = require_patterns(core, 1, &pattern, 0, Pattern::Drives::force);
         std::vector<NodalForce> added;
         for (std::int64_t i = 0; i < count; ++i) {
-            glance("loads");
+            poll_cancel("loads");
             const std::int64_t node = require_node(*core.mesh, nodes[i], index_base, text("nodes[", i, "]"));
             Terms terms(*core.mesh);
             for (std::int64_t d = 0; d < dimension; ++d) terms.add(node, d, forces[i * dimension + d]);

@@ -107,7 +107,7 @@ int32_t delam_problem_set_orientation(delam_problem* problem, int32_t body, int6
         std::vector<std::int64_t> list;
         std::vector<Axes> chosen(static_cast<std::size_t>(count));
         for (std::int64_t i = 0; i < count; ++i) {
-            glance("orientation");
+            poll_cancel("orientation");
             const double* own = axes + 6 * i;
             if (!orthonormal_axes(std::span<const double, 3>(own, 3), std::span<const double, 3>(own + 3, 3),
                                   chosen[static_cast<std::size_t>(i)]))

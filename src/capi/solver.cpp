@@ -316,8 +316,8 @@ int32_t delam_solver_jump(const delam_solver* solver, int64_t index, int64_t* st
                           double* stored, double* dissipated, double* released, double* debonded,
                           int64_t* interface_index, int64_t* first_pair, int64_t* last_pair) {
     return guard(solver, [&] {
-        const std::vector<Jump> jumps = solver->core->jumps(true);
-        const Jump& jump =
+        const std::vector<JumpEvent> jumps = solver->core->jumps(true);
+        const JumpEvent& jump =
             jumps[static_cast<std::size_t>(require_index(index, static_cast<std::int64_t>(jumps.size()), 0, "index"))];
         const auto give = [](auto* out, auto value) {
             if (out != nullptr) *out = value;

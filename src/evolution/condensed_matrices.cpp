@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 #include "reduction/condensed/bulk.hpp"
 
 namespace delam {
@@ -22,7 +22,7 @@ const Bulk& bulk_of(const Solver& solver) {
 // The lower triangle of S is the one that holds.
 void copy_stiffness(const DenseEnergy& energy, double* out) {
     for (std::int64_t j = 0; j < energy.rows(); ++j) {
-        glance("copy", 1 + energy.rows() / 64);
+        poll_cancel("copy", 1 + energy.rows() / 64);
         for (std::int64_t i = j; i < energy.rows(); ++i)
             out[i * energy.rows() + j] = out[j * energy.rows() + i] = energy.stiffness(i, j);
     }

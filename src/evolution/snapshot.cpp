@@ -133,7 +133,7 @@ void check(const State& state, const Solver& solver) {
     solver.jump_operator().require_memory(state.search_memory);  // of its twin
 }
 
-void check(const Jump& jump, const Solver& solver) {
+void check(const JumpEvent& jump, const Solver& solver) {
     const auto& interfaces = solver.problem().mesh->interfaces();
     const bool named = jump.interface >= 0 && jump.interface < static_cast<std::int64_t>(interfaces.size());
     const std::int64_t pairs = named ? interfaces[static_cast<std::size_t>(jump.interface)].pair_count() : 0;
@@ -270,7 +270,7 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
     if (kept > r.left() / least.bytes.size()) fail(DELAM_ERROR_SNAPSHOT, "snapshot ends early at byte ", bytes.size());
     std::vector<State> past(kept);
     for (State& earlier : past) walk(r, earlier);
-    std::vector<Jump> jumps;
+    std::vector<JumpEvent> jumps;
     r.item(jumps);
     Record record;
     if (found_version >= 7) record = read_record(r, solver);
@@ -286,7 +286,7 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
         if (const double next = i + 1 < past.size() ? past[i + 1].time : state.time; !(past[i].time < next))
             fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", past[i].step, " at time ", past[i].time,
                  ", the step after it at ", next);
-    for (const Jump& jump : jumps) check(jump, solver);
+    for (const JumpEvent& jump : jumps) check(jump, solver);
     check(record, state);
     solver.restore(std::move(state), std::move(past), std::move(jumps), std::move(patterns), std::move(record));
 }

@@ -124,7 +124,7 @@ Outcome Solver::equilibrate(double time, std::span<const double> adhesion) {
 void Solver::commit() {
     if (!pending_) fail(DELAM_ERROR_STATE, "nothing to commit: no step is pending");
     const bool keeps = keeps_past() && pending_->state.step > committed_.step;
-    std::vector<Jump> all = jumps(true);
+    std::vector<JumpEvent> all = jumps(true);
     if (keeps) past_.reserve(past_.size() + 1);
     const std::vector<std::string> keys = record_.keys();
     std::vector<Record::Row> rows;
@@ -243,18 +243,18 @@ void Solver::look(std::int64_t step) {
     forget();
 }
 
-std::vector<Jump> Solver::jumps(bool pending) const {
-    std::vector<Jump> all = jumps_;
+std::vector<JumpEvent> Solver::jumps(bool pending) const {
+    std::vector<JumpEvent> all = jumps_;
     if (!pending || !pending_) return all;
     if (pending_->state.step == committed_.step) return all;  // set, not marched to
     const std::int64_t from = pending_->revised.empty() ? pending_->state.step : pending_->revised.front().step;
-    std::erase_if(all, [&](const Jump& jump) { return jump.step >= from; });
+    std::erase_if(all, [&](const JumpEvent& jump) { return jump.step >= from; });
     all.insert(all.end(), pending_->jumps.begin(), pending_->jumps.end());
     return all;
 }
 
-void Solver::restore(State restored, std::vector<State> past, std::vector<Jump> jumps, std::vector<Pattern> patterns,
-                     Record record) {
+void Solver::restore(State restored, std::vector<State> past, std::vector<JumpEvent> jumps,
+                     std::vector<Pattern> patterns, Record record) {
     stepper_.op().recall(restored.memory);
     problem_.patterns = std::move(patterns);
     committed_ = std::move(restored);

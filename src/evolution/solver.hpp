@@ -10,7 +10,7 @@
 #include "base/monitor.hpp"
 #include "body/averages.hpp"
 #include "evolution/crack_front.hpp"
-#include "evolution/jump.hpp"
+#include "evolution/jump_event.hpp"
 #include "evolution/plan.hpp"
 #include "evolution/record.hpp"
 #include "evolution/step/stepper.hpp"
@@ -60,9 +60,9 @@ public:
     // Kept steps before the committed one, oldest first.
     const std::vector<State>& past() const { return past_; }
     // Jumps of the march up to the committed state, and with `pending` those of the pending step.
-    std::vector<Jump> jumps(bool pending) const;
+    std::vector<JumpEvent> jumps(bool pending) const;
     // Replaces the committed states (of the same scene); drops a pending one.
-    void restore(State state, std::vector<State> past, std::vector<Jump> jumps, std::vector<Pattern> patterns,
+    void restore(State state, std::vector<State> past, std::vector<JumpEvent> jumps, std::vector<Pattern> patterns,
                  Record record);
     // Of the scene as the solver was made with it.
     const std::vector<Pattern>& first_patterns() const { return first_patterns_; }
@@ -107,7 +107,7 @@ private:
     struct Pending {
         State state;
         std::vector<State> revised;  // earlier steps that backtracking has replaced, ascending
-        std::vector<Jump> jumps;
+        std::vector<JumpEvent> jumps;
     };
 
     bool known(std::int32_t body) const { return problem_.material[static_cast<std::size_t>(body)].has_value(); }
@@ -132,7 +132,7 @@ private:
     Outcome initial_outcome_;
     State committed_;
     std::vector<State> past_;
-    std::vector<Jump> jumps_;
+    std::vector<JumpEvent> jumps_;
     Record record_;
     std::optional<Pending> pending_;
     const State* looked_ = nullptr;

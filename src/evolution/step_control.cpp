@@ -24,18 +24,18 @@ double change_in_pairs(const PairLaws& pairs, const State& before, const State& 
     return weight > 0.0 ? change * count / weight : 0.0;
 }
 
-Jump describe(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after) {
+JumpEvent describe(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after) {
     const Ledger &a = before.ledger, &b = after.ledger;
-    Jump jump{after.step,
-              before.time,
-              after.time,
-              b.energy() - a.energy(),
-              b.dissipated - a.dissipated,
-              b.upper - b.increment,
-              0.0,
-              0,
-              -1,
-              -1};
+    JumpEvent jump{after.step,
+                   before.time,
+                   after.time,
+                   b.energy() - a.energy(),
+                   b.dissipated - a.dissipated,
+                   b.upper - b.increment,
+                   0.0,
+                   0,
+                   -1,
+                   -1};
     std::vector<double> changed;
     for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
         const auto interface = static_cast<std::size_t>(graph.interface_of(p));
@@ -172,7 +172,7 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
     effort.substeps = parts;
     effort.refused_steps = refused;
     effort.jumps = static_cast<std::int64_t>(out.jumps.size());
-    for (const Jump& jump : out.jumps) effort.released += jump.released;
+    for (const JumpEvent& jump : out.jumps) effort.released += jump.released;
     state.counts = effort;
     return out;
 }

@@ -11,14 +11,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "evolution/jump.hpp"
+#include "evolution/jump_event.hpp"
 #include "evolution/step/stepper.hpp"
 
 namespace delam {
 
 struct ControlledStep {
     Stepper::Result result;  // ledger and counts of the whole step
-    std::vector<Jump> jumps;
+    std::vector<JumpEvent> jumps;
 };
 
 bool controls_steps(const Options& options);

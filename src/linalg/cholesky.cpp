@@ -9,8 +9,8 @@
 #include <new>
 #include <numeric>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 #include "base/room.hpp"
 #include "delam/delam.h"
 
@@ -168,7 +168,7 @@ std::vector<SuiteSparse_long> shortest_first(const SparseMatrix& m) {
 
 }  // namespace
 
-SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing, const Look& look)
+SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing, const Poll& poll)
     : impl_(std::make_unique<Impl>()) {
     Impl& impl = *impl_;
     impl.size = matrix.rows;
@@ -187,7 +187,7 @@ SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing
         std::iota(order.begin() + static_cast<std::ptrdiff_t>(interior), order.end(),
                   static_cast<SuiteSparse_long>(interior));
     }
-    ask(look);
+    call_if_set(poll);
     impl.common.nmethods = 1;
     impl.common.method[0].ordering = CHOLMOD_GIVEN;
     impl.common.postorder = trailing == 0 ? 1 : 0;  // a postorder may move trailing variables that are not connected
@@ -226,7 +226,7 @@ void SparseCholesky::solve_leading(std::span<const double> b, std::span<double> 
     std::vector<double> v(static_cast<std::size_t>(impl.size), 0.0);
     std::copy(b.begin(), b.end(), v.begin());
     for (const int system : {CHOLMOD_P, CHOLMOD_L, CHOLMOD_Lt, CHOLMOD_Pt}) {
-        if (system == CHOLMOD_L || system == CHOLMOD_Lt) glance("solve", impl.size / 64);
+        if (system == CHOLMOD_L || system == CHOLMOD_Lt) poll_cancel("solve", impl.size / 64);
         cholmod_dense rhs = view(v);
         std::memcpy(v.data(), impl.solve(system, rhs), v.size() * sizeof(double));
         if (system == CHOLMOD_L) std::fill(v.begin() + static_cast<std::ptrdiff_t>(leading), v.end(), 0.0);
@@ -249,7 +249,7 @@ SparseCholesky::Pivot SparseCholesky::smallest_pivot() const {
     const auto* x = static_cast<const double*>(l->x);
     std::int64_t smallest = 0;
     double least = 0.0, largest = 0.0;
-    const auto look = [&](std::int64_t j, double diagonal) {
+    const auto check = [&](std::int64_t j, double diagonal) {
         if (j == 0 || diagonal < least) {
             least = diagonal;
             smallest = j;
@@ -262,10 +262,10 @@ SparseCholesky::Pivot SparseCholesky::smallest_pivot() const {
         const auto* value_start = static_cast<const std::int64_t*>(l->px);
         for (std::size_t s = 0; s < l->nsuper; ++s)
             for (std::int64_t j = super[s]; j < super[s + 1]; ++j)
-                look(j, x[value_start[s] + (j - super[s]) * (row_start[s + 1] - row_start[s] + 1)]);
+                check(j, x[value_start[s] + (j - super[s]) * (row_start[s + 1] - row_start[s] + 1)]);
     } else {
         const auto* start = static_cast<const std::int64_t*>(l->p);
-        for (std::int64_t j = 0; j < impl_->size; ++j) look(j, x[start[j]]);
+        for (std::int64_t j = 0; j < impl_->size; ++j) check(j, x[start[j]]);
     }
     return {order[smallest], least / largest * (least / largest)};
 }

@@ -21,9 +21,9 @@ struct FactorSize {
 class SparseCholesky {
 public:
     // Symbolic analysis of a symmetric matrix (both triangles stored). The last `trailing` variables are eliminated
-    // last, in their given order, the others before them by (constrained) minimum degree. look: asked for between
+    // last, in their given order, the others before them by (constrained) minimum degree. poll: called between
     // ordering and analysis.
-    explicit SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing = 0, const Look& look = {});
+    explicit SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing = 0, const Poll& poll = {});
     ~SparseCholesky();
     SparseCholesky(SparseCholesky&&) noexcept;
     SparseCholesky& operator=(SparseCholesky&&) noexcept;

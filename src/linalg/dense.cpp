@@ -48,7 +48,7 @@ int narrow(std::int64_t n) {
     return static_cast<int>(n);
 }
 
-// Up to `small` rows LAPACK works without a look between; beyond, in panels of `width` columns.
+// Up to `small` rows LAPACK works without a poll in between; beyond, in panels of `width` columns.
 constexpr std::int64_t small = 1024, width = 256;
 
 // Multiplications of a part of an operation: about a twentieth of a second.
@@ -117,7 +117,7 @@ void mirror_lower(DenseMatrix& a) {
 }
 
 // Column panel after column panel: panel k touches only the square below and to the right of its first row.
-DenseMatrix lower_times_transpose(const DenseMatrix& lower, const Look& look) {
+DenseMatrix lower_times_transpose(const DenseMatrix& lower, const Poll& poll) {
     constexpr std::int64_t narrower = 128;
     DenseMatrix product(lower.rows, lower.rows);
     const int lda = leading(lower);
@@ -126,7 +126,7 @@ DenseMatrix lower_times_transpose(const DenseMatrix& lower, const Look& look) {
         const int n = narrow(lower.rows - k), panel = static_cast<int>(std::min(narrower, lower.rows - k));
         dsyrk_("L", "N", &n, &panel, &unit, &lower.value[static_cast<std::size_t>(k + k * lower.rows)], &lda, &unit,
                &product.value[static_cast<std::size_t>(k + k * lower.rows)], &lda);
-        ask(look);
+        call_if_set(poll);
     }
     mirror_lower(product);
     return product;
@@ -152,7 +152,7 @@ void multiply_transposed(const DenseMatrix& a, std::span<const double> x, std::s
 
 // Beyond `small` a panel of columns after the other: its own triangle, the rows below, and what it takes from the
 // columns behind it.
-bool factor_definite(DenseMatrix& a, const Look& look) {
+bool factor_definite(DenseMatrix& a, const Poll& poll) {
     const int n = narrow(a.rows), lda = leading(a);
     int info = 0;
     if (n <= small) {
@@ -177,13 +177,13 @@ bool factor_definite(DenseMatrix& a, const Look& look) {
             if (rest > 0)
                 dgemm_("N", "T", &rest, &columns, &panel, &minus, at(j + columns, k), &lda, at(j, k), &lda, &unit,
                        at(j + columns, j), &lda);
-            ask(look);
+            call_if_set(poll);
         }
     }
     return true;
 }
 
-void solve_lower(const DenseMatrix& lower, DenseMatrix& b, std::int64_t first, const Look& look) {
+void solve_lower(const DenseMatrix& lower, DenseMatrix& b, std::int64_t first, const Poll& poll) {
     const int m = narrow(b.rows - first), lda = leading(lower), ldb = leading(b);
     const double alpha = 1.0;
     if (m == 0) return;
@@ -192,7 +192,7 @@ void solve_lower(const DenseMatrix& lower, DenseMatrix& b, std::int64_t first, c
         const int columns = narrow(std::min(step, b.columns - j));
         dtrsm_("L", "L", "N", "N", &m, &columns, &alpha, lower.value.data() + first * (lower.rows + 1), &lda,
                b.value.data() + first + j * b.rows, &ldb);
-        ask(look);
+        call_if_set(poll);
     }
 }
 
@@ -208,7 +208,7 @@ void solve_lower_transposed(const DenseMatrix& lower, std::span<double> x) {
 
 namespace {
 
-void accumulate_gram(DenseMatrix& c, const DenseMatrix& v, double sign, const Look& look) {
+void accumulate_gram(DenseMatrix& c, const DenseMatrix& v, double sign, const Poll& poll) {
     const int n = narrow(c.rows), k = narrow(v.rows), ldv = leading(v), ldc = leading(c);
     const double beta = 1.0;
     if (n == 0 || k == 0) return;
@@ -222,15 +222,15 @@ void accumulate_gram(DenseMatrix& c, const DenseMatrix& v, double sign, const Lo
         if (rest > 0)
             dgemm_("T", "N", &rest, &columns, &k, &sign, column(j + columns), &ldv, column(j), &ldv, &beta,
                    corner + columns, &ldc);
-        ask(look);
+        call_if_set(poll);
     }
 }
 
 }  // namespace
 
-void subtract_gram(DenseMatrix& c, const DenseMatrix& v, const Look& look) { accumulate_gram(c, v, -1.0, look); }
+void subtract_gram(DenseMatrix& c, const DenseMatrix& v, const Poll& poll) { accumulate_gram(c, v, -1.0, poll); }
 
-void add_gram(DenseMatrix& c, const DenseMatrix& v, const Look& look) { accumulate_gram(c, v, 1.0, look); }
+void add_gram(DenseMatrix& c, const DenseMatrix& v, const Poll& poll) { accumulate_gram(c, v, 1.0, poll); }
 
 void subtract_product(DenseMatrix& c, const DenseMatrix& v, const DenseMatrix& w) {
     const int m = narrow(c.rows), n = narrow(c.columns), k = narrow(v.rows);
@@ -243,7 +243,7 @@ void subtract_product(DenseMatrix& c, const DenseMatrix& v, const DenseMatrix& w
 namespace {
 
 // The lower triangle's L becomes L^-1, panels from right to left: below the diagonal block  -L_22^-1 L_21 L_11^-1.
-int invert_lower(DenseMatrix& a, const Look& look) {
+int invert_lower(DenseMatrix& a, const Poll& poll) {
     const std::int64_t n = a.rows;
     const int lda = leading(a);
     const double unit = 1.0, minus = -1.0;
@@ -257,13 +257,13 @@ int invert_lower(DenseMatrix& a, const Look& look) {
         int info = 0;
         dtrtri_("L", "N", &panel, at(k, k), &lda, &info);
         if (info != 0) return info;
-        ask(look);
+        call_if_set(poll);
     }
     return 0;
 }
 
 // The lower triangle's M becomes M^T M, rows of blocks from the top.
-void lower_transpose_times_lower(DenseMatrix& a, const Look& look) {
+void lower_transpose_times_lower(DenseMatrix& a, const Poll& poll) {
     const std::int64_t n = a.rows;
     const int lda = leading(a);
     const double unit = 1.0;
@@ -280,27 +280,27 @@ void lower_transpose_times_lower(DenseMatrix& a, const Look& look) {
                        at(k, 0), &lda);
             dsyrk_("L", "T", &panel, &below, &unit, at(k + panel, k), &lda, &unit, at(k, k), &lda);
         }
-        ask(look);
+        call_if_set(poll);
     }
 }
 
 }  // namespace
 
-DenseMatrix inverse_definite(DenseMatrix a, const Look& look) {
+DenseMatrix inverse_definite(DenseMatrix a, const Poll& poll) {
     const int n = narrow(a.rows), lda = leading(a);
     int info = 0;
-    if (!factor_definite(a, look))
+    if (!factor_definite(a, poll))
         fail(DELAM_ERROR_NUMERICAL, "a dense block of ", n, " rows is not positive definite");
-    ask(look);
+    call_if_set(poll);
     if (n > small) {
-        info = invert_lower(a, look);
-        if (info == 0) lower_transpose_times_lower(a, look);
+        info = invert_lower(a, poll);
+        if (info == 0) lower_transpose_times_lower(a, poll);
     } else if (n > 0) {
         dpotri_("L", &n, a.value.data(), &lda, &info);
     }
     if (info != 0)
         fail(DELAM_ERROR_NUMERICAL, "a dense block of ", n, " rows is not positive definite (row ", info, ")");
-    ask(look);
+    call_if_set(poll);
     mirror_lower(a);
     return a;
 }

@@ -21,7 +21,7 @@ struct DenseMatrix {
     double operator()(std::int64_t i, std::int64_t j) const { return value[static_cast<std::size_t>(i + j * rows)]; }
 };
 
-// look: asked for between parts of about a twentieth of a second, where an operation takes longer than that.
+// poll: called between parts of about a twentieth of a second, where an operation takes longer than that.
 
 double dot(std::span<const double> x, std::span<const double> y);
 // y += a x
@@ -33,7 +33,7 @@ DenseMatrix multiply(const DenseMatrix& a, const DenseMatrix& b);
 // C = A^T B; with `first`, of the rows from there on alone.
 DenseMatrix multiply_transposed(const DenseMatrix& a, const DenseMatrix& b, std::int64_t first = 0);
 // L L^T, full symmetric, from a lower triangle (the upper one must be zero): n^3/3 multiplications.
-DenseMatrix lower_times_transpose(const DenseMatrix& lower, const Look& look = {});
+DenseMatrix lower_times_transpose(const DenseMatrix& lower, const Poll& poll = {});
 // y = A x and y = A^T x (BLAS dgemv)
 void multiply(const DenseMatrix& a, std::span<const double> x, std::span<double> y);
 void multiply_transposed(const DenseMatrix& a, std::span<const double> x, std::span<double> y);
@@ -41,19 +41,19 @@ void multiply_transposed(const DenseMatrix& a, std::span<const double> x, std::s
 void mirror_lower(DenseMatrix& a);
 // A = L L^T in its lower triangle (LAPACK dpotrf, of large ones panel by panel). False: not positive definite; A is
 // then spoilt.
-bool factor_definite(DenseMatrix& a, const Look& look = {});
+bool factor_definite(DenseMatrix& a, const Poll& poll = {});
 // L^-1 B, L^-1 x, L^-T x in place (BLAS dtrsm, dtrsv); only the lower triangle is read.
 // first: the rows of B above it are zero.
-void solve_lower(const DenseMatrix& lower, DenseMatrix& b, std::int64_t first = 0, const Look& look = {});
+void solve_lower(const DenseMatrix& lower, DenseMatrix& b, std::int64_t first = 0, const Poll& poll = {});
 void solve_lower(const DenseMatrix& lower, std::span<double> x);
 void solve_lower_transposed(const DenseMatrix& lower, std::span<double> x);
 // C -= V^T V and C += V^T V in the lower triangle of C (BLAS dsyrk).
-void subtract_gram(DenseMatrix& c, const DenseMatrix& v, const Look& look = {});
-void add_gram(DenseMatrix& c, const DenseMatrix& v, const Look& look = {});
+void subtract_gram(DenseMatrix& c, const DenseMatrix& v, const Poll& poll = {});
+void add_gram(DenseMatrix& c, const DenseMatrix& v, const Poll& poll = {});
 // C -= V^T W (BLAS dgemm)
 void subtract_product(DenseMatrix& c, const DenseMatrix& v, const DenseMatrix& w);
 // A^-1, full symmetric, of a positive definite A (LAPACK dpotrf, dpotri; beyond 1024 rows the same in panels).
-DenseMatrix inverse_definite(DenseMatrix a, const Look& look = {});
+DenseMatrix inverse_definite(DenseMatrix a, const Poll& poll = {});
 // A X = B in place of B, A spoilt, by LU with its rows scaled to 1 (LAPACK dgetrf, dgetrs). False: singular, no pivot
 // larger than `tolerance` of the largest; B is then not set.
 bool solve_general(DenseMatrix& a, DenseMatrix& b, double tolerance);

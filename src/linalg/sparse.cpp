@@ -98,7 +98,7 @@ SparseMatrix transpose(const SparseMatrix& a) {
 
 // Row i of T^T K T gathers the rows of K that variable i moves; distinct columns meet in a marker (Gustavson, as
 // above).
-SparseMatrix congruence(const SparseMatrix& k, const SparseMatrix& t, const Look& look) {
+SparseMatrix congruence(const SparseMatrix& k, const SparseMatrix& t, const Poll& poll) {
     const auto at = [](std::int64_t i) { return static_cast<std::size_t>(i); };
     const SparseMatrix tt = transpose(t);
     SparseMatrix m;
@@ -109,7 +109,7 @@ SparseMatrix congruence(const SparseMatrix& k, const SparseMatrix& t, const Look
     std::vector<std::int64_t> place(at(m.columns), -1);
     std::vector<std::pair<std::int64_t, double>> row;
     for (std::size_t i = 0; i < at(tt.rows); ++i) {
-        if (i % 4096 == 0) ask(look);
+        if (i % 4096 == 0) call_if_set(poll);
         const auto first = static_cast<std::int64_t>(m.column.size());
         bool sorted = true;
         for (std::size_t s = at(tt.start[i]); s < at(tt.start[i + 1]); ++s) {

@@ -36,6 +36,6 @@ void multiply_transposed(const SparseMatrix& a, std::span<const double> x, std::
 SparseMatrix transpose(const SparseMatrix& a);
 
 // T^T K T of a symmetric K, both triangles.
-SparseMatrix congruence(const SparseMatrix& k, const SparseMatrix& t, const Look& look = {});
+SparseMatrix congruence(const SparseMatrix& k, const SparseMatrix& t, const Poll& poll = {});
 
 }  // namespace delam

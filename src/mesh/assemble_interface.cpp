@@ -6,8 +6,8 @@
 #include <map>
 #include <numeric>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
 #include "mesh/nodal_rule.hpp"
@@ -117,7 +117,7 @@ std::vector<Point> lay_faces(const Mesh& mesh, std::span<const BoundaryFace> fac
     bool quadratic = false;
     std::vector<PairFace> faces;
     for (const BoundaryFace& face : faces_of_nodes) {
-        glance("pairs", 2);
+        poll_cancel("pairs", 2);
         corners = std::max(corners, face.corner().size());
         quadratic = quadratic || !face.middle().empty();
         faces.push_back(pair_face(face, index));
@@ -129,7 +129,7 @@ std::vector<Point> lay_faces(const Mesh& mesh, std::span<const BoundaryFace> fac
     interface.weight.assign(on_faces.size(), 0.0);
     std::vector<Point> area(on_faces.size(), Point{});
     for (const PairFace& face : faces) {
-        glance("pairs", 2);
+        poll_cancel("pairs", 2);
         std::array<std::int64_t, most_face_nodes> nodes{};
         for (std::size_t k = 0; k < face.pair.size(); ++k) nodes[k] = on_faces[at(face.pair[k])];
         const NodalRule rule = nodal_rule(mesh, std::span<const std::int64_t>(nodes).first(face.pair.size()));

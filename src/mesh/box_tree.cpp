@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "base/glance.hpp"
+#include "base/cancel_scope.hpp"
 #include "mesh/faces.hpp"
 
 namespace delam {
@@ -35,7 +35,7 @@ BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxe
 }
 
 void BoxTree::grow(std::int64_t begin, std::int64_t end) {
-    glance("mesh", 1 + (end - begin) / 16);
+    poll_cancel("mesh", 1 + (end - begin) / 16);
     Box hull = boxes_[at(order_[at(begin)])];
     for (std::int64_t k = begin; k < end; ++k) {
         const Box& box = boxes_[at(order_[at(k)])];

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
 #include "mesh/mesh.hpp"
@@ -43,7 +43,7 @@ void Mesh::add_conforming_cells(CellType type, std::span<const std::int64_t> con
     try {
         for (std::size_t i = 0; i < own.size(); ++i) {
             const std::size_t c = i / per_cell;
-            if (i % per_cell == 0) glance("mesh");
+            if (i % per_cell == 0) poll_cancel("mesh");
             const std::int32_t label = c < labels.size() ? labels[c] : 0;
             // What else is wrong is left as it is, for add_cells to refuse.
             if (label < 0) continue;

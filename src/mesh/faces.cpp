@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 #include "delam/delam.h"
 #include "mesh/points.hpp"
 
@@ -110,7 +110,7 @@ FaceTable match_faces(const Mesh& mesh, std::span<const std::int64_t> cells) {
     std::vector<std::int64_t> begin(at(mesh.node_count()) + 1, 0);
     const auto each_face = [&](auto&& visit) {
         for (std::size_t i = 0; i < cells.size(); ++i) {
-            glance("mesh");
+            poll_cancel("mesh");
             const CellTopology& shape = topology(mesh.cell_type(cells[i]));
             for (int f = 0; f < shape.faces; ++f) {
                 Key key{{none, none, none, none}, static_cast<std::int64_t>(i) * FaceTable::stride + f};
@@ -136,7 +136,7 @@ FaceTable match_faces(const Mesh& mesh, std::span<const std::int64_t> cells) {
                             face_nodes(mesh, cell, static_cast<int>(place % FaceTable::stride))};
     };
     for (std::size_t n = 0; n + 1 < begin.size(); ++n) {
-        if (begin[n] != begin[n + 1]) glance("mesh");
+        if (begin[n] != begin[n + 1]) poll_cancel("mesh");
         for (std::size_t i = at(begin[n]); i < at(begin[n + 1]); ++i) {
             for (std::size_t j = i + 1; j < at(begin[n + 1]); ++j) {
                 if (!(sorted[i] == sorted[j])) continue;
@@ -165,7 +165,7 @@ FaceTable match_faces(const Mesh& mesh, std::span<const std::int64_t> cells) {
 double shortest_edge(const Mesh& mesh, std::span<const std::int64_t> cells) {
     double shortest = std::numeric_limits<double>::infinity();
     for (const std::int64_t c : cells) {
-        glance("mesh");
+        poll_cancel("mesh");
         shortest = std::min(shortest, shortest_edge(mesh, c));
     }
     return shortest;

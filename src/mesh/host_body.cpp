@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 #include "delam/delam.h"
 #include "mesh/assemble_interface.hpp"
 #include "mesh/faces.hpp"
@@ -22,7 +22,7 @@ void Mesh::add_host_body(std::int32_t label, std::span<const std::int64_t> nodes
     if (body_of_label(label) >= 0) fail(DELAM_ERROR_MESH, "body ", label, " is there already");
     std::set<std::int64_t> listed;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-        glance("mesh");
+        poll_cancel("mesh");
         const std::int64_t node = nodes[i];
         if (node < 0 || node >= node_count())
             fail(DELAM_ERROR_ARGUMENT, "nodes[", i, "] = ", node, ": must be in 0..", node_count() - 1);
@@ -55,7 +55,7 @@ std::int64_t Mesh::add_pairs(std::int32_t label_a, std::int32_t label_b, std::sp
     const auto take = [&](std::span<const std::int64_t> nodes, std::int32_t body, const char* name) {
         std::set<std::int64_t> listed;
         for (std::size_t p = 0; p < nodes.size(); ++p) {
-            glance("pairs");
+            poll_cancel("pairs");
             const std::int64_t node = nodes[p];
             if (node < 0 || node >= node_count())
                 fail(DELAM_ERROR_ARGUMENT, name, "[", p, "] = ", node, ": must be in 0..", node_count() - 1);

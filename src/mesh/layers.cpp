@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
 
@@ -114,7 +114,7 @@ Mesh make_layers(int dimension, std::span<const double> lengths, std::span<const
             const double z = k == nz ? top : base + even(thickness[layer], k, nz);
             for (std::int64_t j = 0; j <= ny; ++j) {
                 for (std::int64_t i = 0; i <= nx; ++i) {
-                    glance("mesh");
+                    poll_cancel("mesh");
                     const bool there = on_lattice(type, i, j, k);
                     number.push_back(there ? count++ : -1);
                     if (!there) continue;
@@ -130,7 +130,7 @@ Mesh make_layers(int dimension, std::span<const double> lengths, std::span<const
         for (std::int64_t k = 0; k < nz; k += order) {
             for (std::int64_t j = 0; j < (dimension == 3 ? ny : 1); j += order) {
                 for (std::int64_t i = 0; i < nx; i += order) {
-                    glance("mesh", static_cast<std::int64_t>(cells.size()) / shape.corners);
+                    poll_cancel("mesh", static_cast<std::int64_t>(cells.size()) / shape.corners);
                     const std::int64_t n = k * level + j * row + i;
                     const std::int64_t corner[] = {
                         n,         n + right,         n + right + back,         n + back,

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
 #include "mesh/shape.hpp"
@@ -60,7 +60,7 @@ void Mesh::add_cells(CellType type, std::span<const std::int64_t> connectivity, 
     std::vector<double> coordinates(per_cell * dim);
     const auto label_of = [&](std::size_t c) { return labels.empty() ? 0 : labels[c]; };
     const auto check_cell = [&](std::size_t c) {
-        glance("mesh");
+        poll_cancel("mesh");
         const std::size_t number = cell_type_.size() + c;
         const std::int32_t label = label_of(c);
         if (label < 0) fail(DELAM_ERROR_ARGUMENT, "cell ", number, ": body ", label, ": must be >= 0");
@@ -183,7 +183,7 @@ std::vector<BoundaryFace> boundary_faces(const Mesh& mesh, std::int32_t body) {
     const FaceTable table = match_faces(mesh, cells);
     std::vector<BoundaryFace> faces;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        glance("mesh");
+        poll_cancel("mesh");
         const CellTopology& shape = topology(mesh.cell_type(cells[i]));
         for (int f = 0; f < shape.faces; ++f)
             if (table.neighbour[i * at(FaceTable::stride) + at(f)] < 0)

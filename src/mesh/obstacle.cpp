@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 #include "delam/delam.h"
 #include "mesh/assemble_interface.hpp"
 #include "mesh/faces.hpp"
@@ -34,7 +34,7 @@ std::int64_t Mesh::add_obstacle(std::span<const std::int64_t> nodes, std::span<c
     InterfaceGeometry made;
     std::map<std::int64_t, std::size_t> listed;
     for (std::size_t p = 0; p < nodes.size(); ++p) {
-        glance("pairs");
+        poll_cancel("pairs");
         const std::int64_t node = nodes[p];
         if (node < 0 || node >= node_count())
             fail(DELAM_ERROR_ARGUMENT, "nodes[", p, "] = ", node, ": must be in 0..", node_count() - 1);

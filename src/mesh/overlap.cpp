@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/glance.hpp"
+#include "base/cancel_scope.hpp"
 #include "mesh/box_tree.hpp"
 #include "mesh/faces.hpp"
 #include "mesh/points.hpp"
@@ -60,7 +60,7 @@ std::pair<std::int64_t, std::int64_t> find_covered(const Mesh& mesh, std::span<c
     for (const BoundaryFace& face : under) boxes.push_back(box_of(mesh, face, distance));
     const BoxTree tree(std::move(boxes));
     for (std::size_t f = 0; f < over.size(); ++f) {
-        glance("pairs", 8);
+        poll_cancel("pairs", 8);
         const Point normal = unit_normal(mesh, over[f]);
         Point centroid{};
         for (const std::int64_t node : over[f].all())

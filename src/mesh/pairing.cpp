@@ -8,8 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 #include "delam/delam.h"
 #include "mesh/assemble_interface.hpp"
 #include "mesh/box_tree.hpp"
@@ -44,7 +44,7 @@ public:
     Partners(const Mesh& mesh, std::span<const std::int64_t> a, std::span<const std::int64_t> b, double distance) {
         const BoxTree tree = tree_of(mesh, a);
         for (const std::int64_t node : b) {
-            glance("pairs");
+            poll_cancel("pairs");
             if (const auto found = tree.nearest(position(mesh, node), distance); found.index >= 0)
                 list_.emplace_back(node, a[at(found.index)]);
         }
@@ -103,7 +103,7 @@ Matching match_boundaries(const Mesh& mesh, std::span<const BoundaryFace> faces_
     Matching m;
     std::vector<char> used(faces_a.size(), 0);
     for (const BoundaryFace& face : faces_b) {
-        glance("pairs");
+        poll_cancel("pairs");
         std::array<std::int64_t, 4> image{};
         bool complete = true;
         for (std::size_t k = 0; k < face.corner().size(); ++k) {
@@ -239,7 +239,7 @@ std::int64_t Mesh::add_all_interfaces(double tolerance) {
     };
     std::vector<Meeting> meetings;
     for (std::size_t f = 0; f < faces.size(); ++f) {
-        glance("pairs", 2);
+        poll_cancel("pairs", 2);
         tree.meeting(boxes[f], [&](std::int64_t g) {
             if (body[f] < body[at(g)]) meetings.push_back({body[f], body[at(g)], f, at(g)});
         });

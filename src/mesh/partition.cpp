@@ -14,8 +14,8 @@
 #include <mutex>
 #include <new>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 #include "base/room.hpp"
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
@@ -103,7 +103,7 @@ std::int32_t pieces(const Graph& graph, const Parts& part, std::vector<std::int3
         open.assign(1, first);
         piece[first] = count;
         while (!open.empty()) {
-            glance("partition");
+            poll_cancel("partition");
             const std::size_t i = open.back();
             open.pop_back();
             for (const idx_t j : graph.around(i)) {
@@ -213,7 +213,7 @@ Parts cut(Graph& graph, std::int32_t parts) {
 Graph graph_of(const FaceTable& table, std::span<const std::size_t> members, std::span<const idx_t> number) {
     Graph graph;
     for (const std::size_t i : members) {
-        glance("partition");
+        poll_cancel("partition");
         for (std::size_t f = 0; f < at(FaceTable::stride); ++f) {
             const std::int64_t j = table.neighbour[i * at(FaceTable::stride) + f];
             if (j >= 0) graph.neighbour.push_back(number[at(j)]);

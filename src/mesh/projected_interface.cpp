@@ -10,8 +10,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 #include "delam/delam.h"
 #include "mesh/assemble_interface.hpp"
 #include "mesh/box_tree.hpp"
@@ -104,7 +104,7 @@ std::int64_t Mesh::add_projected_interface(std::int32_t label_a, std::int32_t la
     };
     Split faces;
     for (const BoundaryFace& face : faces_b) {
-        glance("pairs", face_work);
+        poll_cancel("pairs", face_work);
         const std::vector<FacePoint> probes = inner_points(*this, face);
         const auto found = [&](const FacePoint& p) { return ground.under(p.place, p.normal).has_value(); };
         const auto first_off = std::find_if_not(probes.begin(), probes.end(), found);
@@ -118,7 +118,7 @@ std::int64_t Mesh::add_projected_interface(std::int32_t label_a, std::int32_t la
     }
     const Ground apart(*this, faces.off, reach, rim);
     for (const BoundaryFace& face : faces_a) {
-        glance("pairs", face_work);
+        poll_cancel("pairs", face_work);
         for (const FacePoint& p : inner_points(*this, face)) {
             if (const auto found = apart.under(p.place, p.normal)) {
                 const BoundaryFace& other = apart.face(found->face);
@@ -132,7 +132,7 @@ std::int64_t Mesh::add_projected_interface(std::int32_t label_a, std::int32_t la
     // Nodes of b with their projections.
     std::map<std::int64_t, std::pair<double, NodeTie>> tie;
     for (const BoundaryFace& face : faces.on) {
-        glance("pairs", face_work);
+        poll_cancel("pairs", face_work);
         Point normal = area_vector(*this, face.all());
         const double area = length(normal);
         for (double& component : normal) component /= area;

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
 #include "mesh/shape.hpp"
@@ -273,7 +273,7 @@ Patch find_patch(const Mesh& mesh, std::int32_t body, std::span<const double> lo
     const double cosine = std::sqrt(0.5) - 1e-9;  // 45 degrees, the limit included
     for (std::int32_t b = body < 0 ? 0 : body; b < (body < 0 ? mesh.body_count() : body + 1); ++b) {
         for (const BoundaryFace& face : boundary_faces(mesh, b)) {
-            glance("mesh", 2);
+            poll_cancel("mesh", 2);
             const auto nodes = face.all();
             if (!window.look_at(nodes)) continue;
             const auto area = area_vector(mesh, nodes);

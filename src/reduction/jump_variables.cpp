@@ -38,14 +38,14 @@ double modulus(const Problem& problem, std::int32_t body) {
     return std::max({constant[Orthotropic::e1], constant[Orthotropic::e2], constant[Orthotropic::e3]});
 }
 
-constexpr std::int64_t steps_a_look = 1024;
+constexpr std::int64_t steps_per_poll = 1024;
 
 // Variables while they are found: ids below the number of mesh DOFs are displacements, the others jump rows.
 class Builder {
 public:
-    Builder(const Problem& problem, const Look& look)
+    Builder(const Problem& problem, const Poll& poll)
         : problem_(problem),
-          look_(look),
+          poll_(poll),
           carriers_(problem),
           dim_(problem.mesh->dimension()),
           dofs_(problem.mesh->node_count() * dim_) {
@@ -65,7 +65,7 @@ private:
     };
 
     const Problem& problem_;
-    const Look& look_;
+    const Poll& poll_;
     Carriers carriers_;
     std::int64_t dim_;
     std::int64_t dofs_;
@@ -125,7 +125,7 @@ void Builder::hang_nodes() {
     std::size_t pieces = 0;
     for (const std::int64_t root : roots) {
         if (met[root]) continue;
-        if (++pieces % static_cast<std::size_t>(steps_a_look) == 0) ask(look_);
+        if (++pieces % static_cast<std::size_t>(steps_per_poll) == 0) call_if_set(poll_);
         met[root] = true;
         std::vector<std::int64_t> front{root};
         while (!front.empty()) {
@@ -221,7 +221,7 @@ void Builder::take_constraints() {
         row.right.resize(problem_.patterns.size(), 0.0);
         solved_.reduce(row);
         open_.push_back(std::move(row));
-        if (static_cast<std::int64_t>(open_.size()) % steps_a_look == 0) ask(look_);
+        if (static_cast<std::int64_t>(open_.size()) % steps_per_poll == 0) call_if_set(poll_);
     }
     const auto pass = [this](std::size_t longest, bool jumps) {
         bool any = false;
@@ -296,7 +296,7 @@ JumpVariables Builder::build() const {
     v.transform.start.reserve(static_cast<std::size_t>(dofs_) + 1);
     std::map<std::int64_t, double> entries;
     for (std::int64_t dof = 0; dof < dofs_; ++dof) {
-        if (dof % (16 * steps_a_look) == 0) ask(look_);
+        if (dof % (16 * steps_per_poll) == 0) call_if_set(poll_);
         entries.clear();
         for (const auto& [carrier, weight] : carriers_.of(dof / dim_)) {
             const std::int64_t at = carrier * dim_ + dof % dim_;
@@ -324,7 +324,7 @@ JumpVariables Builder::build() const {
 
 }  // namespace
 
-JumpVariables make_jump_variables(const Problem& problem, const Look& look) { return Builder(problem, look).build(); }
+JumpVariables make_jump_variables(const Problem& problem, const Poll& poll) { return Builder(problem, poll).build(); }
 
 // Only variables that occur in an equation are columns: a few, however many jumps there are.
 std::vector<SolvedEquation> solve_equations(const JumpVariables& variables) {

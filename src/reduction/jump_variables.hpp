@@ -49,7 +49,7 @@ struct JumpVariables {
 // Coefficients of equations below this are rounding.
 inline constexpr double dependent_equation = 1e-10;
 
-JumpVariables make_jump_variables(const Problem& problem, const Look& look = {});
+JumpVariables make_jump_variables(const Problem& problem, const Poll& poll = {});
 
 // An equation solved for one trailing variable, displacements before jumps: t_pivot = sum of entries t + prescribed .
 // theta, where no entry is another one's pivot.

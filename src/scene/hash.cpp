@@ -4,7 +4,7 @@
 #include <bit>
 #include <span>
 
-#include "base/glance.hpp"
+#include "base/cancel_scope.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {
@@ -44,7 +44,7 @@ void add_mesh(Fnv& fnv, const Mesh& mesh) {
     fnv.add_all(mesh.nodes());
     fnv.add(mesh.cell_count());
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
-        glance("check");
+        poll_cancel("check");
         fnv.add(static_cast<std::int32_t>(mesh.cell_type(c)));
         fnv.add(mesh.body_label(mesh.cell_body(c)));
         fnv.add_all(mesh.cell(c));
@@ -130,7 +130,7 @@ void add_loads(Fnv& fnv, const Problem& problem) {
     }
     fnv.add(static_cast<std::int64_t>(problem.constraints.size()));
     for (const Constraint& constraint : problem.constraints) {
-        glance("check", 1 + static_cast<std::int64_t>(constraint.dof.size()) / 8);
+        poll_cancel("check", 1 + static_cast<std::int64_t>(constraint.dof.size()) / 8);
         fnv.add_all(constraint.dof);
         fnv.add_all(constraint.coefficient);
         fnv.add_all(constraint.prescribed);

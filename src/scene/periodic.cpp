@@ -7,8 +7,8 @@
 #include <map>
 #include <string>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 #include "delam/delam.h"
 #include "linalg/dense.hpp"
 
@@ -119,7 +119,7 @@ std::vector<PeriodicPair> periodic_pairs(const Mesh& mesh, std::span<const doubl
     for (std::size_t k = 0; k < periods.size(); ++k) {
         double low = INFINITY, high = -INFINITY;
         for (const std::int64_t n : nodes) {
-            glance("loads");
+            poll_cancel("loads");
             low = std::min(low, dot(dual[k], place(n)));
             high = std::max(high, dot(dual[k], place(n)));
         }
@@ -133,7 +133,7 @@ std::vector<PeriodicPair> periodic_pairs(const Mesh& mesh, std::span<const doubl
 
     Places lower(4.0 * std::max(distance, 1e-300), dim);
     for (const std::int64_t n : nodes) {
-        glance("loads");
+        poll_cancel("loads");
         if (upper[at(n)] == 0) lower.add(n, place(n));
     }
     const auto shifted = [&](std::int64_t node) {
@@ -155,7 +155,7 @@ std::vector<PeriodicPair> periodic_pairs(const Mesh& mesh, std::span<const doubl
     std::vector<std::uint8_t> met(at(mesh.node_count()), 0);
     for (const std::int64_t n : nodes) {
         if (upper[at(n)] == 0) continue;
-        glance("loads", 4);
+        poll_cancel("loads", 4);
         std::vector<std::int64_t> candidates = lower.near(shifted(n), distance);
         if (candidates.empty())
             miss(n, "");
@@ -164,7 +164,7 @@ std::vector<PeriodicPair> periodic_pairs(const Mesh& mesh, std::span<const doubl
     }
     std::vector<PeriodicPair> pairs;
     for (const auto& [key, group] : gathered) {
-        glance("loads");
+        poll_cancel("loads");
         const auto directions = key.first;  // clang's lambdas do not see parts of a pair
         std::vector<std::int64_t> left = key.second, rest;
         const auto join = [&](std::int64_t node, std::int64_t base) {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/glance.hpp"
+#include "base/cancel_scope.hpp"
 #include "mesh/partition.hpp"
 
 namespace delam {
@@ -30,7 +30,7 @@ Pieces rigid_pieces(const Problem& problem) {
     pieces.fixed.assign(pieces.body.size(), 0);
     pieces.of_node.assign(index(mesh.node_count()), -1);
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
-        glance("check");
+        poll_cancel("check");
         const std::int64_t piece = parts.cell_subdomain[index(c)];
         if (piece < 0) continue;
         for (const std::int64_t node : mesh.cell(c)) {

@@ -46,9 +46,9 @@ BodyModel Problem::model(std::int32_t body) const {
     return {*material[i], plane, formulation[i], orientation};
 }
 
-SparseMatrix Problem::body_stiffness(std::int32_t body, const Look& look) const {
+SparseMatrix Problem::body_stiffness(std::int32_t body, const Poll& poll) const {
     if (const auto& own = stiffness[static_cast<std::size_t>(body)]) return own->matrix;
-    return assemble_stiffness(*mesh, mesh->body_cells(body), mesh->body_nodes(body), model(body), look);
+    return assemble_stiffness(*mesh, mesh->body_cells(body), mesh->body_nodes(body), model(body), poll);
 }
 
 std::vector<double> Problem::factors(double time) const {

@@ -79,7 +79,7 @@ struct Problem {
     // Of a body whose material is there. Error(DELAM_ERROR_PROBLEM) where the plane does not go with the formulation.
     BodyModel model(std::int32_t body) const;
     // K of a body over its nodes in ascending order, both triangles.
-    SparseMatrix body_stiffness(std::int32_t body, const Look& look = {}) const;
+    SparseMatrix body_stiffness(std::int32_t body, const Poll& poll = {}) const;
     std::int64_t jump_count() const { return pair_count() * mesh->dimension(); }
     std::vector<double> factors(double time) const;
     // Right-hand side coefficients [constraints][patterns], row-major.
@@ -88,7 +88,7 @@ struct Problem {
 
 // Throws Error(DELAM_ERROR_PROBLEM) with the first thing that is missing or contradictory, supports included: every
 // part that hangs together through bonded or adhering pairs must be held against all its rigid motions.
-void validate(const Problem& problem, const Look& look = {});
+void validate(const Problem& problem, const Poll& poll = {});
 
 // FNV-1a over everything that determines the result, the options included.
 std::uint64_t hash(const Problem& problem);

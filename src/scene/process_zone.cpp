@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/glance.hpp"
+#include "base/cancel_scope.hpp"
 #include "mesh/faces.hpp"
 #include "mesh/shape.hpp"
 
@@ -26,7 +26,7 @@ double volume_of(const Mesh& mesh, std::int32_t body) {
     double volume = 0.0;
     std::vector<double> x;
     for (const std::int64_t c : mesh.body_cells(body)) {
-        glance("check");
+        poll_cancel("check");
         x.clear();
         for (const std::int64_t n : mesh.cell(c)) x.insert(x.end(), mesh.node(n).begin(), mesh.node(n).end());
         const Quadrature& gauss = quadrature(mesh.cell_type(c));

@@ -13,8 +13,8 @@
 #include <numeric>
 #include <utility>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 #include "scene/carriers.hpp"
 #include "scene/pieces.hpp"
 
@@ -55,7 +55,7 @@ std::vector<std::vector<double>> null_space(std::vector<double> g, std::size_t n
     for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, g[i * n + i]);
     std::size_t rank = 0;
     for (; rank < n; ++rank) {
-        glance("check", 1 + static_cast<std::int64_t>((n - rank) * (n - rank) / 256));
+        poll_cancel("check", 1 + static_cast<std::int64_t>((n - rank) * (n - rank) / 256));
         std::size_t pivot = rank;
         for (std::size_t i = rank + 1; i < n; ++i) {
             if (g[i * n + i] > g[pivot * n + pivot]) pivot = i;
@@ -179,7 +179,7 @@ void Search::find_ties(bool tied) {
         const InterfaceGeometry& face = mesh_.interfaces()[i];
         const InterfaceProperties& interface = problem_.interfaces[i];
         for (std::size_t p = 0; p < face.node_a.size(); ++p) {
-            glance("check");
+            poll_cancel("check");
             const bool glued = tied || interface.bonded || (!interface.contact && interface.adhesion[p] > 0.0);
             if (!glued && !interface.contact) continue;
             const std::int64_t a = carriers_.of(face.node_a[p]).front().first,
@@ -203,7 +203,7 @@ void Search::find_ties(bool tied) {
         }
     }
     for (const Constraint& constraint : problem_.constraints) {
-        glance("check");
+        poll_cancel("check");
         Row row;
         for (std::size_t i = 0; i < constraint.dof.size(); ++i)
             row.emplace_back(constraint.dof[i], constraint.coefficient[i]);
@@ -215,7 +215,7 @@ void Search::measure() {
     std::map<std::size_t, std::array<Point, 2>> box;
     for (std::int64_t node = 0; node < mesh_.node_count(); ++node) {
         if (node_piece_[at(node)] < 0) continue;
-        glance("check");
+        poll_cancel("check");
         const Point p = place(node);
         auto [entry, fresh] = box.try_emplace(group(node), std::array<Point, 2>{p, p});
         for (std::size_t d = 0; d < dimension_ && !fresh; ++d) {
@@ -244,7 +244,7 @@ bool Search::rigid(const std::vector<Point>& places, double length) const {
     }
     std::vector<double> g(modes_ * modes_, 0.0);
     for (const Point& p : places) {
-        glance("check");
+        poll_cancel("check");
         for (std::size_t c = 0; c < dimension_; ++c) {
             for (std::size_t i = 0; i < modes_; ++i) {
                 for (std::size_t j = 0; j < modes_; ++j) {
@@ -263,7 +263,7 @@ void Search::merge() {
         measure();
         std::map<std::pair<std::size_t, std::size_t>, std::vector<Point>> joint;
         for (const Tie& tie : ties_) {
-            glance("check");
+            poll_cancel("check");
             const std::size_t a = groups_.find(tie.piece_a);
             const std::size_t b = groups_.find(tie.piece_b);
             if (a != b) joint[std::minmax(a, b)].push_back(tie.place);
@@ -288,7 +288,7 @@ std::vector<double> Search::gram(const std::vector<std::size_t>& cluster) {
         }
     };
     const auto close = [&] {
-        glance("check", 1 + static_cast<std::int64_t>(n) / 8);
+        poll_cancel("check", 1 + static_cast<std::int64_t>(n) / 8);
         for (std::size_t i = 0; i < n; ++i) {
             if (row[i] == 0.0) continue;
             for (std::size_t j = 0; j < n; ++j) g[i * n + j] += row[i] * row[j];

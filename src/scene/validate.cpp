@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 #include "delam/delam.h"
 #include "linalg/sparse_elimination.hpp"
 #include "scene/problem.hpp"
@@ -94,7 +94,7 @@ void check_constraints(const Problem& problem) {
     SparseElimination known;
     for (const std::size_t i : order) {
         const Constraint& c = problem.constraints[i];
-        glance("check", 1 + static_cast<std::int64_t>(c.dof.size()));
+        poll_cancel("check", 1 + static_cast<std::int64_t>(c.dof.size()));
         SparseElimination::Row row{{}, c.prescribed};
         row.right.resize(problem.patterns.size(), 0.0);
         for (std::size_t k = 0; k < c.dof.size(); ++k) row.terms[c.dof[k]] += c.coefficient[k];
@@ -147,12 +147,12 @@ void check_supports(const Problem& problem) {
 
 }  // namespace
 
-void validate(const Problem& problem, const Look& look) {
+void validate(const Problem& problem, const Poll& poll) {
     for (const auto& check : {check_bodies, check_interfaces, check_loads, check_constraints, check_supports}) {
-        ask(look);
+        call_if_set(poll);
         check(problem);
     }
-    ask(look);
+    call_if_set(poll);
 }
 
 }  // namespace delam

@@ -24,7 +24,7 @@ double scale_of(const Ledger& ledger) { return std::max(std::abs(ledger.energy()
 }  // namespace
 
 Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), monitor_(monitor) {
-    const Look checking = [this] { monitor_.progress("check", 0, 0); };
+    const Poll checking = [this] { monitor_.progress("check", 0, 0); };
     validate(problem_, checking);
     const Mesh& mesh = *problem_.mesh;
     pairs_.dimension = contact_.dimension = mesh.dimension();
@@ -55,7 +55,7 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
         contact_.strain_force = std::move(sizes.force);
     }
     rule_ = mixity_rule(pairs_, problem_.options.mixity_rule);
-    ask(checking);
+    call_if_set(checking);
     ChosenOperator chosen = choose_operator(problem_, monitor_);
     operator_ = std::move(chosen.op);
     reduction_ = std::move(chosen.choice);

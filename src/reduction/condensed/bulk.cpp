@@ -6,8 +6,8 @@
 #include <map>
 #include <numeric>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 #include "reduction/condensed/rigid_jumps.hpp"
 #include "scene/carriers.hpp"
 #include "scene/strain_loads.hpp"
@@ -21,7 +21,7 @@ std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 constexpr double dependent = dependent_equation;
 
 // The stiffness of all bodies over all mesh DOFs; rows of nodes of no body are empty.
-SparseMatrix assemble(const Problem& problem, const Look& look) {
+SparseMatrix assemble(const Problem& problem, const Poll& poll) {
     const Mesh& mesh = *problem.mesh;
     const std::int64_t dim = mesh.dimension();
     const std::int64_t dofs = mesh.node_count() * dim;
@@ -29,8 +29,8 @@ SparseMatrix assemble(const Problem& problem, const Look& look) {
     std::vector<std::vector<std::int64_t>> nodes;
     for (std::int32_t body = 0; body < mesh.body_count(); ++body) {
         nodes.push_back(mesh.body_nodes(body));
-        part.push_back(problem.body_stiffness(body, look));
-        ask(look);
+        part.push_back(problem.body_stiffness(body, poll));
+        call_if_set(poll);
     }
     SparseMatrix k;
     k.rows = k.columns = dofs;
@@ -166,17 +166,17 @@ SparseMatrix with_diagonal(SparseMatrix k, std::int64_t first) {
 }  // namespace
 
 Bulk::Bulk(const Problem& problem, Monitor& monitor) : problem_(problem) {
-    const Look assembling = [&monitor] { monitor.progress("assemble", 0, 0); },
+    const Poll assembling = [&monitor] { monitor.progress("assemble", 0, 0); },
                analysing = [&monitor] { monitor.progress("analyse", 0, 0); };
-    ask(assembling);
+    call_if_set(assembling);
     stiffness_ = assemble(problem_, assembling);
-    ask(assembling);
+    call_if_set(assembling);
     jump_rows_ = jump_matrix(problem_);
-    ask(assembling);
+    call_if_set(assembling);
     variables_ = make_jump_variables(problem_, assembling);
-    ask(assembling);
+    call_if_set(assembling);
     transformed_ = with_diagonal(congruence(stiffness_, variables_.transform, assembling), variables_.leading);
-    ask(analysing);
+    call_if_set(analysing);
     factor_ = std::make_unique<SparseCholesky>(transformed_, variables_.trailing(), analysing);
     size_ = factor_->size();
 }
@@ -204,8 +204,8 @@ void Bulk::condense(Monitor& monitor) {
              "the stiffness of the bonded structure is not positive definite: check supports, materials and the shapes "
              "of cells");
     transformed_ = SparseMatrix();
-    const Look condensing = [&monitor] { monitor.progress("condense", 0, 0); };
-    ask(condensing);
+    const Poll condensing = [&monitor] { monitor.progress("condense", 0, 0); };
+    call_if_set(condensing);
     energy_.stiffness = lower_times_transpose(factor_->trailing_factor(), condensing);
     for (std::int64_t t = 0; t < trailing; ++t) energy_.stiffness(t, t) -= shift[index(t)];
 
@@ -239,10 +239,10 @@ void Bulk::condense(Monitor& monitor) {
         std::copy(carried.begin() + leading, carried.end(),
                   energy_.load.value.begin() + static_cast<std::int64_t>(p) * trailing);
         bonded.push_back(std::move(u));
-        ask(condensing);
+        call_if_set(condensing);
     }
     resolve_equations(condensing);
-    ask(condensing);
+    call_if_set(condensing);
 
     // A_pq = u_p^T K u_q - f_p^T u_q - f_q^T u_p + W_pq, W of the eigenstrains: no difference of large numbers,
     // whatever the lift was.
@@ -256,7 +256,7 @@ void Bulk::condense(Monitor& monitor) {
         }
         multiply(stiffness_, bonded[p], nodal);
         stressed.push_back(nodal);
-        ask(condensing);
+        call_if_set(condensing);
     }
     pattern_stiffness_ = DenseMatrix(static_cast<std::int64_t>(patterns), static_cast<std::int64_t>(patterns));
     for (std::size_t p = 0; p < patterns; ++p)
@@ -297,7 +297,7 @@ void Bulk::balance_strains() {
 }
 
 // Equations fix some trailing variables by the rest; the displacements among the rest are minimised out.
-void Bulk::resolve_equations(const Look& look) {
+void Bulk::resolve_equations(const Poll& poll) {
     const std::int64_t trailing = variables_.trailing(), kept = variables_.kept;
     const auto patterns = static_cast<std::int64_t>(problem_.patterns.size());
     const std::vector<SolvedEquation> solved = solve_equations(variables_);
@@ -348,7 +348,7 @@ void Bulk::resolve_equations(const Look& look) {
         std::iota(eliminated.begin(), eliminated.end(), 0);
         std::iota(stay.begin(), stay.end(), kept_rest_);
         base_ = std::make_unique<Condensation>(energy_, std::move(stay), std::move(eliminated),
-                                               std::vector<double>(index(rest), 0.0), look);
+                                               std::vector<double>(index(rest), 0.0), poll);
         energy_ = DenseEnergy();
     }
 
@@ -418,9 +418,9 @@ std::vector<double> Bulk::displacement(std::span<const double> theta, std::span<
     for (double& f : nodal) f = -f;
     for (std::size_t p = 0; p < theta.size(); ++p)
         if (!force_[p].empty()) add_scaled(theta[p], force_[p], nodal);
-    glance("recover", dofs() / 64);
+    poll_cancel("recover", dofs() / 64);
     std::vector<double> inside = leading_solve(nodal);
-    glance("recover", dofs() / 64);
+    poll_cancel("recover", dofs() / 64);
     inside.resize(v.size(), 0.0);
     add_variables(inside, u);
     ++recoveries_;
@@ -456,7 +456,7 @@ std::vector<double> Bulk::reaction(std::span<const double> theta, std::span<cons
     };
     std::map<std::int64_t, std::size_t> user;
     for (std::size_t c = 0; c < count; ++c) {
-        glance("recover", static_cast<std::int64_t>(problem_.constraints[c].dof.size()));
+        poll_cancel("recover", static_cast<std::int64_t>(problem_.constraints[c].dof.size()));
         for (const std::int64_t dof : problem_.constraints[c].dof)
             if (const auto [at, fresh] = user.try_emplace(dof, c); !fresh) group[find(c)] = find(at->second);
     }
@@ -465,7 +465,7 @@ std::vector<double> Bulk::reaction(std::span<const double> theta, std::span<cons
 
     std::vector<double> rho(count, 0.0);
     for (const auto& [root, list] : members) {
-        glance("recover", static_cast<std::int64_t>(list.size()));
+        poll_cancel("recover", static_cast<std::int64_t>(list.size()));
         const bool controlled = std::any_of(list.begin(), list.end(), [&](std::size_t c) {
             const auto& dofs = problem_.constraints[c].dof;
             return std::any_of(dofs.begin(), dofs.end(),

@@ -69,7 +69,7 @@ public:
     std::int64_t recoveries() const { return recoveries_; }  // of displacements, since condense()
 
 private:
-    void resolve_equations(const Look& look);
+    void resolve_equations(const Poll& poll);
     void balance_strains();
     // What no element balances: K u - f + B^T force.
     std::vector<double> residual(std::span<const double> theta, std::span<const double> displacement,

@@ -81,7 +81,7 @@ Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor
     last_.assign(unknowns, 0.0);
 }
 
-Look Condensed::look() {
+Poll Condensed::poll() {
     return [this] { monitor_.progress("zone", condensations_, 0); };
 }
 
@@ -213,7 +213,7 @@ void Condensed::condense_outer(std::span<const std::uint8_t> near) {
     const std::vector<std::int64_t> away = distance(near_);
     std::stable_sort(eliminated.begin(), eliminated.end(),
                      [&](std::int64_t a, std::int64_t b) { return away[index(a)] > away[index(b)]; });
-    outer_ = std::make_unique<Condensation>(bulk_->energy(), std::move(kept), std::move(eliminated), stiffness, look());
+    outer_ = std::make_unique<Condensation>(bulk_->energy(), std::move(kept), std::move(eliminated), stiffness, poll());
 }
 
 void Condensed::release(std::vector<std::int64_t> unknowns) {
@@ -225,7 +225,7 @@ void Condensed::release(std::vector<std::int64_t> unknowns) {
     std::unique_ptr<Condensation> outer = std::move(outer_);
     inner_.reset();
     zone_.reset();
-    outer->release(bulk_->energy(), unknowns, stiffness, look());
+    outer->release(bulk_->energy(), unknowns, stiffness, poll());
     released_.push_back(std::move(unknowns));
     for (const std::int64_t i : released_.back()) near_[index(i)] = 1;
     outer_ = std::move(outer);
@@ -247,7 +247,7 @@ void Condensed::condense_inner() {
     for (const std::int64_t k : kept) zone_unknowns_.push_back(near[index(k)]);
     zone_.reset();
     inner_ =
-        std::make_unique<Condensation>(outer_->energy(), std::move(kept), std::move(eliminated), stiffness, look());
+        std::make_unique<Condensation>(outer_->energy(), std::move(kept), std::move(eliminated), stiffness, poll());
     spent_ += Condensation::cost(near.size() - zone_unknowns_.size(), zone_unknowns_.size());
 
     const std::size_t unknowns = inside_.size();
@@ -285,7 +285,7 @@ void Condensed::condense_inner() {
             for (std::int64_t z = 0; z < floating.rows; ++z) floating(z, c) = free(zone_unknowns_[index(z)], c);
         floating = orthonormalised(std::move(floating));
     }
-    zone_ = std::make_unique<Zone>(inner_->energy(), std::move(rows), std::move(floating), look());
+    zone_ = std::make_unique<Zone>(inner_->energy(), std::move(rows), std::move(floating), poll());
 }
 
 Zone& Condensed::zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) {

@@ -56,7 +56,7 @@ private:
     };
     // Throws Error(DELAM_ERROR_SNAPSHOT) where it contradicts itself or this operator.
     Choice parse(std::span<const double> memory) const;
-    Look look();
+    Poll poll();
     bool covers(const Springs& springs) const;
     void choose(const Springs& springs, std::span<const std::uint8_t> wanted);
     void condense_outer(std::span<const std::uint8_t> near);

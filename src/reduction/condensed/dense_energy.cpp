@@ -50,20 +50,20 @@ void append_columns(DenseMatrix& a, const DenseMatrix& more) {
 }  // namespace
 
 Condensation::Condensation(const DenseEnergy& parent, std::vector<std::int64_t> kept,
-                           std::vector<std::int64_t> eliminated, std::span<const double> stiffness, const Look& look)
+                           std::vector<std::int64_t> eliminated, std::span<const double> stiffness, const Poll& poll)
     : kept_(std::move(kept)), eliminated_(std::move(eliminated)) {
     factor_ = block(parent.stiffness, eliminated_, eliminated_);
     for (std::int64_t i = 0; i < factor_.rows; ++i)
         factor_(i, i) += stiffness[static_cast<std::size_t>(eliminated_[static_cast<std::size_t>(i)])];
-    if (!factor_definite(factor_, look))
+    if (!factor_definite(factor_, poll))
         fail(DELAM_ERROR_NUMERICAL, "the condensed stiffness of ", factor_.rows, " jumps is not positive definite");
-    ask(look);
+    call_if_set(poll);
     coupling_ = block(parent.stiffness, eliminated_, kept_);
-    solve_lower(factor_, coupling_, 0, look);
+    solve_lower(factor_, coupling_, 0, poll);
     load_ = rows_of(parent.load, eliminated_);
     solve_lower(factor_, load_);
     energy_.stiffness = block(parent.stiffness, kept_, kept_);
-    subtract_gram(energy_.stiffness, coupling_, look);
+    subtract_gram(energy_.stiffness, coupling_, poll);
     mirror_lower(energy_.stiffness);
     energy_.load = rows_of(parent.load, kept_);
     subtract_product(energy_.load, coupling_, load_);
@@ -93,7 +93,7 @@ double Condensation::cost(std::size_t eliminated, std::size_t kept) {
 }
 
 void Condensation::release(const DenseEnergy& parent, std::span<const std::int64_t> rows,
-                           std::span<const double> stiffness, const Look& look) {
+                           std::span<const double> stiffness, const Poll& poll) {
     std::vector<std::int64_t> place(static_cast<std::size_t>(parent.rows()), -1), held, places;
     for (std::size_t e = 0; e < eliminated_.size(); ++e)
         place[static_cast<std::size_t>(eliminated_[e])] = static_cast<std::int64_t>(e);
@@ -104,16 +104,16 @@ void Condensation::release(const DenseEnergy& parent, std::span<const std::int64
         else
             places.push_back(e);
     }
-    if (!held.empty()) admit(parent, held, look);
-    if (!places.empty()) take_back(places, stiffness, look);
+    if (!held.empty()) admit(parent, held, poll);
+    if (!places.empty()) take_back(places, stiffness, poll);
 }
 
 // A held row h joins x_k: its column of V is L^-1 S_eh, and the released ones follow it too.
 //   S_kh - V_k^T V_h + P_k^T P_h,    S_Rh = - C^-T P_h,    L_h - V_h^T L^-1 L_e - P_h^T p
-void Condensation::admit(const DenseEnergy& parent, std::span<const std::int64_t> rows, const Look& look) {
+void Condensation::admit(const DenseEnergy& parent, std::span<const std::int64_t> rows, const Poll& poll) {
     const auto old = static_cast<std::int64_t>(kept_.size()), fresh = static_cast<std::int64_t>(rows.size());
     DenseMatrix column = block(parent.stiffness, eliminated_, rows);
-    solve_lower(factor_, column, 0, look);
+    solve_lower(factor_, column, 0, poll);
     DenseMatrix follow = multiply_transposed(unit_, column);
     for (double& v : follow.value) v = -v;
     solve_lower(root_, follow);
@@ -131,7 +131,7 @@ void Condensation::admit(const DenseEnergy& parent, std::span<const std::int64_t
     subtract_product(among, coupling_, column);
     const DenseMatrix through = multiply_transposed(image_, follow),
                       on_released = multiply_transposed(inverse_, follow);
-    ask(look);
+    call_if_set(poll);
     DenseMatrix load = rows_of(parent.load, rows);
     subtract_product(load, column, load_);
     subtract_product(load, follow, image_load_);
@@ -154,7 +154,7 @@ void Condensation::admit(const DenseEnergy& parent, std::span<const std::int64_t
 // With the new rows of C^-1 (x_R - W x_k - w theta) = N x_R - P x_k - p theta the energy grows by half their square:
 //   S += Q^T Q,   L += Q^T p,   Q = [- P | N],   less the springs that S_ee + s_e had.
 void Condensation::take_back(std::span<const std::int64_t> places, std::span<const double> stiffness,
-                             const Look& look) {
+                             const Poll& poll) {
     const auto old = static_cast<std::int64_t>(kept_.size()), fresh = static_cast<std::int64_t>(places.size());
     const std::int64_t before = unit_.columns;
     DenseMatrix unit(factor_.rows, fresh);
@@ -164,21 +164,21 @@ void Condensation::take_back(std::span<const std::int64_t> places, std::span<con
         released_.push_back(old + j);
         kept_.push_back(eliminated_[static_cast<std::size_t>(places[static_cast<std::size_t>(j)])]);
     }
-    solve_lower(factor_, unit, first, look);
+    solve_lower(factor_, unit, first, poll);
     // [C 0; X^T C'] with X = C^-1 Z^T Z', C' C'^T = Z'^T Z' - X^T X
     DenseMatrix cross = multiply_transposed(unit_, unit, first);
     solve_lower(root_, cross);
     DenseMatrix corner = multiply_transposed(unit, unit, first);
     subtract_gram(corner, cross);
-    ask(look);
-    if (!factor_definite(corner, look))
+    call_if_set(poll);
+    if (!factor_definite(corner, poll))
         fail(DELAM_ERROR_NUMERICAL, "the flexibility of ", fresh, " released jumps is not positive definite");
     DenseMatrix image = multiply_transposed(unit, coupling_, first),
                 image_load = multiply_transposed(unit, load_, first), own(fresh, fresh);
     for (double& v : image.value) v = -v;
     subtract_product(image, cross, image_);
-    ask(look);
-    solve_lower(corner, image, 0, look);
+    call_if_set(poll);
+    solve_lower(corner, image, 0, poll);
     subtract_product(image_load, cross, image_load_);
     solve_lower(corner, image_load);
     for (std::int64_t i = 0; i < fresh; ++i) own(i, i) = 1.0;
@@ -195,7 +195,7 @@ void Condensation::take_back(std::span<const std::int64_t> places, std::span<con
     }
     energy_.stiffness = enlarged(energy_.stiffness, old + fresh, old + fresh);
     energy_.load = enlarged(energy_.load, old + fresh, energy_.load.columns);
-    add_gram(energy_.stiffness, rows, look);
+    add_gram(energy_.stiffness, rows, poll);
     mirror_lower(energy_.stiffness);
     for (std::int64_t j = 0; j < fresh; ++j)
         energy_.stiffness(old + j, old + j) -=

@@ -30,10 +30,10 @@ public:
     // eliminated: in the order in which they go. stiffness: [parent rows] springs. Throws Error(DELAM_ERROR_NUMERICAL)
     // when the eliminated rows are not held.
     Condensation(const DenseEnergy& parent, std::vector<std::int64_t> kept, std::vector<std::int64_t> eliminated,
-                 std::span<const double> stiffness, const Look& look = {});
+                 std::span<const double> stiffness, const Poll& poll = {});
     // Takes parent rows back among the kept ones; `parent` and `stiffness` as they were given.
     void release(const DenseEnergy& parent, std::span<const std::int64_t> rows, std::span<const double> stiffness,
-                 const Look& look = {});
+                 const Poll& poll = {});
     // Multiplications of a release of these parent rows. Those that were eliminated last are the cheapest.
     double release_cost(std::span<const std::int64_t> rows) const;
     // Multiplications of minimising out so many and keeping so many.
@@ -45,8 +45,8 @@ public:
     void recover(std::span<const double> theta, std::span<const double> kept_values, std::span<double> parent) const;
 
 private:
-    void admit(const DenseEnergy& parent, std::span<const std::int64_t> rows, const Look& look);
-    void take_back(std::span<const std::int64_t> places, std::span<const double> stiffness, const Look& look);
+    void admit(const DenseEnergy& parent, std::span<const std::int64_t> rows, const Poll& poll);
+    void take_back(std::span<const std::int64_t> places, std::span<const double> stiffness, const Poll& poll);
 
     std::vector<std::int64_t> kept_;  // in the order of energy_
     std::vector<std::int64_t> eliminated_;

@@ -19,8 +19,8 @@ constexpr double unbalanced = 1e-8;  // largest part of a load that may be left 
 
 }  // namespace
 
-Zone::Zone(const DenseEnergy& energy, std::vector<Bulk::Row> rows, DenseMatrix rigid, Look look)
-    : energy_(&energy), rows_(std::move(rows)), rigid_(std::move(rigid)), look_(std::move(look)) {
+Zone::Zone(const DenseEnergy& energy, std::vector<Bulk::Row> rows, DenseMatrix rigid, Poll poll)
+    : energy_(&energy), rows_(std::move(rows)), rigid_(std::move(rigid)), poll_(std::move(poll)) {
     std::vector<std::uint8_t> taken(index(energy.rows()), 0);
     for (const Bulk::Row& row : rows_) {
         const bool plain = row.offset.empty() && row.unknowns.size() == 1 && row.unknowns.front().second == 1.0 &&
@@ -167,7 +167,7 @@ bool Zone::factor(std::span<const Coupling> couplings, std::span<const std::uint
         for (std::int64_t j = 0; j < n; ++j)
             for (std::int64_t i = j; i < n; ++i) factor_(i, j) += product(i, j) + product(j, i);
     }
-    if (!factor_definite(factor_, look_)) return false;
+    if (!factor_definite(factor_, poll_)) return false;
     if (rigid_.columns == 0) return true;
 
     std::vector<std::uint8_t> active(held_);

@@ -24,8 +24,8 @@ namespace delam {
 class Zone {
 public:
     // rows: with unknowns counted within the zone. rigid: [unknowns][motions], orthonormal.
-    // look: asked for within factor().
-    Zone(const DenseEnergy& energy, std::vector<Bulk::Row> rows, DenseMatrix rigid, Look look = {});
+    // poll: called within factor().
+    Zone(const DenseEnergy& energy, std::vector<Bulk::Row> rows, DenseMatrix rigid, Poll poll = {});
 
     struct Coupling {
         std::int64_t row, column;  // of the zone; both (r, q) and (q, r) are given
@@ -68,7 +68,7 @@ private:
     DenseMatrix rigid_rows_;  // N Z
     DenseMatrix shifted_;     // S + rho Z Z^T where Z is not empty
 
-    Look look_;
+    Poll poll_;
     // Of the last factor():
     std::vector<std::uint8_t> held_;
     std::vector<Triplet> springs_;  // C in unknowns, sum N^T C N

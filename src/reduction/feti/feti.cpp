@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/glance.hpp"
 #include "base/team.hpp"
 #include "body/assembly.hpp"
 #include "body/rigid_modes.hpp"
@@ -76,7 +76,7 @@ Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monito
     const bool with_schur =
         problem_.options.preconditioner == "dirichlet" || problem_.options.preconditioner == "series";
     const auto parts = static_cast<std::int64_t>(subdomains_.size());
-    const Look look = monitor_.look_from("condense", parts, parts);
+    const Poll poll = monitor_.poll_at("condense", parts, parts);
     const auto condense = [&](std::int64_t i) {
         const std::size_t s = index(i);
         Subdomain& subdomain = subdomains_[s];
@@ -89,7 +89,7 @@ Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monito
         subdomain.boundary = touched[s];
         if (const auto& own = problem_.stiffness[index(subdomain.body)]; own == nullptr) {
             subdomain.stiffness =
-                assemble_stiffness(*problem_.mesh, cells[s], subdomain.nodes, problem_.model(subdomain.body), look);
+                assemble_stiffness(*problem_.mesh, cells[s], subdomain.nodes, problem_.model(subdomain.body), poll);
             subdomain.rigid = DenseMatrix(subdomain.stiffness.rows, problem_.mesh->dimension() == 2 ? 3 : 6);
             subdomain.rigid.value = rigid_modes(*problem_.mesh, subdomain.nodes);
         } else {
@@ -98,26 +98,26 @@ Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monito
                                              problem_.mesh->dimension());
             subdomain.rigid = piece.free;
         }
-        subdomain.condense(problem_.mesh->body_label(subdomain.body), with_schur, look);
+        subdomain.condense(problem_.mesh->body_label(subdomain.body), with_schur, poll);
     };
     Team(problem_.options.threads).run(parts, condense, [&](std::int64_t done) {
         monitor_.progress("condense", done, parts);
     });
-    ask(look);
+    call_if_set(poll);
     rows_ = builder.finish(subdomains_);
-    ask(look);
+    call_if_set(poll);
     copies_ = builder.copies();
     b_transposed_ = transpose(rows_.b);
     scaling_ = make_scaling(rows_, subdomains_, problem_.options.scaling);
-    ask(look);
+    call_if_set(poll);
     preconditioner_ =
-        std::make_unique<FetiPreconditioner>(rows_, subdomains_, scaling_, problem_.options.preconditioner, look);
-    ask(look);
+        std::make_unique<FetiPreconditioner>(rows_, subdomains_, scaling_, problem_.options.preconditioner, poll);
+    call_if_set(poll);
     coarse_ = std::make_unique<CoarseProblem>(rows_, subdomains_);
 
     flexibility_diagonal_.assign(index(rows_.count()), 0.0);
     for (std::size_t s = 0; s < subdomains_.size(); ++s) {
-        ask(look);
+        call_if_set(poll);
         const std::int64_t first = rows_.offset[s], last = rows_.offset[s + 1];
         for (std::int64_t r = 0; r < rows_.b.rows; ++r)
             for (std::int64_t i = rows_.b.start[index(r)]; i < rows_.b.start[index(r) + 1]; ++i)
@@ -139,8 +139,8 @@ Feti::Feti(const Problem& problem, Monitor& monitor) : problem_(problem), monito
     for (double& f : flexibility_diagonal_)
         if (!(f > 0.0)) f = known > 0 ? sum / static_cast<double>(known) : 1.0;
     prescribed_ = problem_.prescribed_matrix();
-    ask(look);
-    precompute_forces(cells, look);
+    call_if_set(poll);
+    precompute_forces(cells, poll);
 }
 
 // Cells of each subdomain.
@@ -183,7 +183,7 @@ std::vector<std::vector<std::int64_t>> Feti::cut() {
     return cells;
 }
 
-void Feti::precompute_forces(std::span<const std::vector<std::int64_t>> cells, const Look& look) {
+void Feti::precompute_forces(std::span<const std::vector<std::int64_t>> cells, const Poll& poll) {
     const std::size_t patterns = problem_.patterns.size();
     const int dim = problem_.mesh->dimension();
     force_.assign(patterns, std::vector<std::vector<double>>(subdomains_.size()));
@@ -227,7 +227,7 @@ void Feti::precompute_forces(std::span<const std::vector<std::int64_t>> cells, c
                             dot(sub.condense_load(force_[q][s]), u) + sub.interior_work(force_[q][s], f);
             }
             first += index(sub.rigid_count);
-            ask(look);
+            call_if_set(poll);
         }
         multiply(rows_.b, boundary, force_jump_[p]);
     }
@@ -434,7 +434,7 @@ std::vector<double> Feti::displacement(std::span<const double> theta, const Resp
     const int dim = problem_.mesh->dimension();
     std::vector<double> u(index(problem_.mesh->node_count() * dim), 0.0);
     for (std::size_t s = 0; s < subdomains_.size(); ++s) {
-        glance("recover", subdomains_[s].dofs() / 16);
+        poll_cancel("recover", subdomains_[s].dofs() / 16);
         const std::vector<double> local = local_displacement(s, theta, response);
         for (std::size_t i = 0; i < subdomains_[s].nodes.size(); ++i) {
             const std::size_t node = index(subdomains_[s].nodes[i]);

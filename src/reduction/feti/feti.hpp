@@ -40,7 +40,7 @@ public:
 
 private:
     std::vector<std::vector<std::int64_t>> cut();
-    void precompute_forces(std::span<const std::vector<std::int64_t>> cells, const Look& look);
+    void precompute_forces(std::span<const std::vector<std::int64_t>> cells, const Poll& poll);
     void apply_flexibility(Team& team, std::span<const double> lambda, std::span<double> jumps) const;
     std::vector<double> local_displacement(std::size_t subdomain, std::span<const double> theta,
                                            const Response& response) const;

@@ -31,10 +31,10 @@ SparseMatrix boundary_block(const Subdomain& s) {
     return from_triplets(n, n, std::move(triplets));
 }
 
-constexpr std::int64_t rows_a_look = 256;
+constexpr std::int64_t rows_per_poll = 256;
 
 // Zeros where rows are coupled: the diagonal, and all rows of a group (ascending) with each other.
-SparseMatrix coupled(std::int64_t count, const std::vector<std::vector<std::int64_t>>& groups, const Look& look) {
+SparseMatrix coupled(std::int64_t count, const std::vector<std::vector<std::int64_t>>& groups, const Poll& poll) {
     std::vector<std::vector<std::size_t>> groups_of(index(count));
     for (std::size_t g = 0; g < groups.size(); ++g)
         for (const std::int64_t r : groups[g]) groups_of[index(r)].push_back(g);
@@ -51,7 +51,7 @@ SparseMatrix coupled(std::int64_t count, const std::vector<std::vector<std::int6
         }
         m.column.insert(m.column.end(), row.begin(), row.end());
         m.start.push_back(static_cast<std::int64_t>(m.column.size()));
-        if (r % rows_a_look == 0) ask(look);
+        if (r % rows_per_poll == 0) call_if_set(poll);
     }
     m.value.assign(m.column.size(), 0.0);
     return m;
@@ -60,7 +60,7 @@ SparseMatrix coupled(std::int64_t count, const std::vector<std::vector<std::int6
 }  // namespace
 
 FetiPreconditioner::FetiPreconditioner(const DualRows& rows, const std::vector<Subdomain>& subdomains,
-                                       const Scaling& scaling, const std::string& kind, const Look& look)
+                                       const Scaling& scaling, const std::string& kind, const Poll& poll)
     : rows_(rows), subdomains_(subdomains), scaling_(scaling) {
     kind_ = kind == "none"        ? Kind::none
             : kind == "lumped"    ? Kind::lumped
@@ -70,13 +70,13 @@ FetiPreconditioner::FetiPreconditioner(const DualRows& rows, const std::vector<S
     scaled_transposed_ = transpose(scaling_.b_d);
     if (kind_ == Kind::lumped)
         for (const Subdomain& s : subdomains_) lumped_.push_back(boundary_block(s));
-    if (kind_ == Kind::series) build_pattern(look);
+    if (kind_ == Kind::series) build_pattern(poll);
 }
 
 // base = E^T S~ E, assembled subdomain by subdomain from the jump rows that meet it: W S W^T with W the subdomain's
 // part of E^T B_D. A row has one entry in W where two nodes are paired, but all of a face's where nodes are tied to
 // faces: two products, not a double sum.
-void FetiPreconditioner::build_pattern(const Look& look) {
+void FetiPreconditioner::build_pattern(const Poll& poll) {
     struct Touch {
         std::int64_t row;  // position among the rows that meet the subdomain
         std::int64_t dof;
@@ -103,7 +103,7 @@ void FetiPreconditioner::build_pattern(const Look& look) {
         std::erase_if(among, [this](std::int64_t r) { return r >= rows_.jump_count; });
         std::sort(among.begin(), among.end());
     }
-    base_ = coupled(rows_.jump_count, groups, look);
+    base_ = coupled(rows_.jump_count, groups, poll);
     for (std::size_t s = 0; s < subdomains_.size(); ++s) {
         const std::vector<std::int64_t>& met = groups[s];
         const auto rows = static_cast<std::int64_t>(met.size());
@@ -111,7 +111,7 @@ void FetiPreconditioner::build_pattern(const Look& look) {
         std::vector<double> row(met.size());                // of W S W^T
         for (const Touch& t : touched[s])
             for (std::int64_t i = 0; i < half.rows; ++i) half(i, t.row) += t.value * subdomains_[s].schur(i, t.dof);
-        ask(look);
+        call_if_set(poll);
         for (std::int64_t j = 0; j < rows; ++j) {
             std::fill(row.begin(), row.end(), 0.0);
             for (const Touch& t : touched[s]) row[index(t.row)] += t.value * half(t.dof, j);
@@ -120,12 +120,12 @@ void FetiPreconditioner::build_pattern(const Look& look) {
                 while (base_.column[index(e)] < met[i]) ++e;
                 base_.value[index(e)] += row[i];
             }
-            if (j % rows_a_look == 0) ask(look);
+            if (j % rows_per_poll == 0) call_if_set(poll);
         }
     }
-    ask(look);
+    call_if_set(poll);
     t_ = base_;
-    t_factor_ = std::make_unique<SparseCholesky>(t_, 0, look);
+    t_factor_ = std::make_unique<SparseCholesky>(t_, 0, poll);
 }
 
 void FetiPreconditioner::update(const Springs& springs) {

@@ -25,7 +25,7 @@ namespace delam {
 class FetiPreconditioner {
 public:
     FetiPreconditioner(const DualRows& rows, const std::vector<Subdomain>& subdomains, const Scaling& scaling,
-                       const std::string& kind, const Look& look = {});
+                       const std::string& kind, const Poll& poll = {});
     void update(const Springs& springs);
     // z = M r; both over all rows; entries of rows without force are ignored in r and not meaningful in z.
     void apply(Team& team, std::span<const double> r, std::span<double> z) const;
@@ -33,7 +33,7 @@ public:
 private:
     enum class Kind { none, lumped, dirichlet, series };
     void apply_scaled(Team& team, std::span<const double> r, std::span<double> z) const;
-    void build_pattern(const Look& look);
+    void build_pattern(const Poll& poll);
     void factorise(const Springs& springs);
 
     const DualRows& rows_;

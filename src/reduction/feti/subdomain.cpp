@@ -49,7 +49,7 @@ constexpr double rank_tolerance = 1e-8;
 
 }  // namespace
 
-void Subdomain::condense(std::int32_t label, bool with_schur, const Look& look) {
+void Subdomain::condense(std::int32_t label, bool with_schur, const Poll& poll) {
     rigid_count = rigid.columns;
     if (boundary.empty()) boundary.push_back(0);  // nothing touches a body that the host's own supports hold
 
@@ -88,14 +88,14 @@ void Subdomain::condense(std::int32_t label, bool with_schur, const Look& look) 
         for (std::int64_t e = shifted.start[static_cast<std::size_t>(r)];
              e < shifted.start[static_cast<std::size_t>(r) + 1]; ++e)
             if (shifted.column[static_cast<std::size_t>(e)] == r) shifted.value[static_cast<std::size_t>(e)] += tau;
-    ask(look);
-    factor_ = std::make_unique<SparseCholesky>(shifted, nb, look);
-    ask(look);
+    call_if_set(poll);
+    factor_ = std::make_unique<SparseCholesky>(shifted, nb, poll);
+    call_if_set(poll);
     if (!factor_->factorise(shifted))
         fail(DELAM_ERROR_NUMERICAL, "the stiffness of body ", label,
              " is not positive definite beyond its rigid motions: check its material and the shapes of its cells");
-    ask(look);
-    schur = lower_times_transpose(factor_->trailing_factor(), look);
+    call_if_set(poll);
+    schur = lower_times_transpose(factor_->trailing_factor(), poll);
     for (std::int64_t i = 0; i < nb; ++i) schur(i, i) -= tau;
 
     const DenseMatrix q = orthonormalised(rigid_boundary);
@@ -104,7 +104,7 @@ void Subdomain::condense(std::int32_t label, bool with_schur, const Look& look) 
     for (std::int64_t r = 0; r < rigid_count; ++r)
         for (std::int64_t j = 0; j < nb; ++j)
             for (std::int64_t i = 0; i < nb; ++i) flexibility(i, j) += rho * q(i, r) * q(j, r);
-    flexibility = inverse_definite(std::move(flexibility), look);
+    flexibility = inverse_definite(std::move(flexibility), poll);
     if (!with_schur) schur = DenseMatrix();
 }
 

@@ -38,7 +38,7 @@ struct Subdomain {
     std::vector<double> diagonal;  // of the stiffness at the boundary
 
     // Numerical set-up, after stiffness, rigid, nodes, boundary and body are known. label: of the body, for messages.
-    void condense(std::int32_t label, bool with_schur, const Look& look = {});
+    void condense(std::int32_t label, bool with_schur, const Poll& poll = {});
     // The subdomain of the control nodes, instead. scale: of each DOF's motion.
     void hold_controls(std::span<const double> scale);
     // u over all local DOFs from its boundary values, in equilibrium with f inside. f: local DOFs, only the interior is
