@@ -1,51 +1,58 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * libdelam: delamination of layered and fibrous composites as rate-independent energy minimisation.
+ * libdelam: delamination of layered and fibrous composites by rate-independent energy minimisation.
  *
- * A host describes bodies and touching faces (delam_mesh), how the faces hold together (delam_law), materials,
- * supports and loads (delam_problem), and walks the load steps (delam_solver).
+ * The calling program, here called the host, describes bodies and the faces where they touch (delam_mesh), the
+ * traction-separation laws of these faces (delam_law), and materials, supports and loads (delam_problem). It then
+ * advances the load steps (delam_solver). include/GLOSSARY.md explains the terms.
  *
- * Rules that hold for every function
- *   status     0 done; > 0 an outcome, the object stays valid and usable; < 0 an error, the object is unchanged.
- *              The text of the last one is delam_context_message() of the context the object was made with.
- *   units      whatever is consistent (the examples use SI: m, N, Pa, J); in 2D forces and energies are per unit
- *              thickness. Dimensions are written as L, F and their products: stress F/L2, stiffness of an
- *              interface F/L3, toughness F/L (J/m2).
- *   arrays     contiguous; `[n][d]` is row-major C, `(d,n)` in Fortran. Inputs are copied before the call returns,
- *              outputs are written into the caller's buffer. Pointers must not be NULL unless said so; an array may
- *              be NULL when its count is 0.
- *   indices    int64_t; index arrays on input take `index_base` (0 or 1); single indices and outputs are 0-based.
- *   handles    opaque; create writes *out (NULL on error), destroy takes the address, sets it to NULL and accepts
- *              NULL. Objects may be destroyed in any order. Foreign or destroyed handles give DELAM_ERROR_HANDLE
- *              as far as that can be seen.
- *   numbers    non-finite input is refused by name.
- *   threads    one context and the objects made with it belong to one thread at a time; distinct contexts are
- *              independent. delam_context_cancel() alone may be called from any thread, and from inside a callback,
- *              where what else has a status returns DELAM_ERROR_STATE, and texts are NULL or "". Callbacks return; none
- *              is left by longjmp or an exception.
- *   promise    nothing is printed, no signal handler is left behind, no exception leaves, the process never ends.
- *   names      out: the handle that is made. interface_index, pattern: as the function that added it gave them; index:
- *              of a list, below its count. body: a label of cells; where -1 is allowed, it means all. capacity: entries
- *              that the array has room for, negative or too few is DELAM_ERROR_ARGUMENT. user: handed on to the
- *              callback as it is.
+ * Rules for every function
+ *   status     0: done. > 0: an outcome; the object stays valid and usable. < 0: an error; the object is unchanged.
+ *              delam_context_message() explains the last status other than 0, for the context of the object.
+ *   units      Any consistent set of units will do; the examples use SI (m, N, Pa, J). In 2D, forces and energies are
+ *              per unit thickness. Dimensions are products of L (length) and F (force): stress F/L2, interface
+ *              stiffness F/L3, toughness F/L (J/m2).
+ *   arrays     Arrays are contiguous; `[n][d]` is row-major in C and `(d,n)` in Fortran. The library copies inputs
+ *              before the call returns, and writes outputs into the caller's buffer. Pointers must not be NULL unless
+ *              the function allows it; an array may be NULL when its count is 0.
+ *   indices    Indices are int64_t. Index arrays that are passed in count from `index_base` (0 or 1); single indices
+ *              and all outputs count from 0.
+ *   handles    Handles are opaque. create writes *out, or NULL on error. destroy takes the address of the handle, sets
+ *              the handle to NULL and accepts NULL. Objects may be destroyed in any order. A foreign or destroyed
+ *              handle gives DELAM_ERROR_HANDLE, as far as the library can recognise it.
+ *   numbers    A number that is not finite is an error, and the message names it.
+ *   threads    One thread at a time may use a context and the objects made with it. Different contexts are
+ *              independent of each other. delam_context_cancel() alone may be called from any thread.
+ *   callbacks  Inside a callback, delam_context_cancel() is the only function that may be called with the context and
+ *              its objects. The others return DELAM_ERROR_STATE, or NULL or "" where they return a text. A callback
+ *              must return; do not leave it by longjmp or an exception.
+ *   promise    The library prints nothing, leaves no signal handler behind, lets no exception escape and never ends
+ *              the process.
+ *   names      out: receives the handle that the call makes. interface_index, pattern: as returned by the function that
+ *              added the interface or pattern. index: place in a list, from 0 to its count - 1. body: label of cells;
+ *              -1 means all bodies where the function allows it. capacity: number of entries that the array can hold;
+ *              a negative or too small one gives DELAM_ERROR_ARGUMENT. user: handed to the callback unchanged.
  *
  * The line in brackets
- *   ends the comment of each function and callback: the rest of its contract in fixed words, complete, so that what is
- *   missing there is as above. In the order
- *   unit       of each double: its name, unit, range; that of what goes in always, finite where any number will do, and
- *              in parentheses what is asked of an array as a whole or of each of its vectors. 1: no unit; t: time of
- *              the load histories; of key: as that key says
+ *   The comment of every function and callback ends with a line in brackets, which states the rest of the contract in
+ *   fixed words. A field that is absent adds nothing to the rules above. The fields, in their order:
+ *   unit       name, unit and range of every parameter of type double. Inputs always have a range; "finite" means any
+ *              finite number. A condition in parentheses applies to the array as a whole or to each vector in it. The
+ *              unit is 1 for dimensionless numbers, t for the time of the load histories, and "of key" where it
+ *              depends on the key
  *   null       pointers that may be NULL
- *   owns       pointers that outlive the call, and who frees or keeps them. out caller: the caller frees *out by the
- *              object's destroy function. static: valid as long as the library is loaded
- *   status     DELAM_OK aside. Any call with a handle may return DELAM_ERROR_HANDLE, _MEMORY and _INTERNAL, and from
- *              inside a callback _STATE: usual, these alone; otherwise what may come beside them; only: not even those.
- *              - : no status is returned
- *   thread     any: from any thread at any time; not said: as above
- *   source     where the method is described; none: nothing but what was given, counted or solved for is handed out
- *   since      version of the library
- *   For a callback, which the library calls: null, what it may be given as NULL; owns, how long what it is given lives;
- *   status, what the running call ends with when the callback returns anything but 0; thread call's: that of this call.
+ *   owns       pointers that outlive the call, and who frees or keeps them. "out caller": the caller frees *out with
+ *              the object's destroy function. "static": valid as long as the library is loaded
+ *   status     statuses that the function may return besides DELAM_OK. Every function with a handle may also return
+ *              DELAM_ERROR_HANDLE, _MEMORY and _INTERNAL and, inside a callback, _STATE; the list leaves these out.
+ *              "usual": these alone. "only": the list is complete without them. "-": the function returns no status
+ *   thread     "any": any thread may call at any time. Absent: the rule for threads above
+ *   source     publication or document that describes the method. "none": the function returns only what was given,
+ *              counted or solved for elsewhere
+ *   since      version of the library that introduced the function
+ *   For a callback, which the library calls: null names the arguments that may be NULL; owns tells how long the
+ *   arguments live; status tells how the running call ends when the callback returns a value other than 0; "thread
+ *   call's" means the thread of the running call.
  */
 #ifndef DELAM_DELAM_H
 #define DELAM_DELAM_H
@@ -62,97 +69,100 @@
 extern "C" {
 #endif
 
-/* Number of the binary interface (the SONAME's); apart from the product's version. */
+/* Version of the binary interface and of the SONAME; independent of the product's version. */
 #define DELAM_ABI 1
 
 /* ---- statuses ---------------------------------------------------------------------------------------------------- */
 
 #define DELAM_OK 0
-#define DELAM_NOT_CONVERGED 1    /* a limit was met, or forces do not balance; the best state found can be read */
+#define DELAM_NOT_CONVERGED 1    /* a limit was reached, or forces do not balance; the best state found can be read */
 #define DELAM_CANCELLED 2        /* stopped on request; the state before the call is restored */
 #define DELAM_LIMIT 3            /* no equilibrium: a dead load acts on a part that nothing holds any more */
-#define DELAM_ERROR_ARGUMENT -1  /* a value outside its range, a NULL, an index past the end */
-#define DELAM_ERROR_HANDLE -2    /* NULL or foreign handle */
+#define DELAM_ERROR_ARGUMENT -1  /* a value out of range, a NULL pointer, an index past the end */
+#define DELAM_ERROR_HANDLE -2    /* a NULL or foreign handle */
 #define DELAM_ERROR_MESH -3      /* inverted cell, shared node, unmatched faces */
 #define DELAM_ERROR_PROBLEM -4   /* incomplete or contradictory scene: missing material, missing support, bad law */
-#define DELAM_ERROR_STATE -5     /* a call out of order (e.g. advance with a step not yet committed) */
-#define DELAM_ERROR_MEMORY -6    /* no room for what the call needs */
+#define DELAM_ERROR_STATE -5     /* a call out of order (e.g. advance while a step is pending) */
+#define DELAM_ERROR_MEMORY -6    /* not enough memory for the call */
 #define DELAM_ERROR_NUMERICAL -7 /* a factorisation broke down */
-#define DELAM_ERROR_SNAPSHOT -8  /* bytes that are damaged, of another version or of another scene */
-#define DELAM_ERROR_INTERNAL -9  /* a defect of the library: please report */
+#define DELAM_ERROR_SNAPSHOT -8  /* a saved state that is damaged, or of another version or scene */
+#define DELAM_ERROR_INTERNAL -9  /* a defect of the library: please report it */
 #define DELAM_ERROR_FILE -10     /* a file that cannot be opened, read or written: the message says why */
 
-typedef struct delam_context delam_context; /* messages, log, progress, cancel; what everything else is made with */
+typedef struct delam_context delam_context; /* messages, log, progress, cancellation; all other objects need one */
 typedef struct delam_mesh delam_mesh;       /* nodes, cells, bodies, interfaces */
-typedef struct delam_law delam_law;         /* how an interface holds together */
-typedef struct delam_problem delam_problem; /* mesh, materials, laws, supports, loads, options: the scene */
-typedef struct delam_solver delam_solver;   /* operator, state and history of a march */
+typedef struct delam_law delam_law;         /* traction-separation law of an interface */
+typedef struct delam_problem delam_problem; /* the scene: mesh, materials, laws, supports, loads, options */
+typedef struct delam_solver delam_solver;   /* operator, state and history of an analysis */
 
 /* Product version "major.minor.patch".
  * [owns result static; status -; thread any; since 0.1] */
 DELAM_API const char *delam_version(void);
-/* Commit the library was built from, or "unknown".
+/* Commit that the library was built from, or "unknown".
  * [owns result static; status -; thread any; since 0.1] */
 DELAM_API const char *delam_commit(void);
-/* DELAM_ABI of the library that runs (compare with the header's).
+/* DELAM_ABI of the library at run time (compare it with the header's).
  * [status -; thread any; since 0.1] */
 DELAM_API int32_t delam_abi(void);
-/* Name of a status, e.g. "DELAM_ERROR_MESH"; "unknown status" for others.
+/* Name of a status, e.g. "DELAM_ERROR_MESH"; "unknown status" for other numbers.
  * [owns result static; status -; thread any; since 0.1] */
 DELAM_API const char *delam_status_name(int32_t status);
-/* Threads that the BLAS of this process uses; 0: it does not say. The library leaves them alone (its own: option
- * threads). Equal digits from run to run need an equal number.
+/* Number of threads that BLAS uses in this process; 0 if BLAS does not report it. The library does not change it (the
+ * option threads sets the library's own threads). Runs give identical digits only with identical numbers of BLAS
+ * threads.
  * [status -; thread any; since 0.1] */
 DELAM_API int32_t delam_blas_threads(void);
 
 /* ---- context: messages, log, progress, cancel -------------------------------------------------------------------- */
 
-/* Called with lines for people. level: 0 error, 1 warning, 2 information.
+/* Receives log lines for people. level: 0 error, 1 warning, 2 information.
  * [null user; owns text until the callback returns; status -; thread call's; since 0.1] */
 typedef void (*delam_log_callback)(int32_t level, const char *text, void *user);
-/* Called inside long work, on the calling thread. stage: static text ("factor", "minimise", ...); done of total
- * (total 0 = not known). Non-zero return cancels: the call ends with DELAM_CANCELLED. Calls that read do not heed it,
- * so that a host that has stopped can read what there is: delam_mesh_find_patch, delam_problem_hash, _process_zone,
- * _body_matrix, _constraints, _forces, _eigenstrain_energy, delam_solver_value, _field, _average, _condensed.
+/* Receives the progress of long calls, on the calling thread. stage: static text ("factor", "minimise", ...); done of
+ * total (total 0: unknown). If it returns a value other than 0, the running call stops with DELAM_CANCELLED. Calls that
+ * only read ignore the value, so that a host that has stopped an analysis can still read its results:
+ * delam_mesh_find_patch, delam_problem_hash, _process_zone, _body_matrix, _constraints, _forces, _eigenstrain_energy,
+ * delam_solver_value, _field, _average, _condensed.
  * [null user; owns stage static; status cancelled; thread call's; since 0.1] */
 typedef int32_t (*delam_progress_callback)(const char *stage, int64_t done, int64_t total, void *user);
 
-/* A context with no callbacks, for objects made with it; *out receives it.
+/* Creates a context without callbacks; *out receives it.
  * [null none; owns out caller; status only argument, memory; thread any; since 0.1] */
 DELAM_API int32_t delam_context_create(delam_context **out);
-/* Destroys a context; objects made with it live on.
+/* Destroys a context; the objects made with it live on.
  * [null context, *context; owns context destroyed; status -; since 0.1] */
 DELAM_API void delam_context_destroy(delam_context **context);
-/* Text of the last status that was not DELAM_OK ("" before any): what, where, value, allowed range. Never NULL.
+/* Text of the last status other than DELAM_OK: what, where, value, allowed range. "" before the first; never NULL.
  * [owns result until the next call with this context or its objects; status -; since 0.1] */
 DELAM_API const char *delam_context_message(const delam_context *context);
-/* Where lines for people go; callback NULL switches it off. Errors and outcomes come here too, beside the message.
+/* Sets the callback that receives log lines; NULL turns the log off. Errors and outcomes are logged as well as kept for
+ * delam_context_message.
  * [null callback, user; owns callback and user: the host, until replaced or the last object of the context is gone;
  * status usual; since 0.1] */
 DELAM_API int32_t delam_context_set_log(delam_context *context, delam_log_callback callback, void *user);
-/* Where the library reports from long work; callback NULL switches it off.
+/* Sets the callback that receives the progress of long calls; NULL turns it off.
  * [null callback, user; owns callback and user: as delam_context_set_log; status usual; since 0.1] */
 DELAM_API int32_t delam_context_set_progress(delam_context *context, delam_progress_callback callback, void *user);
-/* Ask the running call to stop at its next check; any thread (and from a signal handler: it counts up one lock-free
- * number). The request is consumed by the call that it stops. One that comes while no call runs, that the running one
- * does not meet any more, or whose call is refused for its arguments, waits for the next call of the march:
+/* Asks the running call to stop at its next check. Any thread and any signal handler may call this function; it only
+ * increments a lock-free counter. The call that stops consumes the request. A request waits if no call is running, if
+ * the running call makes no further check, or if that call is refused for its arguments. It then stops the next call of
  * delam_solver_create, _advance, _equilibrate, _tangent, _step_tangent, _load, _load_file or
- * delam_problem_set_stiffness. The other calls that list `cancelled` build or read; only a request that comes while
- * they run stops them.
+ * delam_problem_set_stiffness. The other functions that list `cancelled` build or read; only a request that arrives
+ * while they run stops them.
  * [status only handle; thread any; since 0.1] */
 DELAM_API int32_t delam_context_cancel(delam_context *context);
 
 /* ---- mesh: nodes, cells, bodies, interfaces ---------------------------------------------------------------------- */
 
-/* Cell types. Node order as in VTK: corners (counter-clockwise; bottom face, then top face), then the nodes midway
- * between two corners, then the centre. With corners numbered from 0, the middle nodes sit between
+/* Cell types. The nodes are ordered as in VTK: corners (counter-clockwise; bottom face before top face), then the nodes
+ * midway between two corners, then the centre. With corners numbered from 0, the middle nodes lie between
  *   tri6    0-1 1-2 2-0
  *   quad8   0-1 1-2 2-3 3-0      quad9 likewise, then the centre
  *   tet10   0-1 1-2 2-0 0-3 1-3 2-3                              (Gmsh exchanges the last two)
  *   hex20   0-1 1-2 2-3 3-0  4-5 5-6 6-7 7-4  0-4 1-5 2-6 3-7    (Gmsh has another order)
- * Cells may be curved: middle nodes need not be exactly midway. Neighbours share all nodes of a face. In bending, tri3,
- * quad4, tet4 and hex8 are far too stiff unless many lie across the thickness; the others need few, and so do quad4
- * and hex8 with delam_problem_set_formulation. */
+ * Cells may be curved: a middle node need not lie exactly midway. Neighbouring cells share all nodes of their common
+ * face. In bending, tri3, quad4, tet4 and hex8 are far too stiff unless many of them lie across the thickness. The
+ * other types need few, and so do incompatible quad4 and hex8 (delam_problem_set_formulation). */
 #define DELAM_TRI3 1
 #define DELAM_QUAD4 2
 #define DELAM_TET4 3
@@ -163,146 +173,151 @@ DELAM_API int32_t delam_context_cancel(delam_context *context);
 #define DELAM_TET10 8
 #define DELAM_HEX20 9
 
-/* A mesh of nodes: [node_count][dimension], dimension 2 or 3, node_count >= 1.
+/* Creates a mesh from its nodes: [node_count][dimension], dimension 2 or 3, node_count >= 1.
  * [unit nodes L finite; null none; owns out caller; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_create(delam_context *context, int32_t dimension, int64_t node_count, const double *nodes,
                                     delam_mesh **out);
 
-/* Block of layers stacked along the last axis (y in 2D, z in 3D), each layer a body of its own with its own nodes,
- * body 0 at the bottom. The block starts at the origin.
+/* Creates a block of layers that are stacked along the last axis (y in 2D, z in 3D). Each layer is a body with nodes of
+ * its own; body 0 is at the bottom. The block starts at the origin.
  *   lengths, divisions  [dimension-1] extent (L) and number of cells along the other axes
- *   thickness, layer_divisions  [layer_count] of each layer
- *   cell_type           DELAM_TRI3 / QUAD4 / TRI6 / QUAD8 / QUAD9 in 2D, TET4 / HEX8 / TET10 / HEX20 in 3D; simplices
- *                       split each box into 2 or 6
- * Neighbouring layers match; no interface is made yet. Nodes of a layer are numbered x fastest, the last axis slowest,
- * middle nodes among the corners.
+ *   thickness, layer_divisions  [layer_count] thickness and number of cells of each layer
+ *   cell_type           DELAM_TRI3 / QUAD4 / TRI6 / QUAD8 / QUAD9 in 2D, TET4 / HEX8 / TET10 / HEX20 in 3D; triangles
+ *                       split each box into 2, tetrahedra into 6
+ * The nodes of neighbouring layers coincide; the function adds no interface. The nodes of a layer, middle nodes
+ * included, are numbered with x running fastest and the last axis slowest.
  * [unit lengths L > 0, thickness L > 0; null none; owns out caller; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_create_layers(delam_context *context, int32_t dimension, const double *lengths,
                                            const int64_t *divisions, int64_t layer_count, const double *thickness,
                                            const int64_t *layer_divisions, int32_t cell_type, delam_mesh **out);
 
 /* Adds cells of one type, cell_type. connectivity: [cell_count][nodes of the type]; bodies: [cell_count] labels >= 0,
- * or NULL for all 0. A node belongs to one body only: DELAM_ERROR_MESH otherwise, also for inverted or degenerate
- * cells. DELAM_ERROR_STATE: the body has an interface already, all its cells come before.
+ * or NULL for body 0. DELAM_ERROR_MESH: a node belongs to two bodies, or a cell is inverted or degenerate.
+ * DELAM_ERROR_STATE: the body already has an interface; add all of its cells first.
  * [null bodies; status cancelled, argument, mesh, state; since 0.1] */
 DELAM_API int32_t delam_mesh_add_cells(delam_mesh *mesh, int32_t cell_type, int64_t cell_count,
                                        const int64_t *connectivity, const int32_t *bodies, int32_t index_base);
 
-/* As delam_mesh_add_cells (cell_type, connectivity: [cell_count][nodes of the type], bodies: [cell_count]), for the
- * cells of a conforming mesh of touching bodies as a mesher writes them: a node that another body has already is
- * doubled. This body then gets a node of its own at the same place, appended after the present ones: one for each body
- * and original node, also over several calls, so that cells of several types, or a body in portions, may come one after
- * another. The first body to come keeps the original. connectivity holds nodes of the mesh, originals or copies, as
- * they were before the call; the number of nodes grows (delam_mesh_size; delam_mesh_node_origins tells what was
- * doubled). Where three or more bodies meet, each has a node. Bodies that share faces are then joined by
- * delam_mesh_add_all_interfaces; those that share no more than a corner, or in 3D an edge, are joined by nothing there.
- * DELAM_ERROR_MESH for inverted or degenerate cells.
+/* Adds cells of a conforming mesh of touching bodies, as a mesher writes it. The arguments are those of
+ * delam_mesh_add_cells (cell_type, connectivity: [cell_count][nodes of the type], bodies: [cell_count]), but bodies may
+ * share nodes: the first body keeps the node, and every further body receives a copy at the same place. The copies are
+ * appended to the mesh, one for each body and original node. This also holds over several calls, so that a body may
+ * come in portions or in cells of several types. connectivity names nodes of the mesh before the call, originals or
+ * copies. The number of nodes grows (delam_mesh_size); delam_mesh_node_origins returns the original of each node.
+ * delam_mesh_add_all_interfaces then joins the bodies that share faces; it does not join bodies that share only a
+ * corner, or in 3D only an edge. DELAM_ERROR_MESH: a cell is inverted or degenerate.
  * [null bodies; status cancelled, argument, mesh, state; since 0.1] */
 DELAM_API int32_t delam_mesh_add_conforming_cells(delam_mesh *mesh, int32_t cell_type, int64_t cell_count,
                                                   const int64_t *connectivity, const int32_t *bodies,
                                                   int32_t index_base);
 
-/* Pairs the coinciding boundary faces of two bodies, a = body_a and b = body_b; *out_interface receives the interface's
- * index, from 0. The jump of a pair is u_b - u_a; the normal points from a to b, so a positive normal jump is an
- * opening. `tolerance`: largest distance of two nodes that count as one, as a fraction of the shortest edge of the two
- * bodies (of quadratic cells: from corner to mid-side node); 0 gives 1e-6; must be < 0.5. DELAM_ERROR_MESH when no face
- * matches, or when faces overlap but do not match, mid-side nodes included (the first place is named). Weights of
- * pairs: nodal quadrature of the paired faces, positive, summing to the length (2D) or area (3D) of the interface:
- * trapezoid rule on 2-node edges, Simpson's on 3-node ones, vertex rule on faces. 6-node triangles count as four
- * triangles, 8-node faces as four corner triangles and the quadrilateral of their mid-side nodes, also where they are
- * curved. Those of tet10 and hex20 are not in the proportion of a uniform traction: on a stiff interface pairs then
- * bear up to 1.3 (tet10) or 1.6 times (hex20) the traction at middle nodes and none, or a closed contact, at corners.
- * Pairs are ordered by coordinates, x first.
+/* Adds an interface that pairs the coinciding boundary faces of two bodies, a = body_a and b = body_b. *out_interface
+ * receives its index; the first interface has index 0. The jump of a pair is u_b - u_a. The normal points from a to b,
+ * so that a positive normal jump is an opening. tolerance: largest distance between two nodes that coincide, as a
+ * fraction of the shortest edge of the two bodies (in quadratic cells: from corner to mid-side node); 0 selects 1e-6.
+ * DELAM_ERROR_MESH: no face matches, or faces overlap without matching, mid-side nodes included; the message names the
+ * first place.
+ * The weight of a pair is the length (2D) or area (3D) that it represents, by nodal quadrature of the paired faces: the
+ * trapezoidal rule on 2-node edges, Simpson's rule on 3-node edges, the vertex rule on faces. A 6-node triangle counts
+ * as four triangles, and an 8-node face as four corner triangles and the quadrilateral of its mid-side nodes, also
+ * where they are curved. All weights are positive; their sum is the size of the interface. On faces of tet10 and hex20
+ * the weights are not proportional to the nodal forces of a uniform traction: on a stiff interface, middle nodes then
+ * carry up to 1.3 (tet10) or 1.6 times (hex20) the traction, and corner nodes carry none or are in closed contact.
+ * The pairs are sorted by coordinates, x first.
  * [unit tolerance 1 in [0, 0.5); null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_interface(delam_mesh *mesh, int32_t body_a, int32_t body_b, double tolerance,
                                            int64_t *out_interface);
-/* An interface, as by delam_mesh_add_interface, between every two bodies that share matching faces and have none yet,
- * in the order of their labels (body_a < body_b, then next pair); *out_count receives how many there are, maybe 0.
- * `tolerance` as there, of each two bodies. Where three or more bodies meet, each two that share faces have a pair
- * there. DELAM_ERROR_MESH when faces of two bodies overlap without matching (the first place is named; the mesh is
- * unchanged). Bodies whose faces are farther from each other than the tolerance, such as the two sides of a curved
- * interface meshed apart, do not touch in this sense and get no interface.
+/* Adds an interface, as delam_mesh_add_interface does, between every two bodies that share matching faces and have no
+ * interface yet. The interfaces are ordered by the labels of their bodies, with body_a < body_b; *out_count receives
+ * their number, which may be 0. tolerance: as in delam_mesh_add_interface, for every two bodies. Where three or more
+ * bodies meet at a node, every two of them that share faces have a pair there. DELAM_ERROR_MESH: faces of two bodies
+ * overlap without matching; the message names the first place, and the mesh is unchanged. Bodies whose faces lie
+ * farther apart than the tolerance get no interface, e.g. the two sides of a curved interface that were meshed
+ * separately.
  * [unit tolerance 1 in [0, 0.5); null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_all_interfaces(delam_mesh *mesh, double tolerance, int64_t *out_count);
-/* An interface of two bodies, a = body_a and b = body_b, whose meshes do not match; *out_interface receives its index.
- * The faces of b that lie on faces of a, within the distance `gap` (L; 0 gives 1e-6 of the shortest edge) and looking
- * against them within 60 degrees, are paired with their projections: each of b's nodes there with a tied node, appended
- * to the mesh at the nearest point of a's faces, without cells, whose displacement is sum_i N_i u_i of the nodes of the
- * face below it (delam_mesh_node_ties; N_i its shape functions, of curved faces too). node_a is the tied node, node_b
- * that of b; weights, faces and normals (turned to point from a to b) are those of b's faces, as by
- * delam_mesh_add_interface. Order of pairs likewise. Take the body with the finer mesh as b: linear displacements are
- * continuous across a perfect bond whichever is finer, but the forces of a uniform traction reach a through the N_i at
- * b's nodes, which is exact where a's nodes are among b's (b refines a) and else leaves an error in the cells at the
- * interface that falls with the square of the ratio of edges. Measured as the largest error of a stress in a patch
- * test, edges of a to b as 3:4, 3:7, 3:13: 0.6, 0.18, 0.05 % (quad4), 7.5, 2.3, 0.6 % (hex8). With b coarser than a,
- * nodes of a between those of b are held by nothing: 3:2 gives 2.4 and 36 %. Choose `gap` as large as the chords of
- * curved faces need and no larger: a rotation of both bodies by an angle makes a jump of that angle times the distance
- * of a node from its projection. A face of b must lie on a as a whole or not at all (a may reach beyond b, faces of b
- * may lie side by side with a's rim): DELAM_ERROR_MESH with the place where one lies on a in part only, where no face
- * of b lies on a, or when the two are joined.
+/* Adds an interface between two bodies, a = body_a and b = body_b, whose meshes do not match. *out_interface receives
+ * its index. The function pairs each face of b that lies on faces of a: not farther from them than the distance gap
+ * (L; 0 selects 1e-6 of the shortest edge), with normals that are opposite within 60 degrees. It projects each node of
+ * such a face onto a, to the nearest point of a's faces, and appends a tied node there, which has no cells. A tied node
+ * moves with the face of a that it lies on: its displacement is sum_i N_i u_i over the nodes of that face, with the
+ * shape functions N_i, also on curved faces (see delam_mesh_node_ties). node_a of a pair is the tied node and node_b
+ * the node of b. Weights, faces and order of the pairs follow from b's faces as in delam_mesh_add_interface; so do the
+ * normals, which point from a to b.
+ * Take the body with the finer mesh as b. Linear displacements are continuous across a perfect bond either way, but a
+ * receives the forces of a uniform traction through the N_i at b's nodes. They are exact if a's nodes are among b's
+ * nodes (b refines a). Otherwise they leave an error in the cells at the interface, which falls with the square of the
+ * ratio of the edge lengths. Largest error of a stress in a patch test, with 3 edges of a on 4, 7 and 13 edges of b:
+ * 0.6, 0.18 and 0.05 % (quad4), 7.5, 2.3 and 0.6 % (hex8). With b coarser than a, nothing holds those nodes of a that
+ * lie between nodes of b: 3 edges of a on 2 of b give 2.4 % (quad4) and 36 % (hex8).
+ * Choose gap as large as the chords of curved faces need and no larger: if both bodies rotate by an angle, the jump is
+ * that angle times the distance between a node and its projection. Each face of b must lie on a completely or not at
+ * all; a may extend beyond b, and faces of b may lie beside the rim of a. DELAM_ERROR_MESH, with the place: a face of b
+ * lies partly on a, no face of b lies on a, or the two bodies are already joined.
  * [unit gap L >= 0; null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_projected_interface(delam_mesh *mesh, int32_t body_a, int32_t body_b, double gap,
                                                      int64_t *out_interface);
-/* A rigid obstacle (loading nose, support, symmetry plane) that nodes of one body may touch; it moves as one
- * translation, that of its control node: control_node, a node of the mesh without cells, the same for several obstacles
- * if they move together (0-based, as all single indices). An interface is added, *out_interface its index, with a pair
- * for each node, in the order given: node_a is the control node, body_a is -1, node_b the node. Its jump is u_node -
- * u_control.
+/* Adds a rigid obstacle (loading nose, support, symmetry plane) that nodes of one body may touch. It moves by the
+ * translation of control_node, a node of the mesh without cells (counted from 0, as all single indices are); obstacles
+ * that move together have the same one. *out_interface receives the index of the new interface, which has a pair for
+ * each node in the given order: node_a is the control node, body_a is -1, node_b is the node. The jump of a pair is
+ * u_node - u_control.
  *   nodes    [count] of one body, each once
  *   normals  [count][dimension], of any length > 0, from the obstacle into the body
- *   weights  [count] > 0, length (2D) or area (3D) that a pair stands for; NULL: the nodal weights
- *            (delam_mesh_add_interface) of the body's boundary faces of which all nodes are listed and face the
- *            obstacle; a node on none is refused
+ *   weights  [count] > 0, length (2D) or area (3D) that each pair represents; NULL: weights as in
+ *            delam_mesh_add_interface, from the boundary faces of the body that face the obstacle and have all their
+ *            nodes in the list. A node of the list that lies on no such face is refused
  * [unit normals 1 finite (not 0), weights L or L2 > 0; null weights; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_obstacle(delam_mesh *mesh, int64_t count, const int64_t *nodes, const double *normals,
                                           const double *weights, int64_t control_node, int32_t index_base,
                                           int64_t *out_interface);
-/* A body without cells, of which the host gives the stiffness (delam_problem_set_stiffness): nodes [count] of the mesh
- * that belong to no body yet, each once; body: a label >= 0 that no cell has. Its interfaces are made of pairs
- * (delam_mesh_add_pairs, delam_mesh_add_obstacle with weights). Of where its nodes lie only rigid motions and places in
- * the output depend.
+/* Adds a body without cells, whose stiffness the host supplies (delam_problem_set_stiffness). nodes: [count] nodes of
+ * the mesh that belong to no body yet, each once; body: a label >= 0 that no cell has. Interfaces of this body are made
+ * of pairs (delam_mesh_add_pairs, or delam_mesh_add_obstacle with weights). Node positions affect only the rigid-body
+ * modes and the output.
  * [null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_host_body(delam_mesh *mesh, int32_t body, int64_t count, const int64_t *nodes,
                                            int32_t index_base);
-/* An interface of pairs that the host knows, of bodies with or without cells, in the order given; *out_interface its
- * index. Nodes of a pair may lie apart: the jump is u_b - u_a.
+/* Adds an interface from pairs that the host supplies, between bodies with or without cells. The pairs keep their
+ * order; *out_interface receives the index. The two nodes of a pair may lie apart: its jump is u_b - u_a.
  *   nodes_a, nodes_b  [count], of body_a and of body_b, each once
  *   normals   [count][dimension], of any length > 0, from a to b
- *   weights   [count] > 0, length (2D) or area (3D) that a pair stands for
- *   faces     [face_count][nodes_per_face] indices into the pairs (from index_base too), corners then mid-sides: 2 or 3
- *             in 2D; 3, 4, 6 or 8 in space, seen from b counter-clockwise; triangles among quadrilaterals repeat their
- *             last corner. face_count 0: none. Fronts, the gradient term and the neighbours that an energetic search
- *             advances to are known from faces alone
+ *   weights   [count] > 0, length (2D) or area (3D) that each pair represents
+ *   faces     [face_count][nodes_per_face] indices of pairs (also counted from index_base), corners before mid-side
+ *             nodes: 2 or 3 nodes in 2D; 3, 4, 6 or 8 in 3D, counter-clockwise seen from b. A triangle among
+ *             quadrilaterals repeats its last corner. face_count 0: no faces. Crack fronts, the gradient term and the
+ *             neighbours that an energetic search advances to need faces
  * [unit normals 1 finite (not 0), weights L or L2 > 0; null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_pairs(delam_mesh *mesh, int32_t body_a, int32_t body_b, int64_t count,
                                        const int64_t *nodes_a, const int64_t *nodes_b, const double *normals,
                                        const double *weights, int64_t face_count, int32_t nodes_per_face,
                                        const int64_t *faces, int32_t index_base, int64_t *out_interface);
-/* Destroys a mesh; problems made of it have their own.
+/* Destroys a mesh; problems keep their own copies.
  * [null mesh, *mesh; owns mesh destroyed; status -; since 0.1] */
 DELAM_API void delam_mesh_destroy(delam_mesh **mesh);
 
-/* Sizes: *dimension, *node_count, *cell_count, *body_count of distinct labels and *interface_count.
+/* Sizes of a mesh: *dimension, *node_count, *cell_count, *body_count (distinct labels) and *interface_count.
  * [null dimension, node_count, cell_count, body_count, interface_count; status usual; since 0.1] */
 DELAM_API int32_t delam_mesh_size(const delam_mesh *mesh, int32_t *dimension, int64_t *node_count, int64_t *cell_count,
                                   int64_t *body_count, int64_t *interface_count);
 /* Coordinates of all nodes: [node_count][dimension].
  * [unit nodes L; null none; status argument; source none; since 0.1] */
 DELAM_API int32_t delam_mesh_nodes(const delam_mesh *mesh, int64_t capacity, double *nodes);
-/* Labels of the bodies that nodes belong to, bodies: [node_count]; -1 for a node without cells.
+/* Label of the body of each node, bodies: [node_count]; -1 for a node that belongs to no body.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_node_bodies(const delam_mesh *mesh, int64_t capacity, int32_t *bodies);
-/* The node that each node was doubled from (delam_mesh_add_conforming_cells), itself otherwise; origins: [node_count].
+/* Node that each node is a copy of (delam_mesh_add_conforming_cells), or the node itself; origins: [node_count].
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_node_origins(const delam_mesh *mesh, int64_t capacity, int64_t *origins);
-/* Tied nodes (delam_mesh_add_projected_interface), ascending: u of nodes[i] is the sum of weights[e] u of of[e] over e
- * = starts[i] .. starts[i+1]-1. *count tied nodes and *entries: sizes; nodes [count], starts [count+1], of and weights
- * [entries]. Weights sum to 1 and may be negative on quadratic faces.
+/* Tied nodes (delam_mesh_add_projected_interface) in ascending order. *count and *entries receive the numbers of tied
+ * nodes and of weights. The displacement of nodes[i] is the sum of weights[e] times the displacement of node of[e],
+ * over e = starts[i] .. starts[i+1]-1; nodes [count], starts [count+1], of and weights [entries]. The weights of a tied
+ * node sum to 1; on quadratic faces some may be negative.
  * [unit weights 1; null count, entries, nodes, starts, of, weights; status usual; source none; since 0.1] */
 DELAM_API int32_t delam_mesh_node_ties(const delam_mesh *mesh, int64_t *count, int64_t *entries, int64_t *nodes,
                                        int64_t *starts, int64_t *of, double *weights);
-/* Cells in the order they were added: types, bodies [cell_count], offsets [cell_count+1] into connectivity [*needed].
- * capacity counts entries of connectivity and *needed receives how many there are.
+/* Cells in the order in which they were added: types, bodies [cell_count], offsets [cell_count+1] into connectivity
+ * [*needed]. capacity counts entries of connectivity; *needed receives the number of entries.
  * [null types, bodies, offsets, connectivity, needed; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_cells(const delam_mesh *mesh, int32_t *types, int32_t *bodies, int64_t *offsets,
                                    int64_t capacity, int64_t *connectivity, int64_t *needed);
@@ -312,30 +327,31 @@ DELAM_API int32_t delam_mesh_cells(const delam_mesh *mesh, int32_t *types, int32
 DELAM_API int32_t delam_mesh_interface_size(const delam_mesh *mesh, int64_t interface_index, int32_t *body_a,
                                             int32_t *body_b, int64_t *pair_count, int64_t *face_count,
                                             int32_t *nodes_per_face);
-/* Pairs of an interface. nodes_a, nodes_b, weights: [pair_count] (weights L or L2);
- * frames: [pair_count][dimension][dimension], rows normal, tangent(s), orthonormal.
+/* Pairs of an interface. nodes_a, nodes_b, weights: [pair_count]; frames: [pair_count][dimension][dimension], whose
+ * orthonormal rows are the normal and the tangent or tangents.
  * [unit weights L or L2 > 0, frames 1; null nodes_a, nodes_b, weights, frames; status argument; source none;
  * since 0.1] */
 DELAM_API int32_t delam_mesh_interface_pairs(const delam_mesh *mesh, int64_t interface_index, int64_t *nodes_a,
                                              int64_t *nodes_b, double *weights, double *frames);
-/* Faces of an interface as pair indices, faces: [face_count][nodes_per_face], corners then mid-sides (2, 3, 4 nodes; 3,
- * 6, 8 of quadratic cells). Triangles among quadrilaterals repeat their last corner, also as the mid-side node of the
- * side that has shrunk to it.
+/* Faces of an interface as indices of pairs, faces: [face_count][nodes_per_face], corners before mid-side nodes (2, 3
+ * or 4 nodes; 3, 6 or 8 on quadratic cells). A triangle among quadrilaterals repeats its last corner, also as the
+ * mid-side node of the side of zero length.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_interface_faces(const delam_mesh *mesh, int64_t interface_index, int64_t *faces);
-/* Nodes of a body (-1: of all, and those without cells that are not tied) inside the closed box from lower [dimension]
- * to upper [dimension] (widened by 1e-9 of the mesh's size). *count receives how many there are; the first `capacity`
- * are written to nodes [capacity], ascending.
+/* Finds the nodes of a body inside the closed box from lower [dimension] to upper [dimension], widened by 1e-9 of the
+ * mesh's size. Body -1 stands for all bodies and for the nodes without cells that are not tied. *count receives the
+ * number of nodes found; as many as fit are written to nodes [capacity], in ascending order.
  * [unit lower L finite, upper L >= lower; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_find_nodes(const delam_mesh *mesh, int32_t body, const double *lower, const double *upper,
                                         int64_t capacity, int64_t *nodes, int64_t *count);
-/* Integrals of the nodal shape functions over the part of a body's boundary faces (-1: of each body's, those at
- * interfaces too) inside the box from lower [dimension] to upper [dimension]: the weights of a uniform traction on a
- * patch of fixed size, independent of the mesh. Faces are cut exactly where the box ends within them (2D: exact; 3D:
- * faces as triangles). Only faces whose outward normal is within 45 degrees of direction [dimension] (any length > 0)
- * count. nodes, weights: [capacity], of which the first *count are written; *count receives how many there are. Weights
- * in L (2D) or L2 (3D), with a sum > 0. Those of linear cells are all > 0; quadratic cells also have negative ones (a
- * corner of an 8-node face: -1/12 of its area). DELAM_ERROR_MESH: two cells lie on the same side of a face they share.
+/* Computes the nodal weights of a uniform traction on a patch: the integrals of the nodal shape functions over the
+ * boundary faces of a body (-1: of every body, faces at interfaces included) inside the box from lower [dimension] to
+ * upper [dimension]. Faces that cross the boundary of the box are cut there, so that the size of the patch does not
+ * depend on the mesh (2D: exactly; 3D: faces count as triangles). Only faces whose outward normal lies within 45
+ * degrees of direction [dimension] (any length > 0) count. *count receives the number of nodes; as many as fit are
+ * written to nodes, weights: [capacity]. The weights are lengths (2D) or areas (3D) with a sum > 0. Those of linear
+ * cells are all > 0; quadratic cells also have negative ones (at a corner of an 8-node face: -1/12 of its area).
+ * DELAM_ERROR_MESH: two cells lie on the same side of a face that they share.
  * [unit lower L finite, upper L >= lower, direction 1 finite (not 0), weights L or L2 sum > 0; null none; status
  * cancelled, argument, mesh; source none; since 0.1] */
 DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, const double *lower, const double *upper,
@@ -344,322 +360,339 @@ DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, co
 
 /* ---- interface law ----------------------------------------------------------------------------------------------- */
 
-/* At the mixity B = Y_t/Y, with the driving energy Y = Y_n + Y_t, Y_c = k_c [u]_c^2 / 2, adhesion zeta minimises
- * zeta Y + g(B, zeta) over 0 <= zeta <= old adhesion. g, the energy spent, is convex and decreasing in zeta,
- * g(B, 1) = 0, g(B, 0) = Gc(B), and its slope at zeta = 1 is minus the onset Go(B). On a first loading at fixed mixity
- * the traction peaks at sqrt(2 k Go), and the area under it is Gc. kind:
- *   piecewise-linear  the bilinear law: traction falls on a straight line (slides; Valoroso and Champaney 2006)
- *   exponential       it decays, over (Gc/Go - 1)/2 of the jump at the onset; never to nothing
- *   trapezoidal       it stays at its peak on the part `plateau` of the way from onset to end, then falls on a straight
- *                     line
- *   tabulated         it follows the points of delam_law_set_table
- *   griffith          no softening: debonded at once where Y reaches Gc; no onset of its own
+/* Creates a traction-separation law of a kind. Y_c = k_c [u]_c^2 / 2 is the driving energy of component c (n or t),
+ * Y = Y_n + Y_t the sum, and B = Y_t/Y the mode mixity. The adhesion zeta minimises zeta Y + g(B, zeta) over
+ * 0 <= zeta <= old adhesion. The energy spent, g, is convex and decreases with zeta: g(B, 1) = 0, g(B, 0) = Gc(B), and
+ * its slope at zeta = 1 is minus the onset Go(B). On first loading at fixed mixity the traction peaks at sqrt(2 k Go),
+ * and the area under the traction-separation curve is Gc. kind:
+ *   piecewise-linear  the bilinear law: the traction falls linearly (Valoroso and Champaney 2006)
+ *   exponential       the traction decays exponentially over (Gc/Go - 1)/2 times the jump at the onset; it never
+ *                     reaches zero
+ *   trapezoidal       the traction stays at its peak over the part `plateau` of the way from the onset to the end, then
+ *                     falls linearly
+ *   tabulated         the traction follows the points of delam_law_set_table
+ *   griffith          no softening and no onset of its own: the interface debonds at once when Y reaches Gc
  *   host              callbacks of the host: delam_law_create_host (delam_law_create refuses this kind)
- * Numbers, by key with delam_law_set (delam_law_parameter_info lists those of a kind):
+ * Numbers, set by key with delam_law_set (delam_law_parameter_info lists those of each kind):
  *   normal_stiffness, tangential_stiffness  k_n, k_t  F/L3  > 0
  *   normal_onset, tangential_onset          G^o       F/L   > 0
  *   normal_toughness, tangential_toughness  G^c       F/L   >= onset
  *   plateau                                 [0, 1)    trapezoidal only
  *   gradient                                kappa >= 0, F L, default 0, of the term kappa/2 |grad zeta|^2
- * and exponents > 0, default 2, of the criterion, a text set with delam_law_set_text (which sets them to 2 where it
- * changes it):
+ * The text `criterion`, set with delam_law_set_text, selects how the toughness depends on the mixity. Its exponents are
+ * numbers > 0 with default 2; a change of the criterion resets them to 2:
  *   valoroso-champaney (default)  ((1-B) G/G_n)^p + (B G/G_t)^q = 1 (Eng. Fract. Mech. 73, 2006), p and q:
  *                                 onset_exponent_1, onset_exponent_2, toughness_exponent_1, toughness_exponent_2
  *   power                         the same with p = q: onset_exponent, toughness_exponent
  *   benzeggagh-kenane             G_n + (G_t - G_n) B^eta (Compos. Sci. Technol. 56, 1996), eta: onset_exponent,
  *                                 toughness_exponent
- * Gc(B) >= Go(B) must hold for every mixity B in [0,1]. A key that does not belong to the kind or to the criterion is
- * DELAM_ERROR_ARGUMENT.
- * With kappa > 0 the damage of an interface's pairs is one coupled minimisation and spreads over a length of about
- * sqrt(kappa/G^c), which the faces have to resolve. The term lives on the faces whose pairs all adhered at first: none
- * that touches a pair of initial adhesion 0.
+ * Gc(B) >= Go(B) must hold for every mixity B in [0,1]. A key that does not belong to the kind or to the criterion
+ * gives DELAM_ERROR_ARGUMENT.
+ * With kappa > 0, the damage of all pairs of an interface is one coupled minimisation. The damage then spreads over a
+ * length of about sqrt(kappa/G^c), which the faces have to resolve. The term acts on those faces whose pairs all have
+ * an initial adhesion > 0.
  * [null none; owns out caller; status argument; source in the table above; since 0.1] */
 DELAM_API int32_t delam_law_create(delam_context *context, const char *kind, delam_law **out);
-/* Sets a number of a law by its key, in that key's range (see delam_law_create).
+/* Sets a number of a law by its key; delam_law_create lists the keys and their ranges.
  * [unit value of key in its range; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_law_set(delam_law *law, const char *key, double value);
-/* Sets a text of a law by its key: the criterion, to a value of those above.
+/* Sets a text of a law by its key: the criterion, to a value from the list at delam_law_create.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_law_set_text(delam_law *law, const char *key, const char *value);
-/* Softening of a tabulated law. xi, s: [count], count >= 2, from (0, 1) to (1, 0): the jump beyond that of the onset
- * over its largest, not falling, and the traction over its peak, not rising; straight lines between. xi is scaled so
- * that the area is Gc, at every mixity. Points out of order: DELAM_ERROR_ARGUMENT, the law is unchanged.
+/* Sets the softening curve of a tabulated law: straight lines through the points (xi, s), from (0, 1) to (1, 0). xi, s:
+ * [count], count >= 2. xi is the jump beyond the onset, divided by its largest value; it must not decrease. s is the
+ * traction divided by its peak; it must not increase. The law scales xi so that the area under the curve is Gc at every
+ * mixity. DELAM_ERROR_ARGUMENT: points out of order; the law is unchanged.
  * [unit xi 1 in [0, 1], s 1 in [0, 1]; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_law_set_table(delam_law *law, int64_t count, const double *xi, const double *s);
-/* Parameters of a kind, all its criteria taken together; 0 for an unknown kind.
- * type: "real", "text" or "table" (delam_law_set, delam_law_set_text, delam_law_set_table); initial: "" where it must
- * be given. An unknown kind or index: DELAM_ERROR_ARGUMENT.
+/* Number of parameters of a kind, over all of its criteria; 0 for an unknown kind.
  * [null kind; status -; thread any; since 0.1] */
 DELAM_API int64_t delam_law_parameter_count(const char *kind);
-/* One of them, by index from 0; kind as there.
+/* Describes one parameter of a kind, by index from 0. type: "real", "text" or "table", set with delam_law_set,
+ * delam_law_set_text or delam_law_set_table; initial: default value, "" if the parameter must be given.
+ * DELAM_ERROR_ARGUMENT: unknown kind or index.
  * [null kind, key, type, unit, initial, range, meaning; owns texts static; status only argument; thread any;
  * since 0.1] */
 DELAM_API int32_t delam_law_parameter_info(const char *kind, int64_t index, const char **key, const char **type,
                                            const char **unit, const char **initial, const char **range,
                                            const char **meaning);
 
-/* Callbacks of a law that the host computes; non-zero return: failed, the call of the library ends with
- * DELAM_ERROR_PROBLEM. They run inside calls that check or use the law, on the calling thread, must not call back into
- * the library (delam_context_cancel aside), and must always give the same answers. */
-/* Gives *adhesion on a first loading at fixed mixity: the minimiser zeta*(B, Y) of zeta Y + g(B, zeta) in [0,1],
- * nonincreasing in driving = Y; *slope: d zeta* / dY, finite (0 where it is not inside).
+/* Callbacks of a law that the host computes. They run on the calling thread, inside calls that check or use the law.
+ * They must not call the library (delam_context_cancel aside) and must always give the same results for the same
+ * arguments. If a callback returns a value other than 0, it has failed, and the library's call ends with
+ * DELAM_ERROR_PROBLEM. */
+/* Computes *adhesion on first loading at fixed mixity: the minimiser zeta*(B, Y) of zeta Y + g(B, zeta) in [0,1], which
+ * must not increase with driving = Y; and *slope = d zeta* / dY, finite (0 where zeta* is at an end of [0,1]).
  * [unit mixity 1 in [0, 1], driving F/L >= 0, adhesion 1 in [0, 1], slope L/F <= 0; null user; status problem; thread
  * call's; since 0.1] */
 typedef int32_t (*delam_adhesion_callback)(double mixity, double driving, double *adhesion, double *slope, void *user);
-/* Gives *dissipated = g(B, zeta) >= 0 at an adhesion; *slope: dg/dzeta, may be -INFINITY at adhesion 0; *mixity_slope:
- * dg/dB.
+/* Computes *dissipated = g(B, zeta) >= 0 at an adhesion; *slope = dg/dzeta, which may be -INFINITY at adhesion 0;
+ * *mixity_slope = dg/dB.
  * [unit mixity 1 in [0, 1], adhesion 1 in [0, 1], dissipated F/L, slope F/L <= 0, mixity_slope F/L finite; null user;
  * status problem; thread call's; since 0.1] */
 typedef int32_t (*delam_dissipation_callback)(double mixity, double adhesion, double *dissipated, double *slope,
                                               double *mixity_slope, void *user);
-/* A law of kind host. adhesion gives zeta*, dissipation g; Go = -dg/dzeta at adhesion 1, Gc = g at adhesion 0. name,
- * not empty, stands for the callbacks in messages and in delam_problem_hash. Callbacks and user must live as long as
- * problems and solvers that took the law, and to the end of a call at work that destroys these. Keys: normal_stiffness, tangential_stiffness, gradient. delam_law_check
- * samples whether both callbacks belong to one such energy and names the first place where they do not;
- * delam_problem_set_law checks likewise.
+/* Creates a law of kind host: adhesion computes zeta* and dissipation computes g, with Go = -dg/dzeta at adhesion 1 and
+ * Gc = g at adhesion 0. name, not empty, stands for the callbacks in messages and in delam_problem_hash. The callbacks
+ * and user must live as long as every problem and solver that took the law; if one of these is destroyed during a call,
+ * they must live until that call ends. Keys: normal_stiffness, tangential_stiffness, gradient. delam_law_check and
+ * delam_problem_set_law test by samples whether both callbacks derive from one such energy, and name the first place
+ * where they do not.
  * [null user; owns out caller, callbacks and user: the host, as long as problems and solvers that took the law; status
  * argument; since 0.1] */
 DELAM_API int32_t delam_law_create_host(delam_context *context, const char *name, delam_adhesion_callback adhesion,
                                         delam_dissipation_callback dissipation, void *user, delam_law **out);
-/* All parameters present and admissible? DELAM_ERROR_PROBLEM names the first that is not.
+/* Checks that all parameters of a law are present and admissible. DELAM_ERROR_PROBLEM names the first that is not.
  * [status problem; since 0.1] */
 DELAM_API int32_t delam_law_check(const delam_law *law);
-/* Onset and total toughness of a law at count mixities B = Y_t/Y; mixity, onset, toughness: [count].
+/* Computes the onset Go and the toughness Gc of a law at count mixities B = Y_t/Y; mixity, onset, toughness: [count].
  * [unit mixity 1 in [0, 1], onset F/L, toughness F/L; null onset, toughness; status argument, problem; source of
  * delam_law_create; since 0.1] */
 DELAM_API int32_t delam_law_toughness(const delam_law *law, int64_t count, const double *mixity, double *onset,
                                       double *toughness);
-/* One damage step at given jumps, without the gradient term: pointwise minimiser over 0 <= zeta <= old adhesion, at the
- * given (frozen) mixity, and the traction zeta k [u]. jump, traction: [count][dimension], local (normal first; a
- * negative normal jump is an error); mixity, adhesion_old, adhesion: [count].
+/* Performs one damage step at given jumps, point by point and without the gradient term: finds the adhesion that
+ * minimises the energy over 0 <= zeta <= adhesion_old at the given mixity, which is held fixed, and the traction
+ * zeta k [u]. jump, traction: [count][dimension] in local components, normal first (a negative normal jump is an
+ * error); mixity, adhesion_old, adhesion: [count].
  * [unit jump L finite (normal >= 0), mixity 1 in [0, 1], adhesion_old 1 in [0, 1], adhesion 1 in [0, 1], traction
  * F/L2; null traction; status argument, problem; source of delam_law_create; since 0.1] */
 DELAM_API int32_t delam_law_respond(const delam_law *law, int32_t dimension, int64_t count, const double *jump,
                                     const double *mixity, const double *adhesion_old, double *adhesion,
                                     double *traction);
-/* Destroys a law; problems that took it have their own.
+/* Destroys a law; problems keep their own copies.
  * [null law, *law; owns law destroyed; status -; since 0.1] */
 DELAM_API void delam_law_destroy(delam_law **law);
 
 /* ---- problem: materials, laws, supports, loads, options ---------------------------------------------------------- */
 
-/* The mesh is taken as it is now; later changes to it are not seen.
+/* Creates a problem with a copy of the mesh; later changes to the mesh do not affect the problem.
  * [null none; owns out caller; status argument; since 0.1] */
 DELAM_API int32_t delam_problem_create(delam_context *context, const delam_mesh *mesh, delam_problem **out);
-/* Destroys a problem; solvers made of it have their own.
+/* Destroys a problem; solvers keep their own copies.
  * [null problem, *problem; owns problem destroyed; status -; since 0.1] */
 DELAM_API void delam_problem_destroy(delam_problem **problem);
 
-/* assumption: "plane-strain" (default) or "plane-stress"; 2D only.
+/* Sets the plane assumption of a 2D problem; assumption: "plane-strain" (default) or "plane-stress".
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_plane(delam_problem *problem, const char *assumption);
-/* Isotropic elasticity of a body (-1: of all): young > 0 (F/L2), -1 < poisson < 0.5.
+/* Sets isotropic elasticity for a body (-1: for all): young > 0 (F/L2), -1 < poisson < 0.5.
  * [unit young F/L2 > 0, poisson 1 in (-1, 0.5); status argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_elastic(delam_problem *problem, int32_t body, double young, double poisson);
-/* Orthotropic elasticity of a body (-1: of all) in its material axes 1, 2, 3: constants [9] = E1 E2 E3 nu12 nu13 nu23
- * G12 G13 G23 (moduli F/L2 > 0). nu_ij is the contraction along j under tension along i: nu_ij/E_i = nu_ji/E_j.
- * DELAM_ERROR_ARGUMENT names the constant that makes the elasticity indefinite, and its bound. Transversely isotropic
- * about 1: E3 = E2, nu13 = nu12, G13 = G12, G23 = E2/(2(1 + nu23)). Material axes are those of space unless
- * delam_problem_set_orientation says otherwise. In 2D: plane strain takes the rows xx, yy, xy of the elasticity in
- * space; plane stress sets the stresses zz, yz, zx free. Replaces what delam_problem_set_elastic has set, and the other
- * way round.
+/* Sets orthotropic elasticity for a body (-1: for all) in its material axes 1, 2, 3: constants [9] = E1 E2 E3 nu12 nu13
+ * nu23 G12 G13 G23 (moduli F/L2 > 0). nu_ij is the contraction along j under tension along i: nu_ij/E_i = nu_ji/E_j. A
+ * material that is transversely isotropic about axis 1 has E3 = E2, nu13 = nu12, G13 = G12, G23 = E2/(2(1 + nu23)). The
+ * material axes are the coordinate axes unless delam_problem_set_orientation sets others. In 2D, plane strain takes the
+ * rows xx, yy, xy of the three-dimensional elasticity; plane stress makes the stresses zz, yz, zx zero. The last call
+ * of this function or of delam_problem_set_elastic determines the material. DELAM_ERROR_ARGUMENT names the constant
+ * that makes the elasticity indefinite, and its bound.
  * [unit constants F/L2 or 1 finite (definite); null none; status argument; source S. W. Tsai, H. T. Hahn,
  * Introduction to Composite Materials (1980); since 0.1] */
 DELAM_API int32_t delam_problem_set_orthotropic(delam_problem *problem, int32_t body, const double *constants);
-/* Material axes of some cells, for orthotropic materials and eigenstrains. axes: [count][2][3], directions of axes 1
- * and 2 in space, also in 2D (z is out of the plane there), any lengths > 0, not parallel; 2 is made normal to 1, 3 = 1
- * x 2. cells: [count] mesh cells, of `body` (-1: of any); NULL with count 1: all cells of the body. Later calls
- * overwrite earlier ones. Cells of equal axes share them.
+/* Sets the material axes of cells, for orthotropic materials and eigenstrains. axes: [count][2][3], directions of axes
+ * 1 and 2 in space, also in 2D (where z points out of the plane), of any lengths > 0, not parallel; the function makes
+ * axis 2 normal to axis 1 and sets axis 3 = 1 x 2. cells: [count] cells of the mesh, all in `body` (-1: in any); NULL
+ * with count 1: all cells of the body. Later calls overwrite earlier ones. Cells with equal axes share their storage.
  * [unit axes 1 finite (not parallel); null cells; status cancelled, argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_orientation(delam_problem *problem, int32_t body, int64_t count,
                                                 const int64_t *cells, const double *axes, int32_t index_base);
-/* How the cells of a body (-1: of all) are computed, formulation: "standard" (default), or "incompatible" for bodies of
- * quad4 or hex8 alone (DELAM_ERROR_ARGUMENT names another cell): internal bending modes after Wilson, Taylor and
- * Beresford, condensed in each cell. Pure bending of rectangular cells is then exact, where standard ones are too stiff
- * (by half for squares). The displacement between nodes may gap or overlap a little. "mean-dilatation", for nearly
- * incompressible bodies, where others lock: the dilatation of each cell is projected, onto constants (quad4, hex8,
- * tri6, tet10) or linear functions (quad8, quad9, hex20). Plane strain and space only; tri3 and tet4 are refused, their
- * dilatation is constant already.
+/* Sets the element formulation of a body (-1: of all), formulation:
+ *   "standard"         the default
+ *   "incompatible"     adds internal bending modes after Wilson, Taylor and Beresford, condensed in each cell; only for
+ *                      bodies of quad4 or hex8 (DELAM_ERROR_ARGUMENT names another cell). Rectangular cells are then
+ *                      exact in pure bending, in which standard ones are too stiff (squares by half). Displacements
+ *                      may gap or overlap slightly between the nodes
+ *   "mean-dilatation"  for nearly incompressible bodies, in which the other formulations lock: projects the dilatation
+ *                      of each cell onto constants (quad4, hex8, tri6, tet10) or linear functions (quad8, quad9,
+ *                      hex20). Only in plane strain and in 3D; tri3 and tet4 are refused, because their dilatation is
+ *                      constant already
  * [null none; status argument; source R. Taylor, P. Beresford, E. Wilson, Int. J. Numer. Meth. Eng. 10 (1976) 1211-1219
  * and T. Hughes, ibid. 15 (1980) 1413-1418; since 0.1] */
 DELAM_API int32_t delam_problem_set_formulation(delam_problem *problem, int32_t body, const char *formulation);
-/* The stiffness of whole bodies as the host has assembled it, in the place of cells and material; of bodies with cells
- * and of those without (delam_mesh_add_host_body). A material, if there is one, then serves the stresses of the output
- * alone; eigenstrains of such a body are refused, their forces are the host's (delam_problem_add_forces). Of a body
- * without cells or material stresses are NaN.
+/* Sets the stiffness of whole bodies, as the host has assembled it, in place of cells and material. The bodies may have
+ * cells or not (delam_mesh_add_host_body). Their material, if any, then serves only the stresses in the output; without
+ * cells or material, these stresses are NaN. Eigenstrains of such a body are refused: the host adds their forces itself
+ * (delam_problem_add_forces).
  *   nodes       [count] all nodes of one or several bodies, each once
- *   dofs        [count][dimension] row of each displacement, each of 0 .. dimension*count-1 (from index_base) once;
- *               NULL: dimension*i + component of nodes[i]. All rows are displacements of nodes: others are to be
- *               condensed before
- *   row_starts  [dimension*count + 1], from index_base too; columns, values [entries]: CSR, both triangles; entries
- *               that come twice add up. Symmetric to 1e-9, positive on what deforms (one sparse factorisation tells)
- *   kernel      [kernel_count][dimension*count] motions without energy, by row. Parts that hang together in the matrix
- *               are rigid pieces, their free motions rigid ones: a mechanism within is refused. Rows that the host has
- *               emptied but for the diagonal, for supports of its own, are held for ever. kernel_count -1 (NULL then):
- *               the library finds how far a piece is held; a motion whose energy is between 1e-12 and 1e-9 of that of
- *               the diagonal alone must be told
+ *   dofs        [count][dimension] matrix row of each displacement; every row 0 .. dimension*count-1 (counted from
+ *               index_base) occurs once. NULL: dimension*i + component for nodes[i]. Every row is a displacement of a
+ *               node; the host condenses other unknowns beforehand
+ *   row_starts  [dimension*count + 1], also counted from index_base; columns, values [entries]: CSR with both
+ *               triangles; repeated entries add up. The matrix must be symmetric to 1e-9 and positive on deformations
+ *               (the library factorises it once to check)
+ *   kernel      [kernel_count][dimension*count] motions without energy, each in the order of the matrix rows.
+ *               Nodes that the matrix connects form a piece, whose free motions must be rigid-body motions; a
+ *               mechanism inside a piece is refused. Rows in which the host has kept only the diagonal, for supports
+ *               of its own, are fixed permanently. kernel_count -1 (kernel NULL): the library determines how far each
+ *               piece is held. The host must give a motion whose energy is between 1e-12 and 1e-9 of that of the
+ *               diagonal alone
  * DELAM_ERROR_ARGUMENT names the node, row or entry.
- * FETI takes each piece whole. Later calls replace the stiffness of the bodies that they have.
+ * FETI does not subdivide a piece. A later call replaces the stiffness of the bodies that it names.
  * [unit values F/L finite, kernel 1 finite; null dofs; status cancelled, argument, numerical; source C. Farhat, M.
  * Geradin, Int. J. Numer. Meth. Eng. 41 (1998) 675-696 (motions without energy); since 0.1] */
 DELAM_API int32_t delam_problem_set_stiffness(delam_problem *problem, int64_t count, const int64_t *nodes,
                                               const int64_t *dofs, const int64_t *row_starts, const int64_t *columns,
                                               const double *values, int64_t kernel_count, const double *kernel,
                                               int32_t index_base);
-/* The law of an interface; its parameters are taken as they are now. The initial adhesion is as it was: 1
- * everywhere, or what delam_problem_set_adhesion has set.
+/* Sets the law of an interface, with a copy of the law's parameters. The initial adhesion does not change: it is 1, or
+ * as set with delam_problem_set_adhesion.
  * [status argument, problem; since 0.1] */
 DELAM_API int32_t delam_problem_set_law(delam_problem *problem, int64_t interface_index, const delam_law *law);
-/* The interface is glued perfectly and for ever (zero compliance). Each interface needs a law, this or
+/* Bonds an interface perfectly and permanently (zero compliance). Every interface needs a law, this function or
  * delam_problem_set_contact.
  * [status argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_bonded(delam_problem *problem, int64_t interface_index);
-/* The interface has contact alone: faces that may part but not overlap, without friction, and no adhesion: an unglued
- * joint, a unilateral support. Its initial adhesion is 0 (delam_problem_check refuses another).
+/* Makes an interface one of frictionless contact without adhesion: the faces may separate but not overlap, as in an
+ * unglued joint or a unilateral support. Its initial adhesion is 0 (delam_problem_check refuses any other).
  * [status argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_contact(delam_problem *problem, int64_t interface_index);
-/* Initial adhesion of some pairs; 0 makes a notch: no adhesion, contact stays. pairs, adhesion: [count].
+/* Sets the initial adhesion of pairs; 0 makes a notch, in which contact still acts. pairs, adhesion: [count].
  * [unit adhesion 1 in [0, 1]; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_adhesion(delam_problem *problem, int64_t interface_index, int64_t count,
                                              const int64_t *pairs, const double *adhesion, int32_t index_base);
 
-/* A load pattern: a named factor that follows a piecewise-linear history, constant beyond its ends. times: [count]
- * strictly increasing; values: [count]; count >= 1. name: unique, letters, digits, '_' and '-'. *out_pattern: its
- * index, from 0.
+/* Adds a load pattern: a named factor with a piecewise-linear history, constant before the first and after the last
+ * point. times: [count] strictly increasing; values: [count]; count >= 1. name: unique, of letters, digits, '_' and
+ * '-'. *out_pattern receives its index; the first pattern has index 0.
  * [unit times t finite (increasing), values 1 finite; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_problem_add_pattern(delam_problem *problem, const char *name, int64_t count,
                                             const double *times, const double *values, int64_t *out_pattern);
-/* Control nodes: nodes of the mesh without cells. Prescriptions, means, equations, periods, forces and pairs may refer
- * to them; each is then an unknown translation [dimension] without stiffness of its own, wherever it lies: a rigid
- * loading nose, an average strain. Something must hold it. Nodes without cells that nothing refers to are absent. Tied
- * nodes (projected interfaces) may be used too: they stand for what they are tied to. */
-/* Prescribes, for each of nodes [count], direction . u = sum over patterns of coefficients[i][p] * factor_p(t).
- * direction: [dimension], any length > 0 (normalised). patterns: [pattern_count]; coefficients: [count][pattern_count],
- * L per factor. pattern_count 0: held at zero.
+/* Control nodes are nodes of the mesh without cells. Prescriptions, means, equations, periods, forces and pairs may
+ * refer to them. Each is then an unknown translation [dimension] without stiffness, wherever the node lies: a rigid
+ * loading nose, an average strain. Something must hold it. Nodes without cells to which nothing refers are ignored.
+ * Tied nodes (projected interfaces) may be used as well; they stand for the nodes that they are tied to. */
+/* Prescribes direction . u = sum over patterns of coefficients[i][p] * factor_p(t) for each i of nodes [count].
+ * direction: [dimension], any length > 0 (the function normalises it). patterns: [pattern_count]; coefficients:
+ * [count][pattern_count], L per unit of the factor. pattern_count 0: the displacement is held at zero.
  * [unit direction 1 finite (not 0), coefficients L finite; null none; status cancelled, argument, problem;
  * since 0.1] */
 DELAM_API int32_t delam_problem_prescribe_nodes(delam_problem *problem, int64_t count, const int64_t *nodes,
                                                 const double *direction, int64_t pattern_count, const int64_t *patterns,
                                                 const double *coefficients, int32_t index_base);
-/* Prescribes one weighted mean over nodes: sum_i weights[i] direction . u_i / sum_i weights[i] = sum of coefficients[p]
- * * factor_p(t). With the weights of delam_mesh_find_patch: a support or load spread as a uniform traction over a patch
- * of fixed size, which has a limit as the mesh is refined (a point support has none). nodes: [count], each once;
- * weights: [count], sum > 0; direction: [dimension], any length > 0; patterns, coefficients: [pattern_count].
+/* Prescribes the weighted mean displacement of nodes: sum_i weights[i] direction . u_i / sum_i weights[i] = sum of
+ * coefficients[p] * factor_p(t). With the weights of delam_mesh_find_patch, the support or load acts as a uniform
+ * traction on a patch of fixed size. It then has a limit as the mesh is refined, whereas a point support has none.
+ * nodes: [count], each once; weights: [count], sum > 0; direction: [dimension], any length > 0; patterns,
+ * coefficients: [pattern_count].
  * [unit weights 1 sum > 0, direction 1 finite (not 0), coefficients L finite; null none; status cancelled, argument,
  * problem; since 0.1] */
 DELAM_API int32_t delam_problem_prescribe_mean(delam_problem *problem, int64_t count, const int64_t *nodes,
                                                const double *weights, const double *direction, int64_t pattern_count,
                                                const int64_t *patterns, const double *coefficients, int32_t index_base);
-/* A linear equation among displacements of nodes of any bodies and control nodes:
+/* Adds a linear equation between displacements of nodes of any bodies and of control nodes:
  *   sum_i coefficients[i][:] . u_nodes[i] = sum over patterns of prescribed[p] * factor_p(t)
- * nodes: [count], count >= 1, a node may come several times; coefficients: [count][dimension], not all 0, taken as they
- * are; patterns, prescribed: [pattern_count]; pattern_count 0: homogeneous. Its reaction is the force that goes with
- * the left side (sum of coefficient * force). Equations of up to 32 displacements are eliminated exactly and cost no
- * unknown, however many there are; those of longer ones stay in the dense stage of the condensed operator. Among rigid
- * lines that turn: write u_i = u_0 + w r_i with equations of three nodes. delam_problem_check refuses, by number, an
- * equation that others imply or contradict.
+ * nodes: [count], count >= 1, a node may occur several times; coefficients: [count][dimension], not all 0, used as
+ * given; patterns, prescribed: [pattern_count]; pattern_count 0: homogeneous. The reaction of the equation is the force
+ * conjugate to its left-hand side, so that each coefficient times the reaction is a nodal force. Equations between up
+ * to 32 displacements are eliminated exactly and cost no unknown, however many there are; longer ones stay in the dense
+ * stage of the condensed operator. Where rigid lines rotate, write u_i = u_0 + w r_i with equations of three nodes
+ * each. delam_problem_check refuses an equation that others imply or contradict, and gives its number.
  * [unit coefficients 1 finite (not all 0), prescribed L finite; null none; status cancelled, argument, problem;
  * since 0.1] */
 DELAM_API int32_t delam_problem_add_equation(delam_problem *problem, int64_t count, const int64_t *nodes,
                                              const double *coefficients, int64_t pattern_count, const int64_t *patterns,
                                              const double *prescribed, int32_t index_base);
-/* A periodic cell: u(x + period_k) - u(x) = u of control node k, for all nodes on opposite faces of the mesh, which
- * must be a parallelepiped along its periods (with fewer periods than dimensions it may have any shape across them).
- * periods: [period_count][dimension] L, independent, 1 <= period_count <= dimension; control_nodes: [period_count],
- * distinct, without cells. tolerance: largest distance of partners as a fraction of the cells' largest extent; 0 gives
- * 1e-6. Partners are nodes of the same body; where bodies touch at a place and one node is left over on each side (a
- * fibre that the cell's edge cuts into two bodies), these. Edges and corners get no redundant equations.
- * DELAM_ERROR_MESH names nodes without a partner. The displacement of control node k is the average displacement
- * gradient along its period, <grad u> period_k, opening of interfaces included: prescribe it (average strain e: u_k = e
- * period_k), or put dead forces F_k on it (average stress s of a cell of volume V = |det periods|: F_k = V s d_k with
- * the dual vectors d_k . period_l = 1 if k = l, else 0). The average stress is 1/V sum_k F_k (x) period_k, F_k the
- * force on control node k: its reaction where it is prescribed. Of the cell itself one node must be held against
- * translation, and as long as the average rotation is not prescribed, control nodes against it: d(d-1)/2 components,
- * e.g. y of control node 0 in 2D.
+/* Makes the mesh a periodic cell: u(x + period_k) - u(x) = u of control node k for all nodes on opposite faces. The
+ * mesh must be a parallelepiped along its periods; with fewer periods than dimensions it may have any shape across
+ * them. periods: [period_count][dimension] L, independent, 1 <= period_count <= dimension; control_nodes:
+ * [period_count], distinct, without cells. tolerance: largest distance of partners as a fraction of the largest extent
+ * of the cells; 0 selects 1e-6. Partners are nodes of the same body. Where bodies touch and one node without a partner
+ * remains on each side (the edge of the cell cuts a fibre into two bodies), these two are partners. Edges and corners
+ * get no redundant equations. DELAM_ERROR_MESH names nodes without a partner.
+ * The displacement of control node k is the average displacement gradient along its period, <grad u> period_k,
+ * including the opening of interfaces. Prescribe it for an average strain e: u_k = e period_k. Or put dead forces on
+ * the control nodes for an average stress s: F_k = V s d_k, with the volume V = |det periods| of the cell and the dual
+ * vectors d_k . period_l = 1 if k = l, else 0. The average stress is 1/V sum_k F_k (x) period_k, where F_k is the force
+ * on control node k, i.e. its reaction if it is prescribed. Hold one node of the cell against translation. Unless the
+ * average rotation is prescribed, also hold control nodes against it: d(d-1)/2 components, e.g. y of control node 0 in
+ * 2D.
  * [unit periods L finite (independent), tolerance 1 in [0, 0.5); null none; status cancelled, argument, mesh;
  * since 0.1] */
 DELAM_API int32_t delam_problem_add_periodic(delam_problem *problem, int64_t period_count, const double *periods,
                                              const int64_t *control_nodes, double tolerance, int32_t index_base);
-/* Dead forces on nodes [count]: forces [count][dimension] times the factor of the pattern. A pattern drives either
+/* Adds dead forces on nodes [count]: forces [count][dimension] times the factor of the pattern. A pattern drives either
  * forces or prescribed displacements.
  * [unit forces F finite; null none; status cancelled, argument, problem; since 0.1] */
 DELAM_API int32_t delam_problem_add_forces(delam_problem *problem, int64_t pattern, int64_t count, const int64_t *nodes,
                                            const double *forces, int32_t index_base);
 
-/* Eigenstrain (thermal expansion, swelling, cure shrinkage) of a body (-1: of all), in its material axes: strain [6] =
- * xx, yy, zz, 2xy, 2yz, 2zx times the factor of the pattern, which drives nothing else. Stress = C (eps - factor
- * strain); stored_bulk is the energy of that stress. Several add up. Plane strain: strain zz makes stress in the plane
- * as well; plane stress: zz, 2yz, 2zx are free and do nothing. reaction:NAME of such a pattern is dE/dfactor = - int
- * strain : stress, and `work` what the change of the eigenstrain has done on the bodies.
+/* Adds an eigenstrain (thermal expansion, swelling, cure shrinkage) to a body (-1: to all) in its material axes: strain
+ * [6] = xx, yy, zz, 2xy, 2yz, 2zx times the factor of the pattern, which must drive nothing else. Several eigenstrains
+ * add up. The stress is C (eps - factor strain), and stored_bulk is the energy of that stress. In plane strain, strain
+ * zz causes in-plane stress as well; in plane stress, zz, 2yz and 2zx are free and have no effect. reaction:NAME of the
+ * pattern is dE/dfactor = - int strain : stress, and `work` includes what the change of the eigenstrain does on the
+ * bodies.
  * [unit strain 1 finite; null none; status argument, problem; since 0.1] */
 DELAM_API int32_t delam_problem_add_eigenstrain(delam_problem *problem, int64_t pattern, int32_t body,
                                                 const double *strain);
 
-/* Options by key; see delam_option_info. Numbers of integer options must be whole.
+/* Sets a number option by its key; delam_option_info lists the options. Integer options take whole numbers only.
  * [unit value of key in its range; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_number(delam_problem *problem, const char *key, double value);
-/* A text option by key, with a value of its list.
+/* Sets a text option by its key, to a value from its list.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_text(delam_problem *problem, const char *key, const char *value);
-/* How many options there are (delam_option_info).
+/* Number of options (delam_option_info).
  * [status -; thread any; since 0.1] */
 DELAM_API int64_t delam_option_count(void);
-/* An option, by index from 0. type: "real", "integer", "text".
+/* Describes an option, by index from 0. type: "real", "integer" or "text"; initial: its default.
  * [null key, type, unit, initial, range, meaning; owns texts static; status only argument; thread any; since 0.1] */
 DELAM_API int32_t delam_option_info(int64_t index, const char **key, const char **type, const char **unit,
                                     const char **initial, const char **range, const char **meaning);
 
-/* Everything there and consistent: materials, laws, supports against every rigid motion of what hangs together.
- * Cells that lie on the same side of a face that they share: DELAM_ERROR_MESH.
+/* Checks that the scene is complete and consistent: materials, laws, and supports against every rigid motion of each
+ * connected part. DELAM_ERROR_MESH: two cells lie on the same side of a face that they share.
  * [status cancelled, mesh, problem; since 0.1] */
 DELAM_API int32_t delam_problem_check(delam_problem *problem);
-/* Hash of everything that determines the result, as 16 hexadecimal digits and a terminating zero: out[17].
+/* Computes a hash of everything that determines the result, as 16 hexadecimal digits and a terminating zero: out[17].
  * [null none; status cancelled, argument; since 0.1] */
 DELAM_API int32_t delam_problem_hash(const delam_problem *problem, char *out);
-/* *primal DOFs (nodes times dimension) and *dual DOFs (pairs times dimension, notch included).
+/* Numbers of *primal DOFs (nodes times dimension) and of *dual DOFs (pairs times dimension, notch included).
  * [null primal, dual; status usual; since 0.1] */
 DELAM_API int32_t delam_problem_dofs(const delam_problem *problem, int64_t *primal, int64_t *dual);
 
-/* *length of the process zone to be expected on an interface, and *spacing, the mean distance of its pairs (3D: square
- * root of the mean weight): about 3 pairs or more resolve it. With peak traction s = sqrt(2 k Go) and toughness Gc, the
- * shorter of modes I and II: E' Gc/s^2, in slender arms of thickness h (E' Gc/s^2)^(1/4) h^(3/4) in mode I and (h E'
- * Gc)^(1/2)/s in mode II (Yang and Cox, Int. J. Fract. 133, 2005), where these are shorter. E' = E/(1 - nu^2), in plane
- * stress E, of an orthotropic body its smallest Young's modulus, h: volume of the body over area of the interface; of
- * the two bodies the one with the shorter zone. An estimate: a factor of 2 either way. length 0: bonded, a law
- * without softening, or bodies of the host's alone.
+/* Estimates *length, the length of the process zone on an interface, and *spacing, the mean distance of its pairs (3D:
+ * square root of the mean weight). At least about 3 pairs should lie in the process zone. The estimate may be off by a
+ * factor of 2 either way. It is the shorter of the lengths of modes I and II. With the peak traction s = sqrt(2 k Go)
+ * and the toughness Gc, the length is E' Gc/s^2; in slender arms of thickness h it is (E' Gc/s^2)^(1/4) h^(3/4) in mode
+ * I and (h E' Gc)^(1/2)/s in mode II, where these are shorter (Yang and Cox, Int. J. Fract. 133, 2005). E' is
+ * E/(1 - nu^2), or E in plane stress, with the smallest Young's modulus of an orthotropic body; h is the volume of the
+ * body divided by the area of the interface. Of the two bodies, the one with the shorter zone counts. length 0: the
+ * interface is bonded, its law has no softening, or none of its bodies has both cells and a material.
  * [unit length L, spacing L; null length, spacing; status cancelled, argument, problem; source Q. Yang, B. Cox, Int. J.
  * Fract. 133 (2005); since 0.1] */
 DELAM_API int32_t delam_problem_process_zone(const delam_problem *problem, int64_t interface_index, double *length,
                                              double *spacing);
 
-/* What the library assembled, for hosts that check or reuse it. Stiffness of a body, both triangles, CSR over the
- * body's DOFs: local node i of the body is the i-th ascending mesh node of that body, its DOFs dimension*i + component.
- * Call with NULL arrays for *rows and *entries, then with row_starts [rows+1], columns [entries] and values [entries].
+/* Returns the stiffness of a body as the library assembled it, for hosts that check or reuse it: CSR with both
+ * triangles over the DOFs of the body. Local node i is the i-th node of the body in ascending order, and its DOFs are
+ * dimension*i + component. Call with NULL arrays for *rows and *entries, then with row_starts [rows+1], columns
+ * [entries] and values [entries].
  * [unit values F/L; null rows, entries, row_starts, columns, values; status cancelled, argument, problem; source T.
  * Hughes, The Finite Element Method (1987), chapters 3 and 4; since 0.1] */
 DELAM_API int32_t delam_problem_body_matrix(const delam_problem *problem, int32_t body, int64_t *rows, int64_t *entries,
                                             int64_t *row_starts, int64_t *columns, double *values);
-/* Constraints (prescribed nodes, means, equations, periods in the order they were added), one a row, CSR over mesh DOFs
- * (dimension*node + component; of bodies and control nodes, tied ones replaced), and their right-hand sides as
- * coefficients [rows][pattern_count]. row_starts [rows+1], columns and values [entries]; NULL arrays ask for the sizes
- * *rows, *entries and *pattern_count.
+/* Returns the constraints, one per row, in the order in which they were added (prescribed nodes, means, equations,
+ * periods): CSR over the DOFs of the mesh (dimension*node + component; of bodies and control nodes, tied nodes being
+ * replaced), with the right-hand sides as coefficients [rows][pattern_count]. row_starts [rows+1], columns and values
+ * [entries]; NULL arrays ask for the sizes *rows, *entries and *pattern_count.
  * [unit values 1, coefficients L; null rows, entries, pattern_count, row_starts, columns, values, coefficients; status
  * cancelled; source none; since 0.1] */
 DELAM_API int32_t delam_problem_constraints(const delam_problem *problem, int64_t *rows, int64_t *entries,
                                             int64_t *pattern_count, int64_t *row_starts, int64_t *columns,
                                             double *values, double *coefficients);
-/* Nodal forces of a pattern at factor 1, forces: [primal DOFs]: dead forces, or int B^T C e* of its eigenstrains e*.
+/* Returns the nodal forces of a pattern at factor 1, forces: [primal DOFs]: its dead forces, or int B^T C e* of its
+ * eigenstrains e*.
  * [unit forces F; null none; status cancelled, argument, problem; source none; since 0.1] */
 DELAM_API int32_t delam_problem_forces(const delam_problem *problem, int64_t pattern, int64_t capacity, double *forces);
-/* matrix: [pattern_count][pattern_count], W_pq = int e*_p : C : e*_q of the eigenstrains, 0 for other patterns. With it
- * the energy of the bodies is 1/2 u.K u - sum factor_p f_p.u + 1/2 sum factor_p W_pq factor_q, f_p as
- * delam_problem_forces gives it. capacity: pattern_count^2.
+/* Returns matrix: [pattern_count][pattern_count], W_pq = int e*_p : C : e*_q of the eigenstrains, 0 for other patterns.
+ * The energy of the bodies is then 1/2 u.K u - sum factor_p f_p.u + 1/2 sum factor_p W_pq factor_q, with f_p from
+ * delam_problem_forces. capacity: pattern_count^2.
  * [unit matrix F L; null none; status cancelled, argument, problem; source none; since 0.1] */
 DELAM_API int32_t delam_problem_eigenstrain_energy(const delam_problem *problem, int64_t capacity, double *matrix);
-/* Factors of all patterns at a time, factors: [pattern_count].
+/* Returns the factors of all patterns at a time, factors: [pattern_count].
  * [unit time t finite, factors 1; null none; status argument; source none; since 0.1] */
 DELAM_API int32_t delam_problem_factors(const delam_problem *problem, double time, int64_t capacity, double *factors);
-/* Number of patterns into *count.
+/* Number of patterns, in *count.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_problem_pattern_count(const delam_problem *problem, int64_t *count);
 /* Name of a pattern; NULL on error.
@@ -668,9 +701,10 @@ DELAM_API const char *delam_problem_pattern_name(const delam_problem *problem, i
 
 /* ---- solver: operator, state, history ---------------------------------------------------------------------------- */
 
-/* Checks the problem, cuts and factors the bodies. The problem is taken as it is now. The state is the initial one at
- * time `time` (step 0): unloaded histories are expected there; the displacement at that time's loads is solved for at
- * the initial adhesion. DELAM_NOT_CONVERGED: that displacement step met a limit; *out is valid all the same.
+/* Creates a solver with a copy of the problem: checks the problem, partitions and factorises the bodies. The initial
+ * state (step 0) is the one at time `time`: the solver finds the displacements under the loads of that time, at the
+ * initial adhesion. The load histories should be unloaded there. DELAM_NOT_CONVERGED: this displacement step reached a
+ * limit; *out is valid all the same.
  * [unit time t finite; null none; owns out caller; status not_converged, cancelled, limit, argument, mesh, problem,
  * numerical; source src/reduction/README.md; since 0.1] */
 DELAM_API int32_t delam_solver_create(const delam_problem *problem, double time, delam_solver **out);
@@ -678,202 +712,223 @@ DELAM_API int32_t delam_solver_create(const delam_problem *problem, double time,
  * [null solver, *solver; owns solver destroyed; status -; since 0.1] */
 DELAM_API void delam_solver_destroy(delam_solver **solver);
 
-/* One load step to `time` (> the committed time): minimisation (option minimisation) from the committed state, under
- * the concept of option solution: local, or energetic, where a search for lower states follows. With option
- * backtracking earlier steps may be replaced (value revised_from; delam_solver_look reads them); with jump_tolerance,
- * step_control or mixity_step_tolerance the step is walked in parts (steps that a return replaces are not: their jumps
- * are not located). The result is pending: it can be read, then committed or rolled back (bit for bit the state
- * before). DELAM_NOT_CONVERGED leaves a pending step too: a limit of iterations was met, or rounding leaves
- * nodal forces out of balance by more than 1e-3 of the largest reaction (plies thousands of times longer than thick);
- * DELAM_LIMIT, DELAM_CANCELLED and errors leave none. Warnings (level 1) say once when that balance is worse than 1e-6,
- * and when a front grew with fewer than 3 pairs in its process zone (laws that soften, solution = local). A process
- * that has used the library and then forks should use it in one of the two only (threads of the linear algebra).
- * [unit time t > committed; status not_converged, cancelled, limit, argument, problem, state, numerical; source A.
- * Mielke, T. Roubicek, J. Zeman, Comput. Methods Appl. Mech. Eng. 199 (2010) 1242-1253, and src/evolution/README.md;
- * since 0.1] */
+/* Computes one load step to `time` (> the committed time): minimises the energy from the committed state on (option
+ * minimisation). The option solution selects the concept: local, or energetic, which adds a search for states of lower
+ * energy. The result is the pending step: read it, then commit it or roll it back; a rollback restores the state before
+ * bit for bit.
+ * With option backtracking, the call may replace earlier steps (value revised_from; delam_solver_look selects one of
+ * them). With jump_tolerance, step_control or mixity_step_tolerance, it divides the step into substeps; it does not
+ * divide earlier steps that it replaces, and does not locate their jumps.
+ * DELAM_NOT_CONVERGED also leaves a pending step: an iteration limit was reached, or rounding leaves nodal forces out
+ * of balance by more than 1e-3 of the largest reaction (plies thousands of times longer than thick). DELAM_LIMIT,
+ * DELAM_CANCELLED and errors leave none. Warnings (level 1) report once that the forces are out of balance by more than
+ * 1e-6, and once that a front grew with fewer than 3 pairs in its process zone (softening laws, solution = local).
+ * If the host's process forks after it has used the library, only one of the two processes should continue to use it
+ * (the linear algebra has threads).
+ * [unit time t > committed; status not_converged, cancelled, limit, argument, problem, state, numerical; source J.
+ * Zeman, M. Kruzik, P. Gruber, PANM 15 (2010), eq. (2), A. Mielke, T. Roubicek, J. Zeman, Comput. Methods Appl. Mech.
+ * Eng. 199 (2010) 1242-1253, and src/evolution/README.md; since 0.1] */
 DELAM_API int32_t delam_solver_advance(delam_solver *solver, double time);
-/* Keeps the pending step: it becomes the committed state, and what is recorded (delam_solver_record) gets its values.
- * DELAM_ERROR_PROBLEM: a law of the host's own failed when a recorded front asked it; the step is still pending.
+/* Commits the pending step: it becomes the committed state, and its values are recorded (delam_solver_record).
+ * DELAM_ERROR_PROBLEM: a host law failed while the values of a front were recorded; the step is still pending.
  * [status problem, state; since 0.1] */
 DELAM_API int32_t delam_solver_commit(delam_solver *solver);
-/* Throws the pending step away.
+/* Discards the pending step.
  * [status state; since 0.1] */
 DELAM_API int32_t delam_solver_rollback(delam_solver *solver);
-/* *pending: 1 if there is a step to be committed or rolled back, else 0.
+/* *pending: 1 if a step is pending, to be committed or rolled back; else 0.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_pending(const delam_solver *solver, int32_t *pending);
-/* Another history of a load pattern from the committed time on, for hosts that learn of it as they go: straight from
- * the factor there to values[0] at times[0], and on through the points, constant beyond the last. Steps up to the
- * committed one keep theirs. times: [count] strictly increasing, the first after the committed time; values: [count];
- * count >= 1. It is part of what delam_solver_save saves. DELAM_ERROR_STATE: a step is pending.
+/* Replaces the history of a load pattern after the committed time, for hosts that do not know it beforehand: linear
+ * from the factor at the committed time to values[0] at times[0], then through the other points, constant after the
+ * last. Steps up to the committed one keep their history. times: [count] strictly increasing, the first after the
+ * committed time; values: [count]; count >= 1. delam_solver_save includes this history. DELAM_ERROR_STATE: a step is
+ * pending.
  * [unit times t > committed (increasing), values 1 finite; null none; status argument, state; since 0.1] */
 DELAM_API int32_t delam_solver_set_history(delam_solver *solver, int64_t pattern, int64_t count, const double *times,
                                            const double *values);
-/* One displacement step alone: minimal-energy displacements at `time` with the given adhesion held: [pairs of all
- * interfaces, one after another]; NULL takes the committed one. Pending like a step, but the ledger does not move
- * (energies stored are those of the new state; dissipated, work and bounds stay). Once it is committed, steps before it
- * are no longer kept: no return goes behind it.
+/* Performs one displacement step alone: finds the displacements of least energy at `time` for a given adhesion, which
+ * is held: [pairs of all interfaces, one after another]; NULL takes the committed adhesion. The result is pending like
+ * a step, but does not enter the energy balance: the stored energies are those of the new state, whereas dissipated,
+ * work and bounds do not change. After its commit, the solver no longer keeps the steps before it, so that backtracking
+ * cannot return to them.
  * [unit time t finite, adhesion 1 in [0, 1]; null adhesion; status not_converged, cancelled, limit, argument, problem,
  * state, numerical; source M. Hintermueller, K. Ito, K. Kunisch, SIAM J. Optim. 13 (2002) 865-888; since 0.1] */
 DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, const double *adhesion);
 
-/* A scalar of the pending state, else of the committed one, into *value. Keys (delam_solver_value_name lists them),
- * with the unit where it is not 1:
- *   step                   of the state, counted from 0, the initial one
+/* Returns a scalar of the pending state, or of the committed state if none is pending, in *value. The keys are listed
+ * by delam_solver_value_name. A unit is given where it is not 1. Sums run over the pairs; w is the weight of a pair, B
+ * its mode mixity.
+ *   step                   number of the step; the initial state is step 0
  *   time                   t: of the state
  *   stored_bulk, stored_interface, dissipated, stored_interface_slides, dissipated_slides, load_potential, work, lower,
- *   increment, upper, increment_lower   F L: energies, cumulative but for the last four, which are of the step;
- *                          stored_interface holds the gradient term, if there is one. mixity_rule = variational:
- *                          increment, its bounds and increment_lower are those of the slides' split
- *   defect, defect_slides  F L: what does not close since the start, stored + load_potential + dissipated - work -
- *                          energy of the first state, in the booked and in the slides' split; a state that is set
- *                          (equilibrate) leaves them as they are
- *   mixity_error           of the step: sum w |dzeta| |Gc(B shown) - Gc(B used)| / sum w |dzeta| Gc(B used), where B
- *                          shown is that of the last iterate in which a pair adhered; 0 when nothing was damaged. A
- *                          frozen step above 0.1 has snapped: a warning (level 1) says so
- *   am_iterations, displacement_solves, contact_iterations, linear_iterations   of the step; contact_iterations sums
- *                          the active-set steps over the displacement solves, linear_iterations the Krylov ones
- *   newton_solves, debond_moves   of the step, accelerated minimisation of a condensed scene: dense solves within the
- *                          process zone, and unstable pairs that were taken straight to their debonded branch
- *   contact_iterations_first, contact_iterations_max   of the first displacement solve and of the worst
- *   contact_fallbacks      displacement solves that had to exchange one pair at a time because active sets came back
- *   contact_pairs          pairs in contact
- *   debonded_length        L or L2: weight of the pairs that adhered at first and now have zeta <= 1e-3
- *   front                  L or L2: advance of the front, sum of weight (1 - zeta) over the pairs that adhered at first
+ *   increment, upper, increment_lower   F L: energies. The stored ones and load_potential are those of the state,
+ *                          dissipated and work accumulate from the start, and the last four belong to the step.
+ *                          stored_interface is the sum of w zeta Y, plus the energy of the gradient term if there is
+ *                          one; a step adds the sum of w (g(B, zeta) - g(B, zeta_old)) to dissipated. The keys that
+ *                          end in _slides split the same energy as Zeman, Kruzik and Gruber (PANM 15, 2010) do: the
+ *                          stored energy also contains w f(B, zeta), f = g - Gc (1 - zeta), and a step dissipates
+ *                          w Gc(B) (zeta_old - zeta). increment is what the step adds to stored energy, load_potential
+ *                          and dissipated; the two-sided estimate is lower <= increment <= upper (PANM 15, eq. (3)),
+ *                          and work grows by (lower + upper)/2. increment_lower is the increment at the mixity of the
+ *                          step before, for which the lower bound is proved. With mixity_rule = variational, the
+ *                          values of the step use the split of the keys in _slides
+ *   defect, defect_slides  F L: error of the energy balance since the start, stored + load_potential + dissipated -
+ *                          work - energy of the first state, in either split. delam_solver_equilibrate does not change
+ *                          it
+ *   mixity_error           sum w |dzeta| |Gc(B shown) - Gc(B used)| / sum w |dzeta| Gc(B used) of the step, where B
+ *                          shown is the mixity in the last iterate in which a pair still adhered; 0 if no pair was
+ *                          damaged. Above 0.1 with mixity_rule = frozen, the damage grew abruptly within the step; a
+ *                          warning (level 1) reports it
+ *   am_iterations, displacement_solves, contact_iterations, linear_iterations   of the step: alternate minimisation
+ *                          steps, displacement solves, active-set steps and Krylov iterations, the latter two summed
+ *                          over the displacement solves
+ *   newton_solves, debond_moves   of the step, in accelerated minimisation of a condensed scene: dense solves within
+ *                          the process zone, and unstable pairs that were moved directly to their debonded branch
+ *   contact_iterations_first, contact_iterations_max   active-set steps of the first and of the worst displacement
+ *                          solve
+ *   contact_fallbacks      displacement solves that had to exchange pairs one at a time, because active sets recurred
+ *   contact_pairs          number of pairs in contact
+ *   debonded_length        L or L2: weight of the pairs with initial adhesion > 0 that now have zeta <= 1e-3
+ *   front                  L or L2: advance of the front, sum of w (1 - zeta) over the pairs with initial adhesion > 0
  *   process_zone           L or L2: weight of the pairs in the process zone (see delam_solver_front)
- *   backtracks             returns to an earlier step that this step has made (option backtracking)
- *   revisions              how often this step has been replaced after a return
- *   revised_from           first step that the returns of this step have replaced; its own number: none
- *   search_candidates      states that the energetic search compared
- *   search_margin          F L: the lowest of them less the state kept (>= 0 up to rounding); 0 where none was compared
- *   search_gap             F L: the state kept less what bounds the front positions that were left out from below, at
- *                          the mixities and with the contact outside the zone that the search has seen. 0: no further
- *                          advance of a single front by whole rings can be lower; it says nothing of new cracks, of
- *                          fronts together or of partly damaged states. Infinite: no bound (dead loads that nothing
- *                          holds, mixity_rule = variational)
- *   substeps, refused_steps  parts that the step was walked in, and computed parts that were not kept
- *   jumps                  instants within the step at which the state jumps (option jump_tolerance)
- *   released               F L: energy that these set free and nothing stores or dissipates
- *   bulk_factorisations    sparse factorisations of the bodies since the solver was made: condensed 1, FETI one a
- *                          subdomain
- *   field_recoveries       how often displacements were recovered from the interfaces since then: by the fields
- *                          displacement, stress, rotation and (condensed) reaction, by rotation_max,
- *                          delam_solver_average and the kkt_ values; no other value needs them (both count over the
- *                          solver's life; they are no part of its state, nor of saved bytes)
- *   damage_change          what a further damage step would change at this state, max norm: <= damage_tolerance when
- *                          converged
- *   linear_residual        worst relative residual of the iterative linear solves of the step; 0 where they are direct
- *   rotation_max           rad: largest rotation of a cell, the skew part of the displacement gradient at its centre
- *                          (recovers the displacements). Small strains miss about half its square: beyond 0.1 a warning
- *                          (level 1) says so, once. NaN where no body has cells
- *   kkt_gap                deepest penetration of the recovered displacements, over the largest jump (0 = none)
- *   kkt_pressure           largest pull of a closed contact, over the largest force of a pair (0 = none)
- *   kkt_complementarity    largest |gap * force| of a closed contact, over (largest jump * largest force)
- *   kkt_equilibrium        largest out-of-balance nodal force of the recovered displacements, over the largest reaction
- *                          or nodal force of eigenstrains (the kkt_ values recover the displacements: a sparse solve
- *                          each)
- * of the fronts of all interfaces with a law, and with :I behind it (crack_length:0) of interface I:
- *   crack_length           L or L2: initially open part, in 2D up to the pair at the tip, in 3D the faces that touch an
- *                          open pair, and sum of weight (1 - zeta) over the pairs that adhered at first
- *   energy_release_rate    F/L: G at the front point with the largest G; 0: there is no front
- *   front_mixity           (G_II + G_III)/G there
- *   process_zone_length    L: there
- *   process_zone_pairs     there (see delam_solver_front for all of these)
+ *   backtracks             returns to an earlier step during this step (option backtracking)
+ *   revisions              number of times that backtracking has replaced this step
+ *   revised_from           first step that the returns of this step have replaced; its own number if there is none
+ *   search_candidates      number of states that the energetic search compared
+ *   search_margin          F L: lowest energy of these states minus the energy of the accepted state (>= 0 up to
+ *                          rounding); 0 if none was compared
+ *   search_gap             F L: energy of the accepted state minus a lower bound for the front positions that the
+ *                          search omitted. The bound holds for the mixities, and for the contact outside the zone,
+ *                          that the search has found. 0: no further advance of a single front by whole rings has a
+ *                          lower energy. The value does not cover new cracks, combined fronts or partly damaged
+ *                          states. Infinite: no bound exists (dead loads on parts that nothing holds, mixity_rule =
+ *                          variational)
+ *   substeps, refused_steps  substeps of the step, and substeps that were computed and rejected
+ *   jumps                  number of jumps located within the step (option jump_tolerance)
+ *   released               F L: energy that these jumps release and that is neither stored nor dissipated
+ *   bulk_factorisations    sparse factorisations of the bodies since the solver was created: 1 if condensed, with FETI
+ *                          one per subdomain
+ *   field_recoveries       number of recoveries of the displacements from the interfaces since the solver was created.
+ *                          The fields displacement, stress, rotation and (condensed) reaction need one, and so do
+ *                          rotation_max, the kkt_ values and delam_solver_average; no other value does. These two
+ *                          counts are not part of the state, nor of saved bytes
+ *   damage_change          largest change of adhesion in one further damage step at this state; <= damage_tolerance
+ *                          when converged
+ *   linear_residual        worst relative residual of the iterative linear solves of the step; 0 if they are direct
+ *   rotation_max           rad: largest rotation of a cell, from the skew part of the displacement gradient at its
+ *                          centre (recovers the displacements). The relative error of small strains is about half its
+ *                          square; a warning (level 1) reports once that it exceeds 0.1. NaN if no body has cells
+ *   kkt_gap                deepest penetration of the recovered displacements, divided by the largest jump (0: none)
+ *   kkt_pressure           largest tension of a closed contact, divided by the largest force of a pair (0: none)
+ *   kkt_complementarity    largest |gap * force| of a closed contact, divided by (largest jump * largest force)
+ *   kkt_equilibrium        largest out-of-balance nodal force of the recovered displacements, divided by the largest
+ *                          reaction or nodal force of eigenstrains (each kkt_ value recovers the displacements: one
+ *                          sparse solve)
+ * of the fronts of all interfaces with a law or, with :I appended (crack_length:0), of interface I:
+ *   crack_length           L or L2: the initially open part, in 2D up to the pair at the tip, in 3D the faces that
+ *                          touch an open pair, plus the sum of w (1 - zeta) over the pairs with initial adhesion > 0
+ *   energy_release_rate    F/L: G at the point of the fronts with the largest G; 0 if there is no front
+ *   front_mixity           (G_II + G_III)/G at that point
+ *   process_zone_length    L: at that point
+ *   process_zone_pairs     at that point (see delam_solver_front for all of these)
  * and per pattern
- *   load:NAME              its factor
- *   reaction:NAME          F L: its conjugate, positive when the device does work; of a force pattern minus the
- *                          conjugate displacement, of an eigenstrain minus the integral of stress times strain
+ *   load:NAME              factor of the pattern
+ *   reaction:NAME          F L: conjugate of the factor, positive when the testing machine does work; for a force
+ *                          pattern minus the conjugate displacement, for an eigenstrain minus the integral of stress
+ *                          times strain
  * delam_solver_value_count counts all of them.
  * [unit value of key; null none; status cancelled, argument, problem; source of what is computed: at
  * delam_solver_advance and delam_solver_front; since 0.1] */
 DELAM_API int32_t delam_solver_value(delam_solver *solver, const char *key, double *value);
-/* Number of values into *count.
+/* Number of values, in *count.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_value_count(const delam_solver *solver, int64_t *count);
 /* Name of value `index`; NULL on error.
  * [null result; owns result the solver; status argument; since 0.1] */
 DELAM_API const char *delam_solver_value_name(const delam_solver *solver, int64_t index);
 
-/* Records a value of the committed state and, with each delam_solver_commit from now on, of every further step: a load
- * curve without asking after each step, with what a return has replaced already in place; a state that is set
- * (delam_solver_equilibrate) replaces the entry of its step. key: of delam_solver_value, but for those that recover the
- * displacements (rotation_max and the kkt_ values) and the counts of the solver's life (bulk_factorisations,
- * field_recoveries). Asked for again it changes nothing. What is recorded is part of what delam_solver_save saves;
- * delam_solver_load puts that of the bytes in its place, so record after it what must be there. DELAM_ERROR_STATE: a
- * step is pending. DELAM_ERROR_PROBLEM: a law of the host's own failed when a front asked it; nothing is recorded.
+/* Records a value of the committed state now and of every later step at its delam_solver_commit, e.g. a load curve. The
+ * record follows backtracking: it holds the steps as replaced. A committed delam_solver_equilibrate replaces the entry
+ * of its step. key: as in delam_solver_value, except those that recover the displacements (rotation_max, the kkt_
+ * values) and those that count over the life of the solver (bulk_factorisations, field_recoveries). A second request
+ * for the same key has no effect. delam_solver_save includes the record; delam_solver_load replaces it by that of the
+ * bytes, so that keys which must be recorded are to be requested after it. DELAM_ERROR_STATE: a step is pending.
+ * DELAM_ERROR_PROBLEM: a host law failed while the values of a front were computed; the key is not recorded.
  * [null none; status argument, problem, state; since 0.1] */
 DELAM_API int32_t delam_solver_record(delam_solver *solver, const char *key);
-/* Recorded are *steps steps, from step *first to the committed one; 0 and 0 where no value is recorded.
+/* Extent of the record: *steps steps, from step *first to the committed one; 0 and 0 if nothing is recorded.
  * [null first, steps; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_recorded_size(const delam_solver *solver, int64_t *first, int64_t *steps);
-/* A recorded value step by step, values: [steps]; NaN at steps before it was asked for.
+/* Returns a recorded value for every step, values: [steps]; NaN for the steps before it was requested.
  * [unit values of key; null none; status argument; source none; since 0.1] */
 DELAM_API int32_t delam_solver_recorded(const delam_solver *solver, const char *key, int64_t capacity, double *values);
 
-/* Shape of a field, *rows and *columns. Fields are of the pending state, else of the committed one, as [rows][columns];
- * key:
- *   displacement  [nodes][dimension]    L; recovered from the interfaces when asked for
- *   stress        [cells][4 or 6]       F/L2 at the cell's centre: xx, yy, zz, xy (2D) or xx, yy, zz, xy, yz, zx
- *   rotation      [cells][1 or 3]       rad at the cell's centre, axial vector of the skew part of the displacement
- *                 gradient: about z (2D) or x, y, z
- *   jump          [pairs][dimension]    L, local: normal (>= 0), tangent(s)
- *   traction      [pairs][dimension]    F/L2, local, on face b's side as pull positive; a pressure of contact is
- *                 negative
- *   adhesion, mixity, contact  [pairs][1]   -, mixity B = Y_t/Y that the last step used (mixity_rule = converged: of
- *                          its own solution, and of a pair that broke that of the iterate in which it broke;
- *                          variational: of its own displacements), contact 1 = closed (mixity 0 where the plan left it
- *                          out because the law does not depend on it: option mixity = always)
- *   reaction      [constraints][1]      F: force of the device, positive along the constraint
- * `part`: an interface index for pair fields, -1 for all interfaces one after another; otherwise -1.
+/* Returns the shape of a field, *rows and *columns. A field belongs to the pending state, or to the committed state if
+ * none is pending. key:
+ *   displacement  [nodes][dimension]    L; recovered from the interfaces on request
+ *   stress        [cells][4 or 6]       F/L2 at the centre of the cell: xx, yy, zz, xy (2D) or xx, yy, zz, xy, yz, zx
+ *   rotation      [cells][1 or 3]       rad at the centre of the cell, axial vector of the skew part of the
+ *                 displacement gradient: about z (2D) or x, y, z
+ *   jump          [pairs][dimension]    L, local components: normal (>= 0), tangential
+ *   traction      [pairs][dimension]    F/L2, local components, on face b, tension being positive; a contact pressure
+ *                 is negative
+ *   adhesion, mixity, contact  [pairs][1]   -, mixity B = Y_t/Y that the last step used (mixity_rule = converged: that
+ *                          of its own solution, or for a pair that broke, of the iterate in which it broke;
+ *                          variational: that of its own displacements; 0 where the law does not depend on the mixity,
+ *                          unless option mixity = always), contact 1 = closed
+ *   reaction      [constraints][1]      F: force that the testing machine exerts, positive along the constraint
+ * `part`: an interface index for pair fields, or -1 for all interfaces one after another; -1 for the other fields.
  * [null rows, columns; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_field_shape(const delam_solver *solver, const char *key, int64_t part, int64_t *rows,
                                            int64_t *columns);
-/* The numbers of a field, values: [rows][columns], of the key and part as delam_solver_field_shape takes them.
+/* Returns a field, values: [rows][columns]; key and part are those of delam_solver_field_shape.
  * [unit values of key; null none; status cancelled, argument; source none; since 0.1] */
 DELAM_API int32_t delam_solver_field(delam_solver *solver, const char *key, int64_t part, int64_t capacity,
                                      double *values);
 
-/* Strain and stress on average over the volume of a body (label; -1: of all), of the state that values and fields speak
- * of; exact. strain, stress: [6] in the order xx, yy, zz, xy, yz, zx, shear strains doubled (prescribed strains are
- * part of them), stress in F/L2; *volume in L2 or L3. In 2D the rest follows from the plane assumption. What cracks
- * open between bodies is not in it. Bodies without cells have no volume; where none has cells all are 0. Recovers the
- * displacements.
+/* Returns the exact averages of strain and stress over the volume of a body (-1: of all), in the state that the values
+ * describe. strain, stress: [6] in the order xx, yy, zz, xy, yz, zx, with doubled shear strains (strains that are
+ * prescribed are included) and the stress in F/L2; *volume in L2 or L3. In 2D the out-of-plane components follow from
+ * the plane assumption. The opening of interfaces between bodies is not included. Bodies without cells have no volume;
+ * all results are 0 if no body has cells. Recovers the displacements.
  * [unit volume L2 or L3, strain 1, stress F/L2; null volume, strain, stress; status cancelled, argument; source none;
  * since 0.1] */
 DELAM_API int32_t delam_solver_average(const delam_solver *solver, int32_t body, double *volume, double *strain,
                                        double *stress);
 
-/* Fronts of the cracks of an interface, of the state that values and fields speak of: where adhesion passes 1/2. In 2D
- * each is a point, in 3D a polyline on the faces, open or a loop. An interface without a law has none, nor has one on
- * which no pair has adhesion below 1/2. Found on request, from the jumps and adhesions alone. *fronts fronts with
- * *points points in all.
+/* Counts the crack fronts of an interface in the state that the values describe: *fronts fronts with *points points in
+ * total. A front is where the adhesion passes 1/2: a point in 2D, and in 3D a polyline on the faces, open or closed. An
+ * interface without a law has no front, and neither has one without a pair of adhesion below 1/2. The function finds
+ * the fronts on request, from the jumps and adhesions alone.
  * [null fronts, points; status argument, problem; since 0.1] */
 DELAM_API int32_t delam_solver_front_count(const delam_solver *solver, int64_t interface_index, int64_t *fronts,
                                            int64_t *points);
-/* The fronts of an interface; front_capacity and point_capacity count fronts and points.
+/* Returns the crack fronts of an interface; front_capacity counts fronts, point_capacity counts points.
  *   starts      [fronts + 1]  the points of front f are starts[f] .. starts[f+1] - 1
- *   closed      [fronts]      1: a loop, the last point is joined to the first
- *   places      [points][dimension]  L, before deformation. 2D: from the tip of the notch (the first pair that adhered)
- *                             ahead by the sum of weight (1 - zeta), of a crack that began inside half of it to either
- *                             side; 3D: where the adhesion, linear between pairs, is 1/2 (half a cell behind the 2D
- *                             figure at a sharp front)
- *   directions  [points][dimension]  unit vector along the interface, across the front, into what adheres
- *   lengths     [points]      L; 2D: of the crack that ends here; 3D: of front that the point stands for
- *   rates       [points][3]   F/L, energy release rate in modes I, II (shear along the direction) and III (along the
- *                             front): J = - int t . d[u]/dx dx over the interface from the open crack to beyond the
- *                             process zone, plus the energy that the layer holds where that ends (Rice 1968); in all,
- *                             int Y dzeta/dx dx. On a stiff interface with a sharp front this is virtual crack closure,
- *                             1/2 traction times opening behind; it equals Gc where a front grows steadily. The end of
- *                             the path and closed contact have no influence.
- *   zone_lengths, zone_pairs  [points]  process zone, the pairs that have lost 1e-3 of their adhesion and have 1e-3 of
- *                             their toughness, at the mixity of their jump, left to spend: extent along the direction,
- *                             and pairs in it; below about 3 its traction, and with it the load of a local march,
- *                             depends on the mesh
- * Exact in the limit of fine pairs for straight interfaces between bodies that do not vary along them, without
- * eigenstrains; on curved interfaces (radius not much larger than the process zone), with thermal strains or where
- * materials change along the interface it is approximate. 3D: each part of the integral goes to the nearest point of a
- * front; on a single point it scatters more than along the front. Unresolved fronts on the pairs of quadratic cells in
- * space (weights that alternate) are good on average along the front, single points to some ten percent.
+ *   closed      [fronts]      1: a closed line, whose last point is joined to its first
+ *   places      [points][dimension]  L, in the undeformed body. 2D: the tip of the notch (the first pair with initial
+ *                             adhesion > 0), moved ahead by the sum of weight (1 - zeta); a crack that began inside
+ *                             extends by half that sum to either side. 3D: where the adhesion, linear between pairs, is
+ *                             1/2 (half a cell behind the 2D definition at a sharp front)
+ *   directions  [points][dimension]  unit vector along the interface, normal to the front, into the adhering part
+ *   lengths     [points]      L; 2D: length of the crack that ends here; 3D: length of front that the point represents
+ *   rates       [points][3]   F/L, energy release rates in modes I, II (shear along the direction) and III (along the
+ *                             front). J = - int t . d[u]/dx dx over the interface, from the open crack to beyond the
+ *                             process zone, plus the energy stored in the interface at that end (Rice 1968); the total
+ *                             is int Y dzeta/dx dx. On a stiff interface with a sharp front this is the virtual crack
+ *                             closure technique, 1/2 traction times the opening behind the front. It equals Gc where a
+ *                             front grows steadily. The end of the path and closed contact have no influence
+ *   zone_lengths, zone_pairs  [points]  extent of the process zone along the direction, and pairs in it: pairs that
+ *                             have lost 1e-3 of their adhesion and still have to spend 1e-3 of their toughness, at the
+ *                             mixity of their jump. Below about 3 pairs, the traction in the zone depends on the mesh,
+ *                             and so does the load of a local solution
+ * The rates are exact in the limit of fine pairs for straight interfaces between bodies that do not vary along them,
+ * without eigenstrains. They are approximate on curved interfaces (radius not much larger than the process zone), with
+ * thermal strains, and where materials change along the interface. In 3D each part of the integral is assigned to the
+ * nearest point of a front; single points scatter more than averages along the front. On pairs of quadratic cells in 3D
+ * (alternating weights), unresolved fronts have good averages along the front, but single points are only good to about
+ * ten percent.
  * [unit places L, directions 1, lengths L, rates F/L, zone_lengths L, zone_pairs 1; null starts, closed, places,
  * directions, lengths, rates, zone_lengths, zone_pairs; status argument, problem; source J. Rice, J. Appl. Mech. 35
  * (1968) 379-386; since 0.1] */
@@ -882,88 +937,91 @@ DELAM_API int32_t delam_solver_front(const delam_solver *solver, int64_t interfa
                                      double *directions, double *lengths, double *rates, double *zone_lengths,
                                      double *zone_pairs);
 
-/* Tangent of the load patterns at the adhesion and contact set of the pending state, else of the committed one, held:
- * matrix [pattern_count][pattern_count], d2 E / d factor_p d factor_q, symmetric; row p is the change of reaction:p (of
- * a force pattern: of minus its displacement). With the control nodes of a periodic cell driven by one pattern a
- * component it is the homogenised stiffness times the volume. One displacement solve a pattern; the state does not
- * change. DELAM_ERROR_STATE: a force pattern acts along a motion that nothing holds.
+/* Returns the tangent of the load patterns at fixed adhesion and contact set, in the pending state, or in the committed
+ * state if none is pending: matrix [pattern_count][pattern_count], d2 E / d factor_p d factor_q, symmetric. Row p is
+ * the change of reaction:p (for a force pattern: of minus its displacement). If one pattern drives each component of
+ * the control nodes of a periodic cell, the matrix is the homogenised stiffness times the volume. Costs one
+ * displacement solve per pattern; the state does not change. DELAM_ERROR_STATE: a force pattern acts along a motion
+ * that nothing holds.
  * [unit matrix of factors; null none; status cancelled, argument, state, numerical; source none; since 0.1] */
 DELAM_API int32_t delam_solver_tangent(delam_solver *solver, int64_t capacity, double *matrix);
 
-/* Consistent tangent of the pending step: how reaction:p at its end changes with the factor of pattern q there, damage
- * included, from the committed state on; contact set and the branch of each pair's law as they are. matrix:
- * [pattern_count][pattern_count], row p, column q; symmetric but with mixity_rule = converged. With it a structure with
- * its interfaces is one element of a host that iterates: a pattern for each displacement of its boundary, reactions as
- * the element's forces. It is the derivative of advance where no pair is at the end of a branch and no jump happens;
- * past a limit point it may be indefinite. In the very first loaded step the mixity, that of its elastic solution with
- * mixity_rule = frozen, counts as given. One displacement solve a pattern and one a damaging pair (mixity_rule =
- * variational: a component); the state does not change. DELAM_ERROR_STATE: no step is pending, it has been replaced
- * after a return, or it was walked in parts (value substeps). DELAM_ERROR_NUMERICAL: singular, a jump is about to
- * happen.
+/* Returns the consistent tangent of the pending step: the change of reaction:p at its end with the factor of pattern q
+ * at its end, starting from the committed state, damage included. matrix: [pattern_count][pattern_count], row p, column
+ * q; symmetric unless mixity_rule = converged. With this tangent, a structure with its interfaces can be one element of
+ * a host that iterates: one pattern for each displacement of its boundary, and the reactions as the element's forces.
+ * The tangent is the derivative of delam_solver_advance as long as the contact set does not change, no pair reaches the
+ * end of a branch of its law, and no jump happens; past a limit point it may be indefinite. In the very first loaded
+ * step, the mixity (that of the elastic solution with mixity_rule = frozen) counts as fixed. Costs one displacement
+ * solve per pattern and one per damaging pair (mixity_rule = variational: per component of such a pair); the state does
+ * not change. DELAM_ERROR_STATE: no step is pending, backtracking has replaced it, or it has substeps (value substeps).
+ * DELAM_ERROR_NUMERICAL: the tangent is singular, so that a jump is about to happen.
  * [unit matrix of factors; null none; status cancelled, argument, state, numerical; source J. Simo, R. Taylor, Comput.
  * Methods Appl. Mech. Eng. 48 (1985) 101-118; since 0.1] */
 DELAM_API int32_t delam_solver_step_tangent(delam_solver *solver, int64_t capacity, double *matrix);
 
-/* Sizes of the condensed interface operator (delam_solver_condensed): *unknowns, *entries of the rows.
- * DELAM_ERROR_STATE: the solver works by FETI, which has none (option reduction).
+/* Sizes of the condensed interface operator (delam_solver_condensed): *unknowns, and *entries of the sparse matrix N.
+ * DELAM_ERROR_STATE: the solver uses FETI, which has no such operator (option reduction).
  * [null unknowns, entries; status argument, state; since 0.1] */
 DELAM_API int32_t delam_solver_condensed_size(const delam_solver *solver, int64_t *unknowns, int64_t *entries);
-/* All bodies condensed onto the interfaces, and the loads with them: with x [unknowns], factors theta [patterns] and
- * the local jumps j [pairs of all interfaces, times dimension] of delam_mesh_interface_pairs,
+/* Returns all bodies and loads, condensed onto the interfaces. With x [unknowns], the factors theta [patterns] and the
+ * local jumps j [pairs of all interfaces, times dimension] in the frames of delam_mesh_interface_pairs,
  *   E = 1/2 x.S x - sum theta_p L_p.x + 1/2 theta.A theta,   j = N x + O theta
- * is the energy of bodies and dead forces, all else minimised out. What the interfaces store comes on top. Where a row
- * of N is empty the loads alone prescribe the jump. stiffness S [unknowns][unknowns], symmetric, semidefinite where
- * bodies float; load L [patterns][unknowns]; constant A [patterns][patterns]; N in rows, row_starts [rows+1], columns
- * and values [entries]; offset O [rows][patterns]. capacity: unknowns^2, of stiffness.
+ * is the energy of bodies and dead forces, minimised over everything else. It does not contain the energy stored in the
+ * interfaces. Where a row of N is empty, the loads alone prescribe the jump. stiffness S [unknowns][unknowns],
+ * symmetric, semidefinite if bodies float; load L [patterns][unknowns]; constant A [patterns][patterns]; N as
+ * row_starts [rows+1], columns and values [entries], with one row per component of j; offset O [rows][patterns].
+ * capacity: unknowns^2, of stiffness.
  * [unit stiffness F/L, load F, constant F L, values 1, offset L; null stiffness, load, constant, row_starts, columns,
  * values, offset; status cancelled, argument, state; source src/reduction/README.md; since 0.1] */
 DELAM_API int32_t delam_solver_condensed(const delam_solver *solver, int64_t capacity, double *stiffness, double *load,
                                          double *constant, int64_t *row_starts, int64_t *columns, double *values,
                                          double *offset);
 
-/* What the scene needs and what was left out, each with its reason, its predicted cost and what the decision saves. In
- * words, a line each, "subject: decision, reason (cost ..., saves ...)\n". Never NULL.
+/* Returns the plan as text: what the scene needs and what the solver omits, each with the reason, the predicted cost
+ * and what the decision saves; one line each, "subject: decision, reason (cost ..., saves ...)\n". Never NULL.
  * [owns result until the next call with this solver; status -; since 0.1] */
 DELAM_API const char *delam_solver_plan(delam_solver *solver);
-/* The same as data, settled when the solver is made: *count items. Subjects: condensed operator, FETI, memory,
- * subdomains, threads, longest uninterruptible factorisation, contact of interface I, mixity of interface I (each I),
- * gradient term, acceleration of the minimisation, displacements and stresses inside the bodies, energetic search,
- * backtracking.
+/* Number of items of the plan, in *count. The plan is fixed when the solver is created. Subjects: condensed operator,
+ * FETI, memory, subdomains, threads, longest uninterruptible factorisation, contact of interface I, mixity of interface
+ * I (for each I), gradient term, acceleration of the minimisation, displacements and stresses inside the bodies,
+ * energetic search, backtracking.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_plan_count(const delam_solver *solver, int64_t *count);
-/* An item of the plan. decision: "used" or "left out". *cost: predicted, of what is used (0 for what is left out);
- * *saving: predicted, against the other decision; both in `unit` ("flop", "flop/step", "comparison/solve", "byte", "s"
- * at a nominal rate that the reason states; "-" for none); subject and reason are for people.
+/* Returns one item of the plan. decision: "used" or "left out". *cost: predicted cost of what is used (0 if left out);
+ * *saving: predicted saving over the other decision. Both are in `unit`: "flop", "flop/step", "comparison/solve",
+ * "byte", "s" at a nominal rate that the reason states, or "-" for none. subject and reason are texts for people.
  * [unit cost of unit, saving of unit; null subject, decision, reason, cost, saving, unit; owns texts the solver; status
  * argument; source src/reduction/README.md; since 0.1] */
 DELAM_API int32_t delam_solver_plan_item(const delam_solver *solver, int64_t index, const char **subject,
                                          const char **decision, const char **reason, double *cost, double *saving,
                                          const char **unit);
 
-/* Value of an option as text, as the solver took it, e.g. "energetic" of "solution": what a result should be labelled
+/* Returns the value of an option as text, as the solver uses it, e.g. "energetic" for "solution", to label results
  * with. NULL for an unknown key.
  * [null result; owns result until the next call with this solver; status argument; since 0.1] */
 DELAM_API const char *delam_solver_option(const delam_solver *solver, const char *key);
-/* What the energetic search of the last step looked at, a line for each front and new crack: which states, why no more,
- * the lowest. "" where nothing was searched. Never NULL.
+/* Returns what the energetic search of the last step compared, one line for each front and each new crack: the states,
+ * why it stopped, and the lowest energy. "" if nothing was searched. Never NULL.
  * [owns result until the next call with this solver; status -; since 0.1] */
 DELAM_API const char *delam_solver_searched(const delam_solver *solver);
 
-/* Values and fields then speak of an earlier step: with option backtracking the last backtracking_depth ones are kept,
- * with those that a pending step replaces already in place. step -1: back to the pending state, else the committed one;
- * so do advance, equilibrate, commit, rollback and load where they succeed. DELAM_ERROR_ARGUMENT names the steps that
- * are kept.
+/* Selects the step that values and fields describe. With option backtracking, the solver keeps the last
+ * backtracking_depth steps; where the pending step replaces earlier ones, it shows the replacements. step -1 selects
+ * the pending state again, or the committed state if none is pending; so do advance, equilibrate, commit, rollback and
+ * load when they succeed. DELAM_ERROR_ARGUMENT names the steps that are kept.
  * [status argument; since 0.1] */
 DELAM_API int32_t delam_solver_look(delam_solver *solver, int64_t step);
 
-/* *count of jumps that were located (option jump_tolerance) up to the pending or committed state, in the order of time.
+/* Number of jumps that were located (option jump_tolerance) up to the pending state, or up to the committed state if
+ * none is pending, in *count. Jumps are ordered by time.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_jump_count(const delam_solver *solver, int64_t *count);
-/* One of them. It lies within (*before, *time], in step *step. Energies: *stored, change of stored energy and load
- * potential; *dissipated; *released: E(time, state before) - E(time, state after) - dissipated, what neither holds (a
- * dynamic event would radiate it; 0 for energetic jumps up to the tolerance). *debonded: change of sum of weight (1 -
- * zeta); *interface_index: the one that has changed most; *first_pair, *last_pair: of its pairs with changed adhesion
- * (-1: none).
+/* Returns one jump. It lies within (*before, *time], in step *step. Energies: *stored, change of stored energy and load
+ * potential; *dissipated; *released = E(time, state before) - E(time, state after) - dissipated, which is neither
+ * stored nor dissipated (a dynamic event would radiate it; it is 0 for energetic jumps, up to the tolerance).
+ * *debonded: change of the sum of weight (1 - zeta). *interface_index: the interface that changed most; *first_pair,
+ * *last_pair: the first and last of its pairs whose adhesion changed (-1: none).
  * [unit before t, time t, stored F L, dissipated F L, released F L, debonded L or L2; null step, before, time, stored,
  * dissipated, released, debonded, interface_index, first_pair, last_pair; status argument; source none; since 0.1] */
 DELAM_API int32_t delam_solver_jump(const delam_solver *solver, int64_t index, int64_t *step, double *before,
@@ -971,21 +1029,22 @@ DELAM_API int32_t delam_solver_jump(const delam_solver *solver, int64_t index, i
                                     double *debonded, int64_t *interface_index, int64_t *first_pair,
                                     int64_t *last_pair);
 
-/* The committed state as bytes: [*needed]. Save, load into a solver of the same scene and options, go on: the rest is
- * bitwise the same. *needed receives the size; bytes are written when capacity suffices (capacity 0: ask).
+/* Saves the committed state as bytes: [*needed]. *needed receives the size; the bytes are written if capacity suffices
+ * (capacity 0 asks for the size). A solver of the same scene and options that loads the bytes continues with bitwise
+ * identical results.
  * [null bytes at capacity 0; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_save(const delam_solver *solver, int64_t capacity, uint8_t *bytes, int64_t *needed);
-/* Takes bytes: [size] that delam_solver_save has written as the committed state; a pending step is dropped. Damaged
- * bytes, and those of another scene or version, are refused: DELAM_ERROR_SNAPSHOT says what is wrong with them.
- * Histories that were set (delam_solver_set_history) and what was recorded are replaced by those of the bytes.
+/* Loads bytes: [size] that delam_solver_save wrote, as the committed state; a pending step is discarded. The bytes also
+ * replace the histories (delam_solver_set_history) and the record. DELAM_ERROR_SNAPSHOT: the bytes are damaged, or of
+ * another scene or version; the message says what is wrong.
  * [null none; status cancelled, argument, numerical, snapshot; since 0.1] */
 DELAM_API int32_t delam_solver_load(delam_solver *solver, int64_t size, const uint8_t *bytes);
-/* The same bytes as a file, path in the encoding of the file system: written beside it first and put in its place when
- * complete and on disk, so that a full disk or an interruption leaves what was there. DELAM_ERROR_FILE says what
- * failed.
+/* Saves the same bytes as a file, path in the encoding of the file system. The function writes a file beside it and
+ * renames it when it is complete and on disk, so that a full disk or an interruption leaves the old file intact.
+ * DELAM_ERROR_FILE says what failed.
  * [null none; status argument, file; since 0.1] */
 DELAM_API int32_t delam_solver_save_file(const delam_solver *solver, const char *path);
-/* Takes the file at path, of bytes that delam_solver_save or delam_solver_save_file has written, as delam_solver_load.
+/* Loads the file at path, which holds bytes of delam_solver_save or delam_solver_save_file, as delam_solver_load does.
  * [null none; status cancelled, argument, numerical, snapshot, file; since 0.1] */
 DELAM_API int32_t delam_solver_load_file(delam_solver *solver, const char *path);
 

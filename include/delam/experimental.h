@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  *
- * What libdelam does not promise yet: functions that may change or go with any version, under the version node
- * DELAM_EXPERIMENTAL and not that of the ABI. Their names start with delam_experimental_. A function that has proved
- * itself moves to delam.h under a name of its own. The rules at the head of delam.h hold here too. No other header
+ * Functions that libdelam does not promise yet: any version may change or remove them. Their names start with
+ * delam_experimental_, and their version node is DELAM_EXPERIMENTAL, not that of the ABI. A function that has proved
+ * itself moves to delam.h under a name of its own. The rules at the head of delam.h apply here as well. No other header
  * includes this one.
  */
 #ifndef DELAM_EXPERIMENTAL_H

@@ -6,7 +6,8 @@ install(TARGETS delam EXPORT delam LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} C
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/delam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
         FILES_MATCHING PATTERN "*.h")
-# The contract, and what the header names as a source, by the paths that it names them with.
+# The contract, and the documents that the header names, under the paths that it gives.
+install(FILES ${PROJECT_SOURCE_DIR}/include/GLOSSARY.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/include COMPONENT development)
 foreach(document capi/CONTRACT.md reduction/README.md reduction/condensed/README.md evolution/README.md)
   get_filename_component(folder src/${document} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/src/${document} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder}

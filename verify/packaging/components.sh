@@ -27,7 +27,7 @@ only() {
 
 only runtime 'lib/libdelam\.so\.[0-9.]+|share/doc/[a-z]+/LICENSE' "lib/libdelam.so.$ABI" "lib/libdelam.so.$VERSION"
 headers='include/delam/[a-z_]+\.h'
-documents='share/doc/delam/src/[a-z/]+/[A-Z]+\.md'
+documents='share/doc/delam/(include|src/[a-z/]+)/[A-Z]+\.md'
 belongs="lib/libdelam\.so|$headers|$documents|lib/cmake/delam/delam-(config|targets).*\.cmake|lib/pkgconfig/delam\.pc"
 needed=(lib/libdelam.so include/delam/delam.h lib/cmake/delam/delam-config.cmake lib/pkgconfig/delam.pc
     share/doc/delam/src/capi/CONTRACT.md)
@@ -36,8 +36,8 @@ if has static; then
     needed+=(lib/libdelam.a lib/cmake/delam/delam-static.cmake lib/pkgconfig/delam-shared.pc)
 fi
 only development "$belongs" "${needed[@]}"
-# Whatever the header names as a source among ours comes with it.
-mapfile -t named < <(grep -oE 'src/[a-z_/]+/[A-Z]+\.md' "$SOURCE/include/delam/delam.h" | sort -u)
+# Every document of ours that the header names comes with it.
+mapfile -t named < <(grep -oE '(include|src/[a-z_/]+)/[A-Z]+\.md' "$SOURCE/include/delam/delam.h" | sort -u)
 ((${#named[@]} > 0)) || fail "the header names no source among ours"
 for name in "${named[@]}"; do
     [[ -f $work/development/share/doc/delam/$name ]] || fail "component development has no $name, which delam.h names"
