@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-// Weak: which BLAS stands behind libblas.so.3 is decided when the process starts, and the others have no such function.
+// Weak symbols: the process decides at its start which BLAS libblas.so.3 is, and only OpenBLAS, BLIS and MKL define
+// them.
 extern "C" {
 int openblas_get_num_threads() __attribute__((weak));
 int MKL_Get_Max_Threads() __attribute__((weak));

@@ -5,7 +5,7 @@
 
 namespace delam {
 
-// Threads of the BLAS that this process has loaded: OpenBLAS, BLIS or MKL; 0: another one, which does not say.
+// Number of threads of the BLAS loaded by this process (OpenBLAS, BLIS or MKL); 0: another BLAS, which cannot tell.
 std::int32_t blas_threads();
 
 }  // namespace delam

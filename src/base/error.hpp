@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one exception type of the library. It is caught at the C façade and becomes a status and a message.
+// The library's only exception type. The C façade catches it and turns it into a status and a message.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,9 @@ private:
     std::string text_;
 };
 
-// Joins its arguments into one message: text("node ", 17, " >= ", 12). Numbers keep all significant digits a person
-// needs (6), in the form of C, whatever the host's global locale is. Without memory it throws: a stream left to itself
-// would cut the text short.
+// Joins its arguments into one message: text("node ", 17, " >= ", 12). Numbers have 6 significant digits in C format,
+// independent of the host's global locale. Throws when memory runs out, where a stream by default would truncate the
+// text.
 template <class... Parts>
 std::string text(const Parts&... parts) {
     std::ostringstream out;

@@ -22,7 +22,7 @@ namespace {
     fail(DELAM_ERROR_FILE, "'", path, "': ", what, ": ", std::generic_category().message(number));
 }
 
-// Closes what it holds.
+// Closes the file descriptor.
 class Descriptor {
 public:
     explicit Descriptor(int number) : number_(number) {}
@@ -53,11 +53,11 @@ const char* kind_of(mode_t mode) {
 
 void write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
     if (path.empty()) fail(DELAM_ERROR_FILE, "the path is empty");
-    // Renaming would put a file in the place of a device, a pipe or a socket that others need.
+    // rename() would replace a device, a pipe or a socket that others need by a regular file.
     struct stat there {};
     if (::stat(path.c_str(), &there) == 0 && !S_ISREG(there.st_mode))
         fail(DELAM_ERROR_FILE, "'", path, "': is ", kind_of(there.st_mode), ", and only files are replaced");
-    // Others may save to the same path at the same time, other threads too: a name that nobody else has.
+    // Other processes and threads may save to the same path at the same time, so the temporary name must be unique.
     std::string part;
     int opened = -1;
     for (int attempt = 0; opened < 0 && attempt < 1000; ++attempt) {
@@ -84,7 +84,7 @@ void write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
     if (::fsync(file.number()) != 0 && errno != EINVAL) give_up("cannot be put on disk");
     if (file.close() != 0) give_up("cannot be closed");
     if (std::rename(part.c_str(), path.c_str()) != 0) give_up("cannot be put in its place");
-    // The name is on disk once its folder is; a file system that cannot say so is not an error.
+    // fsync() of the folder makes the new name durable; if the file system does not support it, that is no error.
     const Descriptor folder(::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (folder.number() >= 0) (void)::fsync(folder.number());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole files of bytes. Error(DELAM_ERROR_FILE) names the file and what the system says.
+// Whole binary files. Error(DELAM_ERROR_FILE) names the file and gives the system's message.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace delam {
 
-// Written beside `path`, then put in its place: either all of it is there, on disk, or what was there before.
+// Writes a temporary file and renames it to `path`: the path then holds either all of the new content, on disk, or the
+// old.
 void write_file(const std::string& path, std::span<const std::uint8_t> bytes);
 std::vector<std::uint8_t> read_file(const std::string& path);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The floating point environment of a call: rounding to nearest, denormal numbers as they are, no traps. What the host
-// has (a Fortran program that traps invalid operations, a plugin host that flushes to zero) comes back at the end, with
-// the flags it had.
+// The floating-point environment during a call: rounding to nearest, denormals kept, no traps. The destructor restores
+// the host's environment and exception flags: a Fortran program may trap invalid operations, a plugin host may flush
+// denormals to zero.
 #pragma once
 
 #include <cfenv>
@@ -13,9 +13,9 @@
 
 namespace delam {
 
-// Setting the environment takes 0.2 microseconds, longer than most calls. On x86-64 two control words say whether it is
-// the default already, as nearly always; then only flags have to be put back: those of SSE, where nearly all arithmetic
-// is done, and those of the x87 in the rare call that raises one.
+// Setting the environment takes 0.2 microseconds, longer than most calls. On x86-64 two control words show whether it
+// is already the default, as it nearly always is. Then only the flags must be restored: those of SSE, which does nearly
+// all arithmetic, and those of the x87 in the rare call that raises one.
 class DefaultFloats {
 public:
     DefaultFloats() noexcept {

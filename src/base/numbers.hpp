@@ -10,10 +10,10 @@
 
 namespace delam {
 
-// An index or a count of the public interface as an index into an array. The value is not negative.
+// Converts a non-negative index or count of the public interface to an array index.
 inline constexpr std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-// The largest absolute value; 0 for no values. A NaN among them is passed over.
+// The largest absolute value; 0 if there are no values. Ignores NaN.
 inline double max_abs(std::span<const double> values) {
     double largest = 0.0;
     for (const double v : values) largest = std::max(largest, std::abs(v));

@@ -16,14 +16,14 @@ namespace delam {
 
 namespace {
 
-// What OpenBLAS 0.3.21 maps on its first call (measured on x86-64).
+// Size of the mapping that OpenBLAS 0.3.21 makes on its first call (measured on x86-64).
 constexpr std::size_t blas_buffer = std::size_t{128} << 20;
 
 }  // namespace
 
 void require_room(std::size_t bytes) { ::operator delete(::operator new(bytes)); }
 
-// OpenBLAS asks the system again and again for a mapping that it is refused, and keeps for ever one that it got.
+// OpenBLAS retries for ever a mapping that the system refuses, and never releases one that it got.
 void prepare_blas() {
     static std::mutex mutex;
     static bool taken = false;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Room for libraries that do not come back when they get none (src/capi/CONTRACT.md, "Memory"): it is asked for
-// beforehand, where a refusal is an exception.
+// Tests for free memory before calls into libraries that do not return when an allocation fails (src/capi/CONTRACT.md,
+// "Memory"). Here a failure is an exception.
 #pragma once
 
 #include <cstddef>
 
 namespace delam {
 
-// Throws std::bad_alloc unless so much can be had at once; it is given back.
+// Allocates and frees a block of this size. Throws std::bad_alloc if it is not available.
 void require_room(std::size_t bytes);
 
-// Lets OpenBLAS take its working memory, once in a process. Throws std::bad_alloc if there is no room for it.
+// Makes OpenBLAS map its working memory, once per process. Throws std::bad_alloc if there is no room for it.
 void prepare_blas();
 
 }  // namespace delam

@@ -7,13 +7,13 @@
 namespace delam {
 
 Team::Team(std::int64_t threads) {
-    // Signals belong to the host's threads.
+    // Only the host's threads handle signals.
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
     try {
         for (std::int64_t i = 1; i < threads; ++i) members_.emplace_back([this] { serve(); });
-    } catch (const std::system_error&) {  // fewer do it as well
+    } catch (const std::system_error&) {  // A team with fewer threads gives the same result.
     } catch (...) {
         pthread_sigmask(SIG_SETMASK, &before, nullptr);
         {
@@ -36,7 +36,7 @@ Team::~Team() {
     for (std::thread& member : members_) member.join();
 }
 
-// One piece of the work; false: none was left.
+// Does one piece of the work. False: none was left.
 bool Team::step(bool caller) {
     std::int64_t mine = 0;
     {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The library's own threads: made where a call needs them, gone when it returns. The caller's thread works too, so that
-// a team of one has none of its own. What is done must not depend on who does it.
+// The library's own threads. A call starts them and joins them before it returns. The caller's thread works too, so a
+// team of one starts no thread. The result must not depend on which thread does which piece.
 #pragma once
 
 #include <condition_variable>
@@ -15,15 +15,15 @@ namespace delam {
 
 class Team {
 public:
-    // As many as can be had, up to `threads`.
+    // Starts up to `threads` - 1 threads, or as many as the system allows.
     explicit Team(std::int64_t threads);
     ~Team();
     Team(const Team&) = delete;
     Team& operator=(const Team&) = delete;
 
-    // work(i) for i = 0 .. count-1, each once, in any order; returns when all are done. What the one with the smallest
-    // i throws is thrown here, and those not yet begun may be left out then. before: called on the caller's thread
-    // before each of its own pieces (progress, cancel).
+    // Runs work(i) for i = 0 .. count-1, each once, in any order, and returns when all are done. If pieces throw, the
+    // exception of the smallest i is rethrown here, and pieces that have not begun may be skipped. before: called on
+    // the caller's thread before each of its own pieces (progress, cancel).
     void run(std::int64_t count, const std::function<void(std::int64_t)>& work,
              const std::function<void(std::int64_t done)>& before = {});
 

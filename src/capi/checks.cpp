@@ -10,7 +10,7 @@ void require_pointer(const void* pointer, const char* name) {
 }
 
 void require_count(std::int64_t count, const char* name, std::int64_t smallest) {
-    // Far beyond any memory, and such that a few products with small numbers still fit.
+    // A limit far beyond any memory; a few products with small numbers still fit an int64.
     constexpr std::int64_t largest = std::int64_t{1} << 48;
     if (count < smallest || count > largest) {
         fail(DELAM_ERROR_ARGUMENT, name, " = ", count, " is outside ", smallest, " .. ", largest);

@@ -35,7 +35,7 @@ int32_t delam_context_set_progress(delam_context* context, delam_progress_callba
     });
 }
 
-// No guard: it may run in a signal handler, beside a call that owns the context.
+// Runs without a guard, because it may run in a signal handler or while another call uses the context.
 int32_t delam_context_cancel(delam_context* context) {
     if (!delam::alive(context)) return DELAM_ERROR_HANDLE;
     context->context->monitor.cancel();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the library assembled, for hosts that check or reuse it.
+// The matrices and vectors that the library assembled, for hosts that check or reuse them.
 #include <algorithm>
 #include <cmath>
 
@@ -24,12 +24,12 @@ void require_material(const Problem& problem, std::int32_t body) {
              ": no material (delam_problem_set_elastic or delam_problem_set_orthotropic)");
 }
 
-// Of the bodies with eigenstrains.
+// Forces of the bodies with eigenstrains.
 void require_materials(const Problem& problem) {
     for (const Eigenstrain& eigenstrain : problem.eigenstrains) require_material(problem, eigenstrain.body);
 }
 
-// The mesh of a problem is fixed; what its bodies are made of may change between two calls.
+// The mesh of a problem is fixed, but the materials of its bodies may change between two calls.
 const SparseMatrix& body_matrix(const delam_problem& problem, std::int32_t body) {
     const Problem& core = *problem.core;
     if (const auto& own = core.stiffness[static_cast<std::size_t>(body)]) return own->matrix;

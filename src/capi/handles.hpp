@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The opaque handles and the one guard that every entry point runs behind.
+// The opaque handles and guard(), in which every entry point runs.
 //
-// Objects share the context's innards, so that handles may be destroyed in any order. A magic number at the head of
-// each handle tells a foreign or destroyed one as far as that can be seen.
+// Objects share the data of their context, so that handles may be destroyed in any order. A magic number at the start
+// of each handle identifies foreign and destroyed handles, as long as the memory has not been reused.
 #pragma once
 
 #include <cstdint>
@@ -33,15 +33,15 @@ class Solver;
 struct Context {
     Monitor monitor;
     std::string message;
-    bool busy = false;  // a call is at work
+    bool busy = false;  // a call is running
     struct Ended {
         void* handle;
         void (*free)(void*);
     };
-    std::vector<Ended> ended;  // meanwhile, by a callback
+    std::vector<Ended> ended;  // destroyed by a callback during this call
 };
 
-// The time of one call. Handles that a callback destroys live to its end.
+// The duration of one call. Handles that a callback destroys stay alive until its end.
 class Busy {
 public:
     explicit Busy(Context& context) noexcept : context_(context) { context_.busy = true; }
@@ -83,9 +83,9 @@ struct Handle {
 struct delam_mesh : delam::Handle<delam::magic_mesh, delam::Mesh> {};
 struct delam_law : delam::Handle<delam::magic_law, delam::Law> {};
 struct delam_problem : delam::Handle<delam::magic_problem, delam::Problem> {
-    // Names of patterns at addresses that stay (delam_problem_pattern_name).
+    // Names of patterns at stable addresses (delam_problem_pattern_name).
     std::deque<std::string> names;
-    // The stiffness asked for last (delam_problem_body_matrix is called for its sizes first); body -1: none.
+    // The stiffness requested last, because delam_problem_body_matrix is first called for its sizes; body -1: none.
     struct BodyMatrix {
         std::int32_t body = -1;
         delam::BodyModel model;
@@ -94,10 +94,10 @@ struct delam_problem : delam::Handle<delam::magic_problem, delam::Problem> {
     mutable BodyMatrix assembled;
 };
 struct delam_solver : delam::Handle<delam::magic_solver, delam::Solver> {
-    std::vector<std::string> value_names;  // texts that delam_solver_value_name and delam_solver_plan hand out
-    std::vector<delam::PlanItem> plan;     // kept likewise for delam_solver_plan_item
+    std::vector<std::string> value_names;  // texts returned by delam_solver_value_name and delam_solver_plan
+    std::vector<delam::PlanItem> plan;     // owns the texts that delam_solver_plan_item returns
     std::string plan_words;
-    mutable std::string option;  // handed out by delam_solver_option
+    mutable std::string option;  // returned by delam_solver_option
 };
 
 namespace delam {
@@ -107,19 +107,20 @@ bool alive(const H* handle) noexcept {
     return handle != nullptr && handle->magic == H::kind;
 }
 
-// Keeps the message, and tells the host's log: level 0 of an error, 1 of an outcome.
+// Stores the message and passes it to the host's log: level 0 for an error, 1 for an outcome.
 inline std::int32_t report(Context& context, std::int32_t status, const char* what) noexcept {
     try {
         context.message = what;
         context.monitor.log(status < 0 ? 0 : 1, what);
-        context.message = what;  // also where the log has tried a call
+        context.message = what;  // again, because a call made by the log callback may have replaced it
     } catch (...) {
         context.message.clear();
     }
     return status;
 }
 
-// From inside a callback. The log does not hear of it, which may be the one that asks.
+// Refuses a call made from inside a callback. Does not write to the log, because the log callback may have made the
+// call.
 inline std::int32_t refuse_callback(Context& context) noexcept {
     try {
         context.message =
@@ -131,7 +132,7 @@ inline std::int32_t refuse_callback(Context& context) noexcept {
     return DELAM_ERROR_STATE;
 }
 
-// Runs body behind the exception barrier; its error text goes into the context of `self`. body returns void or a
+// Runs body and turns its exceptions into a status; the message goes into the context of `self`. body returns void or a
 // status.
 template <class H, class Body>
 std::int32_t guard(const H* self, Body&& body) noexcept {
@@ -196,7 +197,7 @@ void destroy(H** handle) noexcept {
     }
     try {
         ended->context->ended.push_back({ended, [](void* h) { delete static_cast<H*>(h); }});
-    } catch (...) {  // no memory to remember it: rather lost than gone while it works
+    } catch (...) {  // no memory to remember the handle: a leak is better than freeing it while it is in use
     }
 }
 
@@ -207,16 +208,16 @@ void require_array(const void* pointer, std::int64_t count, const char* name);
 void require_finite(const double* values, std::int64_t count, const char* name);
 void require_capacity(std::int64_t capacity, std::int64_t needed, const char* name);
 void require_base(std::int32_t index_base);
-// A second handle argument of a call.
+// Checks a second handle argument of a call.
 template <class H>
 void require_handle(const H* handle, const char* name) {
     if (!alive(handle))
         fail(DELAM_ERROR_HANDLE, name, handle == nullptr ? " is NULL" : " is a foreign or destroyed handle");
 }
-// The index as 0-based, after a check of base <= value < base + size. what: "nodes[3]".
+// Returns the index as 0-based, after checking base <= value < base + size. what: "nodes[3]".
 std::int64_t require_index(std::int64_t value, std::int64_t size, std::int32_t index_base, const std::string& what);
 
-// count of them, 0-based. name: of the argument.
+// Returns `count` indices, 0-based. name: of the argument.
 std::vector<std::int64_t> require_indices(const std::int64_t* values, std::int64_t count, std::int64_t size,
                                           std::int32_t index_base, const char* name);
 

@@ -29,7 +29,7 @@ void create(const delam_context& context, Softening shape, delam_law** out) {
     *out = law.release();
 }
 
-// The parameter of this name and type that the law has with its kind and criterion.
+// The parameter of this name and type, if the law's kind and criterion have it.
 const LawParameter& require_parameter(const Law& law, const std::string& key, const std::string& type) {
     const LawParameter* found = find_parameter(law, key);
     if (found != nullptr && found->type == type) return *found;

@@ -47,18 +47,18 @@ Direction require_direction(const Mesh& mesh, const double* direction) {
     return unit;
 }
 
-// A node of a body, a control node (without cells) or a tied one.
+// Returns a node of a body, a control node (without cells) or a tied node.
 std::int64_t require_node(const Mesh& mesh, std::int64_t value, std::int32_t index_base, const std::string& what) {
     return require_index(value, mesh.node_count(), index_base, what);
 }
 
-// Finite arguments may still have a sum or a quotient that is not.
+// Even finite arguments may have a sum or a quotient that is not finite.
 template <class... What>
 void require_no_overflow(double value, const What&... what) {
     if (!std::isfinite(value)) fail(DELAM_ERROR_ARGUMENT, what..., " comes to ", value, ", must be finite");
 }
 
-// Displacements with coefficients, each DOF once; tied nodes are what they are tied to.
+// Displacements with coefficients, each DOF once; tied nodes are replaced by the nodes to which they are tied.
 class Terms {
 public:
     explicit Terms(const Mesh& mesh) : mesh_(mesh) {}
@@ -107,7 +107,7 @@ const char* name_of(Pattern::Drives drives) {
     return "";
 }
 
-// Patterns as 0-based indices, none of which drives the other kind of load.
+// Returns the patterns as 0-based indices, after checking that none of them drives the other kind of load.
 std::vector<std::int64_t> require_patterns(const Problem& problem, std::int64_t count, const std::int64_t* patterns,
                                            std::int32_t index_base, Pattern::Drives drives) {
     require_count(count, "pattern_count");
@@ -136,7 +136,7 @@ std::vector<double> prescribed(const Problem& problem, const std::vector<std::in
     return list;
 }
 
-// Directions that are prescribed at single nodes so far.
+// Directions in which single nodes are already prescribed.
 std::unordered_map<std::int64_t, std::vector<Direction>> held_directions(const Problem& problem) {
     const std::int64_t dimension = problem.mesh->dimension();
     std::unordered_map<std::int64_t, std::vector<Direction>> held;
@@ -156,7 +156,7 @@ std::unordered_map<std::int64_t, std::vector<Direction>> held_directions(const P
 
 double dot(const Direction& a, const Direction& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// Is `direction` a combination of the others? (Gram-Schmidt; the others are independent of each other.)
+// Whether `direction` is a combination of the others, which are linearly independent (Gram-Schmidt).
 bool depends(std::vector<Direction> others, Direction direction) {
     std::vector<Direction> basis;
     others.push_back(direction);
@@ -258,7 +258,7 @@ int32_t delam_problem_prescribe_mean(delam_problem* problem, int64_t count, cons
             members.emplace_back(require_node(*core.mesh, nodes[i], index_base, text("nodes[", i, "]")), weights[i]);
             sum += weights[i];
         }
-        // Weights of quadratic faces may be negative at their corners; their sum is the extent of the patch.
+        // Weights of quadratic faces may be negative at corner nodes; their sum is the extent of the patch.
         if (!(sum > 0.0 && std::isfinite(sum)))
             fail(DELAM_ERROR_ARGUMENT, "weights: their sum is ", sum, ", must be > 0 and finite");
         std::sort(members.begin(), members.end());

@@ -117,7 +117,7 @@ void require_box(const Mesh& mesh, const double* lower, const double* upper) {
     }
 }
 
-// Writes what fits, tells how many there are.
+// Writes as many as fit and returns how many there are.
 template <class T>
 void give(const std::vector<T>& list, std::int64_t capacity, T* out) {
     const auto count = std::min(capacity, static_cast<std::int64_t>(list.size()));
@@ -158,7 +158,7 @@ int32_t delam_mesh_create_layers(delam_context* context, int32_t dimension, cons
         require_count(layer_count, "layer_count", 1);
         require_positive(thickness, layer_count, "thickness");
         require_divisions(layer_divisions, layer_count, "layer_divisions");
-        // Cells of a hundred billion fit no memory; products beyond would not even fit an index.
+        // 1e11 cells fit no memory, and products of larger numbers might overflow an index.
         double cells = 0.0;
         for (std::int64_t i = 0; i < layer_count; ++i) cells += static_cast<double>(layer_divisions[i]);
         for (std::int32_t d = 0; d + 1 < dimension; ++d) cells *= static_cast<double>(divisions[d]);

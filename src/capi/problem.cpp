@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scene: materials, laws, options and the questions about it. Supports and loads: loads.cpp; what was assembled:
-// exports.cpp.
+// The scene: materials, laws, options and queries. Supports and loads: loads.cpp; assembled matrices: exports.cpp.
 #include "scene/problem.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// delam_solver_*: the façade of the march.
+// delam_solver_*: the façade of the analysis.
 #include <algorithm>
 #include <cstring>
 #include <memory>
@@ -18,7 +18,7 @@ using namespace delam;
 
 namespace {
 
-// A positive outcome keeps the object valid and leaves its text in the context.
+// A positive outcome leaves the object valid and stores its text in the context.
 std::int32_t report(Context& context, const Outcome& outcome) {
     return outcome.status == DELAM_OK ? DELAM_OK : delam::report(context, outcome.status, outcome.text.c_str());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the library is: version, commit, binary interface, names of statuses.
+// Facts about the library: version, commit, binary interface, names of statuses.
 #include "base/blas_threads.hpp"
 #include "delam/delam.h"
 #include "delam_commit.h"

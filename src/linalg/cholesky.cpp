@@ -14,14 +14,14 @@
 #include "base/room.hpp"
 #include "delam/delam.h"
 
-// Only modules under the LGPL are called by name (Core, Cholesky, Partition/CAMD); the supernodal kernels (GPL) are
-// reached through cholmod_l_factorize where the CHOLMOD at hand has them, and never when DELAM_CHOLMOD_SIMPLICIAL is
-// defined.
+// This file calls only LGPL modules by name (Core, Cholesky, Partition/CAMD). The supernodal (GPL) kernels are reached
+// through cholmod_l_factorize if the installed CHOLMOD has them, and never if DELAM_CHOLMOD_SIMPLICIAL is defined.
 
-// CHOLMOD 3 asks OpenMP for four threads wherever it runs; on fewer cores they wait for each other at every supernode
-// (measured: twice the time of one thread). "Dynamic", a property of the calling thread, lets the runtime give fewer:
-// GNU's gives as many as there are processors, less the load of the last 15 minutes. The threads share out the scatter
-// of blocks, no sums, so that no digit depends on them. Weak: a CHOLMOD without OpenMP has no such functions.
+// CHOLMOD 3 requests four OpenMP threads on any machine; on fewer cores they wait for each other at every supernode
+// (measured: twice the time of one thread). The "dynamic" setting of the calling thread lets the runtime provide fewer:
+// GNU's provides as many as there are processors, less the load of the last 15 minutes. The threads share the
+// scattering of blocks, not sums, so that no digit depends on their number. Weak symbols: a CHOLMOD without OpenMP
+// lacks these functions.
 extern "C" {
 int omp_get_dynamic() __attribute__((weak));
 void omp_set_dynamic(int) __attribute__((weak));
@@ -34,7 +34,7 @@ namespace {
 class AsManyThreadsAsIdleCores {
 public:
     AsManyThreadsAsIdleCores() {
-        require_room(std::size_t{1} << 16);  // without it GNU's OpenMP ends the process
+        require_room(std::size_t{1} << 16);  // GNU's OpenMP ends the process if this memory is missing
         if (omp_get_dynamic == nullptr || omp_set_dynamic == nullptr) return;
         before_ = omp_get_dynamic();
         omp_set_dynamic(1);
@@ -68,8 +68,8 @@ struct SparseCholesky::Impl {
         common.print = 0;
         common.error_handler = nullptr;
         common.final_ll = 1;
-        // Larger supernodes than CHOLMOD's own: with trailing variables every column is long, and few columns at a time
-        // waste it.
+        // Supernodes larger than CHOLMOD's default: with trailing variables every column is long, and narrow supernodes
+        // waste time.
         common.nrelax[0] = 8;
         common.nrelax[1] = 32;
         common.nrelax[2] = 96;
@@ -91,12 +91,12 @@ struct SparseCholesky::Impl {
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    // One solve. The buffers are made here, of the sizes that CHOLMOD would ask for: CHOLMOD 3 does not look whether it
-    // got its own.
+    // One solve. The buffers are allocated here, in the sizes that CHOLMOD needs, because CHOLMOD 3 does not check its
+    // own allocations.
     const double* solve(int system, cholmod_dense& rhs) const {
         const bool super = factor->is_super != 0;
         const std::size_t n = factor->n, rows = super ? n : 4;
-        common.status = CHOLMOD_OK;  // of an earlier call
+        common.status = CHOLMOD_OK;  // reset the status of an earlier call
         cholmod_l_ensure_dense(&x_buffer, n, 1, n, CHOLMOD_REAL, &common);
         check("solve");
         cholmod_l_ensure_dense(&y_work, rows, super ? 1 : n, rows, CHOLMOD_REAL, &common);
@@ -116,7 +116,7 @@ struct SparseCholesky::Impl {
 
 namespace {
 
-// A view of our rows as CHOLMOD's columns: the matrix is symmetric, its upper triangle is the one that is read.
+// A view of our rows as CHOLMOD's columns; the matrix is symmetric, and CHOLMOD reads its upper triangle.
 cholmod_sparse view(const SparseMatrix& m) {
     cholmod_sparse a{};
     a.nrow = static_cast<std::size_t>(m.rows);
@@ -146,9 +146,9 @@ cholmod_dense view(std::span<const double> b) {
     return d;
 }
 
-// Few large dense blocks that overlap: an order by minimum degree takes longer to find, entry by entry, than the factor
-// itself. What only one block has comes first, as its rows are the shortest; rows with the same columns stay together
-// (by a checksum).
+// An ordering for few large overlapping dense blocks, where minimum degree takes longer than the factorisation itself.
+// Variables that belong to only one block come first, because their rows are the shortest. Rows with the same columns
+// stay together (recognised by a checksum).
 constexpr double well_filled = 0.1;
 constexpr std::int64_t few_rows = 500;
 
@@ -278,7 +278,8 @@ DenseMatrix SparseCholesky::trailing_factor() const {
     const std::int64_t first = impl.size - impl.trailing;
     const auto* x = static_cast<const double*>(l->x);
     if (l->is_super != 0) {
-        // A supernode holds its columns as one dense block over its rows; amalgamation may let it begin before `first`.
+        // A supernode stores its columns as one dense block over its rows; amalgamation may let it begin before
+        // `first`.
         const auto* super = static_cast<const std::int64_t*>(l->super);
         const auto* row_start = static_cast<const std::int64_t*>(l->pi);
         const auto* value_start = static_cast<const std::int64_t*>(l->px);

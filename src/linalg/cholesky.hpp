@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sparse Cholesky factorisation by CHOLMOD (T. Davis); the only files that include it are this concept's.
+// Sparse Cholesky factorisation by CHOLMOD (T. Davis). Only cholesky.cpp includes CHOLMOD.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace delam {
 
-// What the symbolic analysis says of a factor.
+// Size of a factor, from its symbolic analysis.
 struct FactorSize {
     double entries = 0.0;  // of L
     double flops = 0.0;    // of the numeric factorisation
@@ -21,23 +21,23 @@ struct FactorSize {
 class SparseCholesky {
 public:
     // Symbolic analysis of a symmetric matrix (both triangles stored). The last `trailing` variables are eliminated
-    // last, in their given order, the others before them by (constrained) minimum degree. poll: called between
+    // last, in their given order; the others come first, ordered by (constrained) minimum degree. poll: called between
     // ordering and analysis.
     explicit SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing = 0, const Poll& poll = {});
     ~SparseCholesky();
     SparseCholesky(SparseCholesky&&) noexcept;
     SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
-    // Numeric factorisation of a matrix with the pattern that was analysed. False: not positive definite.
+    // Numeric factorisation of a matrix with the analysed pattern. False: not positive definite.
     bool factorise(const SparseMatrix& matrix);
     void solve(std::span<const double> b, std::span<double> x) const;
-    // x = A_ll^-1 b over the leading variables alone (all but the trailing ones): forward, drop the trailing part,
-    // backward.
+    // x = A_ll^-1 b for the leading variables only (all but the trailing ones): forward substitution, drop the trailing
+    // part, backward substitution.
     void solve_leading(std::span<const double> b, std::span<double> x) const;
     // Lower factor L_tt of the trailing variables: L_tt L_tt^T is the Schur complement onto them.
     DenseMatrix trailing_factor() const;
-    // After factorise(), whether it succeeded or not: the variable with the smallest pivot, and that over the largest;
-    // 0 where it broke down.
+    // After factorise(), whether it succeeded or not: the variable with the smallest pivot, and the ratio of that pivot
+    // to the largest; 0 if the factorisation broke down.
     struct Pivot {
         std::int64_t variable = -1;
         double ratio = 1.0;

@@ -41,20 +41,20 @@ namespace {
 
 constexpr int one = 1;
 
-// LAPACK's integers are 32 bit: a block with more entries than they count has no business being dense.
+// LAPACK has 32-bit integers; a block with more entries should not be dense.
 int narrow(std::int64_t n) {
     if (n < 0 || n > std::numeric_limits<int>::max())
         fail(DELAM_ERROR_MEMORY, "a dense block of ", n, " rows is too large");
     return static_cast<int>(n);
 }
 
-// Up to `small` rows LAPACK works without a poll in between; beyond, in panels of `width` columns.
+// Up to `small` rows LAPACK runs without a poll in between; larger matrices are treated in panels of `width` columns.
 constexpr std::int64_t small = 1024, width = 256;
 
-// Multiplications of a part of an operation: about a twentieth of a second.
+// Multiplications in one part of an operation: about a twentieth of a second.
 constexpr double part = 5e8;
 
-// So many columns a part, of `cost` multiplications each, in steps that the kernels like.
+// Number of columns in a part, where a column takes `cost` multiplications; a multiple that suits the BLAS kernels.
 std::int64_t columns_a_part(double cost, std::int64_t all) {
     if (cost * static_cast<double>(all) <= part) return std::max<std::int64_t>(all, 1);
     return std::clamp<std::int64_t>(static_cast<std::int64_t>(part / cost) / 64 * 64, 64,
@@ -107,7 +107,8 @@ DenseMatrix multiply_transposed(const DenseMatrix& a, const DenseMatrix& b, std:
     return c;
 }
 
-// By squares that fit the cache: a plain double loop would miss it at every element of one of the two triangles.
+// Mirrors in square tiles that fit the cache: a plain double loop would miss the cache at every element of one
+// triangle.
 void mirror_lower(DenseMatrix& a) {
     constexpr std::int64_t block = 32;
     for (std::int64_t bj = 0; bj < a.columns; bj += block)
@@ -116,7 +117,7 @@ void mirror_lower(DenseMatrix& a) {
                 for (std::int64_t i = std::max(bi, j + 1); i < std::min(bi + block, a.rows); ++i) a(j, i) = a(i, j);
 }
 
-// Column panel after column panel: panel k touches only the square below and to the right of its first row.
+// By column panels: panel k touches only the square below and to the right of its first row.
 DenseMatrix lower_times_transpose(const DenseMatrix& lower, const Poll& poll) {
     constexpr std::int64_t narrower = 128;
     DenseMatrix product(lower.rows, lower.rows);
@@ -150,7 +151,7 @@ void multiply_transposed(const DenseMatrix& a, std::span<const double> x, std::s
         std::fill(y.begin(), y.end(), 0.0);
 }
 
-// Beyond `small` a panel of columns after the other: its own triangle, the rows below, and what it takes from the
+// Beyond `small` rows, panel by panel: the panel's own triangle, the rows below it, then its contribution to the
 // columns behind it.
 bool factor_definite(DenseMatrix& a, const Poll& poll) {
     const int n = narrow(a.rows), lda = leading(a);
@@ -242,7 +243,7 @@ void subtract_product(DenseMatrix& c, const DenseMatrix& v, const DenseMatrix& w
 
 namespace {
 
-// The lower triangle's L becomes L^-1, panels from right to left: below the diagonal block  -L_22^-1 L_21 L_11^-1.
+// Replaces L in the lower triangle by L^-1, panels from right to left: below the diagonal block -L_22^-1 L_21 L_11^-1.
 int invert_lower(DenseMatrix& a, const Poll& poll) {
     const std::int64_t n = a.rows;
     const int lda = leading(a);
@@ -262,7 +263,7 @@ int invert_lower(DenseMatrix& a, const Poll& poll) {
     return 0;
 }
 
-// The lower triangle's M becomes M^T M, rows of blocks from the top.
+// Replaces M in the lower triangle by M^T M, block rows from top to bottom.
 void lower_transpose_times_lower(DenseMatrix& a, const Poll& poll) {
     const std::int64_t n = a.rows;
     const int lda = leading(a);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Dense column-major matrices and the few LAPACK kernels that the reduction needs.
+// Dense column-major matrices and the LAPACK kernels that the library needs.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct DenseMatrix {
     double operator()(std::int64_t i, std::int64_t j) const { return value[static_cast<std::size_t>(i + j * rows)]; }
 };
 
-// poll: called between parts of about a twentieth of a second, where an operation takes longer than that.
+// poll: called about every twentieth of a second in operations that take longer than that.
 
 double dot(std::span<const double> x, std::span<const double> y);
 // y += a x
@@ -30,7 +30,7 @@ void add_scaled(double a, std::span<const double> x, std::span<double> y);
 void multiply_symmetric(const DenseMatrix& s, std::span<const double> x, std::span<double> y);
 // C = A B
 DenseMatrix multiply(const DenseMatrix& a, const DenseMatrix& b);
-// C = A^T B; with `first`, of the rows from there on alone.
+// C = A^T B; with `first`, over the rows from `first` on.
 DenseMatrix multiply_transposed(const DenseMatrix& a, const DenseMatrix& b, std::int64_t first = 0);
 // L L^T, full symmetric, from a lower triangle (the upper one must be zero): n^3/3 multiplications.
 DenseMatrix lower_times_transpose(const DenseMatrix& lower, const Poll& poll = {});
@@ -39,8 +39,8 @@ void multiply(const DenseMatrix& a, std::span<const double> x, std::span<double>
 void multiply_transposed(const DenseMatrix& a, std::span<const double> x, std::span<double> y);
 // Copies the lower triangle to the upper one.
 void mirror_lower(DenseMatrix& a);
-// A = L L^T in its lower triangle (LAPACK dpotrf, of large ones panel by panel). False: not positive definite; A is
-// then spoilt.
+// A = L L^T in the lower triangle (LAPACK dpotrf; large matrices panel by panel). False: not positive definite, and A
+// is overwritten.
 bool factor_definite(DenseMatrix& a, const Poll& poll = {});
 // L^-1 B, L^-1 x, L^-T x in place (BLAS dtrsm, dtrsv); only the lower triangle is read.
 // first: the rows of B above it are zero.
@@ -52,12 +52,12 @@ void subtract_gram(DenseMatrix& c, const DenseMatrix& v, const Poll& poll = {});
 void add_gram(DenseMatrix& c, const DenseMatrix& v, const Poll& poll = {});
 // C -= V^T W (BLAS dgemm)
 void subtract_product(DenseMatrix& c, const DenseMatrix& v, const DenseMatrix& w);
-// A^-1, full symmetric, of a positive definite A (LAPACK dpotrf, dpotri; beyond 1024 rows the same in panels).
+// A^-1, full symmetric, of a positive definite A (LAPACK dpotrf, dpotri; beyond 1024 rows in panels).
 DenseMatrix inverse_definite(DenseMatrix a, const Poll& poll = {});
-// A X = B in place of B, A spoilt, by LU with its rows scaled to 1 (LAPACK dgetrf, dgetrs). False: singular, no pivot
-// larger than `tolerance` of the largest; B is then not set.
+// A X = B in place of B, by LU with rows scaled to 1 (LAPACK dgetrf, dgetrs); overwrites A. False: A is singular, no
+// pivot larger than `tolerance` times the largest; B is then undefined.
 bool solve_general(DenseMatrix& a, DenseMatrix& b, double tolerance);
-// Orthonormal basis of the columns' span (modified Gram-Schmidt, twice); they must be independent.
+// Orthonormal basis of the span of the columns, which must be independent (modified Gram-Schmidt, twice).
 DenseMatrix orthonormalised(DenseMatrix a);
 // Eigenpairs of a symmetric matrix, ascending; vectors in columns (LAPACK dsyev).
 struct Eigen {
@@ -66,20 +66,20 @@ struct Eigen {
 };
 Eigen eigen_symmetric(DenseMatrix a);
 
-// Columns of A in the order of a rank-revealing QR (LAPACK dgeqp3), and its numerical rank for a relative tolerance on
-// the diagonal of R.
+// Column order of a rank-revealing QR factorisation of A (LAPACK dgeqp3), and the numerical rank for a relative
+// tolerance on the diagonal of R.
 struct PivotedColumns {
     std::vector<std::int64_t> order;
     std::int64_t rank;
 };
 PivotedColumns pivoted_columns(DenseMatrix a, double tolerance);
 
-// Largest set of rows of a positive semi-definite matrix that is independent (LAPACK dpstrf); pivots below tolerance
-// times the largest diagonal entry count as zero.
+// Largest independent set of rows of a positive semi-definite matrix (LAPACK dpstrf); pivots below tolerance times the
+// largest diagonal entry count as zero.
 std::vector<std::int64_t> independent_rows(DenseMatrix a, double tolerance);
 
 // Cholesky factor of the principal block of a positive semi-definite matrix on an independent set of rows. solve()
-// gives the solution of a consistent system that is zero elsewhere: a generalised inverse.
+// returns the solution of a consistent system that is zero in all other rows: a generalised inverse.
 class SemidefiniteFactor {
 public:
     SemidefiniteFactor() = default;

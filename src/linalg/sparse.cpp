@@ -10,9 +10,9 @@
 
 namespace delam {
 
-// Rows by a counting sort, which keeps the order given; within a row, duplicates meet in a dense marker (Gustavson,
-// ACM TOMS 4, 1978) and only the distinct columns are sorted. Linear in the triplets, and every sum runs in the order
-// given.
+// Sorts the triplets by row with a counting sort, which keeps the given order. Within a row, a dense marker finds
+// duplicates (Gustavson, ACM TOMS 4, 1978) and only the distinct columns are sorted. The cost is linear in the
+// triplets, and every sum runs in the given order.
 SparseMatrix from_triplets(std::int64_t rows, std::int64_t columns, std::vector<Triplet> triplets) {
     const auto at = [](std::int64_t i) { return static_cast<std::size_t>(i); };
     SparseMatrix m;
@@ -33,7 +33,8 @@ SparseMatrix from_triplets(std::int64_t rows, std::int64_t columns, std::vector<
     }
     triplets = {};
 
-    std::vector<std::int64_t> place(at(columns), -1);  // of a column's entry in the row; stale if before its first
+    // position of a column's entry in the row; stale if before the row's first
+    std::vector<std::int64_t> place(at(columns), -1);
     m.start.assign(1, 0);
     m.start.reserve(at(rows) + 1);
     std::int64_t filled = 0;
@@ -96,8 +97,7 @@ SparseMatrix transpose(const SparseMatrix& a) {
     return t;
 }
 
-// Row i of T^T K T gathers the rows of K that variable i moves; distinct columns meet in a marker (Gustavson, as
-// above).
+// Row i of T^T K T gathers the rows of K that variable i moves; a marker finds equal columns (Gustavson, as above).
 SparseMatrix congruence(const SparseMatrix& k, const SparseMatrix& t, const Poll& poll) {
     const auto at = [](std::int64_t i) { return static_cast<std::size_t>(i); };
     const SparseMatrix tt = transpose(t);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Compressed sparse rows with sorted columns; symmetric matrices hold both triangles, so rows are columns too.
+// Compressed sparse rows with sorted columns. Symmetric matrices store both triangles, so their rows are also their
+// columns.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,7 @@ struct Triplet {
     std::int64_t column;
     double value;
 };
-// Sums duplicates, in the order given within a place, so that the result is reproducible.
+// Sums duplicates in the given order, so that the result is reproducible.
 SparseMatrix from_triplets(std::int64_t rows, std::int64_t columns, std::vector<Triplet> triplets);
 
 // y = A x
@@ -35,7 +36,7 @@ void multiply_transposed(const SparseMatrix& a, std::span<const double> x, std::
 
 SparseMatrix transpose(const SparseMatrix& a);
 
-// T^T K T of a symmetric K, both triangles.
+// T^T K T of a symmetric K with both triangles stored.
 SparseMatrix congruence(const SparseMatrix& k, const SparseMatrix& t, const Poll& poll = {});
 
 }  // namespace delam

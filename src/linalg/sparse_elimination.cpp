@@ -53,8 +53,8 @@ void SparseElimination::solve(const Row& row, std::int64_t pivot) {
     solution_.push_back(std::move(solution));
 }
 
-// What a solution refers to was free when it was found: the last one is final already, and walking back so is all that
-// follows.
+// A solution refers only to variables that were free when it was found. The last solution is therefore final, and one
+// backward pass makes the others final too.
 void SparseElimination::close() {
     for (std::size_t k = solution_.size(); k-- > 0;) {
         Solution& solution = solution_[k];

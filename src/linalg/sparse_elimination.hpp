@@ -2,9 +2,8 @@
 // Sparse linear equations, each solved for one of its variables:  sum a_j x_j = b . theta   ->   x_p = sum c_j x_j + d
 // . theta.
 //
-// Rows come one after another; a new one is first reduced by those that are solved. A row that depends on them reduces
-// to nothing. As long as rows are short and do not hang together much, thousands of them cost little more than reading
-// them.
+// Rows arrive one after another, and each new row is first reduced by the solved ones; a dependent row reduces to
+// nothing. Thousands of rows cost little more than reading them, as long as they are short and loosely coupled.
 #pragma once
 
 #include <cstdint>
@@ -18,20 +17,20 @@ class SparseElimination {
 public:
     struct Row {
         std::map<std::int64_t, double> terms;
-        std::vector<double> right;  // b, one entry a parameter
+        std::vector<double> right;  // b, one entry per parameter
     };
     struct Solution {
         std::vector<std::pair<std::int64_t, double>> terms;
         std::vector<double> right;
     };
 
-    // Replaces variables that are solved by what they are solved to. Terms below 1e-10 of the largest coefficient that
-    // took part are what is left of a cancellation and go. Returns the largest magnitude that took part on the right,
-    // to measure what is left there by.
+    // Replaces solved variables by their solutions. Drops terms below 1e-10 of the largest coefficient involved, which
+    // are left over from cancellation. Returns the largest magnitude that occurred on the right-hand side, as the scale
+    // for what is left there.
     double reduce(Row& row) const;
     // Solves a reduced row for one of its variables.
     void solve(const Row& row, std::int64_t pivot);
-    // After the last row: all solutions in variables that are not solved themselves.
+    // After the last row: expresses all solutions in free variables.
     void close();
 
     bool solved(std::int64_t variable) const { return place_.contains(variable); }
