@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The examples in every language: one history each, that of the host in C, and the values of examples/reference.csv.
+# The program of the README, and the examples in every language: one history each, that of the host in C, and the values of
+# examples/reference.csv.
 
 # delam_example_test(SCENE LANGUAGE COMMAND...): what cannot run here is a test that says so and is skipped.
 function(delam_example_test scene language)
@@ -21,6 +22,9 @@ function(delam_example_test scene language)
 endfunction()
 
 if(NOT DELAM_SANITIZE)
+  add_test(NAME example/readme COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/verify/cases/readme_program.py
+           ${PROJECT_SOURCE_DIR}/README.md $<TARGET_FILE:delam> ${PROJECT_SOURCE_DIR}/include ${CMAKE_C_COMPILER})
+  set_tests_properties(example/readme PROPERTIES LABELS "quick;example" TIMEOUT 120)
   foreach(scene enf dcb-host-law)
     string(REPLACE - _ name ${scene})
     delam_example_test(${scene} c)

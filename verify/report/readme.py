@@ -1,9 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""readme.py OUT: headline figures and pictures of a report into the README, between its markers.
+"""readme.py OUT: writes headline figures and pictures of a report into RESULTS.md, and a summary into the top README, between
+their markers.
 
-    readme.py OUT        from OUT/report.json: headline.json, pictures/, and the block in README.md
-    readme.py --check    exit status 1 if a block, the table of speed or a sentence is missing, or not the one that headline.json makes"""
+    readme.py OUT        from OUT/report.json: headline.json, pictures/, the blocks in RESULTS.md, the summary in the top README
+    readme.py --check    exit status 1 if a block, the table of speed, a sentence or the summary is missing, or differs from
+                         what headline.json gives"""
 from __future__ import annotations
 
 import argparse
@@ -15,11 +17,14 @@ import textwrap
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
+PAGE, TOP = HERE / "RESULTS.md", ROOT / "README.md"
+PAGE_FOLDER = "verify/report/"
 sys.path.insert(0, str(HERE))
 
 from words import show  # noqa: E402
 
 BEGIN, END = "<!-- report:begin (verify/report/readme.py) -->", "<!-- report:end -->"
+SUMMARY_BEGIN, SUMMARY_END = "<!-- summary:begin (verify/report/readme.py) -->", "<!-- summary:end -->"
 SPEED_BEGIN, SPEED_END = "<!-- speed:begin (verify/report/readme.py) -->", "<!-- speed:end -->"
 # Figures by their names in the JSON, and pictures by case and place; only of cases that passed.
 FIGURES = ["feti_direct_worst", "feti_direct_kkt", "balance_defect", "jump_mm"]
@@ -27,7 +32,7 @@ PICTURES = [("b-ledger", 0), ("b-jump-instant", 0), ("a-feti-direct", 1)]
 # The table of speed: a row is what it is called, and the middle of the names of its figures. Only a report that has all of them renews it.
 SPEED = [("0.5 mm", "ductile_0.5"), ("0.1 mm, one thread", "ductile_0.1"), ("0.1 mm, OpenMP as Debian's CHOLMOD sets it", "ductile_0.1_shipped")]
 # Head, name of the figure, what follows the number.
-SPEED_COLUMNS = [("unknowns", "unknowns", ""), ("whole march", "seconds", " s"), ("in linear solves", "lse", ""), ("baseline over this", "ratio", " times"),
+SPEED_COLUMNS = [("unknowns", "unknowns", ""), ("whole analysis", "seconds", " s"), ("in linear solves", "lse", ""), ("baseline over this", "ratio", " times"),
                  ("peak memory over one factorisation's", "memory", " times")]
 # What the block of speed must say for itself while no report has made it.
 BY_HAND = "Measured by hand with `delam_bench`, not yet by the report"
@@ -45,7 +50,7 @@ NOISE = 0.1
 
 
 class Refused(Exception):
-    """What the README asks for and the report does not have."""
+    """What the pages need and the report or the page does not have."""
 
 
 def when(report: dict, cases: list[dict]) -> str:
@@ -60,7 +65,7 @@ def whole(report: dict) -> str:
 
 
 def gather(report: dict, figures=None, pictures=None) -> dict:
-    """What the README quotes, from the report alone."""
+    """What the pages quote, from the report alone."""
     figures, pictures = FIGURES if figures is None else figures, PICTURES if pictures is None else pictures
     good = {c["id"]: c for c in report["cases"] if c["status"] == "passed"}
     found = {f["name"]: {**{k: f[k] for k in ("name", "value", "unit", "text")}, "case": c["id"]} for c in good.values() for f in c["figures"]}
@@ -86,8 +91,16 @@ def block(head: dict) -> str:
         lines.append(f"| {f['text']} | {show(f['value'])} {f['unit']}".rstrip() + f" | {f['case']} |")
     lines.append("")
     for p in head["pictures"]:
-        lines += [f"![{p['title']}. {p['caption']}]({p['file']})", ""]
+        lines += [f"![{p['title']}. {p['caption']}]({p['file'].removeprefix(PAGE_FOLDER)})", ""]
     return "\n".join([*lines, END])
+
+
+def summary_block(head: dict) -> str:
+    """The last report in one sentence, for the top README."""
+    counts = ", ".join(f"{n} {s}" for s, n in head["counts"].items() if n or s in ("passed", "failed"))
+    text = (f"The last verification report, of {head['date'][:10]} (commit {head['commit']}): of its cases, {counts}. Its figures, losses first, are in "
+            f"[{PAGE_FOLDER}{PAGE.name}]({PAGE_FOLDER}{PAGE.name}).")
+    return "\n".join([SUMMARY_BEGIN, *textwrap.wrap(text, 120, break_on_hyphens=False, break_long_words=False), SUMMARY_END])
 
 
 def speed(report: dict) -> dict | None:
@@ -167,38 +180,47 @@ def speed_block(table: dict) -> str:
 
 def between(text: str, begin: str = BEGIN, end: str = END) -> str:
     if text.count(begin) != 1 or text.count(end) != 1 or text.index(begin) > text.index(end):
-        raise Refused(f"the README must have one \"{begin}\" and one \"{end}\" after it")
+        raise Refused(f"the page must have one \"{begin}\" and one \"{end}\" after it")
     return text[text.index(begin):text.index(end) + len(end)]
 
 
-def differences(readme: str, head: dict, root: pathlib.Path) -> list[str]:
-    """Why README and headline.json do not agree; empty if they do."""
+def top_differences(readme: str, head: dict) -> list[str]:
+    """Why the summary in the top README and headline.json do not agree; empty if they do."""
     try:
-        written = between(readme)
+        same = between(readme, SUMMARY_BEGIN, SUMMARY_END) == summary_block(head)
+        return [] if same else ["the summary in README.md is not the one that headline.json gives"]
+    except Refused as error:
+        return [f"README.md: {error}"]
+
+
+def differences(page: str, head: dict, root: pathlib.Path) -> list[str]:
+    """Why RESULTS.md and headline.json do not agree; empty if they do."""
+    try:
+        written = between(page)
     except Refused as error:
         return [str(error)]
     wanted = block(head).splitlines()
     got = written.splitlines()
-    wrong = [f"README has \"{a}\", headline.json gives \"{b}\"" for a, b in zip(got, wanted) if a != b]
+    wrong = [f"the page has \"{a}\", headline.json gives \"{b}\"" for a, b in zip(got, wanted) if a != b]
     if len(got) != len(wanted):
-        wrong.append(f"README's block has {len(got)} lines, headline.json gives {len(wanted)}")
+        wrong.append(f"the page's block has {len(got)} lines, headline.json gives {len(wanted)}")
     # Markers are missing whatever headline.json has: what is not there cannot be compared.
     try:
-        table = between(readme, SPEED_BEGIN, SPEED_END)
+        table = between(page, SPEED_BEGIN, SPEED_END)
         if head.get("speed"):
             if table != speed_block(head["speed"]):
-                wrong.append("README's table of speed is not the one that headline.json gives")
+                wrong.append("the page's table of speed is not the one that headline.json gives")
         elif BY_HAND not in table:
-            wrong.append(f"headline.json has no table of speed, and README's does not say \"{BY_HAND}\"")
+            wrong.append(f"headline.json has no table of speed, and the page's does not say \"{BY_HAND}\"")
     except Refused as error:
         wrong.append(str(error))
     told_of = head.get("sentences", {})
     wrong += [f"headline.json has no sentence \"{name}\"" for name in SENTENCES if name not in told_of]
     for name in dict.fromkeys([*SENTENCES, *told_of]):
         try:
-            text, told = between(readme, *sentence_marks(name)), told_of.get(name)
+            text, told = between(page, *sentence_marks(name)), told_of.get(name)
             if told and text != sentence_block(name, told):
-                wrong.append(f"README's sentence \"{name}\" is not the one that headline.json gives")
+                wrong.append(f"the page's sentence \"{name}\" is not the one that headline.json gives")
         except Refused as error:
             wrong.append(str(error))
     return wrong + [f"{p['file']} is missing" for p in head["pictures"] if not (root / p["file"]).is_file()]
@@ -208,13 +230,15 @@ def main(argv: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="readme.py", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("out", nargs="?", type=pathlib.Path)
     parser.add_argument("--check", action="store_true")
-    parser.add_argument("--readme", type=pathlib.Path, default=ROOT / "README.md", help="a copy to try it on: headline.json and pictures stay as they are")
+    parser.add_argument("--page", type=pathlib.Path, default=PAGE,
+                        help="a copy of RESULTS.md to try it on: headline.json, pictures and the top README do not change")
     a = parser.parse_args(argv)
     if a.check == (a.out is not None):
         parser.error("either OUT or --check")
-    text = a.readme.read_text(encoding="utf-8")
+    text, top = a.page.read_text(encoding="utf-8"), TOP.read_text(encoding="utf-8")
     if a.check:
-        wrong = differences(text, json.loads((HERE / "headline.json").read_text(encoding="utf-8")), ROOT)
+        head = json.loads((HERE / "headline.json").read_text(encoding="utf-8"))
+        wrong = differences(text, head, ROOT) + top_differences(top, head)
         for line in wrong:
             print(f"readme.py: {line}", file=sys.stderr)
         return 1 if wrong else 0
@@ -233,11 +257,12 @@ def main(argv: list[str]) -> int:
         head["sentences"] = {**before.get("sentences", {}), **sentences(report)}
         for name, told in head["sentences"].items():
             text = text.replace(between(text, *sentence_marks(name)), sentence_block(name, told))
+        top = top.replace(between(top, SUMMARY_BEGIN, SUMMARY_END), summary_block(head))
     except Refused as error:
         print(f"readme.py: {error}", file=sys.stderr)
         return 1
-    if a.readme.resolve() != ROOT / "README.md":
-        a.readme.write_text(text.replace(old, block(head)), encoding="utf-8")
+    if a.page.resolve() != PAGE:
+        a.page.write_text(text.replace(old, block(head)), encoding="utf-8")
         return 0
     import plots
 
@@ -246,7 +271,8 @@ def main(argv: list[str]) -> int:
     for p in head["pictures"]:
         (ROOT / p["file"]).write_text(plots.svg(cases[p["case"]]["plots"][p["plot"]], plots.WIDE) + "\n", encoding="utf-8")
     (HERE / "headline.json").write_text(json.dumps(head, indent=1) + "\n", encoding="utf-8")
-    a.readme.write_text(text.replace(old, block(head)), encoding="utf-8")
+    a.page.write_text(text.replace(old, block(head)), encoding="utf-8")
+    TOP.write_text(top, encoding="utf-8")
     return 0
 
 

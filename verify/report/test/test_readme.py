@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The README quotes what the report measured, digit by digit."""
+"""RESULTS.md and the top README quote what the report measured, digit by digit."""
 import json
 import unittest
 
@@ -23,7 +23,7 @@ def told():
 
 
 def page(head, speed=None):
-    """A README that has all of what headline.json has."""
+    """A page that has everything that headline.json has."""
     table = f"{readme.SPEED_BEGIN}\n{readme.BY_HAND}\n{readme.SPEED_END}" if speed is None else readme.speed_block(speed)
     return "\n".join([readme.block(head), table, *(readme.sentence_block(n, t) for n, t in head["sentences"].items())])
 
@@ -140,10 +140,24 @@ class Readme(unittest.TestCase):
     def test_readme_without_markers(self):
         self.assertTrue(readme.differences("nothing", self.head(), readme.ROOT))
 
-    def test_the_top_readme_agrees(self):
+    def test_the_summary_has_the_counts(self):
+        block = readme.summary_block(self.head())
+        for word in ("2000-01-01", "commit abc", "1 passed, 0 failed", "verify/report/RESULTS.md"):
+            self.assertIn(word, block)
+        self.assertEqual(readme.top_differences(f"text\n{block}\nmore", self.head()), [])
+        self.assertTrue(readme.top_differences(block.replace("1 passed", "2 passed"), self.head()))
+        for mark in (readme.SUMMARY_BEGIN, readme.SUMMARY_END):
+            self.assertTrue(any(mark in line for line in readme.top_differences(block.replace(mark, ""), self.head())), mark)
+
+    def test_pictures_are_beside_the_page(self):
+        head = {**self.head(), "pictures": [{"file": "verify/report/pictures/b.svg", "title": "t", "caption": "c", "case": "t-one", "plot": 0}]}
+        self.assertIn("](pictures/b.svg)", readme.block(head))
+
+    def test_the_pages_agree(self):
         head = json.loads((planted.REPORT / "headline.json").read_text(encoding="utf-8"))
-        text = (readme.ROOT / "README.md").read_text(encoding="utf-8")
+        text = readme.PAGE.read_text(encoding="utf-8")
         self.assertEqual(readme.differences(text, head, readme.ROOT), [])
+        self.assertEqual(readme.top_differences(readme.TOP.read_text(encoding="utf-8"), head), [])
         self.assertEqual([f["name"] for f in head["figures"]], readme.FIGURES)
         self.assertEqual([(p["case"], p["plot"]) for p in head["pictures"]], readme.PICTURES)
 
