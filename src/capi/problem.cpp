@@ -268,13 +268,13 @@ int64_t delam_option_count(void) {
 int32_t delam_option_info(int64_t index, const char** key, const char** type, const char** unit, const char** initial,
                           const char** range, const char** meaning) {
     if (index < 0 || index >= delam_option_count()) return DELAM_ERROR_ARGUMENT;
-    const OptionInfo& info = option_table()[static_cast<std::size_t>(index)];
-    if (key != nullptr) *key = info.key;
-    if (type != nullptr) *type = info.type;
-    if (unit != nullptr) *unit = info.unit;
-    if (initial != nullptr) *initial = info.initial;
-    if (range != nullptr) *range = info.range;
-    if (meaning != nullptr) *meaning = info.meaning;
+    const Option& option = option_table()[static_cast<std::size_t>(index)];
+    if (key != nullptr) *key = option.key;
+    if (type != nullptr) *type = option.type;
+    if (unit != nullptr) *unit = option.unit;
+    if (initial != nullptr) *initial = option.initial;
+    if (range != nullptr) *range = option.range.c_str();
+    if (meaning != nullptr) *meaning = option.meaning.c_str();
     return DELAM_OK;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 class Fnv {
 public:
-    std::uint64_t value = 0xcbf29ce484222325u;
+    std::uint64_t value;
 
     void add(std::uint64_t word) {
         for (int i = 0; i < 8; ++i) {
@@ -148,40 +148,28 @@ void add_loads(Fnv& fnv, const Problem& problem) {
     }
 }
 
-void add_options(Fnv& fnv, const Options& options) {
-    fnv.add(options.solution);
-    fnv.add(options.backtracking);
-    fnv.add(options.backtracking_limit);
-    fnv.add(options.backtracking_depth);
-    fnv.add(options.search_limit);
-    fnv.add(options.search_tolerance);
-    fnv.add(options.step_control);
-    fnv.add(options.step_tolerance);
-    fnv.add(options.mixity_step_tolerance);
-    fnv.add(options.smallest_step);
-    fnv.add(options.jump_tolerance);
-    fnv.add(options.jump_size);
-    fnv.add(options.damage_tolerance);
-    fnv.add(options.minimisation_limit);
-    fnv.add(options.backtracking_tolerance);
-    fnv.add(options.minimisation);
-    fnv.add(options.reduction);
-    fnv.add(options.contact);
-    fnv.add(options.mixity);
-    fnv.add(options.mixity_rule);
-    fnv.add(options.contact_limit);
-    fnv.add(options.subdomains);
-    fnv.add(options.gluing);
-    fnv.add(options.preconditioner);
-    fnv.add(options.scaling);
-    fnv.add(options.linear_tolerance);
-    fnv.add(options.linear_limit);
-}
-
 }  // namespace
 
+std::uint64_t hash(const Options& options, std::uint64_t seed, std::span<const Option> table) {
+    Fnv fnv{seed};
+    const Options initial;
+    for (const Option& row : table) {
+        if (row.hashed == Hashed::never) continue;
+        std::visit(
+            [&](const auto member) {
+                if (row.hashed == Hashed::where_set) {
+                    if (options.*member == initial.*member) return;
+                    fnv.add(std::string(row.key));
+                }
+                fnv.add(options.*member);
+            },
+            row.member);
+    }
+    return fnv.value;
+}
+
 std::uint64_t hash(const Problem& problem) {
-    Fnv fnv;
+    Fnv fnv{0xcbf29ce484222325u};
     add_mesh(fnv, *problem.mesh);
     fnv.add(static_cast<std::int64_t>(problem.plane));
     for (const std::optional<Material>& material : problem.material) add_material(fnv, material);
@@ -196,8 +184,7 @@ std::uint64_t hash(const Problem& problem) {
         fnv.add_all(interface.adhesion);
     }
     add_loads(fnv, problem);
-    add_options(fnv, problem.options);
-    return fnv.value;
+    return hash(problem.options, fnv.value);
 }
 
 }  // namespace delam

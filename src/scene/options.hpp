@@ -1,66 +1,62 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options of a problem: typed, by key, with default, range and meaning in one table.
+// The options of a problem: their values, and the table that describes them. Both come from the rows of options.inc.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 namespace delam {
 
+// A member for each row, with its default: options.threads, options.solution, ...
 struct Options {
-    // solution concept
-    std::string solution = "local";          // local | energetic
-    std::string backtracking = "auto";       // auto | off | on
-    std::int64_t backtracking_limit = 100;   // returns to earlier steps in one step
-    std::int64_t backtracking_depth = 1000;  // steps that are kept to return to
-    std::int64_t search_limit = 100000;      // candidates of a search
-    double search_tolerance = 1e-2;          // of what a search may leave between its samples
-    // step control
-    std::string step_control = "fixed";  // fixed | adaptive
-    double step_tolerance = 1e-2;        // of the two-sided estimate's band, adaptive steps
-    double mixity_step_tolerance = 0.0;  // 0: off
-    double smallest_step = 1e-4;         // of the step asked for
-    double jump_tolerance = 0.0;         // 0: jumps are not located
-    double jump_size = 0.5;              // least jump that is located, in pairs
-    // minimisation
-    double damage_tolerance = 1e-5;          // delta
-    std::int64_t minimisation_limit = 5000;  // alternate minimisation steps
-    double backtracking_tolerance = 1e-3;    // eta: relative tolerance of the two-sided estimate that is reported
-    std::string minimisation = "auto";       // auto | alternate | accelerated
-    // mechanics
-    std::string reduction = "auto";  // auto | condensed | feti
-    // what may be left out where it cannot matter
-    std::string contact = "auto";        // auto | always
-    std::string mixity = "auto";         // auto | always
-    std::string mixity_rule = "frozen";  // frozen | converged | variational
-    // contact
-    std::int64_t contact_limit = 200;  // primal-dual active-set steps before the fallback
-    // FETI
-    std::int64_t subdomains = 0;            // 0: chosen
-    std::string gluing = "orthonormal";     // orthonormal | redundant
-    std::string preconditioner = "series";  // none | lumped | dirichlet | series
-    std::string scaling = "stiffness";      // stiffness | multiplicity
-    double linear_tolerance = 1e-13;
-    std::int64_t linear_limit = 2000;
+#define DELAM_REAL(key, alias, unit, initial, lower, upper, hashed, meaning) double key = initial;
+#define DELAM_WHOLE(key, alias, unit, initial, lower, upper, hashed, meaning) std::int64_t key = initial;
+#define DELAM_TEXT(key, alias, initial, words, hashed, meaning) std::string key = #initial;
+#include "scene/options.inc"
 
-    // effort; no digit depends on it, so it is not hashed
-    std::int64_t threads = 1;  // of the library's own
-
+    // Both take the key or its alias, and throw Error(DELAM_ERROR_ARGUMENT) for what its row does not allow.
     void set_number(const std::string& key, double value);
     void set_text(const std::string& key, const std::string& value);
     // As people write it.
     std::string value_of(const std::string& key) const;
 };
 
-struct OptionInfo {
-    const char* key;
-    const char* type;
-    const char* unit;
-    const char* initial;
-    const char* range;
-    const char* meaning;
+// How an option enters the hash of a scene.
+enum class Hashed {
+    always,     // its value, in the order of the rows
+    where_set,  // key and value where it is not the default, so that scenes without it hash as they did before it came
+    never       // results do not depend on it
 };
-std::span<const OptionInfo> option_table();
+
+// An end of a range: the number, as people write it, and whether the range includes it.
+struct Bound {
+    double number = 0.0;
+    const char* words = "";
+    bool included = true;
+};
+
+// A row of the table.
+struct Option {
+    const char* key;
+    const char* alias;    // a second key; "": none
+    const char* type;     // real | integer | text
+    const char* unit;     // -: none
+    const char* initial;  // the default, as people write it
+    std::variant<double Options::*, std::int64_t Options::*, std::string Options::*> member;
+    Bound lower, upper;                                            // of a number
+    std::vector<std::string> words;                                // of a text: what it may be
+    std::vector<std::pair<std::string, std::string>> other_words;  // what is taken for one of these: (other, word)
+    Hashed hashed;
+    std::string range;    // bounds or words, as people read them
+    std::string meaning;  // with the alias and the other words
+};
+std::span<const Option> option_table();
+
+// FNV-1a over the options, going on from `seed`.
+std::uint64_t hash(const Options& options, std::uint64_t seed, std::span<const Option> table = option_table());
 
 }  // namespace delam

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Options, patterns, the check of a scene with its supports, and the hash.
+// Patterns, the check of a scene with its supports, and the hash.
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <string>
 
@@ -103,46 +102,6 @@ void push(Problem& problem, std::int64_t node, int component) {
 }
 
 }  // namespace
-
-START_TEST(options_follow_their_table) {
-    Options options;
-    for (const OptionInfo& info : option_table()) {
-        const std::string type = info.type;
-        const auto set = [&](double value) { return outcome([&] { options.set_number(info.key, value); }); };
-        if (type == "text") {
-            ck_assert_int_eq(outcome([&] { options.set_text(info.key, info.initial); }).status, 0);
-            const Outcome o = outcome([&] { options.set_text(info.key, "nonsense"); });
-            ck_assert_int_eq(o.status, DELAM_ERROR_ARGUMENT);
-            ck_assert(o.says(info.key) && o.says("'nonsense'") && o.says(info.range));
-            ck_assert_int_eq(outcome([&] { options.set_text(info.key, info.range); }).status, DELAM_ERROR_ARGUMENT);
-            ck_assert(set(1.0).says("is a text"));
-            continue;
-        }
-        ck_assert_int_eq(set(std::stod(info.initial)).status, 0);
-        ck_assert(outcome([&] { options.set_text(info.key, "1"); }).says("is a number"));
-        for (const double bad :
-             {-1.0, 1e17, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-            const Outcome o = set(bad);
-            ck_assert_int_eq(o.status, DELAM_ERROR_ARGUMENT);
-            ck_assert(o.says(info.key) && o.says(info.range));
-        }
-        if (type == "integer") ck_assert(set(1.5).says("whole number"));
-        const bool zero = std::string(info.range).rfind("0 <=", 0) == 0;
-        if (type == "real") ck_assert_int_eq(set(0.0).status, zero ? DELAM_OK : DELAM_ERROR_ARGUMENT);
-        ck_assert_int_eq(set(std::stod(info.initial)).status, 0);
-    }
-    const Options fresh;
-    ck_assert_double_eq(options.damage_tolerance, fresh.damage_tolerance);
-    ck_assert_double_eq(options.backtracking_tolerance, fresh.backtracking_tolerance);
-    ck_assert_double_eq(options.linear_tolerance, fresh.linear_tolerance);
-    ck_assert(options.minimisation_limit == fresh.minimisation_limit && options.contact_limit == fresh.contact_limit);
-    ck_assert(options.subdomains == fresh.subdomains && options.linear_limit == fresh.linear_limit);
-    ck_assert(options.gluing == fresh.gluing && options.preconditioner == fresh.preconditioner);
-    ck_assert(options.scaling == fresh.scaling);
-    const Outcome o = outcome([&] { options.set_number("linear_tolerence", 1e-9); });
-    ck_assert(o.says("'linear_tolerence' is not known") && o.says("linear_tolerance"));
-}
-END_TEST
 
 START_TEST(patterns_are_piecewise_linear) {
     const Pattern pattern{"p", {1.0, 2.0, 4.0}, {0.0, 3.0, -1.0}};
@@ -374,18 +333,7 @@ START_TEST(hash_changes_with_every_datum) {
         [](Problem& p) { p.forces[0].pattern = 1; },
         [](Problem& p) { p.forces[0].dof += 1; },
         [](Problem& p) { p.forces[0].value = 2.0; },
-        [](Problem& p) { p.options.damage_tolerance = 1e-6; },
-        [](Problem& p) { p.options.minimisation_limit = 7; },
-        [](Problem& p) { p.options.backtracking_tolerance = 1e-4; },
-        [](Problem& p) { p.options.contact_limit = 7; },
-        [](Problem& p) { p.options.mixity_rule = "converged"; },
-        [](Problem& p) { p.options.mixity_rule = "variational"; },
-        [](Problem& p) { p.options.subdomains = 7; },
-        [](Problem& p) { p.options.gluing = "redundant"; },
-        [](Problem& p) { p.options.preconditioner = "lumped"; },
-        [](Problem& p) { p.options.scaling = "multiplicity"; },
-        [](Problem& p) { p.options.linear_tolerance = 1e-9; },
-        [](Problem& p) { p.options.linear_limit = 7; },
+        [](Problem& p) { p.options.contact_limit = 7; },  // all others: case_test_options
     };
     std::vector<std::uint64_t> seen{origin, hash(stack(2, 2)), hash(stack(2, 3)), hash(stack(3, 2))};
     for (std::size_t i = 0; i < changes.size(); ++i) {
@@ -402,7 +350,6 @@ END_TEST
 int main() {
     Suite* suite = suite_create("scene");
     TCase* tests = tcase_create("scene");
-    tcase_add_test(tests, options_follow_their_table);
     tcase_add_test(tests, patterns_are_piecewise_linear);
     tcase_add_test(tests, incomplete_scenes_are_refused_by_name);
     tcase_add_test(tests, missing_supports_are_described);

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The options as a host sees them: whatever the library lists is the default of a fresh solver, refuses what is outside
+// its range, and changes the hash of the scene. No option is named here but the one that no digit depends on.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <vector>
+
+#include "api.hpp"
+#include "support.hpp"
+
+namespace {
+
+using reference::Scene;
+using reference::Solver;
+
+// Two cells on each other, pulled apart.
+Scene pair_of_cells() {
+    Scene scene(2, {1.0}, {1}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
+    scene.interface(0, 1);
+    scene.begin();
+    scene.elastic(-1, 1e12, 0.25);
+    scene.law(0, {125e9, 125e9, 100.0, 100.0, 250.0, 500.0});
+    const auto bottom = scene.find(0, {0.0, 0.0}, {1.0, 0.0});
+    scene.hold(bottom, {1.0, 0.0});
+    scene.hold(bottom, {0.0, 1.0});
+    const auto top = scene.find(1, {0.0, 2.0}, {1.0, 2.0});
+    scene.hold(top, {1.0, 0.0});
+    scene.drive(top, {0.0, 1.0}, scene.pattern("pull", {0.0, 1.0}, {0.0, 8e-5}), {1.0, 1.0});
+    return scene;
+}
+
+struct Listed {
+    std::string key, type, initial, range;
+};
+
+std::vector<Listed> listed() {
+    std::vector<Listed> all;
+    for (std::int64_t i = 0; i < delam_option_count(); ++i) {
+        const char *key = "", *type = "", *initial = "", *range = "", *meaning = "";
+        cases::expect(delam_option_info(i, &key, &type, nullptr, &initial, &range, &meaning) == DELAM_OK,
+                      "an option that was counted is not there");
+        cases::expect(std::string(meaning).size() > 10, std::string(key) + ": no meaning");
+        all.push_back({key, type, initial, range});
+    }
+    return all;
+}
+
+std::string hash_of(const Scene& scene) {
+    char out[17] = "";
+    scene.require(delam_problem_hash(scene.problem(), out), "delam_problem_hash");
+    return out;
+}
+
+double number_of(const std::string& words) {
+    if (words == "2^53") return 9007199254740992.0;
+    std::size_t read = 0;
+    const double number = std::stod(words, &read);
+    cases::expect(read == words.size(), "'" + words + "' is no number");
+    return number;
+}
+
+// "0 <= value < 1", read as a person does.
+struct Range {
+    double lower, upper;
+    bool with_lower, with_upper;
+    explicit Range(const std::string& words) {
+        const std::size_t value = words.find(" value ");
+        const std::size_t first = words.find(' '), last = words.rfind(' ');
+        cases::expect(value != std::string::npos && first < last, "'" + words + "' is no range");
+        lower = number_of(words.substr(0, first));
+        upper = number_of(words.substr(last + 1));
+        with_lower = words.find("<= value") != std::string::npos;
+        with_upper = words.find("value <=") != std::string::npos;
+    }
+};
+
+std::vector<std::string> words_of(const std::string& range) {
+    std::vector<std::string> words;
+    for (std::size_t at = 0; at <= range.size();) {
+        const std::size_t end = std::min(range.find(" | ", at), range.size());
+        words.push_back(range.substr(at, end - at));
+        at = end + 3;
+    }
+    return words;
+}
+
+std::int32_t set(const Scene& scene, const Listed& option, double value) {
+    return delam_problem_set_number(scene.problem(), option.key.c_str(), value);
+}
+std::int32_t set(const Scene& scene, const Listed& option, const std::string& word) {
+    return delam_problem_set_text(scene.problem(), option.key.c_str(), word.c_str());
+}
+std::int32_t set_initial(const Scene& scene, const Listed& option) {
+    return option.type == "text" ? set(scene, option, option.initial) : set(scene, option, number_of(option.initial));
+}
+
+CASE_TEST(defaults_are_those_listed) {
+    const Scene scene = pair_of_cells();
+    const Solver solver(scene, 0.0);
+    const std::string fresh = hash_of(scene);
+    for (const Listed& option : listed()) {
+        const char* value = delam_solver_option(solver.get(), option.key.c_str());
+        cases::expect(value != nullptr, option.key + ": a solver does not know it");
+        const bool same =
+            option.type == "text" ? value == option.initial : number_of(value) == number_of(option.initial);
+        cases::expect(same, option.key + ": a fresh solver has " + value + ", the list says " + option.initial);
+        scene.require(set_initial(scene, option), option.key.c_str());
+        cases::expect(hash_of(scene) == fresh, option.key + ": its default, set, is another scene");
+    }
+}
+
+CASE_TEST(ranges_are_kept) {
+    const Scene scene = pair_of_cells();
+    const std::string fresh = hash_of(scene);
+    for (const Listed& option : listed()) {
+        if (option.type == "text") {
+            for (const std::string& bad : {std::string("nonsense"), std::string(), option.range})
+                cases::expect(set(scene, option, bad) == DELAM_ERROR_ARGUMENT, option.key + " takes '" + bad + "'");
+            cases::expect(set(scene, option, 1.0) == DELAM_ERROR_ARGUMENT, option.key + " takes a number");
+            continue;
+        }
+        const Range range(option.range);
+        std::vector<double> bad{range.lower - 1.0, 2.0 * range.upper, std::numeric_limits<double>::quiet_NaN(),
+                                std::numeric_limits<double>::infinity()};
+        if (!range.with_lower) bad.push_back(range.lower);
+        if (!range.with_upper) bad.push_back(range.upper);
+        if (option.type == "integer") bad.push_back(range.lower + 0.5);
+        for (const double value : bad)
+            cases::expect(set(scene, option, value) == DELAM_ERROR_ARGUMENT,
+                          option.key + " takes " + std::to_string(value));
+        cases::expect(set(scene, option, std::string("1")) == DELAM_ERROR_ARGUMENT, option.key + " takes a text");
+        cases::expect(hash_of(scene) == fresh, option.key + ": what was refused has changed the scene");
+        if (range.with_lower) scene.require(set(scene, option, range.lower), option.key.c_str());
+        if (range.with_upper) scene.require(set(scene, option, range.upper), option.key.c_str());
+        scene.require(set_initial(scene, option), option.key.c_str());
+    }
+}
+
+// Each value of an option is another scene: hashes are all different. Other words for one value are the same scene.
+CASE_TEST(hash_changes_with_every_option) {
+    const Scene scene = pair_of_cells();
+    const std::string fresh = hash_of(scene);
+    std::set<std::string> seen{fresh};
+    for (const Listed& option : listed()) {
+        std::size_t values = 0, scenes = 0;
+        const auto look = [&](const std::string& what) {
+            const std::string hash = hash_of(scene);
+            if (option.key == "threads") {
+                cases::expect(hash == fresh, option.key + " changes the hash");
+            } else if (hash != fresh) {
+                cases::expect(seen.insert(hash).second, option.key + " = " + what + " hashes like another scene");
+                ++scenes;
+            }
+            ++values;
+        };
+        if (option.type == "text") {
+            std::set<std::string> own;
+            for (const std::string& word : words_of(option.range)) {
+                scene.require(set(scene, option, word), option.key.c_str());
+                const Solver solver(scene, 0.0);
+                if (own.insert(delam_solver_option(solver.get(), option.key.c_str())).second) look(word);
+            }
+            cases::expect(own.size() > 1, option.key + " has no choice");
+        } else {
+            const Range range(option.range);
+            const double initial = number_of(option.initial);
+            for (const double value : {initial + 1.0, 0.5 * (initial + range.upper), 0.5 * (initial + range.lower)}) {
+                const double tried = option.type == "integer" ? std::floor(value) : value;
+                if (!(tried > range.lower && tried < range.upper) || tried == initial) continue;
+                scene.require(set(scene, option, tried), option.key.c_str());
+                look(std::to_string(tried));
+            }
+            ++values;  // the default, which is not tried here
+        }
+        cases::expect(values > 1 && (option.key == "threads" || scenes == values - 1),
+                      option.key + ": a value of it is no other scene than the default");
+        scene.require(set_initial(scene, option), option.key.c_str());
+        cases::expect(hash_of(scene) == fresh, option.key + ": back at its default, the scene is another");
+    }
+}
+
+}  // namespace
+
+int main() {
+    Suite* suite = suite_create("options");
+    TCase* one = tcase_create("options");
+    tcase_add_test(one, defaults_are_those_listed);
+    tcase_add_test(one, ranges_are_kept);
+    tcase_add_test(one, hash_changes_with_every_option);
+    suite_add_tcase(suite, one);
+    return cases::run_suite(suite);
+}
