@@ -5,10 +5,11 @@
 #include <cmath>
 #include <cstring>
 #include <string>
-#include <type_traits>
 
 #include "base/error.hpp"
 #include "delam/delam.h"
+#include "evolution/archive.hpp"
+#include "evolution/state_fields.hpp"
 #include "evolution/values.hpp"
 
 namespace delam {
@@ -26,80 +27,15 @@ std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
     return h;
 }
 
-// Writer and reader walk a state by the same function, so that they cannot disagree.
-class Writer {
+// Numbers that are not finite, wherever they stand in a struct that is saved.
+class Finite {
 public:
-    std::vector<std::uint8_t> bytes;
+    bool holds = true;
+    static constexpr std::uint32_t version() { return delam::version; }
+    void item(const double& v) { holds = holds && std::isfinite(v); }
     template <class T>
-    void item(const T& v) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        const std::size_t at = bytes.size();
-        bytes.resize(at + sizeof(T));
-        std::memcpy(bytes.data() + at, &v, sizeof(T));
-    }
-    template <class T>
-    void item(const std::vector<T>& v) {
-        item(static_cast<std::uint64_t>(v.size()));
-        const std::size_t at = bytes.size();
-        bytes.resize(at + v.size() * sizeof(T));
-        if (!v.empty()) std::memcpy(bytes.data() + at, v.data(), v.size() * sizeof(T));
-    }
+    void item(const T&) {}
 };
-
-class Reader {
-public:
-    explicit Reader(std::span<const std::uint8_t> b) : bytes_(b) {}
-    template <class T>
-    void item(T& v) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        std::memcpy(&v, take(sizeof(T)), sizeof(T));
-    }
-    template <class T>
-    void item(std::vector<T>& v) {
-        std::uint64_t size = 0;
-        item(size);
-        if (size > (bytes_.size() - at_) / sizeof(T))
-            fail(DELAM_ERROR_SNAPSHOT, "snapshot ends early at byte ", bytes_.size());
-        v.resize(size);
-        if (size > 0) std::memcpy(v.data(), take(size * sizeof(T)), size * sizeof(T));
-    }
-    std::size_t left() const { return bytes_.size() - at_; }
-
-private:
-    const std::uint8_t* take(std::size_t n) {
-        if (n > bytes_.size() - at_) fail(DELAM_ERROR_SNAPSHOT, "snapshot ends early at byte ", bytes_.size());
-        const std::uint8_t* p = bytes_.data() + at_;
-        at_ += n;
-        return p;
-    }
-    std::span<const std::uint8_t> bytes_;
-    std::size_t at_ = 0;
-};
-
-template <class Walker, class S>
-void walk(Walker& w, S&& state) {
-    w.item(state.step);
-    w.item(state.time);
-    w.item(state.theta);
-    w.item(state.adhesion);
-    w.item(state.mixity);
-    w.item(state.mixity_before);
-    w.item(state.closed);
-    w.item(state.loaded);
-    w.item(state.response.jump);
-    w.item(state.response.force);
-    w.item(state.response.conjugate);
-    w.item(state.response.multipliers);
-    w.item(state.response.rigid);
-    w.item(state.response.stored_bulk);
-    w.item(state.response.load_potential);
-    w.item(state.response.residual);
-    w.item(state.response.iterations);
-    w.item(state.memory);
-    w.item(state.search_memory);
-    w.item(state.ledger);
-    w.item(state.counts);
-}
 
 // Every array as long as this solver's own, every number one that a march can produce.
 void check(const State& state, const Solver& solver) {
@@ -120,12 +56,10 @@ void check(const State& state, const Solver& solver) {
          {&state.theta, &a.jump, &a.force, &a.conjugate, &a.multipliers, &a.rigid, &state.memory, &state.search_memory})
         for (const double v : *values)
             if (!std::isfinite(v)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a number that is not finite");
-    const Ledger& l = state.ledger;
-    for (const double v :
-         {a.stored_bulk, a.load_potential, a.residual, l.stored_bulk, l.stored_interface, l.load_potential,
-          l.stored_interface_slides, l.dissipated, l.dissipated_slides, l.work, l.lower, l.increment, l.upper,
-          l.increment_lower, l.initial, l.initial_slides, l.mixity_error})
-        if (!std::isfinite(v)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds an energy or residual that is not finite");
+    Finite finite;
+    walk(finite, a);
+    walk(finite, state.ledger);
+    if (!finite.holds) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds an energy or residual that is not finite");
     if (!std::isfinite(state.time)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a time of ", state.time);
     if (state.step < 0 || state.step > most_steps)
         fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", state.step, ", allowed: 0 to 2^53");
@@ -137,11 +71,11 @@ void check(const JumpEvent& jump, const Solver& solver) {
     const auto& interfaces = solver.problem().mesh->interfaces();
     const bool named = jump.interface >= 0 && jump.interface < static_cast<std::int64_t>(interfaces.size());
     const std::int64_t pairs = named ? interfaces[static_cast<std::size_t>(jump.interface)].pair_count() : 0;
-    bool sound = named && jump.first_pair >= -1 && jump.first_pair < pairs && jump.last_pair >= -1 &&
-                 jump.last_pair < pairs && jump.step >= 0 && jump.before <= jump.time;
-    for (const double v : {jump.before, jump.time, jump.stored, jump.dissipated, jump.released, jump.debonded})
-        sound = sound && std::isfinite(v);
-    if (!sound)
+    const bool sound = named && jump.first_pair >= -1 && jump.first_pair < pairs && jump.last_pair >= -1 &&
+                       jump.last_pair < pairs && jump.step >= 0 && jump.before <= jump.time;
+    Finite finite;
+    walk(finite, jump);
+    if (!sound || !finite.holds)
         fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a jump at time ", jump.time, " of interface ", jump.interface,
              ", pairs ", jump.first_pair, " to ", jump.last_pair, ", that no march can have");
 }
@@ -225,26 +159,10 @@ void check(const Record& record, const State& state) {
                  "' from step ", record.first(), " on, its state is of step ", state.step);
 }
 
-}  // namespace
-
-std::vector<std::uint8_t> save(const Solver& solver) {
-    Writer w;
-    w.item(magic);
-    w.item(version);
-    w.item(solver.scene_hash());
-    write_histories(w, solver);
-    walk(w, solver.committed());
-    w.item(static_cast<std::uint64_t>(solver.past().size()));
-    for (const State& state : solver.past()) walk(w, state);
-    w.item(solver.jumps(false));
-    write_record(w, solver.recorded());
-    w.item(checksum(w.bytes));
-    return w.bytes;
-}
-
-void load(Solver& solver, std::span<const std::uint8_t> bytes) {
-    Reader r(bytes);
-    std::uint64_t found_magic = 0, found_hash = 0, found_sum = 0;
+// Of bytes that this library has written, in whatever version, and that are whole.
+std::uint32_t read_version(std::span<const std::uint8_t> bytes) {
+    Reader r(bytes, version);
+    std::uint64_t found_magic = 0, found_sum = 0;
     std::uint32_t found_version = 0;
     r.item(found_magic);
     if (found_magic != magic) fail(DELAM_ERROR_SNAPSHOT, "not a snapshot of a libdelam solver");
@@ -252,10 +170,37 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
     if (found_version < oldest || found_version > version)
         fail(DELAM_ERROR_SNAPSHOT, "snapshot version ", found_version, ", this library reads ", oldest, " to ",
              version);
-    if (bytes.size() < sizeof(found_sum)) fail(DELAM_ERROR_SNAPSHOT, "snapshot ends early");
-    std::memcpy(&found_sum, bytes.data() + bytes.size() - sizeof(found_sum), sizeof(found_sum));
-    if (found_sum != checksum(bytes.first(bytes.size() - sizeof(found_sum))))
+    if (r.left() < sizeof(found_sum)) fail(DELAM_ERROR_SNAPSHOT, "snapshot ends early");
+    const auto checked = bytes.first(bytes.size() - sizeof(found_sum));
+    std::memcpy(&found_sum, bytes.data() + checked.size(), sizeof(found_sum));
+    if (found_sum != checksum(checked))
         fail(DELAM_ERROR_SNAPSHOT, "snapshot is damaged: its checksum does not match its ", bytes.size(), " bytes");
+    return found_version;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> save(const Solver& solver) {
+    Writer w(version);
+    w.item(magic);
+    w.item(version);
+    w.item(solver.scene_hash());
+    write_histories(w, solver);
+    walk(w, solver.committed());
+    write_list(w, solver.past());
+    write_list(w, solver.jumps(false));
+    write_record(w, solver.recorded());
+    w.item(checksum(w.bytes));
+    return w.bytes;
+}
+
+void load(Solver& solver, std::span<const std::uint8_t> bytes) {
+    const std::uint32_t found_version = read_version(bytes);
+    Reader r(bytes, found_version);
+    std::uint64_t found_magic = 0, found_hash = 0;
+    std::uint32_t again = 0;
+    r.item(found_magic);
+    r.item(again);
     r.item(found_hash);
     if (found_hash != solver.scene_hash())
         fail(DELAM_ERROR_SNAPSHOT, "snapshot belongs to another scene or other options (its hash differs)");
@@ -263,20 +208,13 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
     if (found_version >= 6) patterns = read_histories(r, std::move(patterns));
     State state;
     walk(r, state);
-    std::uint64_t kept = 0;
-    r.item(kept);
-    Writer least;  // no state takes fewer bytes than an empty one
-    walk(least, State{});
-    if (kept > r.left() / least.bytes.size()) fail(DELAM_ERROR_SNAPSHOT, "snapshot ends early at byte ", bytes.size());
-    std::vector<State> past(kept);
-    for (State& earlier : past) walk(r, earlier);
-    std::vector<JumpEvent> jumps;
-    r.item(jumps);
+    std::vector<State> past = read_list<State>(r);
+    std::vector<JumpEvent> jumps = read_list<JumpEvent>(r);
     Record record;
     if (found_version >= 7) record = read_record(r, solver);
-    if (r.left() != sizeof(found_sum)) fail(DELAM_ERROR_SNAPSHOT, "snapshot has ", r.left(), " bytes too many");
+    if (r.left() != sizeof(std::uint64_t)) fail(DELAM_ERROR_SNAPSHOT, "snapshot has ", r.left(), " bytes too many");
     check(state, solver);
-    std::int64_t step = state.step - static_cast<std::int64_t>(kept);
+    std::int64_t step = state.step - static_cast<std::int64_t>(past.size());
     for (const State& earlier : past) {
         check(earlier, solver);
         if (earlier.step != step++)

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Values as bytes, field by field. A struct is saved by a table of its members, each with the version of the format
+// that it came with; writer and reader walk the same table, so that they cannot disagree, and the reader leaves out
+// what bytes of an older version do not have: such a member keeps its default.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <span>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "base/error.hpp"
+#include "delam/delam.h"
+
+namespace delam {
+
+// Numbers as they lie in memory, little-endian, and arrays of them behind their size.
+class Writer {
+public:
+    explicit Writer(std::uint32_t version) : version_(version) {}
+    std::vector<std::uint8_t> bytes;
+
+    std::uint32_t version() const { return version_; }
+    template <class T>
+    void item(const T& v) {
+        static_assert(std::is_arithmetic_v<T>);
+        put(&v, sizeof(T));
+    }
+    template <class T>
+    void item(const std::vector<T>& v) {
+        static_assert(std::is_arithmetic_v<T>);
+        item(static_cast<std::uint64_t>(v.size()));
+        put(v.data(), v.size() * sizeof(T));
+    }
+
+private:
+    void put(const void* from, std::size_t n) {
+        const std::size_t at = bytes.size();
+        bytes.resize(at + n);
+        if (n > 0) std::memcpy(bytes.data() + at, from, n);
+    }
+    std::uint32_t version_;
+};
+
+// Throws Error(DELAM_ERROR_SNAPSHOT) where the bytes end early.
+class Reader {
+public:
+    Reader(std::span<const std::uint8_t> bytes, std::uint32_t version) : bytes_(bytes), version_(version) {}
+
+    std::uint32_t version() const { return version_; }
+    std::size_t left() const { return bytes_.size() - at_; }
+    template <class T>
+    void item(T& v) {
+        static_assert(std::is_arithmetic_v<T>);
+        std::memcpy(&v, take(sizeof(T)), sizeof(T));
+    }
+    template <class T>
+    void item(std::vector<T>& v) {
+        static_assert(std::is_arithmetic_v<T>);
+        v.resize(count(sizeof(T)));
+        if (!v.empty()) std::memcpy(v.data(), take(v.size() * sizeof(T)), v.size() * sizeof(T));
+    }
+    // A number of things of at least `size` bytes each, for which there must be room.
+    std::size_t count(std::size_t size) {
+        std::uint64_t n = 0;
+        item(n);
+        if (n > left() / size) end_early();
+        return n;
+    }
+
+private:
+    [[noreturn]] void end_early() const { fail(DELAM_ERROR_SNAPSHOT, "snapshot ends early at byte ", bytes_.size()); }
+    const std::uint8_t* take(std::size_t n) {
+        if (n > left()) end_early();
+        const std::uint8_t* p = bytes_.data() + at_;
+        at_ += n;
+        return p;
+    }
+    std::span<const std::uint8_t> bytes_;
+    std::size_t at_ = 0;
+    std::uint32_t version_;
+};
+
+// A member, or a member of a member, and the version of the format that it came with.
+template <class... Path>
+struct Field {
+    std::uint32_t since;
+    std::tuple<Path...> path;
+
+    template <class Object>
+    constexpr auto& of(Object& object) const {
+        return std::apply(
+            [&](auto... members) -> auto& { return (object.*....*members); }, path);
+    }
+};
+
+// Rows of a table: saved_since(version, &Owner::member, ..., member_of(&Owner::part, &Part::member), ...).
+template <class... Members>
+constexpr std::tuple<Members...> member_of(Members... members) {
+    return {members...};
+}
+template <class... Members>
+constexpr Field<Members...> field(std::uint32_t since, std::tuple<Members...> members) {
+    return {since, members};
+}
+template <class Owner, class T>
+constexpr Field<T Owner::*> field(std::uint32_t since, T Owner::*member) {
+    return {since, {member}};
+}
+template <class... Rows>
+constexpr auto saved_since(std::uint32_t version, Rows... rows) {
+    return std::make_tuple(field(version, rows)...);
+}
+// Members that are no part of a saved state.
+constexpr std::uint32_t unsaved = std::numeric_limits<std::uint32_t>::max();
+
+// The table of a struct, in the order of the bytes: one specialisation for each that is saved.
+template <class T>
+inline constexpr std::nullptr_t saved_fields = nullptr;
+
+// Has each member of Owner its row? A member without one makes Owner larger than its rows, unless it fits into the
+// padding of the others.
+template <class Owner, class Table>
+constexpr bool complete(const Table& table) {
+    std::size_t size = 0;
+    const auto add = [&](const auto& row) {
+        size += sizeof(std::remove_reference_t<decltype(row.of(std::declval<Owner&>()))>);
+    };
+    std::apply([&](const auto&... rows) { (add(rows), ...); }, table);
+    return (size + alignof(Owner) - 1) / alignof(Owner) * alignof(Owner) == sizeof(Owner);
+}
+
+template <class Walker, class Object, class Table>
+void walk(Walker& walker, Object& object, const Table& table);
+
+template <class Walker, class T>
+void walk(Walker& walker, T& value) {
+    if constexpr (std::is_null_pointer_v<std::remove_const_t<decltype(saved_fields<std::remove_const_t<T>>)>>)
+        walker.item(value);
+    else
+        walk(walker, value, saved_fields<std::remove_const_t<T>>);
+}
+
+template <class Walker, class Object, class Table>
+void walk(Walker& walker, Object& object, const Table& table) {
+    const auto visit = [&](const auto& row) {
+        if (row.since <= walker.version()) walk(walker, row.of(object));
+    };
+    std::apply([&](const auto&... rows) { (visit(rows), ...); }, table);
+}
+
+// Bytes of the least value of T, one with empty arrays.
+template <class T>
+std::size_t least_size(std::uint32_t version) {
+    Writer least(version);
+    const T empty{};
+    walk(least, empty);
+    return least.bytes.size();
+}
+template <class T>
+void write_list(Writer& writer, const std::vector<T>& list) {
+    writer.item(static_cast<std::uint64_t>(list.size()));
+    for (const T& entry : list) walk(writer, entry);
+}
+template <class T>
+std::vector<T> read_list(Reader& reader) {
+    std::vector<T> list(reader.count(least_size<T>(reader.version())));
+    for (T& entry : list) walk(reader, entry);
+    return list;
+}
+
+}  // namespace delam

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Saved structs, field by field: what a later version adds is left out of older bytes and read with its default; the
+// bytes of a state keep their order.
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "evolution/archive.hpp"
+#include "evolution/state_fields.hpp"
+
+// Last: its macro fail() would break delam::fail().
+#include <check.h>
+
+using namespace delam;
+
+namespace {
+
+struct Part {
+    std::int64_t count = 3;
+    double late = 0.25;
+};
+// A struct as it may look after two further versions of the format.
+struct Sample {
+    double first = 1.0;
+    std::vector<double> list{};
+    Part part{};
+    double added = -7.5;
+    bool derived = true;
+};
+constexpr auto rows = std::tuple_cat(
+    saved_since(5, &Sample::first, &Sample::list, member_of(&Sample::part, &Part::count)),
+    saved_since(8, member_of(&Sample::part, &Part::late), &Sample::added), saved_since(unsaved, &Sample::derived));
+static_assert(complete<Sample>(rows));
+// One row less, and it is noticed.
+static_assert(!complete<Sample>(saved_since(5, &Sample::first, &Sample::list)));
+
+Sample changed() { return {2.0, {4.0, 5.0}, {6, 0.5}, 9.0, false}; }
+
+std::vector<std::uint8_t> written(const Sample& sample, std::uint32_t version) {
+    Writer writer(version);
+    walk(writer, sample, rows);
+    return writer.bytes;
+}
+
+Sample read(const std::vector<std::uint8_t>& bytes, std::uint32_t version) {
+    Reader reader(bytes, version);
+    Sample sample;
+    walk(reader, sample, rows);
+    ck_assert_uint_eq(reader.left(), 0);
+    return sample;
+}
+
+// Every value of a list as eight bytes.
+template <class T>
+void append(std::vector<std::uint8_t>& bytes, T value) {
+    static_assert(sizeof value == 8);
+    const std::size_t at = bytes.size();
+    bytes.resize(at + 8);
+    std::memcpy(bytes.data() + at, &value, 8);
+}
+
+template <class T>
+std::vector<std::uint8_t> bytes_of(const T& value) {
+    Writer writer(7);
+    walk(writer, value);
+    return writer.bytes;
+}
+
+}  // namespace
+
+START_TEST(older_bytes_leave_defaults) {
+    const auto old = written(changed(), 7), today = written(changed(), 8);
+    ck_assert_uint_eq(old.size(), 8 + (8 + 16) + 8);
+    ck_assert_uint_eq(today.size(), old.size() + 16);
+    const Sample from_old = read(old, 7), from_today = read(today, 8);
+    for (const Sample& sample : {from_old, from_today}) {
+        ck_assert_double_eq(sample.first, 2.0);
+        ck_assert_uint_eq(sample.list.size(), 2);
+        ck_assert_double_eq(sample.list[1], 5.0);
+        ck_assert_int_eq(sample.part.count, 6);
+        ck_assert(sample.derived);  // never saved
+    }
+    ck_assert_double_eq(from_old.part.late, 0.25);
+    ck_assert_double_eq(from_old.added, -7.5);
+    ck_assert_double_eq(from_today.part.late, 0.5);
+    ck_assert_double_eq(from_today.added, 9.0);
+}
+END_TEST
+
+START_TEST(short_bytes_are_refused) {
+    const auto whole = written(changed(), 8);
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+        Reader reader(std::span<const std::uint8_t>(whole).first(size), 8);
+        Sample sample;
+        std::int32_t status = 0;
+        try {
+            walk(reader, sample, rows);
+        } catch (const Error& e) {
+            status = e.status();
+            ck_assert(std::string(e.what()).find("ends early") != std::string::npos);
+        }
+        ck_assert_int_eq(status, DELAM_ERROR_SNAPSHOT);
+    }
+    // A size without its numbers takes no memory.
+    std::vector<std::uint8_t> huge;
+    append(huge, std::uint64_t{1} << 60);
+    Reader reader(huge, 7);
+    std::int32_t status = 0;
+    try {
+        (void)read_list<JumpEvent>(reader);
+    } catch (const Error& e) {
+        status = e.status();
+    }
+    ck_assert_int_eq(status, DELAM_ERROR_SNAPSHOT);
+}
+END_TEST
+
+// The formats 5 to 7 hold these numbers in this order, whatever becomes of the structs.
+START_TEST(bytes_keep_their_order) {
+    Ledger l;
+    double energy = 0.5;
+    std::vector<std::uint8_t> expected;
+    for (double* v : {&l.stored_bulk, &l.stored_interface, &l.load_potential, &l.stored_interface_slides, &l.dissipated,
+                      &l.dissipated_slides, &l.work, &l.lower, &l.increment, &l.upper, &l.increment_lower, &l.initial,
+                      &l.initial_slides, &l.mixity_error})
+        append(expected, *v = energy += 1.0);
+    ck_assert(bytes_of(l) == expected);
+
+    Counts c;
+    std::int64_t count = 100;
+    expected.clear();
+    for (std::int64_t* v :
+         {&c.am_iterations, &c.displacement_solves, &c.contact_iterations, &c.contact_iterations_first,
+          &c.contact_iterations_max, &c.contact_fallbacks, &c.linear_iterations, &c.newton_solves, &c.debond_moves,
+          &c.mixity_held, &c.backtracks, &c.revisions, &c.revised_from, &c.search_candidates})
+        append(expected, *v = ++count);
+    for (double* v : {&c.search_margin, &c.search_gap}) append(expected, *v = energy += 1.0);
+    for (std::int64_t* v : {&c.substeps, &c.refused_steps, &c.jumps}) append(expected, *v = ++count);
+    for (double* v : {&c.released, &c.damage_change, &c.linear_residual}) append(expected, *v = energy += 1.0);
+    ck_assert(bytes_of(c) == expected);
+
+    JumpEvent j{};
+    expected.clear();
+    append(expected, j.step = ++count);
+    for (double* v : {&j.before, &j.time, &j.stored, &j.dissipated, &j.released, &j.debonded})
+        append(expected, *v = energy += 1.0);
+    for (std::int64_t* v : {&j.interface, &j.first_pair, &j.last_pair}) append(expected, *v = ++count);
+    ck_assert(bytes_of(j) == expected);
+}
+END_TEST
+
+int main() {
+    Suite* suite = suite_create("archive");
+    TCase* tests = tcase_create("archive");
+    tcase_add_test(tests, older_bytes_leave_defaults);
+    tcase_add_test(tests, short_bytes_are_refused);
+    tcase_add_test(tests, bytes_keep_their_order);
+    suite_add_tcase(suite, tests);
+    SRunner* runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? 0 : 1;
+}
