@@ -6,10 +6,11 @@
 #include <cstring>
 #include <string>
 
+#include "base/archive.hpp"
 #include "base/error.hpp"
 #include "delam/delam.h"
-#include "evolution/archive.hpp"
-#include "evolution/state_fields.hpp"
+#include "evolution/increment/state_fields.hpp"
+#include "evolution/jump_event_fields.hpp"
 #include "evolution/values.hpp"
 
 namespace delam {

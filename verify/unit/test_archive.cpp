@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "base/archive.hpp"
 #include "base/error.hpp"
-#include "evolution/archive.hpp"
-#include "evolution/state_fields.hpp"
+#include "evolution/increment/state_fields.hpp"
+#include "evolution/jump_event_fields.hpp"
 
 // Last: its macro fail() would break delam::fail().
 #include <check.h>

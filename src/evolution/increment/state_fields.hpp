@@ -5,9 +5,8 @@
 
 #include <tuple>
 
-#include "evolution/archive.hpp"
+#include "base/archive.hpp"
 #include "evolution/increment/state.hpp"
-#include "evolution/jump_event.hpp"
 
 namespace delam {
 
@@ -86,24 +85,10 @@ inline constexpr auto saved_fields<State> = saved_since(5,
     &State::search_memory,
     &State::ledger,
     &State::counts);
-
-template <>
-inline constexpr auto saved_fields<JumpEvent> = saved_since(5,
-    &JumpEvent::step,
-    &JumpEvent::before,
-    &JumpEvent::time,
-    &JumpEvent::stored,
-    &JumpEvent::dissipated,
-    &JumpEvent::released,
-    &JumpEvent::debonded,
-    &JumpEvent::interface,
-    &JumpEvent::first_pair,
-    &JumpEvent::last_pair);
 // clang-format on
 
 static_assert(complete<Response>(saved_fields<Response>) && complete<Ledger>(saved_fields<Ledger>) &&
-                  complete<Counts>(saved_fields<Counts>) && complete<State>(saved_fields<State>) &&
-                  complete<JumpEvent>(saved_fields<JumpEvent>),
+                  complete<Counts>(saved_fields<Counts>) && complete<State>(saved_fields<State>),
               "a member of a saved struct has no row");
 
 }  // namespace delam

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What of a jump event is saved (increment/state_fields.hpp).
+#pragma once
+
+#include "base/archive.hpp"
+#include "evolution/jump_event.hpp"
+
+namespace delam {
+
+// One row a line.
+// clang-format off
+template <>
+inline constexpr auto saved_fields<JumpEvent> = saved_since(5,
+    &JumpEvent::step,
+    &JumpEvent::before,
+    &JumpEvent::time,
+    &JumpEvent::stored,
+    &JumpEvent::dissipated,
+    &JumpEvent::released,
+    &JumpEvent::debonded,
+    &JumpEvent::interface,
+    &JumpEvent::first_pair,
+    &JumpEvent::last_pair);
+// clang-format on
+
+static_assert(complete<JumpEvent>(saved_fields<JumpEvent>), "a member of a jump event has no row");
+
+}  // namespace delam
