@@ -37,7 +37,7 @@ bool spared(const void* caller) {
     return std::strstr(where.dli_fname, "libgomp") != nullptr || std::strstr(where.dli_fname, "blas") != nullptr;
 }
 
-// caller: the return address of what asks.
+// caller: the return address of the allocating code.
 bool fails(const void* caller) {
     if (!failing.load(std::memory_order_relaxed)) return false;
     if (sparing && spared(caller)) return false;
@@ -48,8 +48,8 @@ bool fails(const void* caller) {
     return true;
 }
 
-// The C library's own, through the dynamic linker, so that valgrind, which replaces them there, sees each block. Asking
-// for them may itself allocate; that is served directly.
+// The C library's own functions, found through the dynamic linker, so that valgrind, which replaces them there, sees
+// each block. Looking them up may itself allocate; those allocations are served directly.
 struct Real {
     void* (*malloc)(std::size_t) = __libc_malloc;
     void* (*calloc)(std::size_t, std::size_t) = __libc_calloc;
@@ -64,7 +64,7 @@ F next(const char* name, F direct) {
 }
 Real& real() {
     static constinit Real functions;
-    static constinit int state = 0;  // 0 not asked for yet, 1 being asked for, 2 known
+    static constinit int state = 0;  // 0 not looked up yet, 1 being looked up, 2 known
     if (state == 0) {
         state = 1;
         const Real found{next("malloc", __libc_malloc), next("calloc", __libc_calloc), next("realloc", __libc_realloc),
@@ -82,7 +82,7 @@ void* counted(void* p) {
 
 }  // namespace
 
-// For every library in the process, whatever the visibility of this program.
+// Serves every library in the process, whatever the visibility of this program.
 #pragma GCC visibility push(default)
 extern "C" {
 void* malloc(std::size_t n) { return fails(__builtin_return_address(0)) ? nullptr : counted(real().malloc(n)); }

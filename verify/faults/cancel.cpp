@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fault_cancel [STRIDE [SCENE ...]]: every STRIDE-th call of the progress callback asks for the end, by its result or
-// by delam_context_cancel (calls that read heed that alone). Always DELAM_CANCELLED, the state before the call, and the
-// same result when the host goes on.
+// fault_cancel [STRIDE [SCENE ...]]: every STRIDE-th call of the progress callback cancels, by its result or by
+// delam_context_cancel (calls that read obey only the latter). The call must return DELAM_CANCELLED and restore the
+// state before it, and the host must get the same result when it goes on.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -12,7 +12,7 @@ namespace {
 
 using faults::expect;
 
-// Of names like "delam_solver_value kkt_gap".
+// For names like "delam_solver_value kkt_gap".
 bool reads(const std::string& name) {
     for (const char* function : {"delam_mesh_find_patch", "delam_problem_body_matrix", "delam_problem_constraints",
                                  "delam_problem_eigenstrain_energy", "delam_problem_forces", "delam_problem_hash",
@@ -56,7 +56,7 @@ public:
     long cancelled = 0;
 
 private:
-    // At its turn, and at that alone, it asks.
+    // Cancels at one poll only.
     static std::int32_t poll(const char* stage, std::int64_t, std::int64_t, void* user) {
         auto& self = *static_cast<Canceller*>(user);
         if (self.left_ <= 0 || --self.left_ > 0) return 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fault_environment [LOCALE]: a host with a locale, floating point environment, signal handlers and random numbers of
-// its own gets the same results, bit by bit, and finds all of it as it was.
+// fault_environment [LOCALE]: a host with its own locale, floating-point environment, signal handlers and random
+// numbers gets the same results, bit by bit, and finds its environment unchanged.
 #include <dlfcn.h>
 #include <fenv.h>
 #include <pthread.h>
@@ -21,7 +21,7 @@
 
 #include "scenes.hpp"
 
-// Its declarations are for the library as well, which finds the function below in front of METIS's own.
+// The declarations of METIS also serve the library, which finds the function below in front of METIS's own.
 #pragma GCC visibility push(default)
 #include <metis.h>
 #pragma GCC visibility pop
@@ -35,7 +35,7 @@ namespace {
 using faults::expect;
 using Transcripts = std::map<std::string, faults::Transcript>;
 
-// What the library says when it refuses numbers, with their decimals and groups of digits.
+// The library's message when it refuses numbers, with their decimals and digit grouping.
 faults::Transcript refusals() {
     faults::Transcript said;
     delam_context* context = nullptr;
@@ -104,7 +104,7 @@ void with_locale() {
 
 // ---- floating point
 
-// Its calls, and they alone, are made in an environment of its own.
+// Sets a special floating-point environment for its calls only.
 class Elsewhere : public faults::Host {
 public:
     explicit Elsewhere(const std::function<void()>& set) {
@@ -127,8 +127,8 @@ public:
     }
 
 private:
-    // Rounding, traps, flags, and the control word of SSE with its treatment of denormal numbers. (An fenv_t also has
-    // where the x87 was last.)
+    // Rounding, traps, flags, and the control word of SSE with its treatment of denormals. (An fenv_t also contains the
+    // address of the last x87 instruction.)
     static std::array<unsigned, 4> what_counts() {
         unsigned sse = 0;
 #if defined(__SSE2__)
@@ -163,7 +163,7 @@ void with_rounding_to_zero() {
 void with_traps() {
     with_environment([] { feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW); });
 }
-// Flags that were raised before stay, and the library raises none.
+// Flags raised before must stay, and the library must raise none.
 void with_flags() {
     with_environment([] { feraiseexcept(FE_UNDERFLOW); });
 }
@@ -196,7 +196,7 @@ bool same(const sigset_t& a, const sigset_t& b) {
     return true;
 }
 
-// A host that is interrupted a thousand times a second, blocks a signal, and counts on its handlers and its random
+// A host that is interrupted a thousand times a second, blocks a signal, and relies on its handlers and its random
 // numbers.
 void with_signals() {
     struct sigaction before[NSIG] = {};
@@ -217,7 +217,7 @@ void with_signals() {
     const itimerval every{{0, 1000}, {0, 1000}}, never{};
     setitimer(ITIMER_REAL, &every, nullptr);
 
-    // Another thread looks at the handlers all the while: they are the host's but for the time in which METIS runs.
+    // Another thread watches the handlers all the time: they must be the host's, except while METIS runs.
     std::atomic<bool> over{false};
     std::atomic<long> looks{0}, foreign{0};
     std::thread watcher([&] {
@@ -268,7 +268,7 @@ void with_signals() {
 
 }  // namespace
 
-// Counts, and hands on to METIS.
+// Counts the call and passes it on to METIS.
 int METIS_PartGraphKway(idx_t* vertices, idx_t* constraints, idx_t* start, idx_t* neighbour, idx_t* weight, idx_t* size,
                         idx_t* edge_weight, idx_t* parts, real_t* targets, real_t* balance, idx_t* options, idx_t* cut,
                         idx_t* part) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fault_gaps: for people. The longest times of the calling thread between two looks at the cancel flag, call by call:
-// what a cancel from another thread waits for, the end of the call included. Of the end-notched flexure of 0.1 mm and
-// one in space.
+// fault_gaps, for people: the longest times of the calling thread between two polls of the cancel flag, or between the
+// last poll and the end of the call: how long a cancel from another thread has to wait. For the end-notched flexure
+// test at 0.1 mm and a scene in space.
 #include <time.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A host that hands every call of a scene to whoever disturbs it, and keeps what the calls gave.
+// A host that passes every call of a scene to the code that disturbs it, and keeps the results of the calls.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ inline void expect(bool condition, const std::string& text) {
     if (!condition) throw std::runtime_error(text);
 }
 
-// Bytes under the name of what gave them, in order.
+// Bytes, named after the call that returned them, in order.
 class Transcript {
 public:
     template <class T>
@@ -26,7 +26,7 @@ public:
     }
     void add(const std::string& name, const void* bytes, std::size_t size);
     void add(const std::string& name, const std::string& text) { add(name, text.data(), text.size()); }
-    // "" when both are the same, bit by bit.
+    // Returns "" if both are equal, bit by bit; otherwise the difference.
     std::string difference(const Transcript& other) const;
     std::size_t size() const { return entries_.size(); }
 
@@ -42,16 +42,15 @@ public:
     Host& operator=(const Host&) = delete;
     virtual ~Host() = default;
 
-    // One call of the library, until it has gone through; nothing but the library allocates inside. undo takes back
-    // what a call has done, so that it can be asked for again; without one, asking again is harmless, or `once` says
-    // that it is not.
+    // Makes one call of the library until it succeeds; only the library allocates inside. undo reverts the effect of
+    // the call so that it can be repeated. Without undo, repeating must be harmless, or `once` must be set.
     enum class Repeat { harmless, once, after_undo };
     virtual void call(const std::string& name, Repeat repeat, const Call& call, const Call& undo) = 0;
     void query(const std::string& name, const Call& c) { call(name, Repeat::harmless, c, {}); }
     void change(const std::string& name, const Call& c) { call(name, Repeat::once, c, {}); }
     void create(const std::string& name, const Call& c, const Call& undo) { call(name, Repeat::after_undo, c, undo); }
 
-    // A context that the scene has made, and the solver whose state must not change in a call that fails (null: none).
+    // The scene's context, and the solver whose state must not change in a call that fails (null: none).
     virtual void made(delam_context* context) { context_ = context; }
     void watch(delam_solver* solver) { solver_ = solver; }
 
@@ -63,7 +62,7 @@ protected:
     delam_solver* solver_ = nullptr;
 };
 
-// Undisturbed.
+// A host that disturbs nothing.
 class Calm : public Host {
 public:
     void call(const std::string& name, Repeat, const Call& call, const Call&) override {
@@ -72,8 +71,8 @@ public:
     }
 };
 
-// State of a solver, pending step included, without recovering displacements: saved bytes, fields of the pairs, ledger.
-// words: and what the last search has looked at, which a step leaves behind that is taken back.
+// The state of a solver, pending step included, without recovering displacements: saved bytes, fields of the pairs,
+// ledger. words: include the report of the last search, which stays when a step is rolled back.
 Transcript state_of(delam_solver* solver, bool words = true);
 
 }  // namespace faults

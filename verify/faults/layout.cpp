@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fault_layout [SCENE ...]: the same bits wherever blocks of memory lie. Kernels that treat the first entries of an
-// unaligned array in another way add them up in another order; then what a march gives would depend on what its host
-// had allocated before. Every block that may, begins at one of the four multiples of 16 within 64 bytes, by chance.
+// fault_layout [SCENE ...]: the results must have the same bits wherever memory blocks lie. A kernel that treats the
+// first entries of an unaligned array separately adds them in another order, so that results would depend on the host's
+// earlier allocations. Every block that may do so begins at a random multiple of 16 within 64 bytes.
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -24,7 +24,7 @@
 #ifndef FAULTS_NO_LAYOUT
 namespace {
 
-// In front of every block.
+// Stored in front of every block.
 struct Front {
     void* begin;
     std::size_t size;
@@ -32,7 +32,7 @@ struct Front {
 static_assert(sizeof(Front) == 16);
 
 std::atomic<bool> scattered{false};
-std::atomic<long> moved{0};  // blocks that do not lie where they would
+std::atomic<long> moved{0};  // blocks that were moved from their usual place
 thread_local std::uint64_t seed = 0x9e3779b97f4a7c15;
 
 std::uintptr_t chance() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // fault_memory [MOST [SCENE ...]]: the k-th allocation inside a call fails, for k = 1, 2, 3 ... up to MOST / 2, and
-// from there on with steps of 2 k / MOST, rounded down (MOST 0: every one). Calls of which some were left out are
-// listed. A status, an object that goes on as if nothing had been, no leak.
+// from there on in steps of 2 k / MOST, rounded down (MOST 0: every one). The program lists the calls in which some
+// were left out. Each failure must give a status, leave the object usable and unchanged, and leak nothing.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -42,7 +42,7 @@ public:
                 return;
             }
             ++failed;
-            if (status == DELAM_OK) {  // it did without
+            if (status == DELAM_OK) {  // the call succeeded without that allocation
                 ++done_without;
                 if (repeat == Repeat::once) return;
                 if (repeat == Repeat::after_undo) expect(undo() == DELAM_OK, where + ", but done: taking it back");
@@ -59,7 +59,7 @@ public:
                 const std::string difference = before.difference(faults::state_of(solver_));
                 expect(difference.empty(), where + ": state: " + difference);
             }
-            // The length of the call is not known before it went through: farther and farther apart.
+            // The number of allocations is unknown until the call succeeds, so the steps grow with k.
             if (most_ > 0 && k >= most_ / 2) step = std::max(1L, 2 * k / most_);
         }
     }
@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
         std::printf("skipped: the allocator of this build cannot be told to fail\n");
         return 77;
     }
-    static char buffer[4096];  // or the first line printed would be a block that is left
+    static char buffer[4096];  // otherwise the first printed line would count as a block that is not freed
     std::setvbuf(stdout, buffer, _IOLBF, sizeof buffer);
     const long most = argc > 1 ? std::atol(argv[1]) : 0;
     int failures = 0;

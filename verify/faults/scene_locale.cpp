@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fault_scene_locale SCENE_FILE ... LOCALE: the files make the same problems under that locale, and under the one of C.
+// fault_scene_locale SCENE_FILE ... LOCALE: the files must give the same problems under that locale and under C.
 #include <clocale>
 #include <cstdio>
 #include <cstdlib>

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double length = 0.070, notch = 0.030, layer = 3e-3, width = 7e-3, end = 2e-3;
 
-// Handles of one scene; destroyed in any order, as the API promises.
+// Handles of one scene. They are destroyed in any order, as the API allows.
 struct Handles {
     delam_context* context = nullptr;
     delam_mesh* mesh = nullptr;
@@ -38,7 +38,7 @@ struct Handles {
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-// Two layers of quadrilaterals or hexahedra, cells of the lower one `coarse` times as long; nodes are shared where
+// Two layers of quadrilaterals or hexahedra; cells of the lower one are `coarse` times as long; nodes are shared if
 // `shared`.
 struct Cells {
     std::vector<double> nodes;
@@ -236,7 +236,7 @@ void make_problem(Host& host, Handles& h, const Strip& s) {
     for (const auto& option : s.numbers)
         host.query("delam_problem_set_number " + option.first,
                    [&] { return delam_problem_set_number(h.problem, option.first.c_str(), option.second); });
-    if (s.given) {  // the upper body as a host would hand it over: the stiffness that the library itself assembles
+    if (s.given) {  // the upper body as a host would provide it: with the stiffness that the library itself assembles
         std::int64_t rows = 0, entries = 0;
         host.query("delam_problem_body_matrix",
                    [&] { return delam_problem_body_matrix(h.problem, 1, &rows, &entries, nullptr, nullptr, nullptr); });
@@ -258,7 +258,7 @@ void make_problem(Host& host, Handles& h, const Strip& s) {
     host.transcript.add("hash", hash.data(), hash.size());
 }
 
-// A text of the library, "" while it cannot be made.
+// A text of the library, or "" if it cannot be allocated.
 std::string words(Host& host, const std::string& name, const std::function<const char*()>& ask) {
     const char* text = nullptr;
     host.query(name, [&] {
@@ -268,7 +268,7 @@ std::string words(Host& host, const std::string& name, const std::function<const
     return text;
 }
 
-// Everything that can be asked of a solver, counts over its life apart.
+// Everything that can be read from a solver, except the counts over its lifetime.
 void read(Host& host, Handles& h, const Strip& s) {
     delam_solver* solver = h.solver;
     std::int64_t count = 0;
@@ -380,7 +380,7 @@ void march(Host& host, const Strip& s) {
     const auto time = [&](int k) { return 2.0 * k / s.steps; };
     std::vector<std::uint8_t> half;
     for (int k = 1; k <= s.steps; ++k) {
-        if (k == s.steps) {  // a farther step and a displacement step, taken back
+        if (k == s.steps) {  // another step and a displacement step, both rolled back
             advance(time(k + 1));
             host.change("delam_solver_rollback", rollback);
             host.create(
@@ -399,7 +399,7 @@ void march(Host& host, const Strip& s) {
     host.query("delam_solver_look", [&] { return delam_solver_look(h.solver, s.steps); });
     host.query("delam_solver_look", [&] { return delam_solver_look(h.solver, -1); });
 
-    // As files, and another history from here on.
+    // Through files, and with another load history from here on.
     const std::string path = "delam-fault-" + s.name + "-" + std::to_string(gettid()) + ".state";
     host.query("delam_solver_save_file", [&] { return delam_solver_save_file(h.solver, path.c_str()); });
     host.query("delam_solver_load_file", [&] { return delam_solver_load_file(h.solver, path.c_str()); });
@@ -412,7 +412,7 @@ void march(Host& host, const Strip& s) {
     commit();
     host.transcript.add("saved bytes", save(host, h.solver));
 
-    // Back to the half, here and in a solver made anew, and on from there.
+    // Back to the middle, in this solver and in a new one, and on from there.
     host.query("delam_solver_load",
                [&] { return delam_solver_load(h.solver, static_cast<std::int64_t>(half.size()), half.data()); });
     host.transcript.add("loaded bytes", save(host, h.solver));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Complete small scenes, from the context to its end, each call handed to a host: mesh, law, problem, march with rolled
-// back steps, fields, fronts, tangent, save and load.
+// Complete small scenes, from creating the context to destroying it, with each call passed to a host: mesh, law,
+// problem, analysis with rolled back steps, fields, fronts, tangent, saving and loading.
 #pragma once
 
 #include <string>
@@ -22,7 +22,7 @@ struct Strip {
     std::vector<std::pair<std::string, std::string>> texts;  // options
     std::vector<std::pair<std::string, double>> numbers;
     int steps = 4;
-    bool given = false;  // the stiffness of the upper body handed over as CSR
+    bool given = false;  // the stiffness of the upper body is passed as CSR
     bool condensed() const;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fault_shortage: scenes in processes that may only grow by so much (RLIMIT_AS). Each ends by itself with DELAM_OK or
-// DELAM_ERROR_MEMORY, without a word, whatever stands behind the library.
+// fault_shortage: scenes in processes with a limited address space (RLIMIT_AS). Each must end by itself with DELAM_OK
+// or DELAM_ERROR_MEMORY and print nothing, whatever libraries are in use.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,7 +13,7 @@
 #include "scenes.hpp"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool shadowed = true;  // a sanitizer maps far more than the program
+constexpr bool shadowed = true;  // a sanitizer maps far more memory than the program
 #else
 constexpr bool shadowed = false;
 #endif
@@ -24,7 +24,7 @@ constexpr unsigned most_seconds = 60;
 
 struct NoMemory {};
 
-// The first refusal ends the scene.
+// The first failing call ends the scene.
 class Modest : public faults::Host {
 public:
     void call(const std::string& name, Repeat, const Call& call, const Call&) override {
@@ -44,7 +44,7 @@ void limit(long room) {
     if (setrlimit(RLIMIT_AS, &as) != 0) std::_Exit(3);
 }
 
-// 0: went through, 1: had no memory, 2: another failure.
+// 0: finished, 1: out of memory, 2: another failure.
 int child(const faults::Strip* strip, long room, int words) {
     dup2(words, 1);
     dup2(words, 2);
@@ -62,7 +62,7 @@ int child(const faults::Strip* strip, long room, int words) {
         return 0;
     } catch (const NoMemory&) {
         return 1;
-    } catch (const std::bad_alloc&) {  // the host's own
+    } catch (const std::bad_alloc&) {  // in the host's own code
         return 1;
     } catch (const std::exception& e) {
         std::printf("%s\n", e.what());
@@ -71,11 +71,11 @@ int child(const faults::Strip* strip, long room, int words) {
     }
 }
 
-// Runs it and says how it ended; false: not as it should.
+// Runs it and prints how it ended; false: not as required.
 bool run(const faults::Strip* strip, long room, int& without) {
     std::FILE* words = std::tmpfile();
     if (words == nullptr) return false;
-    std::fflush(stdout);  // not by the child
+    std::fflush(stdout);  // not again in the child
     const pid_t pid = fork();
     if (pid == 0) std::_Exit(child(strip, room, fileno(words)));
     int how = 0;

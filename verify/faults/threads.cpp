@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fault_threads [ROUNDS]: eight threads march scenes of their own at once, condensed, FETI cut by METIS, energetic,
-// saved and loaded, with the library's own threads too: the bits of a march alone. Under ThreadSanitizer: no race.
+// fault_threads [ROUNDS]: eight threads run scenes of their own at the same time, condensed, FETI cut by METIS,
+// energetic, saved and loaded, also with the library's own threads. Each must give the bits of the same analysis run
+// alone. Under ThreadSanitizer: no race.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>

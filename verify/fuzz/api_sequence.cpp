@@ -25,7 +25,7 @@ constexpr std::size_t slots = 3;  // of each kind
 constexpr int calls_at_most = 40;
 constexpr std::int64_t nodes_at_most = 400;
 
-// Callbacks of a law that the host computes: the bilinear law, until it is told to fail.
+// A host law, computed by callbacks: the bilinear law, until it is made to fail.
 struct HostLaw {
     int fail_in = -1;  // calls until one fails
     bool nonsense = false;
@@ -86,11 +86,11 @@ struct Shelf {
         handle[slot] = made;
         host[slot] = with;
     }
-    // Slots that are empty give NULL.
+    // Empty slots give NULL.
     T* pick(Input& in) const { return handle[static_cast<std::size_t>(in.below(slots))]; }
 };
 
-// Two contexts, what was made with them, and the callbacks' own.
+// Two contexts, the objects made with them, and the data of the callbacks.
 struct World {
     std::unique_ptr<Host> host[2] = {std::make_unique<Host>(), std::make_unique<Host>()};
     HostLaw host_law;
@@ -98,9 +98,9 @@ struct World {
     Shelf<delam_law> law;
     Shelf<delam_problem> problem;
     Shelf<delam_solver> solver;
-    // Of the call that runs: what it was asked of, and the callbacks that hear of it.
+    // The running call: its subject, and the callbacks that it may call.
     Host* heard = nullptr;
-    // Of the call that comes: polls until it is cancelled, and whether by the callback's answer; -1: let it be.
+    // The next call: number of polls until it is cancelled, and whether by the callback's answer; -1: not at all.
     std::int64_t interrupt_in = -1;
     bool interrupt_by_call = false;
 
@@ -115,10 +115,10 @@ struct World {
     }
     Host& any_host(Input& in) { return *host[in.below(2)]; }
 
-    // Status of a call that makes an object, which goes to a slot where it succeeds.
+    // Status of a call that makes an object; if it succeeds, the object goes into a slot.
     template <class T, class Make>
     std::int32_t make(Shelf<T>& shelf, Input& in, Host& with, Make&& call) {
-        T* made = reinterpret_cast<T*>(this);  // has to be overwritten
+        T* made = reinterpret_cast<T*>(this);  // must be overwritten
         T** out = in.seldom() ? nullptr : &made;
         const std::int32_t status = call(out);
         if (out == nullptr) {
@@ -199,7 +199,7 @@ MeshSizes sizes_of(const delam_mesh* mesh) {
     delam_mesh_size(mesh, &s.dimension, &s.nodes, &s.cells, &s.bodies, &s.interfaces);
     return s;
 }
-// A problem does not hand its mesh out: the dimension is told by the fields that only one has.
+// A problem does not return its mesh; fields that exist in only one dimension reveal the dimension.
 struct ProblemSizes {
     std::int64_t dofs = 0, dual = 0, patterns = 0;
 };
@@ -210,7 +210,7 @@ ProblemSizes sizes_of(const delam_problem* problem) {
     return s;
 }
 
-// A capacity near what is needed and a buffer of as many entries, so that one entry more is noticed.
+// A capacity near the required one, and a buffer of exactly that many entries, so that writing one more is detected.
 template <class T>
 struct Room {
     Room(Input& in, std::int64_t needed) {
@@ -319,7 +319,7 @@ std::int32_t add_pairs(Input& in, delam_mesh* mesh) {
 std::int32_t create_layers(Input& in, Host& host, delam_mesh** out) {
     const std::int32_t dimension = in.seldom() ? static_cast<std::int32_t>(in.hostile_whole()) : 2 + in.flag();
     std::vector<double> lengths = {in.real(), in.real()};
-    // Large products would be honest work: only single numbers are hostile.
+    // Large products would only take long, so only single numbers are hostile.
     std::vector<std::int64_t> divisions = {1 + in.below(4), 1 + in.below(2)};
     const std::int64_t layers = in.below(4);
     std::vector<double> thickness(static_cast<std::size_t>(layers));
@@ -348,7 +348,7 @@ std::int32_t create_mesh(Input& in, Host& host, delam_mesh** out) {
     const std::int32_t dimension = in.seldom() ? static_cast<std::int32_t>(in.hostile_whole()) : 2 + in.flag();
     const std::size_t count = static_cast<std::size_t>(in.below(32));
     std::vector<double> nodes(3 * count);
-    // On a grid, so that cells of them have a chance.
+    // On a grid, so that cells made of them may be valid.
     for (std::size_t i = 0; i < nodes.size(); ++i)
         nodes[i] = in.seldom() ? in.signed_real() : static_cast<double>(in.below(4));
     return delam_mesh_create(host.context, dimension, static_cast<std::int64_t>(count), maybe(in, nodes), out);
@@ -386,7 +386,7 @@ std::int32_t add_pattern(Input& in, delam_problem* problem) {
         .status;
 }
 
-// Prescribed nodes, means, equations and forces take much the same.
+// Prescribed nodes, means, equations and forces take similar arguments.
 enum class Load { nodes, mean, equation, forces };
 std::int32_t add_load(Input& in, delam_problem* problem, Load load) {
     const ProblemSizes s = sizes_of(problem);
@@ -479,7 +479,7 @@ std::int32_t body_matrix(Input& in, const delam_problem* problem) {
         .status;
 }
 
-// A stiffness that the library has assembled comes back as the host's own, or a band matrix does; then it is spoiled.
+// Passes a stiffness assembled by the library, or a band matrix, as the host's own, corrupted.
 std::int32_t set_stiffness(const delam_mesh* mesh, Input& in, delam_problem* problem) {
     const MeshSizes s = mesh == nullptr ? MeshSizes{} : sizes_of(mesh);
     const std::int32_t body = in.small_label(5), base = in.base();
@@ -489,7 +489,7 @@ std::int32_t set_stiffness(const delam_mesh* mesh, Input& in, delam_problem* pro
     std::vector<std::int64_t> nodes;
     for (std::int64_t n = 0; n < s.nodes; ++n)
         if (bodies[static_cast<std::size_t>(n)] == body) nodes.push_back(n);
-    // As long as three components a node would need, whatever the dimension is.
+    // As long as three components per node require, whatever the dimension.
     const std::size_t most = 3 * nodes.size();
     std::int64_t rows = 0, entries = 0;
     delam_problem_body_matrix(problem, body, &rows, &entries, nullptr, nullptr, nullptr);
@@ -519,7 +519,7 @@ std::int32_t set_stiffness(const delam_mesh* mesh, Input& in, delam_problem* pro
             case 2:
                 columns[at % columns.size()] = in.index(static_cast<std::int64_t>(most));
                 break;
-            default: {  // ends are beyond the arrays nowhere
+            default: {  // row ends never lie beyond the arrays
                 const std::int64_t start = in.hostile_whole();
                 starts[at % starts.size()] = std::min(start, static_cast<std::int64_t>(columns.size()));
             }
@@ -573,7 +573,7 @@ double next_time(Input& in, delam_solver* solver) {
     return in.seldom() ? in.hostile_real() : time + 0.125 * static_cast<double>(1 + in.below(8));
 }
 
-// A call of the march: the progress callback may cancel, the law's may fail.
+// A call of the analysis: the progress callback may cancel, the law's callbacks may fail.
 template <class Call>
 std::int32_t watched(World& world, Input& in, Call&& call) {
     if (in.seldom() || in.seldom()) {
@@ -714,7 +714,7 @@ std::int32_t condensed(Input& in, delam_solver* solver) {
         .status;
 }
 
-// A file in memory, of this process.
+// A file in memory, owned by this process.
 std::string file_name() { return "/dev/shm/delam-fuzz-" + std::to_string(::getpid()) + ".state"; }
 const char* some_path(Input& in) {
     static const std::string own = file_name();
@@ -722,7 +722,7 @@ const char* some_path(Input& in) {
     return in.seldom() ? in.word(wrong) : own.c_str();
 }
 
-// Bytes of one solver into another, of the same scene or not, whole or cut.
+// Loads the bytes of one solver into another, of the same scene or not, whole or truncated.
 std::int32_t save_and_load(World& world, Input& in, delam_solver* solver) {
     const delam_solver* from = world.solver.pick(in);
     if (from == nullptr) from = solver;
@@ -772,7 +772,7 @@ std::int32_t law_table(Input& in, delam_law* law) {
 struct Asked {
     World& world;
     Input& in;
-    Host& host;  // of the subject
+    Host& host;  // that owns the subject
     delam_mesh* mesh;
     delam_law* law;
     delam_problem* problem;
@@ -1122,7 +1122,7 @@ const Call calls[] = {
      }},
 };
 
-// NULL and handles of another kind are refused by all; that they are destroyed cannot always be seen.
+// All functions must refuse NULL and handles of another kind; destroyed handles cannot always be recognised.
 template <class T>
 void refuse_others(const Call& call, World& world, Input& in) {
     void* other = in.flag() ? nullptr : static_cast<void*>(world.host[0]->context);
@@ -1145,7 +1145,7 @@ void refuse_others(const Call& call, World& world, Input& in) {
            "solver");
 }
 
-// Runs the call, interrupted where the row before has asked for it and the call can be.
+// Runs the call, and cancels it if the row before requested that and the call can be cancelled.
 std::int32_t run(World& world, const Call& call, const Asked& asked) {
     Host& host = asked.host;
     host.begin();
@@ -1159,7 +1159,8 @@ std::int32_t run(World& world, const Call& call, const Asked& asked) {
     return status;
 }
 
-// One call on one object: what it may return, and that errors, cancellations and limits leave the object as it was.
+// One call on one object: checks the returned status, and that errors, cancellations and limits leave the object
+// unchanged.
 template <class T>
 void ask(World& world, Input& in, const Call& call, Shelf<T>& shelf, T* Asked::*member) {
     const auto slot = static_cast<std::size_t>(in.below(slots));
@@ -1206,8 +1207,8 @@ void one(World& world, Input& in, const Call& call) {
         if (world.mesh.handle[i] != nullptr && too_large(world.mesh.handle[i])) world.mesh.put(i, nullptr, nullptr);
 }
 
-// The call that two bytes mean: the one whose name, hashed with them, comes out largest. A new row takes its share from
-// all others and leaves every other number its meaning, so that inputs keep theirs.
+// The call that two bytes stand for: the one whose name, hashed with them, gives the largest value. A new row takes its
+// share from all others and leaves the meaning of every other number unchanged, so that inputs stay valid.
 const Call& call_of(std::uint16_t number) {
     const auto rank = [&](const Call& call) {
         std::uint64_t hash = 14695981039346656037ULL ^ number;
@@ -1225,7 +1226,7 @@ const Call& call_of(std::uint16_t number) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     Input in(data, size);
     World world;
-    // Most calls of a march need one: a scene and its solver come first, more often than not.
+    // Most calls on a solver need one, so a scene and its solver usually come first.
     if (in.byte() % 4 != 0) {
         SmallScene scene = small_scene(*world.host[0], in);
         world.mesh.put(0, scene.mesh, world.host[0].get());
@@ -1246,7 +1247,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         one(world, in, call);
     }
     ::unlink(file_name().c_str());
-    // Contexts may go before what was made with them.
+    // Contexts may be destroyed before the objects made with them.
     if (in.flag()) world.host[0].reset(), world.host[1].reset();
     return 0;
 }

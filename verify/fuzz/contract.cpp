@@ -174,7 +174,7 @@ std::vector<std::uint8_t> saved(const delam_solver* solver) {
 std::string print_of(delam_solver* solver) {
     Print print;
     print.add(saved(solver));
-    // Of the state that is spoken of: pending, committed or looked at.
+    // The state that the values refer to: pending, committed or an earlier one.
     for (const char* key : {"step", "time", "stored_bulk", "dissipated", "work", "jumps", "revisions"}) {
         double value = 0.0;
         read(delam_solver_value(solver, key, &value), key);

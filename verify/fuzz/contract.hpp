@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every call of the library keeps: a status that its comment lists, a text for each that is not DELAM_OK, and
-// after an error an object that is as it was.
+// What every call of the library promises: a status listed in its comment, a message for each status other than
+// DELAM_OK, and an unchanged object after an error.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace fuzz {
 
-// Ends the process where a promise is broken.
+// Ends the process when a promise is broken.
 void expect(bool kept, const char* promise, const char* where);
 
-// Sets of statuses, as the line in brackets of a function lists them.
+// Sets of statuses, as listed in a function's contract line.
 using Statuses = std::uint32_t;
 constexpr Statuses bit(std::int32_t status) {
     return status < 0 ? std::uint32_t{1} << -status : std::uint32_t{1} << (16 + status);
@@ -33,7 +33,7 @@ constexpr Statuses cancelled = bit(DELAM_CANCELLED);
 constexpr Statuses limit = bit(DELAM_LIMIT);
 }  // namespace may
 
-// A context with its callbacks: it hears what the library says, and cancels at a poll.
+// A context with its callbacks: it receives the library's messages, and cancels at a poll.
 class Host {
 public:
     Host();
@@ -44,12 +44,12 @@ public:
     delam_context* context = nullptr;
     bool listens = true;          // the log callback is set
     std::int64_t cancel_in = -1;  // polls until the progress callback cancels; -1: never
-    bool cancel_by_call = false;  // then by delam_context_cancel from inside the callback
+    bool cancel_by_call = false;  // in that case by delam_context_cancel from inside the callback
 
-    // No input may work for ever: beyond this many polls all is cancelled.
+    // No input may run for ever: after this many polls everything is cancelled.
     std::int64_t polls_left = 4000;
 
-    // Before a call, and after it with the status it has returned.
+    // To be called before a call, and after it with the returned status.
     void begin();
     void settle(const char* call, std::int32_t status, Statuses documented);
 
@@ -60,7 +60,7 @@ private:
     std::int32_t last_level_ = -1;
 };
 
-// Everything that can be read of an object, as text: two of one object are equal when nothing has changed.
+// Everything that can be read from an object, as text: two prints of an object are equal if nothing has changed.
 std::string print_of(const delam_mesh* mesh);
 std::string print_of(const delam_law* law);
 std::string print_of(const delam_problem* problem);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bytes of a fuzzer read as the arguments of a host: mostly plausible, now and then hostile. Past their end all is 0.
+// Reads the bytes of a fuzzer as the arguments of a host: mostly plausible, sometimes hostile. Past the end, all are 0.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ public:
     [[nodiscard]] bool empty() const { return at_ == end_; }
     std::uint8_t byte() { return empty() ? std::uint8_t{0} : *at_++; }
     bool flag() { return (byte() & 1) != 0; }
-    // One time in sixteen.
+    // True one time in sixteen.
     bool seldom() { return (byte() & 15) == 15; }
     // 0 .. count-1
     std::int64_t below(std::int64_t count) { return count > 0 ? byte() % count : 0; }
@@ -38,7 +38,7 @@ public:
         return bytes;
     }
 
-    // What is not finite, what overflows when it is multiplied, and what rounds to nothing.
+    // Non-finite numbers, numbers that overflow when multiplied, and numbers that round to nothing.
     double hostile_real() {
         using limit = std::numeric_limits<double>;
         static const double values[] = {limit::quiet_NaN(),
@@ -74,7 +74,7 @@ public:
         return static_cast<double>(which % 29) / static_cast<double>(std::int64_t{1} << (which / 29));
     }
     double signed_real() { return flag() ? -real() : real(); }
-    // In [0, 1], but for a hostile one.
+    // A number in [0, 1], or a hostile one.
     double fraction() {
         const std::uint8_t which = byte();
         return which >= 244 ? hostile_real() : static_cast<double>(which % 61) / 60.0;
@@ -105,7 +105,7 @@ public:
     std::int32_t small_label(std::int64_t count) { return static_cast<std::int32_t>(index(count)); }
     // A body's label or -1, or a hostile one.
     std::int32_t body() { return static_cast<std::int32_t>(seldom() ? hostile_whole() : below(4) - 1); }
-    // 0 or 1, seldom neither.
+    // 0 or 1, rarely neither.
     std::int32_t base() { return seldom() ? static_cast<std::int32_t>(hostile_whole()) : flag() ? 1 : 0; }
 
     std::vector<double> reals(std::size_t count) {
@@ -121,7 +121,7 @@ public:
         }
         return out;
     }
-    // One of the words, seldom another text or NULL.
+    // One of the words, rarely another text or NULL.
     template <std::size_t N>
     const char* word(const char* const (&words)[N]) {
         const std::uint8_t which = byte();
@@ -136,7 +136,7 @@ private:
     const std::uint8_t* end_;
 };
 
-// Calls a function: arguments in braces are read from left to right by every compiler, those in parentheses are not.
+// Calls a function. Every compiler evaluates arguments in braces from left to right, but not those in parentheses.
 struct in_order {
     template <class Function, class... Arguments>
     explicit in_order(Function function, Arguments&&... arguments)
@@ -144,7 +144,7 @@ struct in_order {
     std::int32_t status;
 };
 
-// NULL in place of an array, seldom.
+// Rarely NULL in place of an array.
 template <class T>
 T* maybe(Input& in, std::vector<T>& values) {
     return in.seldom() ? nullptr : values.data();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes of arrays that a host may hand over by mistake: two blocks of cells on a grid, then nodes moved anywhere,
-// connectivity with anything in it, labels, pairs, obstacles and projected interfaces that make no sense. What the
-// library takes is read, made a problem of, and factored.
+// Meshes that a host may pass by mistake: two blocks of cells on a grid, then nodes moved anywhere, connectivity with
+// any content, labels, pairs, obstacles and projected interfaces that make no sense. If the library accepts a mesh, it
+// is read, made into a problem, and factored.
 #include <algorithm>
 #include <cmath>
 
@@ -30,7 +30,7 @@ constexpr std::int64_t per_cell(std::int32_t type) {
     return type >= 1 && type <= 9 ? nodes[type] : 8;
 }
 
-// Arrays of a block of layers as the library makes it, without its interfaces: what is there to be spoiled.
+// Arrays of a block of layers as the library makes it, without its interfaces; the input corrupts them.
 Arrays block(Host& host, Input& in) {
     static constexpr std::int32_t flat[] = {DELAM_QUAD4, DELAM_TRI3, DELAM_TRI6, DELAM_QUAD8, DELAM_QUAD9};
     static constexpr std::int32_t solid[] = {DELAM_HEX8, DELAM_TET4, DELAM_TET10, DELAM_HEX20};
@@ -57,7 +57,7 @@ Arrays block(Host& host, Input& in) {
     return out;
 }
 
-// The upper block as a coarser or finer copy beside the first: meshes that do not match.
+// The upper block as a coarser or finer copy beside the first, so that the meshes do not match.
 void add_unmatched(Arrays& a, Host& host, Input& in) {
     Arrays other = block(host, in);
     if (other.dimension != a.dimension || other.type != a.type) return;
@@ -134,7 +134,7 @@ public:
         if (!call("delam_mesh_create", may::argument,
                   delam_mesh_create(host_.context, arrays.dimension, arrays.node_count(), arrays.nodes.data(), &mesh_)))
             return;
-        // In one call, or in two.
+        // In one call or in two.
         const std::int64_t first = in_.seldom() ? in_.below(arrays.cell_count() + 1) : arrays.cell_count();
         const bool conforming = in_.flag();
         add(arrays, 0, first, conforming);
@@ -146,7 +146,7 @@ public:
     }
 
 private:
-    // An error leaves the mesh as it was.
+    // An error must leave the mesh unchanged.
     bool call(const char* name, Statuses documented, std::int32_t status) {
         host_.settle(name, status, documented);
         host_.begin();
@@ -233,7 +233,7 @@ private:
              delam_mesh_find_nodes(mesh_, -1, lower.data(), upper.data(), room, nodes.data(), &count));
     }
 
-    // Materials, a law on every interface, and supports of the lowest nodes; then a factorisation and a step.
+    // Materials, a law on every interface, and supports at the lowest nodes; then a factorisation and a step.
     void make_problem(const Arrays& a) {
         if (!call("delam_problem_create", may::argument, delam_problem_create(host_.context, mesh_, &problem_))) return;
         call("delam_law_create", may::usual, delam_law_create(host_.context, "piecewise-linear", &law_));

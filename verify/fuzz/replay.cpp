@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
             return 1;
         }
         const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
-        std::fprintf(stderr, "%s\n", path.c_str());  // the last line names what broke a promise
+        std::fprintf(stderr, "%s\n", path.c_str());  // the last printed line names the input that broke a promise
         LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
     }
     std::printf("%zu inputs\n", files.size());

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Saved states that were tampered with. An input names a scene, a number of steps, and what is done to the bytes that
-// the solver saves then: so it means the same in every version of the format. Afterwards the checksum may be put right,
-// so that what lies behind it is read. Refused by name, with nothing changed; or accepted, and then a state like
-// others. Or an input is a scene of its own, whose march goes on from each of its states, in whatever solver.
+// Corrupted saved states. An input names a scene, a number of steps, and changes to the bytes that the solver then
+// saves, so that it means the same in every version of the format. The checksum may then be corrected, so that the rest
+// of the bytes is read. The library must refuse the state by name and change nothing, or accept it and treat it like
+// any other. Alternatively an input is a scene of its own, whose analysis is continued from each of its states in
+// several solvers.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -28,7 +29,7 @@ Bytes with_checksum(Bytes bytes) {
     return bytes;
 }
 
-// A scene with the states that its march has saved, and what the march does behind each.
+// A scene with the states that its analysis saved, and the results that follow each state.
 class March {
 public:
     explicit March(const Bytes& recipe) {
@@ -67,7 +68,7 @@ public:
         }
         const auto own = std::find(states_.begin(), states_.end(), bytes);
         expect(own != states_.end() || put_right, "bytes that were changed are refused", "delam_solver_load");
-        // Bytes of an earlier version are saved as the present one.
+        // The bytes of an earlier version are saved in the present one.
         const Bytes again = saved(solver_);
         expect(again == bytes || !std::equal(again.begin(), again.begin() + 12, bytes.begin()),
                "a state is saved as it was loaded", "delam_solver_save");
@@ -77,7 +78,7 @@ public:
             go_on_from_anywhere();
         else if (found < steps)
             go_on_from(found);
-        // Also after another state's march nothing is left that the next could tell.
+        // Continuing from another state must leave nothing behind that affects the next.
         const std::size_t next = (own == states_.end() ? bytes.size() : found + 1) % steps;
         expect(delam_solver_load(solver_, static_cast<std::int64_t>(states_[next].size()), states_[next].data()) ==
                    DELAM_OK,
@@ -97,7 +98,7 @@ private:
         expect(saved(solver_) == states_[step + 1], "the rest is bitwise the same", "delam_solver_load");
     }
 
-    // Values and fields may be of a state that no march has come through; reading them must do no harm.
+    // No analysis may ever reach the values and fields of such a state; reading them must do no harm.
     void read_everything() {
         std::int64_t values = 0, jumps = 0, fronts = 0, points = 0;
         double value = 0.0;
@@ -195,11 +196,11 @@ public:
     bool out_of_patience() const { return host_.polls_left <= 0; }
 
 private:
-    Host host_;  // whose polls are for all that this solver does
+    Host host_;  // its limit of polls holds for all that this solver does
     delam_solver* solver_ = nullptr;
 };
 
-// From each state of a march one solver that is made anew goes on, and the one that has come past it.
+// Continues from each state of an analysis with a new solver and with the one that reached the state.
 void any_march(Input& in) {
     const bool energetic = in.flag();
     const Bytes recipe = in.rest();
@@ -286,10 +287,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     switch (in.byte() % 8) {
         case 0:
             bytes = in.rest();
-            break;  // as they are
+            break;  // unchanged
         case 1:
             bytes = march(in.byte()).state(how % (March::steps + 1));
-            break;  // of another scene
+            break;  // from another scene
         case 2:
         case 3:
             tamper(bytes, in);

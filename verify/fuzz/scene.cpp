@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The text of a scene file, and behind a line "== mesh.inp" that of a mesh: read, built, checked and factored as by
-// `delam check`. What is wrong with it ends in the program's own failure with a text, and in nothing else. Gmsh is not
-// ours to test: scenes that ask for its files or generators are left out, and so is what would be honest work.
+// The text of a scene file, and after a line "== mesh.inp" that of a mesh: read, built, checked and factored as by
+// `delam check`. A bad scene must end in the program's own failure with a message, and in nothing else. Scenes that
+// need Gmsh's files or generators are skipped, because Gmsh is not ours to test, and so are scenes that merely take
+// long.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -24,7 +25,7 @@ namespace {
 
 using fuzz::expect;
 
-// A folder for the files, gone at the end.
+// A folder for the files, removed at the end.
 class Folder {
 public:
     Folder() {
@@ -49,7 +50,7 @@ private:
     std::filesystem::path path_;
 };
 
-// More instants or cells than this are work that was asked for.
+// More time steps or cells than this are legitimate work and only take time.
 constexpr std::int64_t most_steps = 1000;
 constexpr double most_cells = 100;
 
@@ -106,7 +107,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } catch (const cli::Failure& failure) {
         const std::string_view said = failure.what();
         expect(!said.empty(), "a failure has a text", "scene");
-        // As call() writes them; a scene may have these words in it.
+        // As call() writes them; a scene may contain these words too.
         for (const char* status : {"(DELAM_ERROR_INTERNAL)", "(DELAM_ERROR_HANDLE)"})
             expect(failure.code() != cli::exit_numerical || !said.ends_with(status), "no defect within",
                    failure.what());

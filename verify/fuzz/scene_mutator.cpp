@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes are changed line by line more often than byte by byte: most bytes of a strict format are in the wrong place.
+// Changes scenes line by line more often than byte by byte: most byte changes only break the strict format.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -71,7 +71,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
             case 3:
                 lines.insert(lines.begin() + at, std::string(lines[below(lines.size())]));
                 break;
-            default: {  // another value of the key, or of one number in it
+            default: {  // another value for the key, or for one number in it
                 const std::size_t equals = line.find('=');
                 const std::size_t from = equals == std::string::npos ? line.find(',') : equals;
                 if (from == std::string::npos) break;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes of a few cells that are correct, peel or shear within a few steps, and differ in what they make the library
-// do.
+// Valid scenes of a few cells that peel or shear within a few steps, and use different parts of the library.
 #pragma once
 
 #include "contract.hpp"
@@ -14,8 +13,8 @@ struct SmallScene {
     delam_problem* problem = nullptr;
 };
 
-// A block of layers, held at the left end of the lowest one and loaded at that of the highest; the bytes choose cells,
-// law, load and options. The caller destroys the three.
+// A block of layers, supported at the left end of the lowest one and loaded at that of the highest; the bytes choose
+// cells, law, load and options. The caller destroys the three objects.
 SmallScene small_scene(Host& host, Input& in);
 void destroy(SmallScene& scene);
 

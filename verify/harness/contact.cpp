@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Active-set steps per displacement solve along the ductile march, beside the "usually 3-4" of the slides. Cold: the
-// very first solve under load, made by a solver without history. Warm: the solves of a step start from the contact set
-// of the one before.
+// Active-set steps per displacement solve over the ductile analysis, compared with "usually converges in 3-4
+// iterations" in Zeman, Kruzik, Gruber (PANM 15, 2010), "Active set strategy". Cold: the first solve under load, by a
+// solver without history. Warm: solves that start from the contact set of the previous one.
 #include <algorithm>
 
 #include "enf.hpp"

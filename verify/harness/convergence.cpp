@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mesh and step refined together: ductile ENF and MMF with supports and load spread over 2 mm, h and tau in a fixed
+// Mesh and step refined together: ductile ENF and MMF, with supports and load spread over 2 mm, h and tau in a fixed
 // ratio.
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace harness {
 namespace {
 
 constexpr int instants = 640;  // at which curves are compared
-constexpr int places = 480;    // along the bonded run
+constexpr int places = 480;    // along the bonded length
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 struct Level {
@@ -23,7 +23,7 @@ struct Level {
     std::vector<double> position;
 };
 
-// Value at a place, linear between pairs.
+// Value at a position, linear between pairs.
 double interpolate(const std::vector<double>& x, const std::vector<double>& y, double where) {
     const auto right = static_cast<std::size_t>(std::lower_bound(x.begin(), x.end(), where) - x.begin());
     if (right == 0) return y.front();
@@ -38,7 +38,7 @@ std::vector<double> curve(const Level& level, double (*value)(const Record&)) {
     return values;
 }
 
-// Integral over time of |a - b|, over that of |b|: a mean relative error.
+// Integral over time of |a - b| divided by that of |b|: a mean relative error.
 double distance(const std::vector<double>& a, const std::vector<double>& b) {
     double difference = 0.0;
     double size = 0.0;
@@ -50,7 +50,7 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
     return difference / size;
 }
 
-// Adhesion at all instants and places, linear in between, [instants][places].
+// Adhesion at all instants and positions, linear in between, [instants][places].
 std::vector<double> sample_adhesion(const Level& level, double notch, double length) {
     std::vector<double> samples;
     std::vector<std::vector<double>> rows;
@@ -71,7 +71,7 @@ std::vector<double> sample_adhesion(const Level& level, double notch, double len
     return samples;
 }
 
-// Mean over bonded run and time of |a - b|: the L1(0,T; L1) norm over T and the length.
+// Mean of |a - b| over bonded length and time: the L1(0,T; L1) norm divided by T and the length.
 double mean_difference(const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]);
@@ -100,8 +100,8 @@ void add_rows(Table& table, const std::string& specimen, const std::string& elem
         values.push_back(finals[i]);
         const bool last = i + 1 == levels.size();
         if (i > 0) steps_between.push_back(changes[i]);
-        // Differences of successive levels fall like the errors; for a constant ratio of sizes their order is that of
-        // the method.
+        // Differences of successive levels decrease like the errors; for a constant ratio of sizes their order is that
+        // of the method.
         const double order_change =
             i > 1 ? std::log(steps_between[i - 2] / steps_between[i - 1]) / std::log(sizes[i - 2] / sizes[i - 1]) : nan;
         const double order_final = order_of_values(sizes, values);

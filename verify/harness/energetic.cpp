@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Brittle ENF, 40 steps to 6 mm: plain alternate minimisation, backtracking and the search beside the exhaustive scan
+// Brittle ENF, 40 steps to 6 mm: plain alternate minimisation, backtracking and the search against the exhaustive scan
 // of fronts; and the instant of the energetic jump against beam theory as the mesh is refined.
 #include <algorithm>
 #include <cmath>
@@ -16,9 +16,9 @@ namespace {
 constexpr int steps = 40;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// What the library minimises, and the rule by which the scan books the same mixity. With exponents 1 the toughness is
-// the same at every mixity and nothing is left of the rule; with 2 the two histories book mixities of their own states,
-// which need not agree to the last digits.
+// What the library minimises, and the rule by which the scan books the same mixity. With exponents of 1 the toughness
+// is the same at every mixity and the rule has no effect; with 2 the two histories book the mixities of their own
+// states, which need not agree to the last digit.
 struct Case {
     const char* specimen;
     double exponent;
@@ -31,7 +31,7 @@ constexpr Case specimens[] = {{"enf-brittle", 2.0, reference::MixityRule::frozen
 
 constexpr const char* methods[] = {"local", "backtracking", "energetic", "energetic-located"};
 
-// The library's defaults are not spelt out, so that one without these options runs what it has.
+// Options equal to the library's defaults are not set, so that a library without these options runs too.
 Choice choose(const std::string& method, reference::MixityRule rule) {
     Choice choice;
     if (method != "local") choice.texts.emplace_back("solution", method == "backtracking" ? "local" : "energetic");
@@ -41,8 +41,8 @@ Choice choose(const std::string& method, reference::MixityRule rule) {
     return choice;
 }
 
-// First step in which the debonded run grew by a quarter of what the scan's first jump is long: a process zone that
-// unfolds ahead of a front is no jump. 0: none.
+// First step in which the debonded length grew by at least a quarter of the scan's first jump: a process zone that
+// develops ahead of a front is no jump. 0: none.
 int first_jump(const March& march, double scan_advance) {
     double before = 0.0;
     for (std::size_t k = 0; k < march.steps.size(); ++k) {
@@ -52,7 +52,7 @@ int first_jump(const March& march, double scan_advance) {
     return 0;
 }
 
-// Rows of all methods beside the scan.
+// Rows of all methods and of the scan.
 void compare(Table& table, reference::Flexure data, const reference::Fronts& fronts, const Case& c) {
     data.law.exponent = c.exponent;
     std::vector<double> loads;

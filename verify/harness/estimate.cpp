@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The two-sided energy estimate and the balance against the number of steps, T/20 ... T/640: violated steps, width of
-// the band, defect in both ledgers, for every specimen and every rule of the mixity.
+// the band, defect in both ledgers, for every specimen and every mixity rule.
 #include <algorithm>
 #include <cmath>
 
@@ -11,11 +11,11 @@
 namespace harness {
 namespace {
 
-constexpr double eta = 1e-3;  // tolerance of the estimate in the slides
+constexpr double eta = 1e-3;  // tolerance of the estimate in PANM 15 (2010), "Material data"
 
 Choice choose(const std::string& solution, const std::string& rule) {
     Choice choice;
-    // The defaults are not spelt out: a library that has nothing else runs too.
+    // Defaults are not set, so that a library without these options runs too.
     if (solution != "local") choice.texts.emplace_back("solution", solution);
     if (rule != "frozen") choice.texts.emplace_back("mixity_rule", rule);
     return choice;

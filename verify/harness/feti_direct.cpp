@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Worst relative differences of one FETI displacement step per load step to the direct reference, over the ductile
-// march.
+// Worst relative differences between FETI and the direct reference over the ductile analysis, for one displacement step
+// per load step.
 #include "../cases/feti_direct.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace harness {
 
 Table feti_direct(const Options& options) {
-    const int stride = options.quick ? 8 : 4;  // all of them: cases/test_long_feti_direct
+    const int stride = options.quick ? 8 : 4;  // every step: cases/test_long_feti_direct
     Table table;
     table.name = "feti-direct";
     table.note = "Ductile ENF, h = 0.5 mm: worst relative differences over " + std::to_string(40 / stride) +

@@ -13,7 +13,7 @@ double optional_value(const reference::Solver& solver, const char* key) {
     return delam_solver_value(solver.get(), key, &value) == DELAM_OK ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
-// What is booked of the step that the solver speaks of.
+// The booked energies of the solver's current step.
 Record read(const reference::Solver& solver, bool keep_adhesion) {
     Record r;
     r.reaction = solver.value("reaction:press");
@@ -86,7 +86,7 @@ March run(const reference::Flexure& data, int steps, const Choice& choice, bool 
         for (double Record::*count : {&Record::am_iterations, &Record::newton_solves, &Record::displacement_solves,
                                       &Record::candidates, &Record::backtracks})
             march.spent.*count += now.*count;
-        // Returns of the backtracking replace earlier steps: they are read again.
+        // Backtracking replaces earlier steps, so they are read again.
         const double revised_from = optional_value(solver, "revised_from");
         const int first = revised_from < k ? static_cast<int>(revised_from) : k;
         march.steps.resize(static_cast<std::size_t>(k));

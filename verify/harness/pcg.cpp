@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Krylov iterations of one displacement step of the ENF under a unit load. They are counted per linear solve: the
-// contact search repeats the solve, so the sum is divided by the active-set steps.
+// Krylov iterations of one displacement step of the ENF under a unit load, per linear solve: the contact search repeats
+// the solve, so the sum is divided by the number of active-set steps.
 #include <algorithm>
 #include <cmath>
 
@@ -11,11 +11,10 @@ namespace harness {
 namespace {
 
 constexpr double limit = 5000;
-// Relative residual: where iterations are compared, rounding must not take part (some preconditioners stall near
-// 1e-12).
+// Relative residual, large enough that rounding does not affect the comparison (some preconditioners stall near 1e-12).
 constexpr double tolerance = 1e-10;
 
-// Adhesion over the interface; 0 within the notch wherever the scene has one.
+// Adhesion over the interface; always 0 within the notch.
 struct Damage {
     const char* name;
     double (*zeta)(double s);  // s from 0 at the left end to 1 at the right end

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// States of a scene file's march: condensed and FETI beside the direct reference.
+// States of a scene file's analysis: condensed operator and FETI against the direct reference.
 #include "scene_file.hpp"
 #include "table.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An experiment: search over all sets of broken pairs, not fronts alone. With a Griffith-type law the least elastic
-// energy E(Z) is nearly submodular in the set Z of broken pairs, since a broken neighbour makes a pair easier to break,
-// and the dissipation at frozen mixity is modular; the minimum-norm point then searches all sets with a dual bound. How
-// nearly, and what the bound is worth, is measured here.
+// An experiment: search over all sets of broken pairs, not only over fronts. With a Griffith-type law the least elastic
+// energy E(Z) is nearly submodular in the set Z of broken pairs, because a broken neighbour makes a pair easier to
+// break, and the dissipation at frozen mixity is modular. The minimum-norm point then searches all sets with a dual
+// bound. This file measures how nearly submodular E is and how tight the bound is.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -24,7 +24,7 @@ using reference::SetFunction;
 constexpr double unit_load = 1e-3;
 constexpr double ruled_out = 1e300;
 
-// E(Z) at the unit load, every set solved for once. The last pair of the interface never breaks, so that nothing
+// E(Z) at the unit load, solved once for every set. The last pair of the interface never breaks, so that nothing
 // floats.
 class Energy {
 public:
@@ -62,13 +62,14 @@ private:
 
 struct Violations {
     long tests = 0, violated = 0;
-    double worst = 0.0;    // J/m at the unit load, largest growth of a marginal
-    double typical = 0.0;  // mean size of the marginals that were tested
+    double worst = 0.0;    // J/m at the unit load, largest increase of a marginal
+    double typical = 0.0;  // mean size of the tested marginals
     double share() const { return tests > 0 ? static_cast<double>(violated) / static_cast<double>(tests) : 0.0; }
 };
 
-// A within B, i outside: breaking i must free no less energy from B than from A. Three families: any sets; a front and
-// a longer one, i anywhere; a front and the same with some pairs ahead of it, i close to the front.
+// A is a subset of B, i is in neither: breaking i must release no less energy from B than from A. Three families: any
+// sets; a front and a longer one, i anywhere; a front and the same front with some pairs broken ahead of it, i close to
+// the front.
 Violations measure(Energy& energy, int tests, int family, std::mt19937& random) {
     const std::size_t n = energy.size();
     std::uniform_int_distribution<std::size_t> element(0, n - 1);
@@ -133,8 +134,8 @@ std::string describe(const Energy& energy, const reference::FlexureScene& flexur
     return text.empty() ? "none" : text;
 }
 
-// Least value met by descent, one pair exchanged at a time, from random sets with up to the part `densest` broken and
-// from the best of `known`.
+// Least value found by descent, exchanging one pair at a time, from random sets with up to the fraction `densest`
+// broken and from the best of `known`.
 struct Descent {
     double value = 0.0;
     Set set;
@@ -245,9 +246,9 @@ Table sets(const Options& options) {
             const long before = energy.calls();
             const auto found = reference::minimise_submodular(n, f, limit);
             const long calls = energy.calls() - before;
-            // The dual vector proves the bound where x(A) <= F(A) for every set A: the set where that fails most, and
-            // one of lower F, are looked for by other means. E falls with the set, so F(A) >= E(V) - E({}) + cost(A):
-            // sets that cost more than `budget` are ruled out for good.
+            // The dual vector proves the bound if x(A) <= F(A) for every set A. Other means search for the set that
+            // violates this most, and for one of lower F. E decreases with the set, so F(A) >= E(V) - E({}) + cost(A):
+            // sets that cost more than `budget` are excluded for good.
             const double budget = found.value + square * (none - energy(Set(n, 1)));
             const double all_cost = std::accumulate(cost.begin(), cost.end(), 0.0);
             const auto less_dual = [&](const Set& set) {

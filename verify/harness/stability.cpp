@@ -24,11 +24,11 @@ double worse(double a, double b) { return std::isnan(a) || std::isnan(b) ? infin
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-// One realisation's march with what it cost and how it ended.
+// The analysis of one realisation, its cost and its outcome.
 struct March {
     std::vector<Result> states;
     std::string status = "converged", message;
-    bool ended = false;  // by an error or an outcome without a state
+    bool ended = false;  // by an error, or by an outcome without a state
     double active_set = 0.0, krylov = 0.0, alternations = 0.0;
     double kkt = 0.0, ledger = 0.0, defect = 0.0, damage = 0.0, error = 0.0;
 };
@@ -39,7 +39,7 @@ std::vector<bool> flags(const std::vector<double>& values) {
     return result;
 }
 
-// Conjugates of the patterns from the reactions, apart from what the library reports.
+// Conjugates of the patterns computed from the reactions, independent of those the library reports.
 std::vector<double> conjugates(const Exported& e, const std::vector<double>& reaction, const std::vector<double>& u) {
     std::vector<double> all;
     for (std::size_t p = 0; p < e.patterns; ++p) {
@@ -93,15 +93,16 @@ Result from(const reference::State& s, const Exported& e, const Scene& scene, co
     return r;
 }
 
-// Worst violation of all states, measured by the largest jump, traction and force of the march. Displacements need
-// agree with jumps to a thousandth of the same limit: iterative solutions have no more where k [u] is all that is known
-// of [u].
+// Worst violation of all states, relative to the largest jump, traction and force of the analysis. Jumps computed as
+// u_b - u_a are measured by at least a thousandth of the largest displacement: iterative solutions are no more accurate
+// where only k [u] determines [u].
 double kkt_of(const Trial& trial, const Scene& scene, const Exported& e, const std::vector<Result>& states) {
     constexpr double compatible = 1e-3;
     reference::Least least;
     least.traction = trial.least_traction;
     least.force = trial.least_force;
-    // A factorisation leaves hundreds: bending forces are small differences of those within thin cells.
+    // A factorisation leaves an error of hundreds of ulps: bending forces are small differences of the forces within
+    // thin cells.
     least.ulps = 1000.0;
     double u = 0.0;
     for (const Result& r : states) {
@@ -123,7 +124,7 @@ double kkt_of(const Trial& trial, const Scene& scene, const Exported& e, const s
 }
 
 // Energies of a state from its fields: of the bodies by Clapeyron (half the work of all forces on them), of the
-// interfaces by their springs.
+// interfaces from their springs.
 struct Energies {
     double bulk = 0.0, interface = 0.0, potential = 0.0;
 };
@@ -135,7 +136,7 @@ Energies energies_of(const Scene& scene, const Exported& e, const Result& r) {
         for (std::size_t i = 0; i < e.dofs; ++i) {
             const long double done = static_cast<long double>(r.factor[p]) * e.forces[p][i] * r.displacement[i];
             potential -= done;
-            // The pattern's conjugate has it with the other sign.
+            // The conjugate of the pattern has the opposite sign.
             twice_bulk += 2.0L * done;
         }
     }
@@ -153,7 +154,7 @@ Energies energies_of(const Scene& scene, const Exported& e, const Result& r) {
     return {static_cast<double>(0.5L * twice_bulk), static_cast<double>(interface), static_cast<double>(potential)};
 }
 
-// Energy spent between two states at the mixity that the later one used.
+// Energy dissipated between two states at the mixity that the later one used.
 double spent_between(const OwnLaw& law, const Scene& scene, const Exported& e, const Result& before,
                      const Result& after) {
     long double sum = 0.0L;
@@ -168,7 +169,7 @@ double spent_between(const OwnLaw& law, const Scene& scene, const Exported& e, c
     return static_cast<double>(sum);
 }
 
-// How far the adhesions are from the pointwise minimisers at the jumps that they are given with.
+// Distance of the adhesions from the pointwise minimisers at the given jumps.
 double damage_residual(const OwnLaw& law, const Scene& scene, const Exported& e, const Result& before,
                        const Result& now) {
     const auto d = static_cast<std::size_t>(e.dimension);
@@ -179,7 +180,7 @@ double damage_residual(const OwnLaw& law, const Scene& scene, const Exported& e,
             if (scene.stiffness()[i].bonded || scene.stiffness()[i].normal == 0.0) continue;
             const long double y = law.driving(&now.jump[pair * d], e.dimension), mixity = now.mixity[pair];
             const long double gc = law.toughness(mixity);
-            // Without softening the minimiser jumps at Y = Gc: there either side is right.
+            // Without softening the minimiser jumps at Y = Gc; both values are right there.
             if (gc - law.onset(mixity) <= 1e-9L * gc && std::abs(y - gc) < 1e-6L * gc) continue;
             const long double best = law.adhesion(mixity, y, before.adhesion[pair]);
             worst = worse(worst, static_cast<double>(std::abs(best - now.adhesion[pair])));
@@ -199,7 +200,7 @@ double difference(const Result& a, const Result& b, const Compared& what) {
     return worst;
 }
 
-// The march, its energies booked again from fields, and the primal KKT conditions of every state.
+// The analysis, its energies computed again from fields, and the primal KKT conditions of every state.
 March march(const Trial& trial, Realisation realisation) {
     March m;
     std::optional<Scene> kept;
@@ -255,7 +256,7 @@ March march(const Trial& trial, Realisation realisation) {
     return m;
 }
 
-// The reference's displacement steps at the adhesions of a march.
+// The reference's displacement steps at the adhesions of an analysis.
 March direct_march(const Trial& trial, const std::vector<Result>& states) {
     March m;
     try {
@@ -281,7 +282,7 @@ March direct_march(const Trial& trial, const std::vector<Result>& states) {
     return m;
 }
 
-// Where the direct reference is alone: its states are to be found without any damage.
+// Only the direct reference runs: its states must have no damage.
 std::vector<Result> undamaged(const Trial& trial) {
     const Scene scene = trial.scene();
     std::vector<Result> states(trial.times.size());
@@ -375,7 +376,7 @@ void Study::run(const Trial& trial) {
     std::vector<std::pair<Realisation, March>> all;
     if (trial.condensed) all.emplace_back(Realisation::condensed, march(trial, Realisation::condensed));
     if (trial.feti) all.emplace_back(Realisation::feti, march(trial, Realisation::feti));
-    // FETI on its own adhesions where the condensed march went elsewhere, so that only the solves are compared.
+    // FETI at its own adhesions if they differ from the condensed ones, so that only the solves are compared.
     std::vector<std::optional<March>> beside(std::max<std::size_t>(all.size(), 1));
     if (all.empty() && trial.direct) beside[0] = direct_march(trial, undamaged(trial));
     for (std::size_t i = 0; i < all.size() && trial.direct; ++i) {
@@ -467,7 +468,7 @@ namespace {
 
 long double criterion(long double mixity, double normal, double tangential, double exponent) {
     const long double a = exponent, n = normal, t = tangential;
-    // Scaled by the smaller of the two, so that large exponents neither overflow nor vanish.
+    // Scaled by the smaller of the two, so that large exponents neither overflow nor underflow.
     const long double unit = std::min(n, t);
     return unit * std::pow(std::pow((1.0L - mixity) * unit / n, a) + std::pow(mixity * unit / t, a), -1.0L / a);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hard cases over a range: a trial is one scene at one parameter, marched by the condensed operator and by FETI, with
-// the direct reference beside them. What is accepted is judged from exported fields and numbers computed here.
+// Hard cases over a range: a trial is one scene at one value of its parameter, computed by the condensed operator, FETI
+// and the direct reference. Exported fields and numbers computed here decide whether a result is accepted.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace harness {
 
 enum class Realisation { condensed, feti, direct };
 
-// A state as a realisation hands it over. Of the direct reference: at the adhesions of the march that it stands beside.
+// A state of one realisation. The direct reference has the adhesions of the analysis with which it is compared.
 struct Result {
     Realisation realisation = Realisation::condensed;
     std::size_t step = 0;  // index into the trial's times
@@ -29,7 +29,7 @@ struct Result {
     double dissipated = 0.0, work = 0.0;  // cumulative; of the direct reference: NaN
 };
 
-// What of a state is unique, and compared with the direct solution.
+// The quantities of a state that are unique and compared with the direct solution.
 struct Compared {
     bool displacement = true, jump = true, traction = true, pattern = true, energy = true;
 };
@@ -38,48 +38,48 @@ struct Trial {
     std::string subject;
     std::string parameter_name;
     double parameter = 0.0;
-    std::function<reference::Scene()> scene;  // complete, but for reduction and subdomains
-    std::vector<double> times{1.0};           // steps; the march starts at 0
-    int subdomains = 4;                       // of FETI
-    // Error of each step against what is known; none: largest relative difference to the direct solution.
+    std::function<reference::Scene()> scene;  // complete, except for reduction and subdomains
+    std::vector<double> times{1.0};           // steps; the analysis starts at 0
+    int subdomains = 4;                       // for FETI
+    // Error of each step against a known solution; none: largest relative difference from the direct solution.
     std::function<double(const Result&)> error;
     std::string reference = "direct solver";
     Compared compared;
-    std::optional<reference::LawData> law;  // of all interfaces that have one; none: damage is not judged
+    std::optional<reference::LawData> law;  // of all interfaces with a law; none: damage is not judged
     double delta = 1e-5;                    // damage_tolerance of the scene
-    double limit = 1e-10;                   // of the error; what is expected: right to this
+    double limit = 1e-10;                   // of the error, for "right to LIMIT"
     double direct_limit = 0.0;              // of the direct reference's own error; 0: the same
-    double acceptance_limit = 1e-9;         // of the primal KKT and the energies booked
-    double defect_limit = 0.0;              // of the balance of energies; 0: not judged (it falls with the steps)
-    double defect = 0.0;                    // what that misses by theory, over the largest energy
-    // Violations are measured by at least these: of a scene that has no stress of its own.
+    double acceptance_limit = 1e-9;         // of the primal KKT and the booked energies
+    double defect_limit = 0.0;              // of the energy balance; 0: not judged (it decreases with the steps)
+    double defect = 0.0;                    // the defect that theory predicts, over the largest energy
+    // At least these scales are used to measure violations, for a scene that has no stress of its own.
     double least_traction = 0.0, least_force = 0.0, least_energy = 0.0;
-    bool device_jumps = false;  // jumps are prescribed: work inside a step is then no trapezoid
-    bool may_say = false;       // not converged, said so, is as good as right
-    bool feti_may_say = false;  // of FETI alone
+    bool device_jumps = false;  // jumps are prescribed: the work inside a step is not the trapezoid then
+    bool may_say = false;       // DELAM_NOT_CONVERGED is accepted too
+    bool feti_may_say = false;  // for FETI alone
     std::string refused;        // expected: a refusal or outcome with these words
     bool condensed = true, feti = true, direct = true;
-    std::string left_out;  // why, where one of these is false; empty: no row tells it
-    // The scene with lengths in units of `unit`: what its direct solution has another energy by is what rounding of the
-    // matrices leaves. The error may be twenty times that, up to 1e-2.
+    std::string left_out;  // the reason why one of these is false; empty: no row mentions it
+    // The scene with lengths in units of `unit`. The change of the energy of its direct solution shows what rounding of
+    // the matrices leaves; the error may be twenty times that, up to 1e-2.
     std::function<reference::Scene(double unit)> in_unit;
-    // Of the reference alone: a scene with the same answer in which every body is held. None: the scene itself.
+    // For the reference alone: a scene with the same answer in which every body is supported. None: the scene itself.
     std::function<reference::Scene()> held;
 };
 
-// The states of a march of the trial; throws Failure where it ends early.
+// The states of an analysis of the trial; throws Failure if it ends early.
 std::vector<Result> states_of(const Trial& trial, Realisation realisation);
 
 class Study {
 public:
     explicit Study(const Options& options);
     const Options& options() const { return options_; }
-    // Whether the subject was asked for; says so on stderr.
+    // Whether the subject was requested; names it on stderr.
     bool wanted(const std::string& subject) const;
     void run(const Trial& trial);
-    // A row for a realisation that the trial is not run with.
+    // A row for a realisation with which the trial is not run.
     void leave_out(const Trial& trial, const std::string& realisation, const std::string& why);
-    // For what no trial describes: a row of its own.
+    // A separate row, for a case that no trial describes.
     void row(const std::string& subject, const std::string& parameter_name, double parameter,
              const std::string& realisation, const std::string& reference, double error, double limit,
              const std::string& status, const std::string& expected, bool good, const std::string& message);
@@ -93,34 +93,34 @@ private:
     Table table_;
 };
 
-// Largest difference over the largest of b; 0 / 0 is 0.
+// Largest difference relative to the largest of b; 0 / 0 is 0.
 double relative_difference(const std::vector<double>& a, const std::vector<double>& b);
 double largest(const std::vector<double>& values);
 
-// The piecewise-linear law, written apart from the library's, in extended precision.
+// The piecewise-linear law, written independently of the library's, in extended precision.
 struct OwnLaw {
     explicit OwnLaw(const reference::LawData& law);
     long double onset(long double mixity) const;
     long double toughness(long double mixity) const;
     long double driving(const double* jump, int dimension) const;
-    long double mixity(const double* jump, int dimension) const;  // 0 where there is no jump
-    // Minimiser below the old adhesion, and what has been spent at an adhesion.
+    long double mixity(const double* jump, int dimension) const;  // 0 if there is no jump
+    // Minimiser below the old adhesion, and the energy dissipated down to an adhesion.
     long double adhesion(long double mixity, long double driving, long double old) const;
     long double spent(long double mixity, long double adhesion) const;
     reference::LawData data;
 };
 
-// Limit of the balance where nothing is damaged: stored energy is work, to rounding.
+// Limit of the balance if nothing is damaged: the stored energy equals the work, except for rounding.
 constexpr double closed_balance = 1e-10;
 
 // ---- scenes of several subjects
-// Two laws of a toughness of 200 and 400 J/m2. The process zone of the ductile one spans 8 to 16 pairs of the
-// cantilever below, so that a long step has one critical state and every way to it ends there. That of the brittle one
-// is one pair: each set of broken pairs is then critical over a range of loads, and the way decides where a step ends.
+// Two laws with a toughness of 200 and 400 J/m2. The process zone of the ductile one spans 8 to 16 pairs of the
+// cantilever below, so that a long step has one critical state and every path ends there. That of the brittle one is a
+// single pair: each set of broken pairs is then critical over a range of loads, and the path decides where a step ends.
 constexpr reference::LawData ductile{1e12, 2e12, 10.0, 16.0, 200.0, 400.0};
 constexpr reference::LawData brittle{1e13, 2e13, 50.0, 80.0, 200.0, 400.0};
 
-// Cantilever of two arms in mixed mode: notched at the left, clamped at the right, lifted at the upper left corner.
+// A cantilever of two arms in mixed mode: notched at the left, clamped at the right, lifted at the upper left corner.
 struct Cantilever {
     int dimension = 2;
     double length = 0.04, arm = 2e-3, width = 0.01;
@@ -130,15 +130,15 @@ struct Cantilever {
     reference::LawData law = ductile;
     bool bonded = false;
     double lift = 1.5e-3;                  // at time 1
-    std::vector<double> times{}, lifts{};  // in its place, where given
+    std::vector<double> times{}, lifts{};  // used instead, if given
     std::int32_t cell = 0;                 // 0: quad4, hex8
     std::string formulation = "standard";
     double delta = 1e-5;
 };
 reference::Scene make_cantilever(const Cantilever& c);
 
-// Both bodies of one cell held or driven as a whole: the jump is what the device prescribes, (normal, tangential) in
-// the two patterns "open" and "slide" over the same times. The interface has two pairs that answer alike.
+// Two bodies of one cell each, completely prescribed: the device prescribes the jump, (normal, tangential) in the two
+// patterns "open" and "slide" over the same times. The interface has two pairs that respond alike.
 reference::Scene make_driven(const reference::LawData& law, const std::vector<double>& times,
                              const std::vector<double>& open, const std::vector<double>& slide, double delta);
 

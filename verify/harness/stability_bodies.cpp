@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stability against the bodies: contrast of moduli, Poisson's ratio near 1/2, aspect ratio of cells, slenderness of
-// plies, bodies that the host hands over as matrices.
+// plies, bodies that the host provides as matrices.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -14,7 +14,7 @@ using reference::LawData;
 using reference::Scene;
 
 constexpr LawData intact{1e14, 1e14, 1e30, 1e30, 1e30, 1e30};
-// The same with lengths in other units; stresses keep theirs.
+// The same with lengths in other units; stresses keep their values.
 LawData in_units(double unit) { return {1e14 / unit, 1e14 / unit, 1e30, 1e30, 1e30, 1e30}; }
 
 std::vector<double> powers(int first, int last, int step) {
@@ -33,7 +33,7 @@ void contrast(Study& study) {
             if (dimension == 3) c.columns = 16, c.notch = 5;
             c.law = intact;
             c.lift = 1e-5;
-            // The stiffer one has 70 GPa.
+            // The stiffer arm has 70 GPa.
             c.young_upper *= std::min(1.0, ratio);
             c.young_lower *= std::min(1.0, 1.0 / ratio);
             Trial t;
@@ -41,15 +41,15 @@ void contrast(Study& study) {
             t.parameter_name = "E upper / E lower";
             t.parameter = ratio;
             t.scene = [=] { return make_cantilever(c); };
-            t.limit = t.acceptance_limit = 1e-8;  // 1e-16 of the stiffer arm is as much of the softer one
+            t.limit = t.acceptance_limit = 1e-8;  // 1e-16 of the stiffer arm is 1e-8 of the softer one
             t.defect_limit = closed_balance;
             study.run(t);
         }
     }
 }
 
-// A quarter of a ring, its inner half glued to the outer one by bonds, inner face pushed outwards: the energy of the
-// closed form, (lambda + mu and mu of plane strain) with u = A r + B / r.
+// A quarter of a ring whose inner and outer halves are bonded, with the inner face pushed outwards: the energy in
+// closed form (lambda + mu and mu of plane strain), with u = A r + B / r.
 constexpr double inner = 1.0, outer = 2.0, push = 1e-3;
 
 double ring_energy(double young, double nu) {
@@ -113,7 +113,7 @@ void poisson(Study& study) {
             t.parameter_name = "Poisson's ratio";
             t.parameter = nu;
             t.scene = [=] { return make_cantilever(c); };
-            // The bodies' own condition grows with 1 / (1 - 2 nu).
+            // The condition number of the bodies grows with 1 / (1 - 2 nu).
             t.limit = 3e-9 + 2e-11 / (1.0 - 2.0 * nu);
             t.acceptance_limit = 1e-8;
             t.defect_limit = closed_balance;
@@ -140,8 +140,8 @@ void poisson(Study& study) {
             t.scene = [=] { return make_ring(ring.cell, ring.corners, ring.formulation, young, nu); };
             t.reference = "closed form (Lame), energy";
             t.error = [=](const Result& r) { return std::abs(r.stored_bulk / exact - 1.0); };
-            // Straight edges leave a tenth of the angle of a cell, 0.065, squared; parabolas 3e-7, which volumes that
-            // cannot change multiply without mean dilatation.
+            // Straight edges give an error of a tenth of the squared angle of a cell, 0.065; parabolic ones 3e-7, which
+            // nearly incompressible material multiplies without mean dilatation.
             const bool locks = ring.formulation == std::string("standard");
             t.limit = ring.cell == DELAM_QUAD4 ? 4e-4 : locks ? 1e-6 / (1.0 - 2.0 * nu) : 1e-6;
             t.defect_limit = closed_balance;
@@ -151,7 +151,7 @@ void poisson(Study& study) {
 }
 
 // Thin layers, one cell each, beside the interface of a cantilever that is not slender itself: cells `ratio` times
-// longer than thick, glued to thick arms by bonds.
+// longer than thick, bonded to thick arms.
 Scene make_graded(int dimension, double ratio, double unit) {
     const bool plane = dimension == 2;
     const double length = 0.04 * unit, arm = 4e-3 * unit, width = 0.01 * unit;
@@ -189,7 +189,8 @@ Scene make_graded(int dimension, double ratio, double unit) {
     return scene;
 }
 
-// The condition of a flat cell's matrix grows with its ratio, and what rounding leaves with it: 1e-12 of it measured.
+// The condition number of a flat cell's matrix grows with its ratio, and the rounding error with it: 1e-12 times the
+// ratio was measured.
 double flat_limit(double ratio) { return std::max(1e-9, 1e-11 * ratio); }
 
 void aspect(Study& study) {
@@ -214,13 +215,13 @@ void aspect(Study& study) {
             t.scene = [in_unit = t.in_unit] { return in_unit(1.0); };
             t.limit = flat_limit(ratio);
             t.acceptance_limit = 1e-8;
-            t.feti_may_say = tall && ratio > 3e3;  // four pieces of cells 1e4 times higher than wide
+            t.feti_may_say = tall && ratio > 3e3;  // four subdomains of cells 1e4 times higher than wide
             t.defect_limit = closed_balance;
-            if (!tall) t.subdomains = 400;  // a cell each
+            if (!tall) t.subdomains = 400;  // one cell per subdomain
             study.run(t);
         }
     }
-    // The thin layers whole, as FETI's pieces: 40 cells times the ratio longer than thick.
+    // The thin layers as whole subdomains of FETI: 40 cells times the ratio longer than thick.
     if (study.wanted("aspect-flat-whole"))
         for (const double ratio : study.range(ratios, 4)) {
             Trial t;
@@ -233,7 +234,7 @@ void aspect(Study& study) {
             t.left_out = "as in the flat, plane scene, from which this one differs by the pieces of FETI alone";
             t.limit = flat_limit(ratio);
             t.acceptance_limit = 1e-8;
-            t.feti_may_say = ratio > 3.0;  // pieces more than 120 times longer than thick
+            t.feti_may_say = ratio > 3.0;  // subdomains more than 120 times longer than thick
             t.defect_limit = closed_balance;
             study.run(t);
         }
@@ -247,7 +248,7 @@ void aspect(Study& study) {
             t.scene = [in_unit = t.in_unit] { return in_unit(1.0); };
             t.limit = flat_limit(ratio);
             t.acceptance_limit = 1e-8;
-            t.feti_may_say = ratio > 10.0;  // layers whole, more than 160 times longer than thick
+            t.feti_may_say = ratio > 10.0;  // whole layers, more than 160 times longer than thick
             t.defect_limit = closed_balance;
             study.run(t);
         }
@@ -277,9 +278,10 @@ void aspect(Study& study) {
     }
 }
 
-// Compliance of both arms as beams on springs that resist opening alone, crack a, root length 1/lam, times EI. Each
-// arm's deflection grows from the point where the arms touch as cosh s sin s - sinh s cos s, with s = lam times the
-// distance: no deflection, slope and moment there. The tip, where moment over shear is a, lies at s0.
+// EI times the compliance of both arms as beams on springs that resist only opening, with crack a and root length
+// 1/lam. Each arm's deflection grows from the point where the arms touch as cosh s sin s - sinh s cos s, where s is lam
+// times the distance from that point; deflection, slope and moment are zero there. The tip, where moment over shear is
+// a, lies at s0.
 double beams_on_springs(double a, double lam) {
     double s0 = 2.0;
     for (int i = 0; i < 60; ++i) s0 = std::acos(-1.0) - std::atan(2.0 * a * lam + std::tanh(s0));
@@ -288,7 +290,7 @@ double beams_on_springs(double a, double lam) {
     return 2.0 * (size * (ch * s - sh * c) + 2.0 * size * lam * sh * s * a + a * a * a / 3.0);
 }
 
-// Double cantilever, opened. Arms 10 to 1000 times longer than thick; no Poisson's effect.
+// A double cantilever beam, opened. Arms 10 to 1000 times longer than thick; no Poisson effect.
 void slender(Study& study) {
     if (!study.wanted("slender")) return;
     constexpr double span = 1.0, young = 70e9;
@@ -335,22 +337,22 @@ void slender(Study& study) {
         // Spacing of the pairs over the root length; shear and thickness of the arms.
         t.limit = 1e-3 + 15.0 / (ratio * ratio);
         t.may_say = ratio > 300.0;
-        // Rounding of bending forces.
+        // Rounding of the bending forces.
         t.acceptance_limit = std::max(1e-8, 2e-16 * std::pow(ratio, 4));
         study.run(t);
         t.subject = "slender-direct";
         t.reference = "direct solver";
         t.error = nullptr;
         t.in_unit = in_unit;
-        // Penetrations of 1e-11 of the largest jump are taken for rounding: where the arms just touch, that is 1e-7 of
-        // the largest traction.
+        // Penetrations of 1e-11 of the largest jump count as rounding: where the arms just touch, that is 1e-7 of the
+        // largest traction.
         t.limit = 5e-7;
         t.acceptance_limit = 1e-8;
         study.run(t);
     }
 }
 
-// The upper arm as the matrix that the library assembles, handed over by the host, beside the arm of cells.
+// The upper arm as a matrix that the library assembled and the host provides, against the arm made of cells.
 void host_stiffness(Study& study) {
     if (!study.wanted("host-stiffness")) return;
     for (const double k : study.range(powers(6, 22, 2), 3)) {

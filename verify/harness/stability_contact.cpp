@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stability of contact: plies that nothing but contact holds, or nothing at all, faces that open and close in one step,
-// cross points, redundant supports.
+// Stability of contact: plies held by contact alone or by nothing, faces that open and close in one step, cross points,
+// redundant supports.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -15,7 +15,7 @@ using reference::Scene;
 
 constexpr double young = 70e9, length = 0.04, ply = 3e-3, press = 2e-6;
 constexpr LawData intact{1e14, 1e14, 1e30, 1e30, 1e30, 1e30};
-// Sliding costs nothing: neither displacements nor slips are unique.
+// Sliding takes no energy, so neither displacements nor slips are unique.
 constexpr Compared sliding{false, false, true, true, true};
 
 std::vector<std::int64_t> all_pairs(const Scene& scene, std::int64_t interface_index) {
@@ -24,7 +24,7 @@ std::vector<std::int64_t> all_pairs(const Scene& scene, std::int64_t interface_i
     return pairs;
 }
 
-// `loose` plies without any adhesion on a held one; the top is driven down in the middle, by `push`. pinned: one node
+// `loose` plies without adhesion on a supported one; the top is pressed down in the middle by `push`. pinned: one node
 // of each loose ply is held sideways, for the reference.
 Scene plies(int loose, double push, bool pinned, double dead = 0.0) {
     const auto count = static_cast<std::size_t>(loose) + 1;
@@ -88,7 +88,7 @@ void floating(Study& study) {
             study.run(t);
         }
     }
-    // A dead load along a motion that nothing but contact could hold is refused before the march.
+    // A dead load along a motion that only contact could resist is refused before the analysis.
     if (study.wanted("dead-load-on-loose-ply"))
         for (const double force : study.range({1e-12, 1e-6, 1, 1e6}, 3)) {
             Trial t;
@@ -100,7 +100,8 @@ void floating(Study& study) {
             t.refused = "missing support";
             study.run(t);
         }
-    // One that lifts an adhering ply, over what the bond can bear: at 1 it parts, and no equilibrium is left.
+    // A dead load that lifts an adhering ply, with more force than the bond can carry: at factor 1 it separates, and
+    // there is no equilibrium.
     if (!study.wanted("dead-load-lifts")) return;
     for (const double part : study.range({1e-9, 1e-3, 0.5, 0.9, 0.999, 1.001, 1.1, 10, 1e6}, 3)) {
         const LawData law{1e13, 1e13, 50.0, 50.0, 200.0, 200.0};
@@ -114,7 +115,7 @@ void floating(Study& study) {
             Scene scene(2, {length}, {20}, {ply, ply}, {2, 2}, DELAM_QUAD4);
             scene.interface(0, 1);
             scene.begin();
-            // No Poisson's effect: the traction is uniform.
+            // No Poisson effect: the traction is uniform.
             scene.elastic(-1, young, 0.0);
             scene.law(0, law);
             const auto bottom = scene.find(0, {0.0, 0.0}, {length, 0.0});
@@ -150,7 +151,7 @@ void floating(Study& study) {
     }
 }
 
-// A block in the corner of two rigid walls, pushed at the opposite corner under an angle: contact alone holds it.
+// A block in the corner of two rigid walls, pushed obliquely at the opposite corner: only contact holds it.
 void corner(Study& study) {
     if (!study.wanted("held-by-contact")) return;
     for (const double degrees : study.range({1, 5, 15, 30, 45, 60, 75, 85, 89}, 4)) {
@@ -202,7 +203,7 @@ void corner(Study& study) {
 }
 
 // A loose arm on another, both clamped: lifted at the end and pressed in the middle, then in one step the reverse, by
-// `ratio` times as much. What was open closes, what was closed opens.
+// `ratio` times as much. What was open closes, and what was closed opens.
 void reversed(Study& study) {
     if (!study.wanted("open-and-close")) return;
     for (const double ratio : study.range({1e-6, 1e-4, 1e-2, 0.1, 0.5, 1, 2, 10, 1e2, 1e4, 1e6}, 5)) {
@@ -235,7 +236,7 @@ void reversed(Study& study) {
     }
 }
 
-// Square blocks in rows and columns, a node for each block at every crossing.
+// Square blocks in rows and columns, with one node per block at every crossing.
 Scene blocks(std::int64_t n, bool bonded, const char* gluing, bool twice) {
     const std::int64_t cells_a_side = 3 * n;
     const double side = 0.03, h = side / static_cast<double>(cells_a_side);
@@ -266,7 +267,7 @@ Scene blocks(std::int64_t n, bool bonded, const char* gluing, bool twice) {
         scene.hold(bottom, {0.0, 1.0});
     }
     const auto load = scene.pattern("pull", {0.0, 1.0}, {0.0, 1e-5});
-    // Turned as it is pulled, so that blocks are pressed and drawn apart.
+    // Rotated while pulled, so that some blocks are pressed together and others drawn apart.
     std::vector<double> share;
     for (const auto node : top) share.push_back(scene.coordinate(node, 0) / side - 0.4);
     scene.drive(top, {0.0, 1.0}, load, share);
@@ -289,10 +290,10 @@ void crossings(Study& study) {
             t.subject = kind.subject;
             t.parameter_name = "blocks a side";
             t.parameter = n;
-            // Some blocks are cut, too.
+            // Some blocks are cut as well.
             t.subdomains = static_cast<int>(n * n) + 4;
             t.scene = [=] { return blocks(std::lround(n), kind.bonded, kind.gluing, false); };
-            // Bonds around a crossing are redundant: the forces among them are not unique.
+            // Bonds around a crossing are redundant, so the forces among them are not unique.
             if (kind.bonded) t.compared = {true, false, false, true, true};
             t.defect_limit = closed_balance;
             study.run(t);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stability against the interface: its stiffness up to the rigid bond, oscillation of its tractions, softening from
-// none to eight decades, exponents of the criterion, mode change, mixity of no jump at all.
+// Stability against the interface: stiffness up to a rigid bond, oscillation of tractions, softening from none to eight
+// decades, exponents of the criterion, mode change, mixity of a zero jump.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,7 +24,7 @@ std::vector<double> decades(double first, double last, int step = 1) {
     return all;
 }
 
-// Notched cantilever, elastic: every solve beside the direct one.
+// A notched elastic cantilever: every solve against the direct one.
 void stiffness(Study& study) {
     for (const int dimension : {2, 3}) {
         const std::string subject = dimension == 2 ? "stiffness" : "stiffness-3d";
@@ -42,14 +42,14 @@ void stiffness(Study& study) {
                 c.lift = 1e-5;
                 return make_cantilever(c);
             };
-            t.limit = 3e-9;  // tips of contact that just touch: 4e-10 of the largest traction
+            t.limit = 3e-9;  // ends of contact zones that just touch: 4e-10 of the largest traction
             t.defect_limit = closed_balance;
             study.run(t);
         }
     }
 }
 
-// Towards the rigid bond: what is left of the difference to it must fall as E/(k h), to nothing.
+// Towards the rigid bond: the difference from it must decrease as E/(k h), to zero.
 void rigid(Study& study) {
     if (!study.wanted("rigid")) return;
     const auto scene = [](double k) {
@@ -75,8 +75,8 @@ void rigid(Study& study) {
                              relative_difference(r.traction, limit.traction),
                              relative_difference(r.pattern, limit.pattern)});
         };
-        // A spring in series with the half cells beside it, which are k h / (0.3 E) times as compliant. From 1e15 on
-        // that is small: 2 % and less.
+        // A spring in series with the adjacent half cells, which are k h / (0.3 E) times as compliant. From 1e15 on the
+        // spring's share is small: 2 % and less.
         const double softer = 0.3 * 70e9 / (k * 1e-3);
         t.limit = softer / (1.0 + softer) + 1e-9;
         t.defect_limit = closed_balance;
@@ -103,7 +103,7 @@ void bonded(Study& study) {
 }
 
 // A layer 0 <= y <= 2c on a frictionless base, with springs at y = c, under the tension q (2 + cos(pi x/L)) on top:
-// in each half the Airy function f(y) cos(ax), f of four terms; springs, base and top give eight equations.
+// each half has the Airy function f(y) cos(ax), where f has four terms; springs, base and top give eight equations.
 class Layer {
 public:
     static constexpr double length = 1.0, half = 0.25, young = 70e9, poisson = 0.3, load = 1e6;
@@ -139,7 +139,7 @@ private:
     enum class Quantity { normal, shear, u, v };
     static constexpr long double wave = 3.14159265358979323846264338327950288L / length;
 
-    // Derivative n of the i-th term over a^n, at s = a y.
+    // Derivative n of the i-th term, divided by a^n, at s = a y.
     static long double derivative(int i, long double s, int n) {
         const long double ch = std::cosh(s), sh = std::sinh(s);
         const bool even = n % 2 == 0;
@@ -156,7 +156,7 @@ private:
     }
     static long double term(int i, long double y, Quantity q) {
         const long double s = wave * y, a = wave, nu = poisson, e = young;
-        const auto f = [&](int n) { return derivative(i, s, n) * a * a; };  // all over a^(n-2)
+        const auto f = [&](int n) { return derivative(i, s, n) * a * a; };  // everything divided by a^(n-2)
         switch (q) {
             case Quantity::normal:
                 return -f(0);
@@ -227,8 +227,8 @@ double variation(const std::vector<double>& values, std::size_t component) {
     return sum;
 }
 
-// Tractions of the layer beside the closed form, and how much more they vary than it does: an oscillating interface
-// shows as a total variation far above that of the smooth solution.
+// Tractions of the layer against the closed form, and their variation against its variation: an oscillating interface
+// has a total variation far above that of the smooth solution.
 void oscillation(Study& study) {
     for (const bool varies : {false, true}) {
         const std::string subject = varies ? "oscillation" : "tractions";
@@ -262,14 +262,14 @@ void oscillation(Study& study) {
     }
 }
 
-// ---- one pair whose jump the device prescribes, by a scheme of its own
+// ---- one pair with a prescribed jump, computed by an independent scheme
 
 struct PairState {
     double adhesion = 1.0, normal = 0.0, tangential = 0.0, stored = 0.0, spent = 0.0, work = 0.0;  // per area
     double trapezoid = 0.0;  // work, from the tractions at the ends of the steps
 };
 
-// Mixity of a step: that of the last jump before that was one, in the first loaded step that of its own.
+// Mixity of a step: that of the last non-zero jump before it; in the first loaded step, that of its own jump.
 std::vector<PairState> own_scheme(const LawData& data, const std::vector<double>& open,
                                   const std::vector<double>& slide) {
     const OwnLaw law(data);
@@ -283,7 +283,7 @@ std::vector<PairState> own_scheme(const LawData& data, const std::vector<double>
         const long double y = law.driving(now, 2);
         const long double mixity = loaded ? last : law.mixity(now, 2);
         const long double old = s.adhesion, adhesion = law.adhesion(mixity, y, old);
-        // The mean of what the load does at the adhesion before and at that after.
+        // The mean of the load's work at the adhesion before and at that after.
         s.work += static_cast<double>(0.5L * (old + adhesion) * (y - law.driving(before, 2)));
         s.spent += static_cast<double>(law.spent(mixity, adhesion) - law.spent(mixity, old));
         const double normal = s.normal, tangential = s.tangential;
@@ -340,7 +340,7 @@ Trial driven(const std::string& subject, const std::string& parameter_name, doub
         return worst;
     };
     t.limit = 5e-12;
-    // Frozen mixity and the trapezoid over the jumps leave what the scheme knows.
+    // Frozen mixity and the trapezoidal rule over the jumps; the scheme knows the remaining error.
     t.defect = std::abs(exact->back().stored + exact->back().spent - exact->back().trapezoid) / energy;
     t.defect_limit = closed_balance;
     t.device_jumps = true;
@@ -362,7 +362,7 @@ void exponents(Study& study) {
     }
 }
 
-// Opened into softening, then slid until it breaks: the toughness changes under way.
+// Opened into softening, then slid until it breaks: the toughness changes during the load history.
 void mode_change(Study& study) {
     if (!study.wanted("mode-change")) return;
     for (const double steps : study.range({2, 4, 10, 30, 100, 300}, 3)) {
@@ -378,7 +378,7 @@ void mode_change(Study& study) {
     }
 }
 
-// A jump so small that its energy may underflow (psi = 0/0), in mode II, at first or between steps that load, then
+// A jump so small that its energy may underflow (psi = 0/0), in mode II, at first or between loading steps, followed by
 // loads that break the pair: the toughness must be that of mode II all the same. 0: no jump at all.
 void no_jump(Study& study) {
     const std::vector<double> jumps{0.0, 5e-324, 1e-300, 1e-250, 1e-200, 1e-170, 1e-160, 1e-150, 1e-100, 1e-50, 1e-20};
@@ -411,7 +411,7 @@ void brittleness(Study& study) {
         t.parameter = ratio;
         t.times.clear();
         constexpr int steps = 20;
-        // Not on the ends of branches.
+        // Not at the ends of branches.
         for (int i = 1; i <= steps; ++i) t.times.push_back((i - 0.37) / steps);
         const LawData law{k, k, onset, onset, toughness, toughness};
         t.law = law;
@@ -447,14 +447,14 @@ void brittleness(Study& study) {
                                   std::abs(r.traction[2 * p] - traction) / peak});
             return worst;
         };
-        // Of Go, which is that much smaller than Gc, rounding leaves fewer digits.
+        // Go is so much smaller than Gc that rounding leaves fewer of its digits.
         t.limit = std::max(1e-10, 1e-15 * ratio);
         t.acceptance_limit = 1e-8;
         study.run(t);
     }
 }
 
-// The mixed-mode cantilever, marched: nothing is known in closed form, every state is judged.
+// The mixed-mode cantilever over all steps: there is no closed form, so every state is checked.
 void brittleness_cantilever(Study& study) {
     if (!study.wanted("brittleness-cantilever")) return;
     for (const double ratio : study.range({1, 1.01, 2, 10, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8}, 4)) {

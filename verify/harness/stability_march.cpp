@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stability of the march: steps that break everything at once, cycles, no load at all, tolerances from loose to none.
+// Stability over load steps: steps that break everything at once, cycles, no load at all, tolerances from loose to
+// zero.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -12,8 +13,8 @@ namespace {
 using reference::LawData;
 using reference::Scene;
 
-// A bar with an interface of many pairs across, pulled by the end: uniform, K = young / 2 per area and unit height of
-// both halves. Three times stiffer than the softening slope: one solution.
+// A bar with an interface of many pairs across it, pulled at its end: uniform, with K = young / 2 per area and unit
+// height of both halves. The bar is three times stiffer than the softening slope, so there is one solution.
 struct Series {
     static constexpr double k = 125e9, onset = 100.0, toughness = 250.0, side = 0.05;
     double peak = std::sqrt(2.0 * k * onset), d0 = peak / k, dc = 2.0 * toughness / peak;
@@ -33,7 +34,7 @@ struct Series {
         s.number("damage_tolerance", delta);
         return s;
     }
-    // Jump and traction under the end displacement w after the largest one.
+    // Jump and traction at the end displacement w, after the largest one so far.
     std::pair<double, double> state(double w, double most) const {
         if (w <= 0.0) return {0.0, w * spring};  // closed
         const double start = peak * (1.0 / spring + 1.0 / k);
@@ -55,7 +56,7 @@ double series_error(const Series& series, const Result& r, double w, double most
     return worst;
 }
 
-// One step, up to a million times what breaks the interface.
+// One step, up to a million times the displacement that breaks the interface.
 void giant_step(Study& study) {
     if (study.wanted("one-step")) {
         for (const double load : study.range({0.1, 0.5, 0.9, 1.001, 1.5, 10, 1e2, 1e4, 1e6}, 4)) {
@@ -70,7 +71,7 @@ void giant_step(Study& study) {
             t.scene = [=] { return series.scene({0.0, 1.0}, {0.0, w}, 1e-12); };
             t.reference = "closed form (series)";
             t.error = [=](const Result& r) { return series_error(series, r, w, w); };
-            // What the load would make of an interface that holds.
+            // The energy that the load would store if the interface held.
             t.least_traction = series.spring * w;
             t.least_force = t.least_traction * Series::side;
             t.least_energy = 0.5 * t.least_force * w;
@@ -95,7 +96,7 @@ void giant_step(Study& study) {
     }
 }
 
-// Pulled into softening, released, pressed and pulled again and again: nothing but the first pull may damage.
+// Pulled into softening, released, pressed and pulled again and again: only the first pull may damage.
 void cycles(Study& study) {
     if (!study.wanted("cycles")) return;
     for (const double count : study.range({1, 2, 5, 10, 30, 100}, 3)) {
@@ -155,7 +156,7 @@ void cycles_cantilever(Study& study) {
     }
 }
 
-// Nothing but zeros, exactly; and steps without any load before the first.
+// Exact zeros; and steps without any load before the first loaded one.
 void no_load(Study& study) {
     if (!study.wanted("no-load")) return;
     for (const double steps : study.range({1, 2, 10, 100}, 3)) {
@@ -184,14 +185,15 @@ void no_load(Study& study) {
     }
 }
 
-// Where nothing is left but rounding, alternations go on to their limit.
+// Where only rounding is left, the alternations run to their limit.
 Scene bounded(const Cantilever& c) {
     Scene scene = make_cantilever(c);
     scene.number("minimisation_limit", 300);
     return scene;
 }
 
-// The stopping test of the minimisation: the error falls with it, down to rounding, and at 0 the march ends.
+// The stopping test of the minimisation: the error decreases with it, down to rounding, and with 0 the analysis still
+// ends.
 void tolerances(Study& study) {
     const std::vector<double> ends{0.0, 1.0};
     if (study.wanted("damage-tolerance")) {
@@ -211,7 +213,7 @@ void tolerances(Study& study) {
             t.scene = [=] { return series.scene({0.0, 1.0}, {0.0, w}, delta); };
             t.reference = "closed form (series)";
             t.error = [=](const Result& r) { return series_error(series, r, r.time * w, r.time * w); };
-            // An alternation leaves a third of the error here: what it changed last is twice what is left.
+            // Here each alternation leaves a third of the error, so that its last change is twice the remaining error.
             t.limit = 10.0 * delta + 1e-11;
             t.may_say = delta < 1e-14;
             study.run(t);
@@ -263,7 +265,8 @@ void tolerances(Study& study) {
         };
         t.condensed = false;
         t.left_out = "the tolerance is that of FETI's iterations: a factorisation has none";
-        // The residual is relative in the norm of the preconditioned dual system; fields follow it within a few times.
+        // The residual is relative, in the norm of the preconditioned dual system; the error of fields is a few times
+        // as large.
         t.limit = 20.0 * tolerance + 1e-9;
         t.acceptance_limit = t.limit;
         t.may_say = tolerance < 1e-13;

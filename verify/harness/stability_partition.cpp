@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stability against how many pairs, subdomains and how badly cut: one pair to 1e5 of them, pieces from short to
-// slender, 1 to 512 subdomains, bodies that are combs pushed into each other.
+// Stability against the number of pairs and subdomains and against bad cuts: one pair to 1e5, subdomains from short to
+// slender, 1 to 512 of them, bodies shaped like combs pushed into each other.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -17,7 +17,7 @@ using reference::Scene;
 constexpr double young = 70e9;
 constexpr LawData intact{1e14, 1e14, 1e30, 1e30, 1e30, 1e30};
 
-// Two rows of cells under uniform tension; no Poisson's effect.
+// Two rows of cells under uniform tension; no Poisson effect.
 Scene strip(std::int64_t cells, double k, double pull) {
     const double h = 1e-3, length = h * static_cast<double>(cells);
     Scene scene(2, {length}, {cells}, {h, h}, {1, 1}, DELAM_QUAD4);
@@ -33,7 +33,7 @@ Scene strip(std::int64_t cells, double k, double pull) {
     return scene;
 }
 
-// One pair alone, of the corners of two triangles: each is a spring of two sides.
+// A single pair, between the corners of two triangles: each is a spring of two sides.
 Scene one_pair(double pull) {
     const std::vector<double> nodes{-1e-3, -1e-3, 1e-3, -1e-3, 0.0, 0.0, 0.0, 0.0, 1e-3, 1e-3, -1e-3, 1e-3};
     Scene scene(2, nodes, DELAM_TRI3, {0, 1, 2, 3, 4, 5}, {0, 1});
@@ -55,7 +55,7 @@ Scene one_pair(double pull) {
 
 constexpr double pull = 1e-6, spring = 1e14;
 
-// Tractions, jumps and the force of a strip against uniform tension.
+// Tractions, jumps and the force of a strip under uniform tension.
 double strip_error(const Result& r, std::int64_t cells) {
     constexpr double h = 1e-3, traction = pull / (2.0 * h / young + 1.0 / spring);
     double worst = std::abs(r.pattern[0] / (traction * h * static_cast<double>(cells)) - 1.0);
@@ -71,7 +71,7 @@ std::string format(const char* text, double a, double b, double c) {
     return line;
 }
 
-// What the dense matrices of the condensed operator would cost: src/reduction/README.md.
+// Predicted cost of the dense matrices of the condensed operator: src/reduction/README.md.
 std::string dense_cost(double pairs) {
     const double m = 2.0 * pairs, operations = (2.0 / 3.0 + 0.7 + 0.2) * m * m * m;
     return format(
@@ -80,7 +80,7 @@ std::string dense_cost(double pairs) {
         4.0 * 8.0 * m * m * 1e-9, operations, operations / 20e9 / 60.0);
 }
 
-// The coarse problem of FETI is dense: it is factored twice.
+// The coarse problem of FETI is dense and is factored twice.
 std::string coarse_cost(double pieces) {
     const double n = 3.0 * pieces;
     return format(
@@ -89,7 +89,7 @@ std::string coarse_cost(double pieces) {
         2.0 * 8.0 * n * n * 1e-9, n, 2.0 / 3.0 * n * n * n);
 }
 
-// Cells of a piece of FETI: longer ones are known to fewer digits, see pieces().
+// Number of cells in a subdomain of FETI; longer subdomains lose digits, see pieces().
 constexpr std::int64_t piece = 20;
 
 void pairs(Study& study) {
@@ -123,8 +123,8 @@ void pairs(Study& study) {
     }
 }
 
-// One strip in ever longer pieces. A floating piece bends: of a compliance that grows with (length / thickness)^3 FETI
-// takes differences, which rounding spoils, until residuals no longer reach its tolerance.
+// One strip in ever longer subdomains. A floating subdomain bends. FETI takes differences of a compliance that grows
+// with (length / thickness)^3; rounding spoils them, until residuals no longer reach the tolerance.
 void pieces(Study& study) {
     if (!study.wanted("pairs-pieces")) return;
     constexpr std::int64_t cells = 400;
@@ -146,7 +146,7 @@ void pieces(Study& study) {
 }
 
 void subdomains(Study& study) {
-    // 1: no fewer than one for each connected part, so two.
+    // 1: at least one for each connected part, so two.
     const std::vector<double> counts{1, 2, 4, 8, 16, 32, 64, 128, 256, 512};
     for (const char* preconditioner : {"series", "dirichlet", "lumped"}) {
         const std::string subject = std::string("subdomains-") + preconditioner;
@@ -175,7 +175,7 @@ void subdomains(Study& study) {
         }
     }
     if (!study.wanted("subdomains-1")) return;
-    // One body on a rigid obstacle, uncut.
+    // One body on a rigid obstacle, in one subdomain.
     for (const double count : study.range({1, 2, 4, 8}, 3)) {
         Trial t;
         t.subject = "subdomains-1";
@@ -214,8 +214,8 @@ void subdomains(Study& study) {
     }
 }
 
-// Two bodies as combs whose teeth, one cell wide, fill each other's gaps: glued, or on springs. A cut along them has
-// nothing but surface.
+// Two bodies shaped like combs whose teeth, one cell wide, fill each other's gaps: bonded, or on springs. A cut along
+// them is all surface.
 Scene combs(std::int64_t teeth, bool bonded) {
     const std::int64_t columns = 2 * teeth, rows = 16;
     const double h = 1e-3;
@@ -262,7 +262,7 @@ void poor_cuts(Study& study) {
             t.subdomains = 2;
             t.scene = [=] { return combs(std::lround(teeth), bonded); };
             t.acceptance_limit = 5e-9;
-            t.feti_may_say = teeth > 16;  // teeth of a piece bend: more of them, fewer digits
+            t.feti_may_say = teeth > 16;  // the teeth of a subdomain bend: the more teeth, the fewer digits
             t.defect_limit = closed_balance;
             study.run(t);
         }

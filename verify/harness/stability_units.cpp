@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stability against units and sizes: a march in other units of length and force gives the same numbers. Powers of four
-// change no digit; odd powers of two change those of the square root in a Cholesky factor; other factors round the
-// data. A tolerance that is absolute shows here.
+// Stability against units and sizes: an analysis in other units of length and force must give the same numbers. Powers
+// of four change no digit; odd powers of two change those of the square roots in a Cholesky factor; other factors round
+// the data. This test reveals absolute tolerances.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -12,16 +12,16 @@ namespace harness {
 namespace {
 
 constexpr double delta = 1e-12;
-// What a march may differ by: no digit but in the last place; and rounding of the data, 1e-16, through a process zone
-// that nears its instability, 6e-10 measured. The direct reference has the adhesions of the condensed march.
+// Allowed differences: only the last digit; and rounding of the data, 1e-16, amplified by a process zone close to
+// instability to 6e-10 (measured). The direct reference uses the adhesions of the condensed analysis.
 constexpr double exact = 1e-14, rounded = 1e-9;
 
-// Every length and every force of a march times these.
+// Multipliers of every length and every force of an analysis.
 struct Scale {
     double length, force;
 };
 
-// Mixed-mode cantilever with lengths and forces times the SI numbers; in the plane, forces are per unit thickness.
+// A mixed-mode cantilever with lengths and forces multiplied; in the plane, forces are per unit thickness.
 Cantilever scaled(Scale by, int dimension) {
     Cantilever c;
     c.dimension = dimension;
@@ -42,7 +42,7 @@ Cantilever scaled(Scale by, int dimension) {
     return c;
 }
 
-// The march in SI units, or of 40 mm, by each realisation for itself.
+// The reference analysis in SI units, or at 40 mm, separately for each realisation.
 struct Unscaled {
     std::vector<Result> condensed, feti;
     const Result& at(const Result& r) const {
@@ -83,7 +83,7 @@ struct Range {
     double limit;
     std::string reference = "the march in SI units";
     int dimension = 2;
-    std::size_t stride = 9;  // of --quick
+    std::size_t stride = 9;  // for --quick
 };
 
 void scaled_marches(Study& study, const Range& range) {
@@ -122,11 +122,11 @@ std::vector<double> powers(double base, int first, int last, int step) {
 void stability_units(Study& study) {
     const auto length = [](double factor) { return Scale{factor, 1.0}; };
     const auto force = [](double factor) { return Scale{1.0, factor}; };
-    // Of the same materials: stresses stay, so that forces go with the square of the size. 40 nm to 40 km.
+    // The same materials: stresses keep their values, so that forces scale with the square of the size. 40 nm to 40 km.
     const auto size = [](double factor) { return Scale{factor, factor * factor}; };
     const std::vector<double> decimal = powers(10.0, -9, 9, 1);
-    // The square root in a Cholesky factor keeps the digits of powers of four alone. A unit of length changes stiffness
-    // by its square, so that odd powers of two are such, too.
+    // The square root in a Cholesky factor keeps its digits only for powers of four. A unit of length changes the
+    // stiffness by its square, so odd powers of two do, too.
     const std::vector<double> four = powers(2.0, -30, 30, 6), odd = powers(2.0, -29, 29, 2);
     scaled_marches(study,
                    {"size", "length / 40 mm", powers(10.0, -6, 6, 1), size, rounded, "the march at 40 mm", 2, 4});

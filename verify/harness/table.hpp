@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A table that is printed as aligned text or as JSON.
+// A table, printed as aligned text or as JSON.
 #pragma once
 
 #include <string>
@@ -15,13 +15,13 @@ struct Cell {
     Cell(double v);
 
     std::string text;
-    std::string exact;  // of a number: what JSON has; text, which people read, has four digits
+    std::string exact;  // of a number, for JSON; the text for people has four digits
     bool quoted = false;
 };
 
 struct Table {
     std::string name;
-    std::string note;  // what was measured, in words
+    std::string note;  // what was measured
     std::vector<std::string> columns;
     std::vector<std::vector<Cell>> rows;
 
@@ -35,9 +35,9 @@ struct Options {
     double finest = 0.0;                // m: finer meshes are left out
     std::string scene;                  // a scene file
     std::vector<std::string> settings;  // KEY=VALUE for it
-    std::string subject;                // of stability: this one alone
-    std::string specimen, solution;     // of tables over several: only this one
-    int most_steps = 0;                 // > 0: marches of more steps are left out
+    std::string subject;                // for the table stability: only this one
+    std::string specimen, solution;     // for tables over several: only this one
+    int most_steps = 0;                 // > 0: leaves out analyses of more steps
 
     bool wants(const std::string& of_specimen) const { return specimen.empty() || specimen == of_specimen; }
 };
@@ -56,7 +56,7 @@ Table stability(const Options& options);
 Table scene_direct(const Options& options);
 #endif
 
-// One line on stderr, so that long tables show where they are.
+// Prints a line on stderr, so that long tables show their progress.
 void progress(const std::string& text);
 
 }  // namespace harness

@@ -15,7 +15,7 @@ double largest(const std::vector<double>& values) {
     return size;
 }
 
-// A violation of exactly zero is fine even where there is nothing to measure it by.
+// A violation of exactly zero is accepted even if its scale is zero.
 double relative(double violation, double scale) {
     if (!(violation > 0.0)) return std::isnan(violation) ? std::numeric_limits<double>::infinity() : 0.0;
     return scale > 0.0 ? violation / scale : std::numeric_limits<double>::infinity();
@@ -62,10 +62,10 @@ Acceptance accept(const Scene& scene, const Fields& fields, const Exported& expo
     const double jump_size = std::max(largest(jump), least.jump);
     const double traction_size = std::max(largest(traction), least.traction);
     const double between_size = std::max(jump_size, least.between_displacements);
-    // u_b - u_a of stiff interfaces cancels: nothing smaller than some ulps of u can be asked of doubles.
+    // u_b - u_a of stiff interfaces suffers cancellation: the tolerance is at least some ulps of u.
     const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * u_size;
 
-    // Out-of-balance force, summed in extended precision so that the check adds no rounding of its own.
+    // The out-of-balance force, summed in extended precision so that the check adds no rounding of its own.
     std::vector<long double> unbalance(exported.dofs);
     std::vector<double> size(exported.dofs);  // of the summands
     for (std::size_t i = 0; i < exported.dofs; ++i) {
@@ -134,7 +134,7 @@ Acceptance accept(const Scene& scene, const Fields& fields, const Exported& expo
         }
     }
 
-    // What acts on a tied node acts on what it is tied to.
+    // Forces on a tied node act on the nodes to which it is tied.
     for (const Exported::Tie& tie : exported.ties)
         for (std::size_t k = 0; k < d; ++k) {
             long double& own = unbalance[static_cast<std::size_t>(tie.node) * d + k];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The public C API with C++ manners, for verification: owned handles, statuses as exceptions, arrays as vectors.
+// The public C API in C++ style, for verification: owned handles, statuses as exceptions, arrays as vectors.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace reference {
 
-// Thrown on any status other than DELAM_OK where that is what was expected.
+// Thrown at any status other than the expected DELAM_OK.
 class Failure : public std::runtime_error {
 public:
     Failure(std::int32_t status, const std::string& text) : std::runtime_error(text), status_(status) {}
@@ -35,7 +35,7 @@ using Law = std::unique_ptr<delam_law, Destroy>;
 using Problem = std::unique_ptr<delam_problem, Destroy>;
 using SolverHandle = std::unique_ptr<delam_solver, Destroy>;
 
-// Parameters of the piecewise-linear law; SI or whatever the scene uses.
+// Parameters of the piecewise-linear law, in SI or in the units of the scene.
 struct LawData {
     double normal_stiffness, tangential_stiffness;
     double normal_onset, tangential_onset;
@@ -44,7 +44,7 @@ struct LawData {
     double gradient = 0.0;
 };
 
-// What a displacement step needs to know of an interface.
+// The properties of an interface that matter in a displacement step.
 struct InterfaceStiffness {
     double normal = 0.0;
     double tangential = 0.0;
@@ -59,7 +59,7 @@ struct Pairs {
     std::size_t count() const { return weight.size(); }
 };
 
-// A scene under construction: context, mesh, laws, problem. Interfaces come before begin(), everything else after.
+// A scene under construction: context, mesh, laws, problem. Add interfaces before begin(), everything else after it.
 class Scene {
 public:
     Scene(int dimension, const std::vector<double>& lengths, const std::vector<std::int64_t>& divisions,
@@ -68,18 +68,18 @@ public:
     Scene(int dimension, const std::vector<double>& nodes, std::int32_t cell_type,
           const std::vector<std::int64_t>& cells, const std::vector<std::int32_t>& bodies);
 
-    // The same from a conforming mesh: nodes are doubled.
+    // The same from a conforming mesh, whose nodes are doubled.
     static Scene conforming(int dimension, const std::vector<double>& nodes, std::int32_t cell_type,
                             const std::vector<std::int64_t>& cells, const std::vector<std::int32_t>& bodies);
 
-    // Of handles that are there already, with the stiffness of each interface: nothing is left to add but options.
+    // From existing handles, with the stiffness of each interface; only options can be added.
     static Scene adopt(Context context, Mesh mesh, Problem problem, std::vector<InterfaceStiffness> stiffness);
 
     std::int64_t interface(std::int32_t body_a, std::int32_t body_b);
     std::int64_t projected(std::int32_t body_a, std::int32_t body_b, double gap = 0.0);
     std::int64_t obstacle(const std::vector<std::int64_t>& nodes, const std::vector<double>& normals,
                           std::int64_t control_node);
-    // Between all bodies that touch; returns how many.
+    // Between all bodies that touch; returns the number of interfaces.
     std::int64_t all_interfaces();
     void begin();
 
@@ -89,9 +89,9 @@ public:
     void adhesion(std::int64_t interface_index, const std::vector<std::int64_t>& pairs,
                   const std::vector<double>& values);
     std::int64_t pattern(const char* name, const std::vector<double>& times, const std::vector<double>& values);
-    // Held at zero.
+    // Fixed at zero.
     void hold(const std::vector<std::int64_t>& nodes, const std::vector<double>& direction);
-    // Driven by one pattern with one coefficient per node.
+    // Driven by one pattern, with one coefficient per node.
     void drive(const std::vector<std::int64_t>& nodes, const std::vector<double>& direction, std::int64_t pattern,
                const std::vector<double>& coefficients);
     // sum of coefficients[i][:] . u_nodes[i] = coefficient * factor of the pattern (-1: 0).
@@ -139,7 +139,7 @@ class Solver {
 public:
     Solver(const Scene& scene, double time);
 
-    // Status DELAM_OK is required by the first form, returned by the second.
+    // The first form requires DELAM_OK, the second returns the status.
     void step(double time);
     std::int32_t advance(double time) { return delam_solver_advance(handle_.get(), time); }
     void commit();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A state of the library beside the reference's: relative differences and contacts that disagree.
+// Compares a state of the library with the reference's: relative differences, and contacts that disagree.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@ namespace reference {
 
 struct Comparison {
     double jump = 0.0;      // max norm over the interfaces, over the largest jump
-    double traction = 0.0;  // likewise
+    double traction = 0.0;  // max norm over the interfaces, over the largest traction
     double displacement = 0.0;
-    double reaction = 0.0;          // of the patterns, over the largest
-    double stored_bulk = 0.0;       // over the reference's own
-    double stored_interface = 0.0;  // over the reference's own
+    double reaction = 0.0;          // of the patterns, over the largest one
+    double stored_bulk = 0.0;       // over the reference's value
+    double stored_interface = 0.0;  // over the reference's value
     int contacts = 0;  // pairs with another contact flag whose gap or pressure is above `contact_tolerance`
 
     double worst() const;

@@ -10,9 +10,10 @@
 namespace reference {
 namespace {
 
-constexpr int simultaneous_limit = 50;  // active-set steps that may exchange many pairs, then one at a time (Murty)
+// active-set steps that may exchange many pairs; then one pair at a time (Murty)
+constexpr int simultaneous_limit = 50;
 constexpr int exchange_limit = 5000;
-// A violation smaller than this, relative to the largest jump or traction, is rounding.
+// Smaller violations, relative to the largest jump or traction, are rounding.
 constexpr double contact_tolerance = 1e-12;
 
 template <class Vector>
@@ -40,7 +41,7 @@ std::vector<long double> multiply(const Csr& k, const std::vector<long double>& 
 
 }  // namespace
 
-// Rows that carry a multiplier, over mesh DOFs, and where each multiplier is to be written.
+// Rows with a multiplier, over mesh DOFs, and the place to which each multiplier is written.
 struct DirectReference::System {
     std::vector<std::vector<std::pair<std::int64_t, double>>> rows;
     std::vector<std::int64_t> constraint;  // index, or -1
@@ -84,9 +85,9 @@ Affine DirectReference::combination(const std::vector<std::pair<std::int64_t, do
     return row;
 }
 
-// Nodes that pairs tie together form a graph. Its spanning trees give the unknowns: the displacement of the root, and
-// the local jump of each tree pair. Pairs that close a cycle (blocks that meet at a cross point) have a jump that
-// follows from the others.
+// Nodes tied together by pairs form a graph. Its spanning trees give the unknowns: the displacement of the root, and
+// the local jump of each tree pair. The jump of a pair that closes a cycle (blocks that meet at a cross point) follows
+// from the others.
 void DirectReference::choose_unknowns() {
     const int d = exported_.dimension;
     const std::size_t n = exported_.dofs;
@@ -276,9 +277,9 @@ State DirectReference::solve_linear(const std::vector<double>& values, const std
     return state;
 }
 
-// What bodies, springs and loads leave unbalanced is carried by supports and closed pairs: M^T y = unbalance, solved as
-// least squares (it has an exact solution). A contact's or bond's multiplier y pushes the faces apart, so the pull per
-// area is -y / weight.
+// Supports and closed pairs carry the forces that bodies, springs and loads leave unbalanced: M^T y = unbalance, solved
+// by least squares (it has an exact solution). The multiplier y of a contact or bond pushes the faces apart, so the
+// traction is -y / weight.
 void DirectReference::recover_multipliers(const System& system, const std::vector<long double>& unbalance,
                                           State& state) const {
     std::vector<std::vector<std::pair<std::size_t, double>>> columns(exported_.dofs);
@@ -357,7 +358,7 @@ bool DirectReference::update_contact(const State& state, const std::vector<doubl
 
 State DirectReference::solve(double time, const std::vector<double>& adhesion) {
     if (adhesion.size() != pairs_.size()) throw Failure(0, "direct reference: adhesion has a wrong length");
-    // A ply without adhesion may have nothing but its contacts to rest on, so these are the first guess.
+    // A ply without adhesion may rest on nothing but its contacts, so these are the first guess.
     for (std::size_t p = 0; first_ && p < pairs_.size(); ++p) {
         closed_[p] = adhesion[p] == 0.0 && !scene_->stiffness()[pairs_[p].interface_index].bonded;
     }
@@ -372,7 +373,7 @@ State DirectReference::solve(double time, const std::vector<double>& adhesion) {
             const auto width = static_cast<std::size_t>(exported_.dimension);
             double jump_size = 0.0;
             for (const double j : state.jump) jump_size = std::max(jump_size, std::abs(j));
-            // Where supports alone decide the gap, closing a pair has no effect.
+            // Where supports alone determine the gap, closing a pair has no effect.
             state.contact = closed_;
             for (std::size_t p = 0; p < pairs_.size(); ++p) {
                 if (!closed_[p]) continue;

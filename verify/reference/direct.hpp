@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One displacement step solved at once: all bodies, springs, supports and contacts in a single symmetric system.
+// One displacement step solved as a single problem: all bodies, springs, supports and contacts in one symmetric system.
 //
-// The unknowns of a node pair are the displacement of one node and the jump in the local frame, so a stiff spring sits
-// on the diagonal and a closed contact drops its unknown. Supports are eliminated (elimination.hpp). Contact is found
-// by an active set of its own. Every body must be held by supports, springs or closed contacts: a free one is refused
-// (Failure). Where supports and bonds are redundant, the tractions and reactions among them are not unique and those of
-// the redundant rows are given as zero.
+// The unknowns of a node pair are the displacement of one node and the jump in the local frame, so that a stiff spring
+// lies on the diagonal and a closed contact drops its unknown. Supports are eliminated (elimination.hpp). Contact has
+// an active set of its own. Every body must be held by supports, springs or closed contacts; a free one is refused
+// (Failure). Where supports and bonds are redundant, the tractions and reactions among them are not unique, and those
+// of the redundant rows are zero.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,7 @@ namespace reference {
 struct State {
     std::vector<double> displacement;  // [dofs]
     std::vector<double> jump;          // [pairs][dim], local, normal first
-    std::vector<double> traction;      // [pairs][dim], pull positive
+    std::vector<double> traction;      // [pairs][dim], tension positive
     std::vector<bool> contact;         // [pairs]
     std::vector<double> reaction;      // [constraints]
     std::vector<double> pattern;       // [patterns], conjugate of each factor
@@ -33,12 +33,12 @@ class DirectReference {
 public:
     explicit DirectReference(const Scene& scene);
 
-    // adhesion: [pairs], interface after interface. The contact set of the last solve is the first guess.
+    // adhesion: [pairs], interface after interface. The first guess is the contact set of the last solve.
     State solve(double time, const std::vector<double>& adhesion);
 
     const Exported& exported() const { return exported_; }
 
-    // Sees the matrix of each linear system: how many unknowns are left, and its lower triangle.
+    // Called with each linear system: the number of unknowns and the lower triangle of the matrix.
     std::function<void(std::size_t, const Triplets&)> on_matrix;
 
 private:
@@ -63,10 +63,10 @@ private:
     Exported exported_;
     std::vector<Pair> pairs_;
     std::vector<bool> is_jump_;         // of each unknown
-    std::vector<Affine> displacement_;  // DOF in unknowns
-    std::vector<Affine> jump_;          // [pairs][dim] in unknowns
+    std::vector<Affine> displacement_;  // DOF as a function of the unknowns
+    std::vector<Affine> jump_;          // [pairs][dim] as functions of the unknowns
     std::vector<bool> closed_;
-    std::vector<double> factor_;  // of the patterns, at the time that is solved for
+    std::vector<double> factor_;  // of the patterns, at the time of the solve
     bool first_ = true;
 };
 

@@ -8,7 +8,7 @@
 namespace reference {
 namespace {
 
-// Coefficients of unit-sized rows below this are what is left of a cancellation.
+// Smaller coefficients of unit-sized rows are left over from cancellation.
 constexpr double negligible = 1e-12;
 // Among pivots of comparable size a displacement is eliminated before a jump.
 constexpr double comparable = 0.1;
@@ -26,7 +26,7 @@ Elimination::Outcome Elimination::add(const Affine& row, double right) {
         terms[variable] += coefficient;
         row_size = std::max(row_size, std::abs(coefficient));
     }
-    // A solved variable refers only to variables that were free when it was solved, so this ends.
+    // A solved variable refers only to variables that were free when it was solved, so this terminates.
     for (bool again = true; again;) {
         again = false;
         for (auto it = terms.begin(); it != terms.end(); ++it) {
@@ -76,7 +76,7 @@ void Elimination::close() {
     for (std::size_t i = 0; i < number_.size(); ++i) {
         if (pivot_of_[i] < 0) number_[i] = static_cast<std::int64_t>(free_++);
     }
-    // The last one solved refers to free variables only; walking back, everything referred to is final.
+    // The last solution refers to free variables only; going backwards, every solution refers to final ones.
     for (std::size_t k = solved_.size(); k-- > 0;) {
         std::map<std::int64_t, double> terms;
         double constant = solved_[k].constant;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Linear constraints by substitution: every variable becomes an affine function of the free ones.
 //
-// A mean over several nodes makes one of them the master; a row that follows from earlier ones is recognised and left
-// out, so supports may overlap. Variables marked as jumps are kept free where there is a choice: expressed through
+// A mean over several nodes makes one of them the master. A row that follows from earlier ones is recognised and
+// dropped, so supports may overlap. Variables marked as jumps stay free where there is a choice: expressed through
 // others they would be small differences of large numbers.
 #pragma once
 
@@ -24,13 +24,13 @@ public:
     explicit Elimination(std::vector<bool> is_jump);
 
     enum class Outcome { added, redundant, contradictory };
-    // row . v = right; the row's own constant counts on the left.
+    // row . v = right, where the row's own constant belongs to the left-hand side.
     Outcome add(const Affine& row, double right);
 
-    // After the last row: numbers the free variables and back-substitutes.
+    // To be called after the last row: numbers the free variables and back-substitutes.
     void close();
     std::size_t free_count() const { return free_; }
-    // Rewrites a row over the free variables' numbers.
+    // Expresses a row in the numbers of the free variables.
     Affine expand(const Affine& row) const;
 
 private:

@@ -6,7 +6,7 @@
 namespace reference {
 namespace {
 
-// The exported body DOFs count the body's nodes in ascending order; this puts them back onto the mesh.
+// The exported body DOFs count the body's nodes in ascending order; maps them back to the mesh.
 Csr global_stiffness(const Scene& scene) {
     const auto d = static_cast<std::size_t>(scene.dimension());
     const std::size_t nodes = scene.node_count();
@@ -96,7 +96,7 @@ Exported::Exported(const Scene& scene) : dimension(scene.dimension()), dofs(scen
                                             constraints.column.data(), constraints.value.data(), prescribed.data()),
                   "delam_problem_constraints");
 
-    // A node without cells that something refers to is a control node: unknowns without stiffness.
+    // A node without cells that something refers to is a control node: an unknown without stiffness.
     const auto refer = [&](std::int64_t node) {
         for (int k = 0; k < dimension; ++k) alive[static_cast<std::size_t>(node * dimension + k)] = true;
     };

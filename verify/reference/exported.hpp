@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene as the public API exports it: everything the reference knows about the mechanics comes from here.
+// A scene as the public API exports it. Everything that the reference knows about the mechanics comes from here.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct Exported {
     int dimension = 0;
     std::size_t dofs = 0;     // dimension * mesh nodes
     Csr stiffness;            // all bodies over mesh DOFs, both triangles
-    std::vector<bool> alive;  // DOFs that some cell touches, and those of control nodes
+    std::vector<bool> alive;  // DOFs of cells and of control nodes
     std::vector<Pairs> interfaces;
     struct Tie {  // u of node = sum of weight u
         std::int64_t node;
@@ -33,11 +33,11 @@ struct Exported {
     Csr constraints;  // over mesh DOFs
     std::size_t patterns = 0;
     std::vector<double> prescribed;           // [constraints][patterns]
-    std::vector<std::vector<double>> forces;  // [patterns][dofs]: dead ones, or those of eigenstrains
-    std::vector<double> strain_energy;        // [patterns][patterns] W, of 1/2 factor.W factor
+    std::vector<std::vector<double>> forces;  // [patterns][dofs]: dead forces, or those of eigenstrains
+    std::vector<double> strain_energy;        // [patterns][patterns] W, in 1/2 factor.W factor
     bool strains(std::size_t pattern) const { return strain_energy[pattern * patterns + pattern] > 0.0; }
 
-    // Load of a time: prescribed values [constraints] and forces [dofs].
+    // Load at a time: prescribed values [constraints] and forces [dofs].
     void load(const Scene& scene, double time, std::vector<double>& values, std::vector<double>& force) const;
     std::vector<double> factors(const Scene& scene, double time) const;
 };

@@ -11,7 +11,7 @@
 namespace reference {
 namespace {
 
-// After scaling to a unit diagonal a pivot this small is rounding; slender bodies on supports stay far above.
+// After scaling to a unit diagonal, a pivot this small is rounding; slender bodies with supports stay far above it.
 constexpr double singular = 1e-15;
 constexpr int refinement_limit = 20;
 

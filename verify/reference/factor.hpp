@@ -24,7 +24,7 @@ struct Triplets {
 
 class Factor {
 public:
-    // Throws Failure when the matrix is singular to working precision: some body is then not held.
+    // Throws Failure if the matrix is singular to working precision: some body is not held then.
     Factor(std::size_t n, const Triplets& lower);
     ~Factor();
     Factor(const Factor&) = delete;
@@ -32,8 +32,8 @@ public:
 
     std::vector<double> solve(const std::vector<double>& right) const;
 
-    // Solves residual(x) = 0 for an affine residual whose negative derivative is the matrix: x is refined in extended
-    // precision until the corrections stop shrinking.
+    // Solves residual(x) = 0 for an affine residual whose negative derivative is the matrix, by refinement in extended
+    // precision until the corrections stop decreasing.
     using Residual = std::function<std::vector<long double>(const std::vector<long double>&)>;
     std::vector<long double> refine(const Residual& residual) const;
 

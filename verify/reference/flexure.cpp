@@ -7,8 +7,8 @@
 namespace reference {
 namespace {
 
-// Prescribes direction . u on a part of a horizontal face of one arm: at a point, or as the mean over a patch that lies
-// within the arm. pattern -1: held at zero.
+// Prescribes direction . u on a part of a horizontal face of one arm: at a point, or as the mean over a patch within
+// the arm. pattern -1: fixed at zero.
 void prescribe(FlexureScene& s, std::int32_t arm, double x, double level, const std::vector<double>& direction,
                std::int64_t pattern) {
     const Flexure& data = s.data;

@@ -7,8 +7,7 @@
 namespace reference {
 namespace {
 
-// B = Y_t / (Y_n + Y_t) of every pair; where there is no jump to speak of (1e-10 of the largest), the known value
-// stays.
+// B = Y_t / (Y_n + Y_t) of every pair. Where the jump is negligible (1e-10 of the largest), the known value stays.
 std::vector<double> mixities(const LawData& law, const std::vector<double>& jump, const std::vector<double>& known) {
     const std::size_t pairs = jump.size() / 2;
     std::vector<double> normal(pairs), tangential(pairs);
@@ -61,8 +60,8 @@ Fronts::Fronts(const Flexure& data, double load, std::size_t kept) : flexure_(ma
         adhesion[next] = 0.0;
         advance += flexure_.weight[next];
     }
-    // From front to front the library updates its operator: what rounding that leaves must not count. (Cold starts with
-    // the arms nearly apart take hundreds of active-set steps, so the last front is not among these.)
+    // The library updates its operator from front to front; the rounding errors that this leaves must not matter. (Cold
+    // starts with the arms nearly separated take hundreds of active-set steps, so the last front is not checked.)
     for (const std::size_t f : {fronts_.size() / 2, fronts_.size() * 9 / 10}) {
         adhesion = flexure_.adhesion;
         std::fill_n(adhesion.begin(), fronts_[f].first_intact, 0.0);

@@ -78,8 +78,8 @@ std::array<double, 3> Inclusion::stress(bool in_fibre, double x, double y, const
     return {0.5 * (sum - rest.real()), 0.5 * (sum + rest.real()), 0.5 * rest.imag()};
 }
 
-// All fields are a constant and a second harmonic: sigma_rr and [u_r] at 0 and 90 degrees, sigma_rt and [u_t] at 45,
-// say everything.
+// All fields are a constant plus a second harmonic: sigma_rr and [u_r] at 0 and 90 degrees and sigma_rt and [u_t] at 45
+// degrees determine everything.
 Inclusion::Inclusion(Phase fibre, Phase matrix, double radius, std::array<double, 2> remote_stress,
                      double normal_compliance, double tangential_compliance, bool free)
     : fibre_(fibre), matrix_(matrix), radius_(radius) {
@@ -126,7 +126,7 @@ std::array<double, 3> Inclusion::stress(bool in_fibre, double x, double y) const
 // u_r = a r in the fibre, A r + D/r in the matrix;  sigma_rr = 2 k a  and  2 k A - 2 mu D/r^2.
 double composite_cylinder_bulk(Phase fibre, Phase matrix, double radius, double outer, double compliance, bool free) {
     const double k = matrix.bulk(), mu = matrix.shear(), r = radius, b = outer;
-    // The fibre and its spring as a radial stiffness q: sigma_rr(R) = q u_r(R)/R of the matrix.
+    // The fibre and its spring act as a radial stiffness q: sigma_rr(R) = q u_r(R)/R of the matrix.
     const double q = free ? 0.0 : 1.0 / (1.0 / (2.0 * fibre.bulk()) + compliance / r);
     // 2 k A - 2 mu D/R^2 = q (A + D/R^2)  and  A + D/b^2 = 1
     const double ratio = (2.0 * k - q) / (2.0 * mu + q) * r * r;  // D/A

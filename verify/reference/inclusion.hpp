@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A circular fibre in an infinite matrix under a uniform remote stress, joined to it by linear springs: the exact
+// A circular fibre in an infinite matrix under uniform remote stress, connected by linear springs: the exact
 // plane-strain field.
 #pragma once
 
@@ -23,10 +23,10 @@ struct Phase {
 // perfect bond.
 class Inclusion {
 public:
-    // F/L2 and L3/F; free: no traction at all at the fibre (an open gap).
+    // F/L2 and L3/F; free: no traction at the fibre (an open gap).
     Inclusion(Phase fibre, Phase matrix, double radius, std::array<double, 2> remote_stress, double normal_compliance,
               double tangential_compliance, bool free = false);
-    // Displacement at a place, that of the fibre or that of the matrix.
+    // Displacement at a point, of the fibre or of the matrix.
     std::array<double, 2> displacement(bool in_fibre, double x, double y) const;
     // xx, yy, xy
     std::array<double, 3> stress(bool in_fibre, double x, double y) const;
@@ -40,9 +40,10 @@ private:
     std::array<double, 8> coefficient_{};  // A B C a b c G H, lengths in units of R
 };
 
-// A composite cylinder (fibre of radius R in a matrix cylinder of radius b) whose outer face moves by u_r = e b: its
-// radial stress there over 2e, the plane-strain bulk modulus, with a radial spring compliance (L3/F) between the two.
-// Lame's solution; with compliance 0 it is Hashin and Rosen's (J. Appl. Mech. 31, 1964). free: nothing is carried over.
+// A composite cylinder (a fibre of radius R in a matrix cylinder of radius b) whose outer face moves by u_r = e b: its
+// radial stress there divided by 2e, the plane-strain bulk modulus, with a radial spring compliance (L3/F) between the
+// two. Lame's solution; with compliance 0 it is Hashin and Rosen's (J. Appl. Mech. 31, 1964). free: the interface
+// transmits nothing.
 double composite_cylinder_bulk(Phase fibre, Phase matrix, double radius, double outer, double compliance,
                                bool free = false);
 

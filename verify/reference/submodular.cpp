@@ -13,8 +13,8 @@ using Vector = std::vector<double>;
 
 double dot(const Vector& a, const Vector& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
 
-// Coefficients, with sum 1, of the point of least norm in the affine hull: (G + 1 1^T) mu = 1, lambda = mu / sum(mu), G
-// the Gram matrix. Nothing where the points are affinely dependent.
+// Coefficients, with sum 1, of the point of least norm in the affine hull: (G + 1 1^T) mu = 1, lambda = mu / sum(mu),
+// where G is the Gram matrix. Empty if the points are affinely dependent.
 std::optional<Vector> affine_minimiser(const std::vector<Vector>& points) {
     const std::size_t m = points.size();
     double scale = 0.0;
@@ -57,7 +57,7 @@ double dual_bound(const std::vector<double>& x, double v) {
 SubmodularMinimum minimise_submodular(std::size_t n, const SetFunction& f, int limit) {
     SubmodularMinimum result;
     result.best = Set(n, 0);
-    // The vertex of least product with x; every prefix of the order is a candidate for the minimiser.
+    // The vertex with the least product with x; every prefix of the order is a candidate for the minimiser.
     const auto greedy = [&](const Vector& x) {
         std::vector<std::size_t> order(n);
         std::iota(order.begin(), order.end(), std::size_t{0});
@@ -102,7 +102,8 @@ SubmodularMinimum minimise_submodular(std::size_t n, const SetFunction& f, int l
                 independent = false;
                 break;
             }
-            // As far towards the affine minimiser as the weights stay >= 0; points that lose their weight leave.
+            // Moves towards the affine minimiser as far as the weights stay >= 0, and drops points whose weight becomes
+            // 0.
             double part = 1.0;
             for (std::size_t i = 0; i < points.size(); ++i)
                 if ((*affine)[i] <= 1e-12) part = std::min(part, weight[i] / (weight[i] - (*affine)[i]));

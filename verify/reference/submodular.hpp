@@ -12,18 +12,18 @@ using Set = std::vector<std::uint8_t>;  // [n] 1: in the set
 using SetFunction = std::function<double(const Set&)>;
 
 struct SubmodularMinimum {
-    Set best;            // of all sets that were evaluated on the way
+    Set best;            // of all sets that were evaluated
     double value = 0.0;  // its F
-    // sum of min(x_i, 0), the largest met: a lower bound of F if F is submodular. `dual` is its x.
+    // largest sum of min(x_i, 0) found: a lower bound of F if F is submodular. `dual` is its x.
     double bound = 0.0;
     std::vector<double> dual;
-    double wolfe_gap =
-        0.0;  // |x|^2 - min over vertices x.q, at the last point, over |x|^2: 0 at the minimum-norm point
+    // |x|^2 - min over vertices x.q, at the last point, over |x|^2: 0 at the minimum-norm point
+    double wolfe_gap = 0.0;
     int major = 0, minor = 0;
     bool converged = false;
 };
 
-// F({}) = 0. `limit`: greedy vertices at most, n evaluations each.
+// F({}) = 0. `limit`: maximal number of greedy vertices, n evaluations each.
 //
 // For an order of the elements with prefixes S_i the greedy vector q_i = F(S_i) - F(S_{i-1}) is a vertex of the base
 // polytope; x is a convex combination of such vertices. Then F(A) >= x(A) >= sum of min(x_i, 0) for every A (Edmonds).

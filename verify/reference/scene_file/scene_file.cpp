@@ -73,7 +73,7 @@ std::vector<Judged> judge(SceneFile& file, const std::vector<std::size_t>& steps
                            std::count_if(adhesion[i].begin(), adhesion[i].end(), [](double z) { return z <= 1e-3; })) /
                        static_cast<double>(adhesion[i].size());
         row.closed = static_cast<int>(std::count(state.contact.begin(), state.contact.end(), true));
-        // A contact whose gap or pressure is of the size of rounding may be called either way.
+        // A contact whose gap or pressure is of the size of rounding may be open or closed.
         condensed.equilibrate(time, adhesion[i]);
         row.condensed = compare(condensed, state, direct.exported(), 1e-9);
         row.kkt_condensed = accept(condensed, direct.exported());

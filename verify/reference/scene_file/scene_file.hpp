@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene file of the command line, as the reference takes scenes: whatever it has of meshes, materials, constraints
-// and laws.
+// Converts a scene file of the command line to a scene of the reference, with its meshes, materials, constraints and
+// laws.
 #pragma once
 
 #include <string>
@@ -13,24 +13,24 @@ namespace reference {
 
 struct SceneFile {
     Scene scene;
-    std::vector<double> times;  // of the march, the first is that of the initial state
+    std::vector<double> times;  // of the steps; the first is that of the initial state
 };
 
-// settings: KEY=VALUE, as `delam run --set` takes them. Failure with the program's message.
+// settings: KEY=VALUE, as for `delam run --set`. Throws Failure with the program's message.
 SceneFile read_scene_file(const std::string& path, const std::vector<std::string>& settings);
 
-// States of a condensed march of `file`, solved by both realisations of the library and directly.
+// States of a condensed analysis of `file`, solved by both realisations of the library and by the direct solver.
 struct Judged {
     double time = 0.0;
-    double debonded = 0.0;  // share of the pairs
-    int closed = 0;         // contacts, of the direct solution
+    double debonded = 0.0;  // fraction of the pairs
+    int closed = 0;         // contacts, in the direct solution
     Comparison condensed, feti;
     Acceptance kkt_condensed, kkt_feti;
     bool stalled = false;            // FETI did not meet its linear tolerance (DELAM_NOT_CONVERGED)
     double linear_iterations = 0.0;  // of FETI's one displacement step
 };
-// steps: which of the march are judged; 0 is the initial state. subdomains: of FETI, 0 for its own choice. The options
-// reduction and subdomains of `file` are changed by it.
+// steps: which steps are compared; 0 is the initial state. subdomains: of FETI; 0: its own choice. Sets the options
+// reduction and subdomains of `file`.
 std::vector<Judged> judge(SceneFile& file, const std::vector<std::size_t>& steps, std::int64_t subdomains);
 
 }  // namespace reference
