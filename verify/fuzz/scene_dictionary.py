@@ -9,7 +9,7 @@ words = set()
 for code in re.findall(r"`([^`\n]{1,60})`", text):
     words.add(code)
     words.update(re.findall(r"[A-Za-z_*][A-Za-z0-9_ .*-]{1,40}", code))
-for line in re.findall(r"\| passed over \|(.*)", text) + re.findall(r"\| elements \|(.*)", text):
+for line in re.findall(r"\| ignored \|(.*)", text) + re.findall(r"\| elements \|(.*)", text):
     words.update(re.findall(r"[A-Z][A-Z0-9 ]{3,30}", line))
 for word in sorted(words):
     word = word.strip()

@@ -21,7 +21,7 @@ namespace cli::abaqus {
 
 namespace {
 
-// Materials, loads, steps and requests for output: the scene says these. A *STEP is passed over to its end.
+// Materials, loads, steps and requests for output, which the scene file defines instead. A *STEP is ignored to its end.
 const std::set<std::string> passed_over{"AMPLITUDE",
                                         "BOUNDARY",
                                         "CLOAD",
@@ -91,7 +91,7 @@ public:
         if (model_.instances.empty())
             for (const auto& [key, part] : model_.parts)
                 throw SceneFailure(model_.file, fmt::format("part \"{}\" is in no *INSTANCE", part->name));
-        if (!passed_.empty()) model_.notes.push_back("passed over: " + listing({passed_.begin(), passed_.end()}));
+        if (!passed_.empty()) model_.notes.push_back("ignored: " + listing({passed_.begin(), passed_.end()}));
     }
 
 private:
@@ -133,8 +133,8 @@ private:
             passed_.insert("*" + word);
         } else {
             throw SceneFailure(card.place,
-                               "this keyword is not read; SCENE.md lists those that are, and those that "
-                               "are passed over");
+                               "this keyword is not supported; SCENE.md lists the keywords that are read and "
+                               "those that are ignored");
         }
     }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes of Abaqus input files. What is read, what is passed over and what is refused stands in SCENE.md.
+// Meshes of Abaqus input files. SCENE.md lists what is read, what is ignored and what is refused.
 #pragma once
 
 #include "mesh_file.hpp"
