@@ -465,7 +465,7 @@ inp("*NSET, NSET=hook\n90", "*NSET, NSET=hook\n91", r"bad\.inp:25: \*NSET: node 
 inp("LID, S2", "LID, S4", r"bad\.inp:29: \*SURFACE: S4: element 21 \(CPE3\) has sides S1 .. S3")
 inp("LID, S2", "LID, SPOS", r"bad\.inp:29: \*SURFACE: \"SPOS\": a side")
 inp("LID, S2", "LIT, S2", r"bad\.inp:29: \*SURFACE: element set \"LIT\" is not there")
-inp("*MATERIAL, NAME=steel", "*TIE, NAME=t", r"bad\.inp:33: \*TIE: this keyword is not read")
+inp("*MATERIAL, NAME=steel", "*TIE, NAME=t", r"bad\.inp:33: \*TIE: this keyword is not supported")
 inp("*NODE, NSET=all", "*NODE, SYSTEM=C", r"bad\.inp:4: \*NODE: the parameter SYSTEM is not read")
 inp("*Heading\n", "", r"bad\.inp:1: a keyword line")
 inp("*END STEP", "", r"\*STEP is not ended")
