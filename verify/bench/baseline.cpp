@@ -10,9 +10,9 @@
 namespace bench {
 namespace {
 
-// As in the library: violations below this part of the largest jump or force are rounding.
+// As in the library: violations below this fraction of the largest jump or force are rounding.
 constexpr double contact_noise = 1e-11;
-// A driving energy below this part of the largest one or of the onset says nothing about the mixity.
+// A driving energy below this fraction of the largest one, or of the onset, does not determine the mixity.
 constexpr double energy_noise = 1e-20;
 
 double largest(const std::vector<double>& values) {
@@ -75,7 +75,7 @@ double Baseline::driving(std::size_t pair, std::size_t component) const {
     return 0.5 * data_.tangential_stiffness * slip;
 }
 
-// B = Y_t/Y where there is a jump to take it from; the first jump of all makes the state a loaded one.
+// B = Y_t/Y where there is a jump; the first non-zero jump makes the state a loaded one.
 void Baseline::update_mixity() {
     const double onset = std::min(data_.normal_onset, data_.tangential_onset);
     double most = 0.0;
@@ -87,7 +87,8 @@ void Baseline::update_mixity() {
     }
 }
 
-// The factor is redone when the matrix has changed: the first system of a step is the last one of the step before.
+// The factorisation is repeated if the matrix has changed: the first system of a step is the last one of the step
+// before.
 void Baseline::solve_linear(const std::vector<double>& theta) {
     Clock clock;
     const std::size_t pairs = adhesion_.size();
@@ -162,8 +163,8 @@ double Baseline::stored_interface() const {
     return sum;
 }
 
-// At a solution u^T K u = theta . r + 2 f . u - sum of (force of a pair * jump): far less rounding than the product
-// itself, whose terms are the energies of single nodes moved alone.
+// At a solution u^T K u = theta . r + 2 f . u - sum of (force of a pair * jump). This has far less rounding than the
+// product itself, whose terms are the energies of single nodes moved alone.
 double Baseline::stored_bulk(const std::vector<double>& theta) const {
     double twice = 2.0 * system_.work_of_dead_loads(v_, theta);
     const auto conjugate = system_.conjugate(v_, theta);
@@ -198,7 +199,7 @@ std::optional<StepRecord> Baseline::advance(double time, const std::function<boo
     record.load = theta.at(0);
     bool converged = true;
     try {
-        // Before the first load there is no jump to take the mixity from: the elastic solution of this step gives it.
+        // Before the first load there is no jump that gives a mixity; the elastic solution of this step gives it.
         if (!loaded_) converged = displace(theta, record, stop);
         update_mixity();
         std::vector<double> next;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The baseline of every comparison: what a competent engineer would write in an afternoon.
 //
-// Plain alternate minimisation on the monolithic matrix: CHOLMOD's symbolic analysis is kept, the numeric factor is
-// redone whenever an adhesion or the contact set has changed (and only then), the active set starts from the last one.
-// Iterates, acceptance of contact, mixity and stopping test are those of the library's plain march.
+// Plain alternate minimisation with the monolithic matrix. CHOLMOD's symbolic analysis is kept; the numeric
+// factorisation is repeated whenever an adhesion or the contact set has changed, and only then; the active set starts
+// from the last one. Iterates, acceptance of contact, mixity and stopping test are those of the library's plain
+// alternate minimisation.
 #pragma once
 
 #include <functional>
@@ -23,12 +24,13 @@ struct BaselineOptions {
 
 class Baseline {
 public:
-    // One law for all interfaces; `adhesion` is the initial one, [pairs]. Solves for the state at time 0.
+    // One law for all interfaces; `adhesion` is the initial one, [pairs]. The constructor solves for the state at time
+    // 0.
     Baseline(const reference::Scene& scene, const reference::LawData& law, std::vector<double> adhesion,
              const BaselineOptions& options);
 
-    // One load step from the last one; committed at once. `stop` is asked before each linear system; once it says yes
-    // the step is abandoned and nothing returned.
+    // Computes and commits one load step. Calls `stop` before each linear system; if it returns true, the step is
+    // abandoned and nothing is returned.
     std::optional<StepRecord> advance(double time, const std::function<bool()>& stop = {});
 
     const std::vector<double>& adhesion() const { return adhesion_; }
@@ -38,7 +40,7 @@ public:
     const Monolithic& system() const { return system_; }
     const SparseFactor& factor() const { return factor_; }
     std::int64_t factorisations() const { return static_cast<std::int64_t>(factor_seconds_.size()); }
-    // Times of single numeric factorisations and of the rest of an active-set step (assembly, solve, tests).
+    // Times of single numeric factorisations, and of the rest of an active-set step (assembly, solve, tests).
     const std::vector<double>& factor_seconds() const { return factor_seconds_; }
     const std::vector<double>& solve_seconds() const { return solve_seconds_; }
 
@@ -64,7 +66,7 @@ private:
     std::vector<double> adhesion_;
     std::vector<double> mixity_;
     std::vector<double> jump_;   // [jumps]
-    std::vector<double> force_;  // [jumps], pull positive
+    std::vector<double> force_;  // [jumps], tension positive
     std::vector<std::uint8_t> closed_;
     bool loaded_ = false;
     double dissipated_ = 0.0;

@@ -23,7 +23,7 @@ Json ask_child(const std::vector<std::string>& task, int threads) {
         const std::string count = std::to_string(threads);
         setenv("OPENBLAS_NUM_THREADS", count.c_str(), 1);
         setenv("OMP_NUM_THREADS", count.c_str(), 1);
-        // CHOLMOD 3 asks for four OpenMP threads whatever OMP_NUM_THREADS says.
+        // CHOLMOD 3 requests four OpenMP threads whatever OMP_NUM_THREADS is.
         if (getenv("DELAM_BENCH_AS_SHIPPED") == nullptr) setenv("OMP_THREAD_LIMIT", count.c_str(), 1);
         std::vector<std::string> words{"delam_bench", "--child"};
         words.insert(words.end(), task.begin(), task.end());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Measurements that must not see each other (numbers of threads, peaks of memory) run in processes of their own: this
-// program started again with another environment, answering in JSON on its standard output.
+// Measurements that must not affect each other (numbers of threads, memory peaks) run in separate processes: this
+// program, started again with another environment, writes its result as JSON to standard output.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 
 namespace bench {
 
-// `task` and its arguments as understood by run_child_task(). threads: of BLAS and OpenMP. A child that fails gives
-// {"error": ...}.
+// `task` and its arguments are those of run_child_task(). threads: for BLAS and OpenMP. If the child fails, the result
+// is {"error": ...}.
 Json ask_child(const std::vector<std::string>& task, int threads);
 
-// The other end: what main() does when it is called with --child.
+// The child's side: what main() does when called with --child.
 Json run_child_task(const std::vector<std::string>& task);
 
 }  // namespace bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Wall time, and time of the processor.
+// Wall time and processor time.
 #pragma once
 
 #include <chrono>
@@ -21,7 +21,7 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Processor time of this process, all threads: other processes do not count, threads that wait by spinning do.
+// Processor time of this process, all threads: excludes other processes, includes threads that wait by spinning.
 class ProcessorClock {
 public:
     double seconds() const { return static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the energy has many critical points, methods may end in different ones. What can be asked of each is that it is
-// one: the displacements satisfy the contact conditions, and one more damage step changes nothing.
+// If the energy has many critical points, methods may end in different ones. Each end state must be critical: the
+// displacements satisfy the contact conditions, and one more damage step changes nothing.
 #include <algorithm>
 #include <cmath>
 
@@ -10,9 +10,9 @@
 namespace bench {
 namespace {
 
-constexpr std::size_t baseline_limit = 20000;  // unknowns; beyond, the baseline is not marched here
+constexpr std::size_t baseline_limit = 20000;  // unknowns; beyond, the baseline is not run here
 
-// Largest change of adhesion that a damage step makes at the jump, mixity and adhesion of a state, from `old`.
+// Largest change of adhesion in a damage step at the jump, mixity and adhesion of a state, from `old`.
 double damage_defect(const reference::Scene& scene, const delam_law* law, const std::vector<double>& jump,
                      const std::vector<double>& mixity, const std::vector<double>& old,
                      const std::vector<double>& adhesion) {
@@ -76,8 +76,7 @@ Json measure_critical(const std::string& scene, double cap) {
             continue;
         }
         if (method.reduction == nullptr) {
-            // The library judges the baseline's last state by a displacement step of its own at the baseline's
-            // adhesion.
+            // The library checks the baseline's last state by its own displacement step at the baseline's adhesion.
             std::vector<double> last;
             double last_time = 0.0;
             std::vector<double> last_jump;

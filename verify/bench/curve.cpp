@@ -8,7 +8,7 @@
 namespace bench {
 namespace {
 
-constexpr int samples = 5000;  // of the trapezoid rule; far more than steps
+constexpr int samples = 5000;  // of the trapezoidal rule; far more than steps
 
 Curve make(const March& march, double StepRecord::*value) {
     Curve c;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Histories as piecewise linear curves over the load, and their distances.
+// Histories as piecewise linear curves over the load, and distances between them.
 #pragma once
 
 #include <vector>
@@ -15,11 +15,12 @@ struct Curve {
 Curve reaction_curve(const March& march);
 Curve dissipation_curve(const March& march);
 
-// Integral of |a - b| over the path, over that of |b|.
+// Integral of |a - b| over the path, divided by that of |b|.
 double distance(const Curve& a, const Curve& b);
 
-// Richardson: with errors c x^p the distances of two coarser results to the finest are c (x_i^p - x_finest^p). Their
-// ratio gives p (it grows with p, so it is bisected within 0.5 .. 6), and c x_finest^p is the error of the finest.
+// Richardson extrapolation: with errors c x^p, the distances of two coarser results from the finest are c (x_i^p -
+// x_finest^p). Their ratio determines p (it grows with p, which is bisected within 0.5 .. 6), and c x_finest^p is the
+// error of the finest.
 struct Extrapolation {
     double order;
     double error;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an energetic march costs beside a local one, and what it finds: three concepts on the same scene in one process.
+// The cost of an energetic analysis relative to a local one, and its findings: three concepts on the same scene in one
+// process.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -34,7 +35,7 @@ constexpr const char* columns[] = {"reaction",
                                    "revisions"};
 constexpr const char* effort[] = {"am_iterations", "displacement_solves", "newton_solves", "search_candidates"};
 
-// A value by key; NaN where this library does not have it.
+// A value by key; NaN if this library does not have it.
 using Values = std::map<std::string, double>;
 
 Values read(const reference::Solver& solver) {
@@ -51,10 +52,10 @@ Values read(const reference::Solver& solver) {
     return values;
 }
 
-// The history as it stands at the end: what returns of the backtracking have replaced is read again.
+// The final history: steps that backtracking has replaced are read again.
 struct Course {
     std::vector<Values> steps;
-    Values spent;  // effort, also of steps that were replaced later; a try that found nothing lower leaves no trace
+    Values spent;  // effort, including steps that were replaced later, but not tries that found nothing lower
 
     void count(const Values& now) {
         for (const char* key : effort) spent[key] += now.at(key);
@@ -81,9 +82,9 @@ double scale_of(const Values& v) {
     return std::max(std::abs(v.at("stored_bulk") + v.at("stored_interface")), std::abs(v.at("work")));
 }
 
-// The step that debonds most, and by how much the two-sided estimate
-//   lower <= increment <= upper
-// fails where it does; the largest gap and the smallest margin of the search.
+// The step that debonds most; the largest violation of the two-sided estimate
+//     lower <= increment <= upper;
+// the largest gap and the smallest margin of the search.
 Json findings(const Course& course) {
     Json f;
     std::size_t jump = 0;
@@ -137,7 +138,7 @@ struct Entry {
     std::string refusal;
     std::vector<double> total, factor, iterate, processor;
     std::vector<double> units;     // total over the mean of the LSE measured before and after it
-    std::vector<double> to_local;  // total over that of the local march of the same round
+    std::vector<double> to_local;  // total over that of the local analysis of the same round
     std::optional<March> first;
     Course course;
 };
@@ -163,7 +164,7 @@ Json measure_concepts(const std::string& scene, int repeat, double cap) {
     result["lse_index_width"] = lse.choose();
     result["lse_facts"] = lse.facts();
 
-    // Round 0 warms up, and reads the course.
+    // Round 0 warms up and records the history.
     std::map<std::string, Entry> entries;
     for (const Method& method : concepts()) {
         Entry& entry = entries[method.key];

@@ -24,7 +24,7 @@ std::string peak_of(const Json& memory, const std::string& key) {
 
 double value_of(const Json& v) { return v.is_number() ? v.get<double>() : 0.0; }
 
-// What it costs.
+// The cost.
 void add_costs(std::vector<Row>& rows, const Json& series, const Json& memory, int threads) {
     const std::string scene = series["scene"], n = std::to_string(threads);
     const auto median_of = [](const Json& m, const char* key) { return number(m[key]["median"].get<double>()); };
@@ -46,7 +46,7 @@ void add_costs(std::vector<Row>& rows, const Json& series, const Json& memory, i
     }
 }
 
-// What it finds, which does not depend on the clock.
+// The findings, which do not depend on the time measured.
 void add_findings(std::vector<Row>& rows, const Json& series) {
     const std::string scene = series["scene"];
     for (const auto& [key, m] : series["methods"].items()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the cost grows with the number of unknowns n: fitted exponents of c n^p, part by part, in 2D and 3D.
+// Growth of the cost with the number of unknowns n: fitted exponents of c n^p, part by part, in 2D and 3D.
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -65,7 +65,7 @@ Json growth_table(const Settings& settings) {
                                 number(m["setup_s"]["median"].get<double>()),
                                 number(m["factor_s"]["median"].get<double>()),
                                 number(m["iterate_s"]["median"].get<double>()), number(m["lse"].get<double>()), label});
-                if (label.rfind("stopped", 0) == 0) continue;  // a part of a march has no place in a fit
+                if (label.rfind("stopped", 0) == 0) continue;  // an incomplete analysis has no place in a fit
                 add(key, "total", n, m["total_s"]);
                 add(key, "setup", n, m["setup_s"]);
                 add(key, "factor", n, m["factor_s"]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The unit of cost, one linear-solve equivalent (LSE): CHOLMOD's analysis, numeric factor and one solve of the scene's
-// undamaged monolithic matrix, already assembled.
+// The unit of cost, one linear-solve equivalent (LSE): CHOLMOD's analysis, numeric factorisation and one solve of the
+// scene's undamaged monolithic matrix, already assembled.
 #pragma once
 
 #include "scenes.hpp"
@@ -11,12 +11,12 @@ namespace bench {
 
 class Lse {
 public:
-    // Assembles; `stage` must be declared.
+    // Assembles the matrix; `stage` must be declared.
     explicit Lse(const Stage& stage);
-    // Seconds of one linear solve, from nothing. The default is the faster index width (see choose()).
+    // Seconds of one linear solve, from scratch. The default is the faster index width (see choose()).
     double measure() const { return measure(wide_); }
     double measure(bool wide) const;
-    // Measures both widths of CHOLMOD's indices, three times each, keeps the faster one and reports.
+    // Measures both widths of CHOLMOD's indices three times each, keeps the faster one and prints both.
     Json choose();
     bool wide() const { return wide_; }
     std::size_t unknowns() const { return matrix_.size(); }

@@ -32,7 +32,7 @@ std::string environment(const char* name) {
     return value == nullptr ? "" : value;
 }
 
-// Another BLAS than OpenBLAS does not have these functions, and nothing depends on them.
+// Weak symbols: a BLAS other than OpenBLAS does not have these functions, and only the report needs them.
 template <class Result>
 Result ask_blas(const char* name, Result otherwise) {
     using Function = Result (*)();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where and with what the figures were measured, and how much memory this process has used.
+// The machine and software on which the figures were measured, and the memory that this process has used.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace bench {
 Json machine();
 
 double peak_memory();  // bytes, VmHWM
-// Sets the peak back to what is used now; false where the kernel does not allow it.
+// Resets the peak to the present use; false if the kernel does not allow it.
 bool reset_peak_memory();
 
 }  // namespace bench

@@ -6,7 +6,7 @@
 namespace bench {
 namespace {
 
-// Ends a call of the library when its time is over.
+// Cancels a call of the library when its time is over.
 class Deadline {
 public:
     Deadline(const reference::Scene& scene, double seconds) : scene_(&scene), seconds_(seconds) {
@@ -44,7 +44,7 @@ StepRecord read(const reference::Solver& solver, std::int32_t status) {
     return r;
 }
 
-// A value that this library may not know yet.
+// A value that an older library may not have.
 double optional_value(const reference::Solver& solver, const char* key) {
     double value = -1.0;
     return delam_solver_value(solver.get(), key, &value) == DELAM_OK ? value : -1.0;

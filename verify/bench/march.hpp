@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One march by one method, timed in its parts, from the mesh in memory to the last step.
+// One analysis by one method, timed in parts, from the mesh in memory to the last step.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace bench {
 
-// One way of marching. nullptr: whatever the library does by itself; without a reduction: the baseline.
+// One method. Options that are nullptr keep the library's default; an empty reduction means the baseline.
 struct Method {
     const char* key;
     const char* reduction;
@@ -24,22 +24,23 @@ const std::vector<Method>& methods();
 const std::vector<Method>& concepts();
 const Method& find_method(const std::string& key);  // of either; throws reference::Failure
 
-// Options of a method, left out where the library cannot do anything else yet: an old library knows only FETI and plain
-// alternation, so asking for these is no refusal. nullopt: the library does not know the method; `refusal` says why.
+// Options of a method. An option is omitted if the library has no alternative: an old library knows only FETI and plain
+// alternate minimisation, and runs both without being asked. nullopt: the library does not know the method; `refusal`
+// has its message.
 std::optional<Choice> resolve(Stage& stage, const Method& method, double delta, std::string& refusal);
 
-// Declares the scene and marches; stops when `cap` seconds are over (March::capped). Library methods only.
-// `at_step` is called after each commit, outside the clock.
+// Declares the scene and runs the analysis; stops after `cap` seconds (March::capped). Library methods only. `at_step`
+// is called after each commit and is not timed.
 March run_library(Stage& stage, const Choice& choice, double cap,
                   const std::function<void(reference::Solver&, int)>& at_step = {});
-// The same for the baseline. `pricing` > 0: stops once that many factorisations were timed.
+// The same for the baseline. `pricing` > 0: stops after that many timed factorisations.
 struct BaselineTimes {
-    std::vector<double> factor, solve;  // s, of single systems
+    std::vector<double> factor, solve;  // s, of single linear systems
 };
 March run_baseline(Stage& stage, const BaselineOptions& options, double cap, std::int64_t pricing = 0,
                    BaselineTimes* times = nullptr, const std::function<void(Baseline&, int)>& at_step = {});
 
-// Sums of the counts, and the history as columns.
+// Sums of the counts, and the history in columns.
 Json counts(const March& march);
 Json history(const March& march);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of the comparison: four methods on the same scenes with the same stopping test.
+// The main comparison: four methods on the same scenes with the same stopping test.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -87,7 +87,7 @@ Json march_table(const Settings& settings) {
         for (const Method& m : methods()) measured.emplace_back(m.key);
         for (const auto& method : measured) {
             progress(name + ": memory, " + method);
-            // The peak is reached early in a march, so this needs no more than a part of it.
+            // The peak occurs early in an analysis, so a part of it suffices.
             const double part = std::min(cap, settings.quick ? 10.0 : 60.0);
             scene["memory"][method] = ask_child({"memory", name, method, std::to_string(part)}, 1);
         }
@@ -111,7 +111,7 @@ Json march_table(const Settings& settings) {
     for (const auto& [name, scene] : result["scenes"].items()) {
         for (const auto& [n, series] : scene["threads"].items()) {
             print_agreement((name + ", delta 1e-5, " + n + " thread(s): largest relative differences").c_str(), series);
-            break;  // the histories do not depend on the threads beyond rounding
+            break;  // the histories depend on the threads only by rounding
         }
         if (scene.contains("agreement_1e-10"))
             print_agreement((name + ", delta 1e-10: largest relative differences").c_str(), scene["agreement_1e-10"]);

@@ -7,9 +7,8 @@
 
 namespace bench {
 
-// The peak counts from the mesh in memory: the kernel's mark is set back before the measured part. For the
-// factorisation only the assembled matrix (and the mesh) is kept: its assembly must not be what the others are measured
-// by.
+// The peak counts from the mesh in memory: the kernel's high-water mark is reset before the measured part. For the
+// factorisation only the assembled matrix (and the mesh) is kept, so that its assembly does not affect the comparison.
 Json measure_memory(const std::string& scene, const std::string& method, double cap) {
     Stage stage = make_mesh(find_scene(scene));
     Json result;
@@ -43,7 +42,7 @@ Json measure_memory(const std::string& scene, const std::string& method, double 
     if (m.reduction != nullptr && !(choice = resolve(stage, m, 1e-5, refusal))) return {{"skipped", refusal}};
     result["reset"] = reset_peak_memory();
     result["before_MB"] = 1e-6 * peak_memory();
-    // The baseline has seen its largest matrix after a few systems.
+    // The baseline has reached its largest matrix after a few systems.
     const March march = choice ? run_library(stage, *choice, cap) : run_baseline(stage, {}, cap, 3);
     result["peak_MB"] = 1e-6 * peak_memory();
     result["capped"] = march.capped && choice.has_value();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Error against cost by method: the ductile ENF on patches, 4-node cells, the four methods of the table `march` on each
-// of a few meshes. Errors are those of the mesh: all marches and the reference, quadratic cells on a fine mesh, have
+// of a few meshes. Errors are those of the mesh: all analyses and the reference (quadratic cells on a fine mesh) have
 // the same steps.
 #include <cmath>
 #include <cstdio>
@@ -74,8 +74,7 @@ Json methods_table(const Settings& settings) {
         if (series.contains("error")) throw reference::Failure(0, series["error"].get<std::string>());
         series["h_mm"] = h;
         for (auto& [key, m] : series["methods"].items()) {
-            // A march that was stopped, or priced and not made, has no error of its
-            // own.
+            // An analysis that was stopped, or priced and not run, has no error of its own.
             if (m.contains("history") && m["history"]["load"].size() == series["steps"].get<std::size_t>()) {
                 m["error_reaction"] = distance(curve_of(m["history"], "reaction"), best.reaction);
                 m["error_dissipated"] = distance(curve_of(m["history"], "dissipated"), best.dissipated);

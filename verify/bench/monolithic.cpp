@@ -12,7 +12,7 @@ struct Term {
     double factor;
 };
 
-// Rows of T, one a degree of freedom, and C.
+// Rows of T, one per degree of freedom, and C.
 struct Unknowns {
     std::vector<std::vector<Term>> row;
     std::vector<double> constant;  // C, [dofs][patterns]
@@ -28,7 +28,8 @@ Unknowns choose_unknowns(const reference::Exported& exported) {
     u.row.resize(exported.dofs);
     u.constant.assign(exported.dofs * exported.patterns, 0.0);
 
-    // The constraint that each degree of freedom takes part in, and the one it is eliminated by: the largest weight.
+    // The constraint of each degree of freedom, and the degree of freedom that it eliminates: the one with the largest
+    // weight.
     std::vector<std::int64_t> constraint(exported.dofs, -1);
     std::vector<bool> eliminated(exported.dofs, false);
     const auto& c = exported.constraints;
@@ -87,7 +88,7 @@ Unknowns choose_unknowns(const reference::Exported& exported) {
     return u;
 }
 
-// Upper triangle of T^T K T: entries are sorted into their columns, then repeated ones are added up.
+// Upper triangle of T^T K T: sorts the entries into their columns, then sums duplicates.
 UpperMatrix transform(const reference::Csr& k, const Unknowns& u) {
     const auto n = index(u.count);
     const auto each = [&](const auto& visit) {
@@ -149,7 +150,7 @@ Monolithic::Monolithic(const reference::Scene& scene) {
     base_ = transform(exported.stiffness, u);
     current_ = base_;
 
-    // Off-diagonal entries of the jumps, both in their column and along their row.
+    // Off-diagonal entries of the jumps, in their columns and along their rows.
     std::vector<std::int32_t> row_of(unknowns(), -1);
     for (std::size_t r = 0; r < jump_.size(); ++r) row_of[index(jump_[r])] = static_cast<std::int32_t>(r);
     crossing_start_.assign(jump_.size() + 1, 0);

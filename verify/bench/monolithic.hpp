@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The whole structure in one sparse matrix, from what the public API exports: bodies, springs, supports.
 //
-// The unknowns of a node pair are the displacement of its node on face a and the local jump, u_b = u_a + frame^T jump:
-// a spring sits on one diagonal entry, a closed contact is one unknown held at zero whose row and column become those
-// of the identity. Both keep the pattern, so one symbolic analysis serves every adhesion and every contact set.
-// Prescribed displacements are eliminated: with v the free unknowns and theta the load factors,
-//     u = T v + C theta,   K0 = T^T K T,   lift = T^T K C,   dead = T^T F.
+// The unknowns of a node pair are the displacement of its node on face a and the local jump, u_b = u_a + frame^T jump.
+// A spring is then one diagonal entry, and a closed contact is one unknown fixed at zero, whose row and column become
+// those of the identity. Neither changes the pattern, so one symbolic analysis serves every adhesion and every contact
+// set. Prescribed displacements are eliminated: with v the free unknowns and theta the load factors,
+//         u = T v + C theta,   K0 = T^T K T,   lift = T^T K C,   dead = T^T F.
 #pragma once
 
 #include "exported.hpp"
@@ -15,7 +15,7 @@ namespace bench {
 
 class Monolithic {
 public:
-    // Refuses (Failure) nodes in several pairs and degrees of freedom in several constraints.
+    // Throws Failure for nodes in several pairs and degrees of freedom in several constraints.
     explicit Monolithic(const reference::Scene& scene);
 
     std::size_t unknowns() const { return base_.size(); }
@@ -23,7 +23,8 @@ public:
     std::size_t patterns() const { return patterns_; }
     const std::vector<double>& weight() const { return weight_; }  // [pairs]
 
-    // The matrix at springs [jumps] with the jumps in `held` replaced by identity; the pattern never changes.
+    // The matrix with springs [jumps], where the jumps in `held` are replaced by the identity; the pattern never
+    // changes.
     const UpperMatrix& assemble(const std::vector<double>& spring, const std::vector<std::uint8_t>& held);
     const UpperMatrix& matrix() const { return current_; }
 
@@ -31,15 +32,15 @@ public:
     void right_side(const std::vector<double>& theta, const std::vector<std::uint8_t>& held,
                     std::vector<double>& b) const;
     double jump(std::size_t row, const std::vector<double>& v) const { return v[static_cast<std::size_t>(jump_[row])]; }
-    // Force that a held pair carries, pull positive: minus the out-of-balance force of bodies and loads.
+    // Force of a held pair, tension positive: minus the out-of-balance force of bodies and loads.
     double held_force(std::size_t row, const std::vector<double>& v, const std::vector<double>& theta) const;
 
-    // dE/dtheta of each pattern, and f . u. Both at solutions.
+    // dE/dtheta of each pattern, and f . u. Both are valid at solutions only.
     double work_of_dead_loads(const std::vector<double>& v, const std::vector<double>& theta) const;
     std::vector<double> conjugate(const std::vector<double>& v, const std::vector<double>& theta) const;
 
 private:
-    struct Crossing {  // an entry of a jump's row or column, and the unknown on its other side
+    struct Crossing {  // an entry in the row or column of a jump, and its other unknown
         std::int32_t at;
         std::int32_t other;
     };

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Error against time: ductile ENF with supports and load as means over patches of 2 mm (point supports have no limit as
-// the mesh is refined), over mesh, step, element and tolerance.
+// Error against time: ductile ENF with supports and load as means over patches of 2 mm (with point supports the
+// solution does not converge as the mesh is refined), over mesh, step, element and tolerance.
 //
-// The reference is the best quadratic element on a mesh finer than all of the lines (reference_meshes) at twice the
-// finest number of steps. Two errors are given: against that reference, and against the same mesh at the row's own
-// number of steps, which leaves the error of the mesh alone; equal-error lines use the latter.
+// The reference is the best quadratic element on a mesh finer than those of all rows (reference_meshes), with twice the
+// finest number of steps. There are two errors: from that reference, and from the same mesh at the row's own number of
+// steps, which is the error of the mesh alone. Comparisons at equal error use the latter.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -32,7 +32,7 @@ SceneData scene_data(const Element& element, double h, int steps) {
     return data;
 }
 
-// The best that this library does by itself: its own choice where it has one.
+// The fastest setting of this library: its own choice, if it makes one.
 const Method automatic{"auto", "auto", "auto"};
 
 std::optional<Choice> choose(Stage& stage, double delta) {
@@ -91,7 +91,7 @@ Run run(const Element& element, double h, int steps, double delta, int repeat, d
     return r;
 }
 
-// Where the error of an element meets the target: time by log-log interpolation over its meshes, and what it means.
+// Where the error of an element meets the target: time by log-log interpolation over its meshes.
 struct Meeting {
     double seconds = nan;
     double h = nan;
@@ -140,7 +140,8 @@ Json precision_table(const Settings& settings) {
         if (e->order >= best->order) best = e;
     }
 
-    // The reference at every number of steps, and what tells its error: a coarser mesh twice, and fewer steps.
+    // The reference at every number of steps, and the runs that estimate its error: two on coarser meshes, one with
+    // fewer steps.
     const auto fine = reference_meshes(settings.quick);
     const double fine_h = fine.back();
     const int fine_steps = 2 * steps.back();
@@ -180,12 +181,12 @@ Json precision_table(const Settings& settings) {
     std::vector<Run> runs;
     for (const Element* e : available) {
         auto sizes = meshes;
-        // Elements of second order are worth a look where the others cannot bend at all.
+        // Second-order elements are worth testing where linear ones cannot bend at all.
         if (e->order > 1) sizes.insert(sizes.begin(), {3.0, 1.5});
         for (const double h : sizes) {
             for (const int n : steps) runs.push_back(run(*e, h, n, 1e-5, repeat, cap, n == line_steps));
         }
-        // On the finest mesh of the slides quadratic elements have ten times the unknowns for digits that nobody needs.
+        // On the finest mesh quadratic elements have ten times the unknowns, for digits that nobody needs.
         if (!settings.quick && e->order < 2) runs.push_back(run(*e, 0.1, line_steps, 1e-5, repeat, cap, true));
     }
     const double delta_h = settings.quick ? 1.0 : 0.5;
@@ -238,7 +239,7 @@ Json precision_table(const Settings& settings) {
                rows);
     std::printf("\nreference: %s\n", result["reference"].dump().c_str());
 
-    // Equal error: time of each element where it has the error of quad4 at h = 0.25 mm (quick: 0.5 mm).
+    // Equal error: time of each element to reach the error of quad4 at h = 0.25 mm (quick: 0.5 mm).
     const double anchor_h = settings.quick ? 0.5 : 0.25;
     double target = nan;
     double anchor = nan;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a march leaves behind, whoever made it: the same columns for the baseline and for the library.
+// The results of an analysis: the same columns for the baseline and the library.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace bench {
 
-// One load step. Energies as in delam_solver_value: stored ones of the state, `dissipated` cumulative.
+// One load step. Energies as in delam_solver_value: stored energies of the state, `dissipated` cumulative.
 struct StepRecord {
     double time = 0.0;
     double load = 0.0;      // factor of the first pattern
@@ -30,7 +30,7 @@ struct March {
     double setup = 0.0;      // s, problem and its checks
     double factor = 0.0;     // s, everything that is done once: assembly, analysis, condensation, first factors
     double iterate = 0.0;    // s, the steps
-    double processor = 0.0;  // s, processor time of all three, all threads; library marches only
+    double processor = 0.0;  // s, processor time of all three, all threads; only for the library
     double bulk_factorisations = -1.0;  // -1: not counted by this library
     double field_recoveries = -1.0;
     std::string plan;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scene files marched by the library's own choice and by FETI: time in linear-solve equivalents, counts, peak memory.
-// In this process, with the threads it has. The LSE's matrix is the direct reference's at the undamaged initial state:
-// all constraints eliminated.
+// Scene files run with the library's own choice of operator and with FETI: time in linear-solve equivalents, counts,
+// peak memory. Runs in this process, with its threads. The matrix of the LSE is the direct reference's at the undamaged
+// initial state, with all constraints eliminated.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -19,7 +19,7 @@ namespace bench {
 namespace {
 
 UpperMatrix upper_of(std::size_t n, const reference::Triplets& lower) {
-    // By columns of the upper triangle: entry (i, j), i >= j, of the lower one is row j of column i.
+    // Upper triangle by columns: entry (i, j), i >= j, of the lower triangle is row j of column i.
     std::vector<std::vector<std::pair<std::int32_t, double>>> columns(n);
     for (std::size_t e = 0; e < lower.value.size(); ++e)
         columns[static_cast<std::size_t>(lower.row[e])].emplace_back(static_cast<std::int32_t>(lower.column[e]),
@@ -42,7 +42,7 @@ UpperMatrix upper_of(std::size_t n, const reference::Triplets& lower) {
 }
 
 struct Outcome {
-    double setup = 0.0, march = 0.0, peak = 0.0;  // s, s, bytes above what was there
+    double setup = 0.0, march = 0.0, peak = 0.0;  // s, s, bytes above the use before
     std::size_t steps = 0;
     double alternations = 0.0, linear = 0.0, solves = 0.0, dissipated = 0.0;
 };
@@ -105,7 +105,7 @@ Json scene_file_table(const Settings& settings) {
         for (const char* reduction : {"auto", "feti"}) {
             std::vector<double> marches;
             Outcome out;
-            // The march by FETI is too long to be repeated.
+            // The FETI analysis takes too long to be repeated.
             for (int i = 0; i < (reduction[0] == 'a' ? repeat : 1); ++i) {
                 progress(std::string("  ") + reduction);
                 out = run(file, reduction, reduction[0] == 'a' ? 1e9 : cap);

@@ -13,14 +13,14 @@ namespace {
 
 using Point = std::vector<double>;
 
-// Numbers of the cell types that the header may not have yet.
+// Numbers of cell types that an older header may not have.
 constexpr std::int32_t tri6 = 5;
 constexpr std::int32_t quad8 = 6;
 constexpr std::int32_t quad9 = 7;
 
 std::int64_t cells(double length, double h) { return std::max<std::int64_t>(1, std::llround(length / h)); }
 
-// A formulation other than the default; the function may not be in the library yet.
+// A formulation other than the default; an older library may not have the function.
 std::int32_t set_formulation(delam_problem* problem, const char* formulation) {
     using Setter = std::int32_t (*)(delam_problem*, std::int32_t, const char*);
     const auto setter = reinterpret_cast<Setter>(dlsym(RTLD_DEFAULT, "delam_problem_set_formulation"));
@@ -34,7 +34,7 @@ Point along(int dimension, int axis, double sign = 1.0) {
     return v;
 }
 
-// Supports and load sit at x over the whole width, on the lower (upper) face of body 0 (1).
+// Supports and load are at x over the whole width, on the lower (upper) face of body 0 (1).
 struct Place {
     std::int32_t body;
     Point lower, upper;
@@ -56,7 +56,7 @@ Place place(const SceneData& data, double x, bool top) {
     return {top ? 1 : 0, lower, upper};
 }
 
-// Prescribes direction . u at a place: node by node, or as one mean over the patch. pattern -1: held at zero.
+// Prescribes direction . u at a place: node by node, or as one mean over the patch. pattern -1: fixed at zero.
 void prescribe(Stage& stage, const Place& where, const Point& direction, std::int64_t pattern) {
     reference::Scene& scene = stage.scene;
     const SceneData& data = stage.data;
@@ -137,7 +137,7 @@ SceneData find_scene(const std::string& name) {
         return data;
     }
     if (family == "block") {
-        // A short, wide specimen: the interface is a surface, so its share of the unknowns is that of 3D.
+        // A short, wide specimen: the interface is a surface, so it has the fraction of the unknowns typical of 3D.
         data.dimension = 3;
         data.length = 0.040;
         data.width = 0.010;
@@ -181,7 +181,8 @@ bool declare(Stage& stage, const Choice& choice, std::string* refusal) {
     prescribe(stage, right, along(data.dimension, 0), -1);
     prescribe(stage, right, along(data.dimension, up), -1);
     if (data.dimension == 3) {
-        // Across the width one corner of each support is held: no drift and no turn about the vertical.
+        // One corner of each support is held in the direction of the width, against drift and rotation about the
+        // vertical.
         for (const Place& support : {left, right}) {
             Point corner = support.lower;
             scene.hold(scene.find(0, corner, corner), along(3, 1));

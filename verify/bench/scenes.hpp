@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scenes that are timed: end-notched flexure in 2D and 3D, on any mesh, with point or patch supports.
+// The timed scenes: end-notched flexure in 2D and 3D, on any mesh, with point or patch supports.
 //
-// A scene is made in two stages, since the clock starts with the mesh in memory: make_mesh() before it, declare()
-// (problem, materials, law, loads, options) within it. declare() may be called again on the same mesh.
+// A scene is made in two stages, because timing starts with the mesh in memory: make_mesh() before it, declare()
+// (problem, materials, law, loads, options) within it. declare() may be called repeatedly on the same mesh.
 #pragma once
 
 #include <string>
@@ -44,17 +44,17 @@ inline constexpr double end_time = 2.0;
 inline double step_time(const SceneData& data, int step) { return end_time * step / data.steps; }
 
 // Scenes by name: enf-ductile-H, enf-brittle-H with H the edge in mm (enf-ductile-0.5), block-H in 3D; enf-patch-H is
-// enf-ductile-H on patches of 2 mm: points have no limit as the mesh is refined.
+// enf-ductile-H on patches of 2 mm, because with point supports the solution does not converge as the mesh is refined.
 SceneData find_scene(const std::string& name);
-// Meshes, mm, of the reference of enf-patch-H and of what tells its error. What is dissipated converges with the first
-// order of the spacing of pairs, which quadratic cells halve: the last one has a quarter of that of the finest 4-node
-// cells of the lines.
+// Meshes, in mm, of the reference of enf-patch-H and of the runs that estimate its error. Dissipation converges with
+// first order in the spacing of pairs, which quadratic cells halve: the last mesh has a quarter of the spacing of the
+// finest 4-node cells.
 inline std::vector<double> reference_meshes(bool quick) {
     return quick ? std::vector<double>{1.0, 0.5, 0.25} : std::vector<double>{0.5, 0.25, 0.125};
 }
 
-// How the library is asked to solve; nullptr: its default. declare() returns false where the library does not know the
-// option or its word.
+// Options of the solver; nullptr: the default. declare() returns false if the library does not know the option or its
+// value.
 struct Choice {
     const char* reduction = nullptr;
     const char* minimisation = nullptr;
@@ -69,7 +69,7 @@ struct Stage {
     std::vector<double> adhesion;  // initial, [pairs]
 };
 
-// Throws reference::Failure where the library does not know the element.
+// Throws reference::Failure if the library does not know the element.
 Stage make_mesh(const SceneData& data);
 bool declare(Stage& stage, const Choice& choice, std::string* refusal = nullptr);
 

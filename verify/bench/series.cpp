@@ -11,11 +11,11 @@
 namespace bench {
 namespace {
 
-constexpr double slow_march = 30.0;   // s; a longer march is not repeated
-constexpr double counting_cap = 4.0;  // the counting march may take so many caps
-constexpr int priced_systems = 24;    // factorisations that are timed where the baseline is priced instead of run
+constexpr double slow_march = 30.0;   // s; a longer analysis is not repeated
+constexpr double counting_cap = 4.0;  // the counting analysis may take this many caps
+constexpr int priced_systems = 24;    // factorisations timed when the baseline is priced instead of run
 
-// Everything that is known of one method.
+// All data of one method.
 struct Entry {
     const Method* method = nullptr;
     std::optional<Choice> choice;  // library methods
@@ -47,7 +47,7 @@ void run_baseline_round(Entry& entry, Stage& stage, bool wide, double cap) {
     keep(entry, std::move(march));
 }
 
-// Digit for digit: then one is the other under another name.
+// Equal in every digit: then both are the same method under two names.
 bool same_march(const March& a, const March& b) {
     if (a.steps.size() != b.steps.size()) return false;
     for (std::size_t k = 0; k < a.steps.size(); ++k) {
@@ -66,7 +66,7 @@ void progress(const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str
 Price price(const March& counted, double factor_seconds, double solve_seconds) {
     Price p;
     for (const StepRecord& r : counted.steps) p.solves += r.contact_iterations;
-    // The first system of a step has the matrix of the last one before, and the first step begins twice (elastic).
+    // The first system of a step has the last matrix of the step before, and the first step begins twice (elastic).
     p.factorisations = std::max<std::int64_t>(0, p.solves - static_cast<std::int64_t>(counted.steps.size()) - 1);
     p.seconds = static_cast<double>(p.factorisations) * factor_seconds + static_cast<double>(p.solves) * solve_seconds;
     return p;
@@ -97,7 +97,8 @@ Json measure_series(const std::string& scene, int repeat, double cap) {
         if (method.reduction != nullptr) entry.choice = resolve(stage, method, 1e-5, entry.refusal);
     }
 
-    // Counting march: tells what the baseline would take, and warms up. A long one is kept as the method's measurement.
+    // The counting analysis shows how long the baseline would take, and warms up. A long one serves as the method's
+    // measurement.
     Entry& counter = entries["condensed"].choice ? entries["condensed"] : entries["feti"];
     progress(scene + ": counting the alternations (" + counter.method->key + ")");
     const March counted = run_library(stage, *counter.choice, counting_cap * cap);
@@ -175,17 +176,17 @@ Json measure_series(const std::string& scene, int repeat, double cap) {
         m["factor_s"] = spread(entry.factor);
         m["iterate_s"] = entry.priced ? Json{{"median", iterate}} : spread(entry.iterate);
         m["lse"] = seconds / one;
-        // Against a method that was stopped there is no ratio to give.
+        // There is no ratio to a method that was stopped.
         if (baseline_seconds > 0.0 && method.reduction != nullptr && !entry.first->capped)
             m["baseline_over_this"] = baseline_seconds / seconds;
         m["counts"] = entry.priced ? counts(counted) : counts(*entry.first);
-        if (m.contains("extrapolated_from"))  // and the one of the unloaded state
+        if (m.contains("extrapolated_from"))  // and the system of the unloaded state
             m["counts"]["bulk_factorisations"] = m["extrapolated_from"]["factorisations"].get<double>() + 1.0;
         m["plan"] = entry.first->plan;
         if (!entry.priced) m["history"] = history(*entry.first);
         result["methods"][method.key] = m;
     }
-    // Everybody who got to the end, against everybody else.
+    // Compares all methods that finished with each other.
     for (std::size_t i = 0; i < methods().size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
             const Entry& a = entries[methods()[j].key];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// CHOLMOD as a competent engineer would call it: default ordering, supernodal, analysed once, factored again and again
-// on the kept pattern. Indices of 32 or 64 bits, so that the faster one can be taken.
+// CHOLMOD as a competent engineer would use it: default ordering, supernodal, analysed once, factored repeatedly on the
+// same pattern. Indices of 32 or 64 bits, so that the faster ones can be used.
 #pragma once
 
 #include <cstdint>
@@ -19,15 +19,15 @@ struct UpperMatrix {
 
 class SparseFactor {
 public:
-    // Symbolic analysis. The matrix must stay where it is: its pattern and values are read by factorise().
+    // Symbolic analysis. Keeps a reference to the matrix, whose pattern and values factorise() reads.
     explicit SparseFactor(const UpperMatrix& matrix, bool wide = false);
     ~SparseFactor();
     SparseFactor(SparseFactor&&) noexcept;
 
-    // Throws reference::Failure when a pivot is not positive.
+    // Throws reference::Failure if a pivot is not positive.
     void factorise();
     void solve(const std::vector<double>& b, std::vector<double>& x);
-    // Entries of L, bytes that CHOLMOD had allocated at most, and the ordering that it chose.
+    // Entries of L, the largest number of bytes that CHOLMOD had allocated, and its ordering.
     double entries() const;
     double peak_bytes() const;
     const char* ordering() const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Repeated measurements by their order statistics, and the slope of a power law.
+// Order statistics of repeated measurements, and the exponent of a power law.
 #pragma once
 
 #include <nlohmann/json.hpp>

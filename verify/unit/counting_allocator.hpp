@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Counts the bytes that the whole program has allocated, CHOLMOD's and LAPACK's included: include it in one file of a
-// test program. Without glibc, or under a sanitiser that brings its own allocator, nothing is counted.
+// Counts the bytes that the whole program has allocated, including CHOLMOD and LAPACK: include it in one file of a test
+// program. Counts nothing without glibc or under a sanitiser that has its own allocator.
 #pragma once
 
 #include <atomic>

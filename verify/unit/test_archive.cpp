@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Saved structs, field by field: what a later version adds is left out of older bytes and read with its default; the
-// bytes of a state keep their order.
+// Saved structs, field by field: fields that a later version adds are absent from older bytes and read with their
+// defaults; the bytes of a state keep their order.
 #include <cstring>
 #include <string>
 #include <vector>
@@ -33,7 +33,7 @@ constexpr auto rows = std::tuple_cat(
     saved_since(5, &Sample::first, &Sample::list, member_of(&Sample::part, &Part::count)),
     saved_since(8, member_of(&Sample::part, &Part::late), &Sample::added), saved_since(unsaved, &Sample::derived));
 static_assert(complete<Sample>(rows));
-// One row less, and it is noticed.
+// A missing row is detected.
 static_assert(!complete<Sample>(saved_since(5, &Sample::first, &Sample::list)));
 
 Sample changed() { return {2.0, {4.0, 5.0}, {6, 0.5}, 9.0, false}; }

@@ -32,7 +32,7 @@ constexpr CellType all_types[] = {CellType::tri3,  CellType::quad4, CellType::te
 
 int dimension_of(CellType type) { return topology(type).dimension; }
 
-// A block of one layer whose nodes are all moved at random by up to a fifth of a cell, put somewhere in space.
+// A block of one layer whose nodes are moved at random by up to a fifth of a cell, placed somewhere in space.
 Mesh distorted_block(CellType type, double offset, double unit, std::int64_t divisions = 3) {
     const int dim = dimension_of(type);
     const std::array<double, 2> lengths{1.3, 0.9};
@@ -43,7 +43,7 @@ Mesh distorted_block(CellType type, double offset, double unit, std::int64_t div
     const Mesh plain =
         make_layers(dim, std::span(lengths).first(across), std::span(n).first(across), thickness, layers, type);
     std::mt19937 random(7);
-    // Mid-side nodes move on their own: the cells are curved. They bear half as much.
+    // Mid-side nodes move independently, so the cells are curved. They tolerate half as much.
     const double most = topology(type).nodes > topology(type).corners ? 0.025 : 0.06;
     std::uniform_real_distribution<double> shift(-most, most);
     std::vector<double> nodes(plain.nodes().begin(), plain.nodes().end());
@@ -121,8 +121,9 @@ double row_norm(const SparseMatrix& k) {
     return largest;
 }
 
-// int over the boundary of x . n / dim, face by face with the shape functions of the face (6 nodes: tri6, 8: quad8) and
-// enough Gauss points: x . (x_u cross x_v) has degree 6 at most in each variable, on an edge x cross x' degree 3.
+// int over the boundary of x . n / dim, face by face, with the shape functions of the face (6 nodes: tri6, 8: quad8)
+// and enough Gauss points: x . (x_u cross x_v) has at most degree 6 in each variable, on an edge x cross x' has degree
+// 3.
 double curved_volume(const Mesh& mesh, std::int64_t c) {
     const CellTopology& cell = topology(mesh.cell_type(c));
     const double gauss[] = {-0.86113631159405257522, -0.33998104358485626480, 0.33998104358485626480,
@@ -152,7 +153,7 @@ double curved_volume(const Mesh& mesh, std::int64_t c) {
             }
             for (std::size_t q = 0; q < 4; ++q) {
                 const bool triangle = cell.face_nodes == 6;
-                // On the triangle the square collapsed (Duffy): u = (1+p)/2, v = (1-u)(1+q)/2.
+                // On the triangle, a collapsed square (Duffy): u = (1+p)/2, v = (1-u)(1+q)/2.
                 const double u = triangle ? 0.5 * (1.0 + gauss[p]) : gauss[p];
                 const double v = triangle ? (1.0 - u) * 0.5 * (1.0 + gauss[q]) : gauss[q];
                 const double w = share[p] * share[q] * (triangle ? 0.25 * (1.0 - u) : 1.0);
@@ -193,7 +194,7 @@ double volume(const Mesh& mesh) {
             }
             continue;
         }
-        // Signed cones from node 0 to the faces; a warped quadrilateral counts as the mean of its two halvings.
+        // Signed cones from node 0 to the faces; a warped quadrilateral counts as the mean of its two triangulations.
         const CellTopology& shape = topology(mesh.cell_type(c));
         for (std::size_t f = 0; f < static_cast<std::size_t>(shape.faces); ++f) {
             const auto cone = [&](std::size_t i, std::size_t j, std::size_t k) {
@@ -237,7 +238,7 @@ START_TEST(patch_test) {
             double eps[3][3] = {};
             for (std::size_t i = 0; i < dim; ++i)
                 for (std::size_t j = 0; j < dim; ++j) eps[i][j] = 0.5 * (gradient[i][j] + gradient[j][i]);
-            // Plane stress: eps_zz is whatever makes sigma_zz vanish.
+            // Plane stress: eps_zz makes sigma_zz vanish.
             if (dim == 2 && plane == Plane::stress) eps[2][2] = -lambda / (lambda + 2.0 * mu) * (eps[0][0] + eps[1][1]);
             double sigma[3][3];
             double density = 0.0;
@@ -273,7 +274,7 @@ START_TEST(patch_test) {
 }
 END_TEST
 
-// u_x = x y (z): not a linear field, but one that these elements hold on a box, with an energy by hand.
+// u_x = x y (z): not a linear field, but these elements represent it on a box; its energy is computed by hand.
 START_TEST(energy_of_a_product_field) {
     const double a = 1.7;
     const double b = 0.6;
@@ -325,7 +326,7 @@ START_TEST(kernel_and_symmetry) {
 }
 END_TEST
 
-// A single cell has no motions without energy but the rigid ones: full quadrature has no hourglass modes.
+// A single cell has only rigid motions without energy: full quadrature has no hourglass modes.
 START_TEST(single_cells) {
     for (const CellType type : all_types) {
         const Mesh mesh = distorted_block(type, 0.0, 1.0);
@@ -386,7 +387,7 @@ START_TEST(rigid_modes_are_orthonormal) {
 }
 END_TEST
 
-// Parts of a body add up to the body.
+// The stiffnesses of parts of a body sum to that of the body.
 START_TEST(assembly_of_parts) {
     for (const CellType type : all_types) {
         const Mesh mesh = distorted_block(type, 0.0, 1.0);

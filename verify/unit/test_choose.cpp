@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The predictions behind the choice of the jump operator, held against marches that are counted: bytes within a factor
-// of 1.5, operations of the sparse factor exactly, the monolithic factor's entries against its own symbolic analysis;
-// and the choice itself.
+// The predictions behind the choice of the jump operator against counts: bytes within a factor of 1.5, operations of
+// the sparse factor exactly, the entries of the monolithic factor against its own symbolic analysis; and the choice
+// itself.
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -43,7 +43,7 @@ unit::Flexure scene(int which) {
     return f;
 }
 
-// Peak of a march of a few steps, solver included, above what was there before.
+// Peak memory of an analysis of a few steps, including the solver, above the use before.
 double counted_march(const Problem& problem, double& predicted, double& unknowns) {
     Monitor monitor;
     const long before = unit::live_bytes;
@@ -79,8 +79,8 @@ START_TEST(memory_is_what_was_predicted) {
 }
 END_TEST
 
-// Fills of a symbolic analysis by the definition, column counts of a banded matrix: the flops that CHOLMOD reports are
-// sums of squares.
+// Fill of a symbolic analysis by its definition, from the column counts of a banded matrix: CHOLMOD reports sums of
+// their squares as flops.
 START_TEST(operations_of_the_sparse_factor_are_exact) {
     constexpr std::int64_t n = 200, band = 7;
     std::vector<Triplet> triplets;
@@ -100,7 +100,7 @@ START_TEST(operations_of_the_sparse_factor_are_exact) {
 }
 END_TEST
 
-// The structure under all springs, ordered freely: what a monolithic code would factor.
+// The structure with all springs, ordered freely, as a monolithic code would factor it.
 START_TEST(monolithic_factor_is_what_was_predicted) {
     const Problem problem = unit::make_flexure(scene(_i));
     Monitor monitor;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the condensed operator remembers decides its last digits. So its memory has to say all of it: an operator that
-// recalls it goes on with the same bits as the one that wrote it, whatever either has done before.
+// The memory of the condensed operator determines its last digits and must therefore be complete: an operator that
+// restores it continues with the same bits as the one that saved it, whatever either has computed before.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -42,7 +42,7 @@ Problem peel() {
     return problem;
 }
 
-// Springs of pairs of which the first `broken` are gone.
+// Springs of pairs, the first `broken` of which have none.
 Springs springs(const Problem& problem, std::size_t broken) {
     const auto rows = static_cast<std::size_t>(problem.jump_count());
     Springs s{std::vector<double>(rows, 50.0), std::vector<std::uint8_t>(rows, 0), {}};
@@ -85,7 +85,7 @@ void solve_alike(const Problem& problem, Condensed& one, Condensed& other) {
 
 }  // namespace
 
-// A search works in the zone alone, often for several steps, before it solves for the whole.
+// A search works only in the zone, often for several steps, before it solves for the whole.
 START_TEST(zone_before_a_solve) {
     Operators all;
     const auto one = all.fresh(), other = all.fresh();
@@ -96,7 +96,7 @@ START_TEST(zone_before_a_solve) {
 }
 END_TEST
 
-// A zero with a sign equals one without; it must not live on in an operator that recalls the one after the other.
+// Negative zero equals zero; it must not survive in an operator that restores a memory with positive zero.
 START_TEST(zeros_with_a_sign) {
     Operators all;
     const auto one = all.fresh(), other = all.fresh();
@@ -119,7 +119,7 @@ START_TEST(zeros_with_a_sign) {
 }
 END_TEST
 
-// Also after zones of another past, and after one that was forgotten.
+// Also after zones with another history, and after a discarded one.
 START_TEST(another_past) {
     Operators all;
     const auto one = all.fresh(), other = all.fresh();

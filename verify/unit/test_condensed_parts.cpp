@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts of the condensed operator, each against brute force: dense kernels around their block borders, elimination
-// and release, the zone against its KKT system in quadruple precision, echelon forms, jump variables, slopes of the
-// damage, extrapolation.
+// The parts of the condensed operator against brute force: dense kernels around their block borders, elimination and
+// release, the zone against its KKT system in quadruple precision, echelon forms, jump variables, slopes of the damage,
+// extrapolation.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -216,7 +216,7 @@ START_TEST(echelons) {
     DenseMatrix q = random.matrix(rows, columns);
     for (double& v : q.value)
         if (random.one_in(3)) v = 0.0;
-    // Rows that follow from others, scaled far apart.
+    // Dependent rows with very different scales.
     for (Index i = 1; i < rows; ++i) {
         const bool depends = random.one_in(3);
         const double scale = std::pow(10.0, random.real(-6.0, 6.0)), a = random.real(0.5, 1.0);
@@ -230,8 +230,8 @@ START_TEST(echelons) {
     expect_close(multiply(e.operations, q).value, e.rows.value, 1e-9, "operations Q");
     for (Index i = 0; i < rank; ++i)
         for (Index k = 0; k < rank; ++k) ck_assert(e.rows(i, e.pivot[at(k)]) == (i == k ? 1.0 : 0.0));
-    // Preferred columns carry as many pivots as they have rank, and all rows of Q are combinations of those of the
-    // echelon.
+    // Preferred columns contain as many pivots as their rank, and all rows of Q are combinations of those of the
+    // echelon form.
     DenseMatrix scaled = q;
     for (Index i = 0; i < rows; ++i) {
         double size = 0.0;
@@ -274,7 +274,7 @@ void expect_same_energy(const Condensation& c, const DenseEnergy& parent, const 
     c.recover(theta, kept, a);
     scratch.recover(theta, kept, b);
     expect_close(a, b, tolerance, "recovered");
-    // Minimal: the derivative of the energy with springs vanishes on what is eliminated.
+    // Minimal: the derivative of the energy with springs vanishes for the eliminated unknowns.
     std::vector<double> image(a.size()), load(a.size());
     multiply_symmetric(parent.stiffness, a, image);
     multiply(parent.load, theta, load);
@@ -333,7 +333,7 @@ START_TEST(releases) {
         ck_assert_uint_eq(c.kept().size() + back.size(), at(n));
         expect_same_energy(c, parent, stiffness, eliminated, random, tolerance);
     }
-    // Everything is back: the parent itself, in another order.
+    // Everything is released: the result is the parent itself, in another order.
     for (std::size_t j = 0; j < c.kept().size(); ++j)
         for (std::size_t i = 0; i < c.kept().size(); ++i) {
             const double exact = parent.stiffness(c.kept()[i], c.kept()[j]);
@@ -363,7 +363,7 @@ namespace {
 
 __extension__ typedef __float128 Quad;
 
-// x with A x = b by complete pivoting; what is below `zero` times the largest entry counts as zero (dependent rows).
+// Solves A x = b with complete pivoting; entries below `zero` times the largest count as zero (dependent rows).
 std::vector<Quad> solve_quad(std::vector<std::vector<Quad>> a, std::vector<Quad> b, Quad zero) {
     const std::size_t n = b.size();
     const auto size = [](Quad v) { return v < 0 ? -v : v; };
@@ -408,7 +408,7 @@ struct ZoneCase {
     std::vector<double> theta, row_force;
 };
 
-// n unknowns with a row each, more rows that combine them, some with offsets.
+// n unknowns with one row each, and further rows that combine them, some with offsets.
 ZoneCase zone_case(Random& random, Index n, Index more, Index motions, bool offsets, double weak) {
     ZoneCase z;
     const Index patterns = 2;
@@ -524,7 +524,7 @@ std::vector<double> brute_force(const ZoneCase& z) {
 
 void check_zone(ZoneCase& z, double tolerance, const char* what) {
     Zone zone(z.energy, z.rows, z.rigid);
-    // Twice, with another held set and other couplings before: nothing of that may be left.
+    // Twice, after another held set and other couplings: these must have no effect.
     std::vector<std::uint8_t> none(z.held.size(), 0);
     std::vector<Zone::Coupling> springs;
     for (std::size_t r = 0; r < z.rows.size(); ++r)
@@ -546,7 +546,7 @@ void check_zone(ZoneCase& z, double tolerance, const char* what) {
     std::vector<double> left(exact.size()), image(exact.size());
     multiply(z.energy.load, z.theta, left);
     multiply_symmetric(z.energy.stiffness, solution.unknowns, image);
-    // Where next to nothing holds a motion, S times it is rounding of large numbers.
+    // Where almost nothing resists a motion, S times it is rounding of large numbers.
     const double scale = largest(left) + largest(image) + largest(force) +
                          largest(z.energy.stiffness.value) * largest(solution.unknowns);
     for (std::size_t i = 0; i < left.size(); ++i) left[i] -= image[i];
@@ -560,7 +560,7 @@ void check_zone(ZoneCase& z, double tolerance, const char* what) {
                   scale);
 }
 
-// Held rows of random cases may contradict each other through their offsets: then there is no solution to compare with.
+// Held rows of random cases may contradict each other through their offsets; then there is no solution to compare with.
 void drop_contradictions(ZoneCase& z) {
     for (std::size_t r = 0; r < z.rows.size(); ++r) {
         if (z.held[r] == 0 || z.rows[r].offset.empty()) continue;
@@ -585,7 +585,7 @@ START_TEST(zones) {
 }
 END_TEST
 
-// Motions that only springs and held rows resist, with springs down to 1e-13 of the bodies'.
+// Motions resisted only by springs and held rows, with springs down to 1e-13 of the bodies'.
 START_TEST(floating_zones) {
     Random random(static_cast<unsigned>(_i) + 900U);
     const double weak = std::array{0.0, 1e-2, 1e-7, 1e-13}[at(_i % 4)];
@@ -610,7 +610,7 @@ START_TEST(unbalanced_zones) {
     Zone zone(z.energy, z.rows, z.rigid);
     ck_assert(zone.factor({}, z.held));
     ck_assert(!zone.solve(z.theta, {}).balanced);
-    // The same load without its part along the motions is carried.
+    // The same load without its part along the motions has an equilibrium.
     for (Index p = 0; p < z.energy.load.columns; ++p)
         for (int pass = 0; pass < 2; ++pass)
             for (Index c = 0; c < z.rigid.columns; ++c) {
@@ -631,7 +631,7 @@ END_TEST
 
 namespace {
 
-// A block of quads; nodes are moved by a linear map so that frames are slanted.
+// A block of quads, whose nodes are mapped linearly so that frames are oblique.
 void add_block(std::vector<double>& nodes, std::vector<Index>& cells, std::vector<std::int32_t>& bodies,
                std::int32_t body, double x0, double y0, Index nx, Index ny, bool slanted) {
     const auto first = static_cast<Index>(nodes.size() / 2);
@@ -697,7 +697,7 @@ DenseMatrix jumps_of(const Problem& problem) {
     return b;
 }
 
-// Random constraints of all kinds: on single components, slanted, means over several nodes, on nodes of pairs and
+// Random constraints of all kinds: on single components, oblique, means over several nodes, on nodes of pairs and
 // others.
 void constrain(Problem& problem, Random& random, int count) {
     problem.patterns.push_back({"a", {0.0, 1.0}, {0.0, 1.0}, Pattern::Drives::displacement});
@@ -747,7 +747,7 @@ START_TEST(variables) {
     ck_assert_int_eq(static_cast<Index>(v.row.size()), problem.jump_count());
     const DenseMatrix t = dense_of(v.transform), b = jumps_of(problem);
 
-    // B T = [0 | rows], B U = offsets: jumps are what they are called, and nothing else moves them.
+    // B T = [0 | rows], B U = offsets: the jump variables are the jumps, and nothing else moves them.
     DenseMatrix expected(problem.jump_count(), v.count());
     for (std::size_t r = 0; r < v.row.size(); ++r)
         for (const auto& [j, c] : v.row[r]) expected(static_cast<Index>(r), v.leading + v.kept + j) += c;
@@ -764,7 +764,7 @@ START_TEST(variables) {
     }
 
     // Trailing variables that satisfy the equations at some theta give displacements that satisfy the constraints,
-    // whatever leads.
+    // whatever the leading variables are.
     const std::vector<double> theta = random.vector(2);
     const auto equations = static_cast<Index>(v.equations.size());
     std::vector<double> values = random.vector(v.count());
@@ -804,7 +804,7 @@ START_TEST(variables) {
         for (std::size_t p = 0; p < row.prescribed.size(); ++p) wanted += row.prescribed[p] * theta[p];
         ck_assert_msg(std::abs(value - wanted) < 1e-11, "constraint %d: %.2e", static_cast<int>(c), value - wanted);
     }
-    // As many freedoms as there are: nothing is lost.
+    // The number of free variables is right: nothing is lost.
     Index alive = 0;
     for (Index n = 0; n < problem.mesh->node_count(); ++n)
         alive += problem.mesh->node_body(n) >= 0 ? problem.mesh->dimension() : 0;
@@ -815,7 +815,7 @@ START_TEST(variables) {
 }
 END_TEST
 
-// Motions that no support resists, seen at the interfaces: as many as bodies have freedoms less those of the whole.
+// Motions that no support resists, as seen at the interfaces: the freedoms of the bodies less those of the whole.
 START_TEST(rigid_motions) {
     Problem problem = junction(1, _i == 1);
     DenseMatrix z = rigid_jumps(problem);
@@ -863,7 +863,7 @@ START_TEST(slopes) {
 }
 END_TEST
 
-// z -> A z + b with few distinct eigenvalues: extrapolation from k differences is exact once k eigenvalues have been
+// z -> A z + b with few distinct eigenvalues: extrapolation from k differences is exact after k eigenvalues have been
 // seen.
 START_TEST(extrapolated_contraction) {
     const int distinct = 1 + _i;
@@ -892,7 +892,7 @@ START_TEST(extrapolated_contraction) {
         extrapolation.forget();
         for (double& v : z) v += random.real();
     }
-    // The first of all is plain, and a fixed point stays one.
+    // The first step is plain, and a fixed point stays one.
     Extrapolation fresh;
     ck_assert(fresh.next(z, map(z)) == map(z));
     for (int k = 0; k < 4; ++k) {

@@ -31,7 +31,7 @@ using Place = std::array<double, 3>;
 constexpr CellType all_types[] = {CellType::tri3,  CellType::quad4, CellType::tet4,  CellType::hex8, CellType::tri6,
                                   CellType::quad8, CellType::quad9, CellType::tet10, CellType::hex20};
 
-// Text of the error that an action ends with; empty when there is none.
+// Message of the error in which an action ends; empty if there is none.
 std::string refusal(std::int32_t status, const std::function<void()>& action) {
     try {
         action();
@@ -47,7 +47,7 @@ std::string refusal(std::int32_t status, const std::function<void()>& action) {
         ck_assert_msg(said.find(part) != std::string::npos, "\"%s\" lacks \"%s\"", said.c_str(), part); \
     } while (0)
 
-// The unit square or cube as a mesher would write it: shared nodes, cells with the label of the box that they lie in.
+// The unit square or cube as a mesher would write it: shared nodes, cells with the label of the box in which they lie.
 struct Written {
     int dimension;
     CellType type;
@@ -84,7 +84,7 @@ Written written(CellType type, std::int64_t n, const LabelOf& label_of) {
     return w;
 }
 
-// A T: the lower half, and two bodies upon it.
+// A T: the lower half, and two bodies on top of it.
 std::int32_t tee(const std::array<std::int64_t, 3>& box, std::int64_t n, int dim) {
     if (box[at(dim - 1)] < n / 2) return 4;
     return box[0] < n / 2 ? 7 : 2;
@@ -92,14 +92,15 @@ std::int32_t tee(const std::array<std::int64_t, 3>& box, std::int64_t n, int dim
 std::int32_t octants(const std::array<std::int64_t, 3>& box, std::int64_t n) {
     return static_cast<std::int32_t>(2 * box[0] / n + 2 * (2 * box[1] / n) + 4 * (2 * box[2] / n));
 }
-// 2 x 2 (x 2) pieces of body 1 within body 0, on a grid of 9 boxes each way: none touches another or the outside.
+// 2 x 2 (x 2) pieces of body 1 within body 0, on a grid of 9 boxes in each direction: no piece touches another or the
+// outside.
 std::int32_t fibres(const std::array<std::int64_t, 3>& box, int dim) {
     for (std::size_t k = 0; k < at(dim); ++k)
         if (box[k] % 4 == 0) return 0;
     return 1;
 }
 
-// What the written mesh says of two labels: faces that cells of both have, and the nodes on these.
+// The common faces of the cells of two labels, and the nodes on these faces.
 struct Shared {
     std::size_t faces = 0;
     std::set<std::int64_t> nodes;
@@ -191,7 +192,7 @@ START_TEST(bodies_that_meet) {
 }
 END_TEST
 
-// At the line where the three bodies of a T meet, each two have a pair, and the areas are those of the blocks.
+// On the line where the three bodies of a T meet, each two of them have a pair, and the areas are those of the blocks.
 START_TEST(triple_junction) {
     for (const CellType type : all_types) {
         const int dim = topology(type).dimension;
@@ -215,7 +216,7 @@ START_TEST(triple_junction) {
 }
 END_TEST
 
-// Bodies that are surrounded, of one label and several pieces.
+// Bodies inside another body, with one label and several pieces.
 START_TEST(surrounded_pieces) {
     for (const CellType type : {CellType::tri6, CellType::quad4, CellType::hex8, CellType::tet10}) {
         const int dim = topology(type).dimension;
@@ -239,7 +240,7 @@ START_TEST(surrounded_pieces) {
 }
 END_TEST
 
-// Cells in any portions, also of other types, and a body whose cells come before and after those of another.
+// Cells added in several calls, also of other types, and a body whose cells come before and after those of another.
 START_TEST(several_calls) {
     for (const CellType type : all_types) {
         const Written w = written(type, 4, [](const auto& box) { return static_cast<std::int32_t>(box[0] % 2); });
@@ -270,7 +271,7 @@ START_TEST(several_calls) {
 }
 END_TEST
 
-// Refused cells leave everything as it was: what follows gives the same mesh as without them.
+// Refused cells leave everything unchanged: what follows gives the same mesh as without them.
 START_TEST(refused_cells) {
     for (const CellType type : all_types) {
         const Written w = written(type, 2, [](const auto& box) { return static_cast<std::int32_t>(box[0]); });
@@ -302,14 +303,15 @@ START_TEST(refused_cells) {
         ck_assert_int_eq(mesh.add_all_interfaces(0.0), 1);
         ck_assert_refused(DELAM_ERROR_STATE, "has an interface already",
                           mesh.add_conforming_cells(type, more, Labels{1}));
-        // The rule of plain cells stands.
+        // The rule for plain cells stays.
         Mesh plain = w.empty();
         ck_assert_refused(DELAM_ERROR_MESH, "belongs to bodies", plain.add_cells(type, w.cells, w.labels));
     }
 }
 END_TEST
 
-// Each two bodies get what they would get alone; those joined already are left out; thousands are no matter.
+// Each two bodies get the interface that they would get alone; existing interfaces are skipped; thousands are no
+// problem.
 START_TEST(all_interfaces) {
     for (const CellType type : all_types) {
         const Written w = written(type, 4, [&](const auto& box) { return octants(box, 4); });
@@ -339,7 +341,7 @@ START_TEST(all_interfaces) {
 }
 END_TEST
 
-// Two cells upon one, beside bodies that match: refused as a whole.
+// Two cells on top of one, beside bodies that match: refused as a whole.
 START_TEST(unmatched_among_matched) {
     Mesh mesh(2, Numbers{0, 0, 1, 0, 1, 1, 0, 1, 2, 0, 2, 1, 0, 1, 1, 1, 1, 2, 0, 2, 0.5, 1, 0.5, 2});
     mesh.add_conforming_cells(CellType::quad4, Indices{0, 1, 2, 3, 1, 4, 5, 2, 6, 10, 11, 9, 10, 7, 8, 11},

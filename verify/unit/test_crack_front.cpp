@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fronts of given states: where they are, how long, and J of fields whose integral is known.
+// Fronts of given states: positions, lengths, and J of fields whose integral is known.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -17,7 +17,7 @@ void near(double value, double exact, double tolerance = 1e-12) {
     ck_assert_msg(std::abs(value - exact) <= tolerance, "%.17g instead of %.17g", value, exact);
 }
 
-// The interface of two layers of unit thickness; adhesions and jumps as functions of the place.
+// The interface of two layers of unit thickness; adhesions and jumps as functions of the position.
 struct Bed {
     using Function = std::function<double(double, double)>;
     Mesh mesh;
@@ -97,8 +97,8 @@ START_TEST(fronts_on_a_line) {
 }
 END_TEST
 
-// With constant jumps int Y dzeta/dx dx = Y, whatever way the adhesion takes; a patch of lesser initial adhesion ahead
-// adds nothing.
+// With constant jumps int Y dzeta/dx dx = Y, however the adhesion varies; a patch of lower initial adhesion ahead adds
+// nothing.
 START_TEST(rates_on_a_line) {
     Bed bed = Bed::layers({10.0}, {_i == 0 ? 20 : 10}, _i == 0 ? CellType::quad4 : CellType::quad8);
     bed.set(bed.initial, [](double x, double) { return x < 1.9 ? 0.0 : x > 7.9 ? 0.4 : 1.0; });
@@ -117,7 +117,7 @@ START_TEST(rates_on_a_line) {
 }
 END_TEST
 
-// An interface that is a ring: two fronts of one crack, wherever the list of faces begins.
+// A ring-shaped interface: two fronts of one crack, wherever the list of faces begins.
 START_TEST(ring) {
     const std::int64_t n = 24;
     std::vector<double> nodes;
@@ -168,9 +168,9 @@ struct Kind {
 };
 constexpr Kind kinds[] = {{CellType::hex8, 20}, {CellType::tet4, 20}, {CellType::hex20, 10}, {CellType::tet10, 10}};
 
-// A stiff interface: the jump rises by unit steps from the onset s_0 = 1e-5 s_c to s_c = 8, where the adhesion is
-// (s_0/s)(s_c - s)/(s_c - s_0), at most 1e-5 in between. Its process zone is where the traction falls, not where the
-// adhesion is far from 0 and 1.
+// A stiff interface: the jump rises in unit steps from the onset s_0 = 1e-5 s_c to s_c = 8, where the adhesion is
+// (s_0/s)(s_c - s)/(s_c - s_0), at most 1e-5 in between. Its process zone is where the traction decreases, not where
+// the adhesion is far from 0 and 1.
 START_TEST(zone_of_a_stiff_interface) {
     const double s_c = 8.0, s_0 = 1e-5 * s_c;
     for (const bool space : {false, true}) {
@@ -235,7 +235,7 @@ START_TEST(contours) {
         mixed[1] += point.length * point.rate[2];
     }
     near(length, 8.0 * M_PI, 0.6);
-    // Shear along x all around: half of its energy is in mode II, half in mode III.
+    // Shear along x all around: half of its energy is mode II, half mode III.
     near(normal / length, 0.5 * 3.0 * 0.01, 0.0015);
     near(mixed[0] / length, 0.25 * 5.0 * 0.04, 0.006);
     near(mixed[1] / length, 0.25 * 5.0 * 0.04, 0.006);
@@ -245,7 +245,7 @@ START_TEST(contours) {
 }
 END_TEST
 
-// A front that grows in strips: each point has its process zone and its pairs.
+// A front that advances in strips: each point has its own process zone and pairs.
 START_TEST(zones_in_space) {
     Bed bed = Bed::layers({20.0, 8.0}, {20, 4}, CellType::hex8);
     bed.set(bed.adhesion, [](double x, double) { return std::clamp((x - 4.5) / 6.0, 0.0, 1.0); });
@@ -260,7 +260,7 @@ START_TEST(zones_in_space) {
 }
 END_TEST
 
-// A checkerboard: saddles, many loops; every crossing ends up on one front, and nothing is lost or endless.
+// A checkerboard with saddles and many loops: every crossing belongs to exactly one front, and every front ends.
 START_TEST(saddles) {
     Bed bed = Bed::layers({8.0, 8.0}, {8, 8}, CellType::hex8);
     bed.set(bed.adhesion, [](double x, double y) { return static_cast<int>(std::lround(x + y)) % 2 == 0 ? 0.0 : 0.9; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Criteria of mixed mode: closed forms, slopes, the check that the toughness is nowhere below the onset; parameters and
+// Mixed-mode criteria: closed forms, slopes, the check that the toughness is nowhere below the onset; parameters and
 // tables of laws.
 #include <cmath>
 #include <cstdlib>
@@ -77,7 +77,7 @@ START_TEST(closed_forms) {
 }
 END_TEST
 
-// dG/dB by differences in long steps of the logarithm of B and of 1-B; at the pure modes by one-sided ones.
+// dG/dB by differences with long steps in the logarithm of B and of 1-B; one-sided at the pure modes.
 START_TEST(slopes) {
     for (const Criterion criterion : laws::criteria)
         for (const double p : {0.6, 1.0, 1.5, 2.0, 4.0})
@@ -110,7 +110,7 @@ START_TEST(slopes) {
 }
 END_TEST
 
-// The dip of Gc/Go between modes that are fine; right at the limit either side of it.
+// A minimum of Gc/Go between two admissible pure modes; admissible on one side of the limit and refused on the other.
 START_TEST(admissible) {
     // G = 100 + 300 B^eta: the onset, with eta = 1, is 250 at B = 1/2, the toughness, with eta = 4, r (100 + 300/16).
     Law law = laws::law("exponential", Criterion::benzeggagh_kenane, 1.5);
@@ -138,7 +138,7 @@ START_TEST(admissible) {
     law.set("toughness_exponent", 4.0);
     ck_assert(scaled(1.0).empty());
     expect(scaled(0.99), "normal_toughness 99 < normal_onset 100");
-    // Where the dip is narrow: next to the pure mode.
+    // Where the minimum is narrow: next to the pure mode.
     law.set("onset_exponent", 0.05);
     law.set("toughness_exponent", 60.0);
     expect(scaled(2.0), "change the exponents");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What elements are chosen for: shape functions, quadratic fields, incompatible modes, bending of slender beams.
+// The properties for which elements are chosen: shape functions, quadratic fields, incompatible modes, bending of
+// slender beams.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -52,7 +53,7 @@ Mesh block(CellType type, std::int64_t divisions) {
                        std::span(n).first(1), type);
 }
 
-// Corners inside the block are moved at random, the nodes between follow: cells with straight sides.
+// Corners inside the block are moved at random, and the nodes between them follow: cells with straight sides.
 Mesh with_straight_sides(CellType type) {
     const Mesh plain = block(type, 3);
     const auto dim = size(plain.dimension());
@@ -150,7 +151,7 @@ std::array<double, 9> stress_of(const std::array<double, 9>& h, bool plane_stres
     return s;
 }
 
-// u_i = sum_jk c_ijk x_j x_k with made-up coefficients, and its gradient.
+// u_i = sum_jk c_ijk x_j x_k with arbitrary coefficients, and its gradient.
 struct QuadraticField {
     std::size_t dim;
     double c(std::size_t i, std::size_t j, std::size_t k) const {
@@ -225,8 +226,8 @@ START_TEST(shape_functions) {
 }
 END_TEST
 
-// Quadratic displacements: their energy is exact, and so are their stresses at the centres, on meshes where the shape
-// functions hold them: straight-sided triangles, tetrahedra and quad9 (stresses), parallelograms.
+// Quadratic displacements: energies and stresses at the centres are exact on meshes where the shape functions represent
+// the displacements: straight-sided triangles, tetrahedra and quad9 (stresses), parallelograms.
 START_TEST(quadratic_fields) {
     for (const CellType type : all_types) {
         if (!quadratic(type)) continue;
@@ -274,8 +275,8 @@ START_TEST(quadratic_fields) {
 }
 END_TEST
 
-// With internal modes: linear fields on distorted cells make no force on inner nodes and have the standard energy;
-// the matrix is symmetric to the bit and only rigid motions are free of energy; it is never stiffer than the standard.
+// With incompatible modes: linear fields on distorted cells give no force at inner nodes and have the standard energy;
+// the matrix is symmetric to the bit and only rigid motions have no energy; it is never stiffer than the standard one.
 START_TEST(incompatible_modes) {
     for (const CellType type : {CellType::quad4, CellType::hex8}) {
         const Mesh mesh = with_straight_sides(type);
@@ -376,9 +377,9 @@ END_TEST
 
 namespace {
 
-// A bar of length 10 and height 1 (width 1), one cell across, its ends turned against each other: u_x = -kappa x (y -
+// A bar of length 10 and height 1 (width 1), one cell across, its ends rotated against each other: u_x = -kappa x (y -
 // 1/2) there. Lateral contraction is free (plane stress; in space the anticlastic surface). The exact energy per length
-// is E I kappa^2 / 2; the ratio tells how much too stiff the cells are.
+// is E I kappa^2 / 2; the ratio shows how much too stiff the cells are.
 double bending_ratio(CellType type, Formulation formulation, double skew = 0.0) {
     const int dim = topology(type).dimension;
     const double lengths[] = {10.0, 1.0};
@@ -390,7 +391,7 @@ double bending_ratio(CellType type, Formulation formulation, double skew = 0.0) 
         make_layers(dim, std::span(lengths).first(across), std::span(divisions).first(across), thickness, one, type);
     const auto d = size(dim);
     std::vector<double> nodes(plain.nodes().begin(), plain.nodes().end());
-    // Upright sides lean to and fro.
+    // Upright sides are tilted alternately.
     for (std::size_t n = 0; n < nodes.size() / d; ++n) {
         const double x = nodes[n * d];
         const double tooth = 1.0 - 2.0 * std::abs(0.5 * x - std::floor(0.5 * x) - 0.5);
@@ -438,7 +439,7 @@ START_TEST(slender_bending) {
     for (const CellType type : {CellType::quad4, CellType::hex8}) {
         const double ratio = bending_ratio(type, Formulation::incompatible);
         ck_assert_msg(std::abs(ratio - 1.0) < 1e-10, "%s incompatible: %.15f", topology(type).name, ratio);
-        // Sides that lean by 0.2 of the height cost 2 %, standard cells 53 and 59 % there.
+        // Sides tilted by 0.2 of the height cost 2 %; standard cells 53 and 59 % there.
         ck_assert(std::abs(bending_ratio(type, Formulation::incompatible, 0.2) - 1.0) < 0.025);
         ck_assert(bending_ratio(type, Formulation::standard, 0.2) > 1.5);
     }

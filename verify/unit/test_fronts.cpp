@@ -85,7 +85,7 @@ START_TEST(neighbours_in_the_plane) {
 }
 END_TEST
 
-// Neighbours are mutual, never the pair itself, never of another interface; nobody is without any.
+// Being neighbours is mutual; a pair is not its own neighbour, never that of another interface, and every pair has one.
 START_TEST(neighbours_of_all_cells) {
     const CellType types[] = {CellType::tri3, CellType::quad4, CellType::tri6,  CellType::quad8,
                               CellType::tet4, CellType::hex8,  CellType::tet10, CellType::hex20};
@@ -102,7 +102,7 @@ START_TEST(neighbours_of_all_cells) {
                 ck_assert(std::count(back.begin(), back.end(), static_cast<std::int64_t>(p)) == 1);
             }
         }
-        // From one pair the rings reach each pair of its interface once.
+        // The rings around one pair reach each pair of its interface once.
         std::set<std::int64_t> reached;
         std::size_t count = 0;
         for (const Ring& ring : s.rings_of({0, true, {0}})) {
@@ -145,7 +145,7 @@ START_TEST(nothing_left_or_nothing_broken) {
 }
 END_TEST
 
-// A pair glued for ever is neither a front nor a crack; what is debonded beside it makes no front of it.
+// A permanently bonded pair is neither a front nor a crack, and is no front beside debonded pairs.
 START_TEST(bonded_pairs_stay_out) {
     Stack s(2, {4}, 3, CellType::quad4);
     for (std::size_t p = 0; p < 5; ++p) s.pairs.law[p] = nullptr;
@@ -156,8 +156,8 @@ START_TEST(bonded_pairs_stay_out) {
 }
 END_TEST
 
-// New cracks begin where the load is the largest part of the onset, the largest first, so many per interface, and not
-// beside a front.
+// New cracks begin where the load is the largest fraction of the onset, largest first, a limited number per interface,
+// and not beside a front.
 START_TEST(new_cracks) {
     Stack s(2, {20}, 3, CellType::quad4);
     for (std::size_t p = 0; p < s.adhesion.size(); ++p) s.load(p, 0.0);
@@ -174,10 +174,10 @@ START_TEST(new_cracks) {
     expect_rings(s.of(true, 0), ends);
     expect_rings(s.of(true, 2), with({10, 5, 28}));
     expect_rings(s.of(true, 9), with({10, 5, 15, 28}));
-    // The toughness counts: a weak place goes first.
+    // The toughness matters: a weak place comes first.
     s.toughness[15].onset = 0.01;
     expect_rings(s.of(true, 1), with({15, 28}));
-    // A plateau is one place.
+    // A plateau counts as one place.
     s.load(16, 1.0);
     s.toughness[16].onset = 0.01;
     expect_rings(s.of(true, 9), with({15, 10, 5, 28}));

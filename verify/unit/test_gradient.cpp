@@ -83,7 +83,7 @@ void ck_near(double value, double exact, double tolerance, const char* what) {
                   value, exact, std::abs(value - exact), tolerance);
 }
 
-// Symmetric, rows sum to zero, positive on what is not constant.
+// Symmetric, rows sum to zero, positive for everything that is not constant.
 void ck_laplacian(const SparseMatrix& a) {
     double largest = 0.0;
     for (const double v : a.value) largest = std::max(largest, std::abs(v));
@@ -109,8 +109,7 @@ Point turned(const Point& x) { return {0.6 * x[0] - 0.8 * x[1] + 3.0, 0.8 * x[0]
 
 }  // namespace
 
-// ---- operator
-// --------------------------------------------------------------------------------------------------------
+// ---- operator -------------------------------------------------------------------------------------------------------
 
 START_TEST(lines) {
     for (const CellType type : plane_types) {
@@ -133,7 +132,7 @@ START_TEST(lines) {
         const Numbers exact = quadratic(type) ? Numbers{14.0 / 3.0, -16.0 / 3.0, 2.0 / 3.0} : Numbers{2.0, -2.0};
         for (std::size_t i = 0; i < row.size(); ++i)
             ck_near(row[i], i < exact.size() ? exact[i] : 0.0, 1e-13, "row of the first pair");
-        // A turned line is the same line.
+        // A rotated line gives the same.
         const SparseMatrix other = stiffness_of(two_layers(type, {length}, {3}, turned));
         ck_assert(other.column == a.column);
         for (std::size_t e = 0; e < a.value.size(); ++e) ck_near(other.value[e], a.value[e], 1e-12, "turned");
@@ -158,7 +157,8 @@ START_TEST(faces) {
         if (quadratic(type))
             ck_near(quadratic_form(a, field(mesh, [](const Point& p) { return p[0] * p[1]; })),
                     1.5 * std::pow(0.8, 3) / 3.0 + 0.8 * std::pow(1.5, 3) / 3.0, 1e-12, "x y");
-        // Rotated: the same. Sheared to the plane z = x/2 + y/3: the projection of the field's gradient onto it.
+        // Rotated: the same. Sheared to the plane z = x/2 + y/3: the projection of the field's gradient onto that
+        // plane.
         const auto wave = [](double u, double v) { return std::sin(2.0 * u) * std::exp(v); };
         const Mesh turned_mesh = two_layers(type, {1.5, 0.8}, {3, 2}, rotated);
         const auto original = [&](const Point& p) {  // by its distances, whatever the order of the pairs
@@ -242,7 +242,7 @@ START_TEST(curved_faces) {
 }
 END_TEST
 
-// Bricks and tetrahedra beside each other: triangles among quadrilaterals repeat corners.
+// Bricks and tetrahedra side by side: triangles among quadrilaterals repeat corners.
 START_TEST(mixed_faces) {
     for (const bool second : {false, true}) {
         const Mesh bricks = two_layers(second ? CellType::hex20 : CellType::hex8, {1.0, 1.0}, {1, 1});
@@ -273,7 +273,7 @@ START_TEST(notches_are_left_out) {
     const Mesh mesh = two_layers(CellType::quad4, {1.0}, {10});
     Numbers adhesion = ones(mesh);
     adhesion[0] = adhesion[1] = adhesion[2] = 0.0;
-    adhesion[7] = 0.3;  // weak from the start is not a notch
+    adhesion[7] = 0.3;  // low initial adhesion is not a notch
     const GradientTerm term(3.0, surface_stiffness(mesh, interface_of(mesh), adhesion), interface_of(mesh).weight, 0);
     ck_assert_int_eq(term.coupled_pairs(), 8);
     for (std::size_t i = 0; i < 11; ++i) ck_assert(term.coupled(i) == (i >= 3));
@@ -285,12 +285,11 @@ START_TEST(notches_are_left_out) {
 }
 END_TEST
 
-// ---- damage step
-// ------------------------------------------------------------------------------------------------------
+// ---- damage step ----------------------------------------------------------------------------------------------------
 
 namespace {
 
-// A damage step on an interface of a mesh, with its energy and gradient written out again.
+// A damage step on an interface of a mesh, with independent code for its energy and gradient.
 struct Step {
     GradientTerm term;
     std::vector<Toughness> toughness;
@@ -321,7 +320,7 @@ struct Step {
             d[i] += term.weight()[i] * (driving[i] - Law{}.driving(toughness[i], z[i]));
         return d;
     }
-    // The larger of its terms: what the gradient of a pair is small against.
+    // The larger of its terms: the scale for the gradient of a pair.
     Numbers size_of_gradient(const Numbers& z) const {
         Numbers s = term.force(z);
         for (std::size_t i = 0; i < size(); ++i)
@@ -334,7 +333,7 @@ struct Step {
         for (std::size_t i = 0; i < size(); ++i) {
             ck_assert_msg(z[i] >= 0.0 && z[i] <= old[i], "%s: pair %zu at %.17g of %g", where.c_str(), i, z[i], old[i]);
             const double down = z[i] < old[i] ? std::max(0.0, -d[i]) : 0.0, up = z[i] > 0.0 ? std::max(0.0, d[i]) : 0.0;
-            // What is left of the gradient, also measured by how far the pair's own curvature lets it move.
+            // The remaining gradient, also measured by how far the pair's own curvature lets it move.
             const double stiff = term.diagonal(i) - term.weight()[i] * Law{}.driving_slope(toughness[i], z[i]);
             const double move = std::min(std::max(down, up) / stiff, down > 0.0 ? old[i] - z[i] : z[i]);
             ck_assert_msg(std::max(down, up) <= tolerance * s[i] || move <= tolerance,
@@ -359,7 +358,7 @@ void randomise(Step& s, std::mt19937& random, bool notched) {
 
 }  // namespace
 
-// Three pairs: no point of a grid of the whole box lies lower, and the lowest lies beside the solution.
+// Three pairs: no point of a grid over the whole box has less energy, and the best grid point lies beside the solution.
 START_TEST(three_pairs_by_exhaustion) {
     const Mesh mesh = two_layers(CellType::quad4, {2.0}, {2});
     std::mt19937 random(11);
@@ -388,7 +387,7 @@ START_TEST(three_pairs_by_exhaustion) {
 }
 END_TEST
 
-// Optimality on all kinds of faces, for laws from Griffith to Gc/Go = 1e8 and kappa over twelve decades.
+// Optimality on all kinds of faces, for laws from Griffith's to Gc/Go = 1e8 and kappa over twelve decades.
 START_TEST(random_steps_are_optimal) {
     const CellType type[] = {CellType::quad4, CellType::quad8, CellType::hex8,
                              CellType::tet4,  CellType::tet10, CellType::hex20};
@@ -418,7 +417,7 @@ START_TEST(random_steps_are_optimal) {
 }
 END_TEST
 
-// Plain projected gradients, thousands of them, end in the same place.
+// Plain projected gradients, thousands of them, end in the same point.
 START_TEST(projected_gradients) {
     const Mesh mesh = two_layers(CellType::quad8, {1.0}, {6});
     std::mt19937 random(23);
@@ -454,7 +453,7 @@ START_TEST(projected_gradients) {
 }
 END_TEST
 
-// Where the pointwise adhesion is smooth and inside the bounds it moves by kappa times a fixed amount.
+// Where the pointwise adhesion is smooth and inside the bounds, it changes by kappa times a fixed amount.
 START_TEST(small_kappa_recovers_the_pointwise_law) {
     for (const double ratio : {2.5, 1e4}) {
         const Mesh mesh = two_layers(CellType::quad4, {1.0}, {40});
@@ -476,7 +475,7 @@ START_TEST(small_kappa_recovers_the_pointwise_law) {
 }
 END_TEST
 
-// Uniform adhesion, the minimiser of the sum over all pairs, clipped by the lowest bound.
+// Uniform adhesion: the minimiser of the sum over all pairs, clipped by the lowest bound.
 START_TEST(large_kappa_is_uniform) {
     for (const CellType type : {CellType::quad4, CellType::quad8, CellType::hex8, CellType::tet10}) {
         const bool plane = topology(type).dimension == 2;
@@ -503,7 +502,7 @@ START_TEST(large_kappa_is_uniform) {
 }
 END_TEST
 
-// A Griffith law makes the damage step an obstacle problem. Y = G + p on the left half, G - q on the right: kappa
+// With a Griffith law the damage step is an obstacle problem. Y = G + p on the left half, G - q on the right: kappa
 // zeta'' = p or -q between the contact with 0 and that with 1, so two parabolas that meet with the slope s = sqrt(2 /
 // (kappa (1/p + 1/q))).
 START_TEST(griffith_profile) {
@@ -526,7 +525,7 @@ START_TEST(griffith_profile) {
                            type == CellType::hex8 ? std::vector<std::int64_t>{n, 2} : std::vector<std::int64_t>{n});
             Step s(mesh, kappa, {g, g});
             const Numbers x = field(mesh, [](const Point& at) { return at[0]; });
-            // On 3-node edges the middle pair of the middle edge sits on the change: half of each.
+            // On 3-node edges the middle pair of the middle edge lies on the change: half of each value.
             for (std::size_t i = 0; i < x.size(); ++i)
                 s.driving[i] = std::abs(x[i] - 0.5 * length) < 1e-9 ? g + 0.5 * (p - q)
                                : x[i] < 0.5 * length                ? g + p
@@ -547,7 +546,7 @@ START_TEST(griffith_profile) {
 }
 END_TEST
 
-// Energies in other units: the same digits, or those that rounding leaves.
+// Energies in other units: the same digits, or differences that rounding leaves.
 START_TEST(units_of_the_step) {
     const Mesh mesh = two_layers(CellType::quad8, {1.0}, {20});
     for (const double ratio : {1.0, 2.5, 1e8}) {
@@ -573,7 +572,7 @@ START_TEST(units_of_the_step) {
 }
 END_TEST
 
-// The answer does not depend on where the search starts, and a solved step is a fixed point.
+// The result does not depend on where the search starts, and a solved step is a fixed point.
 START_TEST(any_start) {
     const Mesh mesh = two_layers(CellType::hex8, {1.0, 1.0}, {9, 9});
     std::mt19937 random(43);

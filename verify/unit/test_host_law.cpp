@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A law that the host gives: the bilinear law written by it is the bilinear law; callbacks that fail, or that belong to
-// no energy, are refused by name.
+// A host law: the bilinear law written as callbacks is the bilinear law; callbacks that fail, or that do not derive
+// from one energy, are refused by name.
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -46,7 +46,7 @@ void expect(const std::string& text, const std::string& part) {
                   text.c_str(), part.c_str());
 }
 
-// What a callback answers, spoilt in one place.
+// The answer of a callback, corrupted in one place.
 enum Fault {
     none,
     zeta_high,
@@ -194,7 +194,7 @@ START_TEST(inconsistent_callbacks) {
         const std::string text = refusal([&] { law.validate(); });
         ck_assert_msg(text.empty(), "%s", text.c_str());
     }
-    // Also once a march is under way.
+    // Also during an analysis.
     Spoilt spoilt{{}, none};
     const Law law = given(spoilt_adhesion, spoilt_dissipation, &spoilt);
     const Toughness t = law.toughness(0.5);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The interface law against closed forms of the bilinear traction-separation law, brute force over the energy, and
-// changes of units.
+// The interface law against closed forms of the bilinear traction-separation law, brute-force minimisation, and changes
+// of units.
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 
@@ -59,7 +59,7 @@ double reference_interaction(double gn, double gt, double p, double q, double b)
     return static_cast<double>(std::exp(low));
 }
 
-// What a refused law says; empty when it is accepted.
+// Message of a refused law; empty if it is accepted.
 std::string refusal(const Law& law) {
     try {
         law.validate();
@@ -92,7 +92,7 @@ START_TEST(bilinear_law) {
                 if (u >= c.dc) expected = 0.0;
                 ck_assert(std::abs(zeta * k * u - expected) <= 2e-12 * c.sigma0);
             }
-            // Work of separation, exact on a piecewise-linear law by the trapezoid between its corners.
+            // Work of separation, exact on a piecewise-linear law by the trapezoidal rule between its corners.
             double area = 0.0;
             double last = 0.0;
             double at_last = 0.0;
@@ -134,8 +134,8 @@ START_TEST(minimiser_against_scan) {
                 const double rounding = 1e-13 * (t.total + y);
                 ck_assert(slides_split(z) <= slides_split(best) + rounding);
                 ck_assert(ledger(z) <= ledger(best_ledger) + rounding);
-                // The energy of a law next to Griffith's is flat to rounding between its ends, so places mean nothing
-                // there.
+                // For a law close to Griffith's, the energy between its ends is flat to rounding, so the position of
+                // its minimum means nothing there.
                 if (ratio >= 1.5) ck_assert(std::abs(z - best) <= zeta_old / n + 1e-9);
             }
         }
@@ -226,7 +226,7 @@ START_TEST(interaction_unequal_exponents) {
     }
     ck_assert(delam::interaction(2.0, 5.0, 1.5, 3.0, 0.0) == 2.0);
     ck_assert(delam::interaction(2.0, 5.0, 1.5, 3.0, 1.0) == 5.0);
-    // Exponents that all but agree lead to the closed form.
+    // Nearly equal exponents lead to the closed form.
     const double equal = delam::interaction(2.0, 5.0, 2.0, 2.0, 0.4);
     ck_assert(close(delam::interaction(2.0, 5.0, 2.0, std::nextafter(2.0, 3.0), 0.4), equal, 1e-14));
 }
@@ -243,7 +243,7 @@ START_TEST(mixity) {
 }
 END_TEST
 
-// Powers of two scale doubles exactly: whatever depends on units by anything but a factor would show in the last bit.
+// Powers of two scale doubles exactly: any dependence on units other than by a factor would show in the last bit.
 START_TEST(units) {
     Law law = ductile;
     law.tangential_onset = 170.0;
@@ -298,7 +298,7 @@ START_TEST(parameters) {
 END_TEST
 
 START_TEST(toughness_below_onset_between_the_modes) {
-    // Exponent 8 at onset keeps 2^(7/8) G at B = 1/2, exponent 1 of the toughness only 1.2 G.
+    // Exponent 8 at onset leaves 2^(7/8) G at B = 1/2, exponent 1 of the toughness only 1.2 G.
     Law law = slides(1e9, 100.0, 120.0);
     law.onset_exponent_1 = law.onset_exponent_2 = 8.0;
     law.toughness_exponent_1 = law.toughness_exponent_2 = 1.0;
@@ -308,7 +308,7 @@ START_TEST(toughness_below_onset_between_the_modes) {
     ck_assert(refusal(law).empty());
     law.normal_toughness = law.tangential_toughness = 100.0 * std::pow(2.0, 7.0 / 8.0) * (1.0 - 1e-9);
     ck_assert(!refusal(law).empty());
-    // The dip sits where the weaker mode takes over: far from the middle when the toughnesses are far apart.
+    // The minimum lies where the weaker mode takes over: far from the middle if the toughnesses are far apart.
     for (const double apart : {1e-9, 1e-4, 1e4, 1e9}) {
         Law far = slides(1e9, 100.0, 120.0);
         far.tangential_onset *= apart;
@@ -320,7 +320,7 @@ START_TEST(toughness_below_onset_between_the_modes) {
         far.toughness_exponent_1 = far.toughness_exponent_2 = 50.0;
         ck_assert(refusal(far).empty());
     }
-    // Equal exponents can never fail, whatever they are.
+    // Equal exponents can never fail, whatever their value.
     Law fine = slides(1e9, 100.0, 100.0);
     fine.tangential_onset = 3.0;
     fine.tangential_toughness = 1e6;

@@ -25,7 +25,7 @@ namespace {
 
 std::size_t size(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-// A ply, and a material with nine unrelated constants.
+// A ply, and a material with nine independent constants.
 const Orthotropic ply{{135e9, 9e9, 9e9, 0.24, 0.24, 0.46, 5.2e9, 5.2e9, 9e9 / 2.92}};
 const Orthotropic wood{{12e9, 0.9e9, 0.5e9, 0.4, 0.35, 0.6, 0.7e9, 0.6e9, 0.05e9}};
 const Elastic matrix{3.4e9, 0.35};
@@ -73,7 +73,7 @@ START_TEST(compliance) {
     close(s[28] * c[8], 1.0, 1.0);
     close(s[35] * c[7], 1.0, 1.0);
 
-    // An isotropic material, said both ways.
+    // An isotropic material, described in both ways.
     const double g = matrix.young / (2.0 * (1.0 + matrix.poisson)), e = matrix.young, nu = matrix.poisson;
     const SpaceElasticity same = space_elasticity(Orthotropic{{e, e, e, nu, nu, nu, g, g, g}});
     const std::vector<double> expected = elasticity_matrix(matrix, 3, Plane::strain);
@@ -106,7 +106,7 @@ START_TEST(off_axis) {
 }
 END_TEST
 
-// Strains turn with the axes: the energy of a strain is the same in both, and turning back gives the first numbers.
+// Strains rotate with the axes: the energy of a strain is the same in both, and rotating back gives the first numbers.
 START_TEST(turning) {
     const Axes axes = product(turned_about(0, 0.4), product(turned_about(1, -1.1), turned_about(2, 2.3)));
     Axes back{};
@@ -142,11 +142,11 @@ START_TEST(bounds) {
     ck_assert(said(Orthotropic::nu12, 3.9).find("nu21") != std::string::npos);
     ck_assert(said(Orthotropic::nu13, -3.9).find("nu13 = -3.9") == 0);
     ck_assert(said(Orthotropic::nu23, 1.0).find("nu23 = 1") == 0);
-    ck_assert(said(Orthotropic::nu23, 0.999).find("nu23 = 0.999 is outside") ==
-              0);  // each bound holds, not all together
+    // Each bound holds, but not all of them together.
+    ck_assert(said(Orthotropic::nu23, 0.999).find("nu23 = 0.999 is outside") == 0);
     ck_assert(said(Orthotropic::g23, 0.0).find("G23 = 0") == 0);
     ck_assert(said(Orthotropic::e3, std::nan("")).find("E3") == 0);
-    // The bound that is named is the true one.
+    // The bound given in the message is the true one.
     const double c = ply.constant[3] * std::sqrt(ply.constant[1] / ply.constant[0]);
     const double most = 1.0 - 2.0 * c * c;
     ck_assert(said(Orthotropic::nu23, most * (1.0 + 1e-6)).find("nu23") == 0);
@@ -171,8 +171,8 @@ START_TEST(orientation_list) {
 }
 END_TEST
 
-// The stiffness of a body that is turned together with its material is the old one, turned; and what a linear field
-// does in it is what the elasticity says, out of the plane too.
+// Rotating a body together with its material rotates its stiffness, and the energy of a linear field is that of the
+// elasticity, out of the plane too.
 START_TEST(cells_turn_with_the_body) {
     for (const CellType type : {CellType::quad4, CellType::hex8, CellType::tet10}) {
         const int dim = topology(type).dimension;
@@ -225,7 +225,7 @@ START_TEST(cells_turn_with_the_body) {
             for (std::size_t k = 0; k < stress.size(); ++k)
                 close(stress[k], 1e-3 * (d == 2 ? in_plane[k % 4] : in_space[k % 6]), 12e6 * 10.0);
         }
-        // Isotropic bodies do not notice their axes, to the last bit.
+        // Isotropic bodies do not depend on their axes, to the last bit.
         const BodyModel round{matrix, Plane::strain, Formulation::standard,
                               std::make_shared<const Orientation>(oriented({}, plain.cell_count(), cells, before))};
         const BodyModel bare{matrix, Plane::strain, Formulation::standard, nullptr};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells with a projected dilatation: the patch test on distorted cells, rigid motions alone without energy, and
+// Cells with a projected dilatation: the patch test on distorted cells, only rigid motions without energy, and
 // symmetry.
 #include <array>
 #include <cmath>
@@ -55,7 +55,7 @@ std::vector<Material> materials() { return {rubber, ply}; }
 
 }  // namespace
 
-// A linear displacement has the forces and stresses that standard cells give it.
+// A linear displacement gives the forces and stresses of standard cells.
 START_TEST(patch) {
     for (const CellType type : projected_types)
         for (const Material& material : materials()) {

@@ -47,14 +47,14 @@ std::int64_t lattice_nodes(CellType type, std::vector<std::int64_t> n) {
     }
     if (!quadratic(type)) return corners;
     if (type != CellType::quad8 && type != CellType::hex20) return all;
-    std::int64_t edges = 0;  // each along one axis, between corners of the other ones
+    std::int64_t edges = 0;  // each along one axis, between corners in the other directions
     for (const std::int64_t k : n) edges += corners / (k + 1) * k;
     return corners + edges;
 }
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-// Text of the error that an action ends with; empty when there is none.
+// Message of the error in which an action ends; empty if there is none.
 std::string refusal(std::int32_t status, const std::function<void()>& action) {
     try {
         action();
@@ -93,7 +93,7 @@ Mesh rebuilt(const Mesh& mesh, unsigned seed, const std::function<void(std::span
         if (map) map(target);
     }
     Mesh result(mesh.dimension(), nodes);
-    for (const std::int64_t c : order) {  // one by one: a host may
+    for (const std::int64_t c : order) {  // one by one, as a host may do
         Indices cell;
         for (const std::int64_t n : mesh.cell(c)) cell.push_back(place[at(n)]);
         result.add_cells(mesh.cell_type(c), cell, Labels{mesh.body_label(mesh.cell_body(c))});
@@ -206,7 +206,7 @@ START_TEST(layered_blocks) {
                 ck_assert(std::lexicographical_compare(x.begin(), x.end(), y.begin(), y.end()));
             }
         }
-        // Body 2 lies above body 1, so the normal from 2 to 1 looks down.
+        // Body 2 lies above body 1, so the normal from 2 to 1 points down.
         ck_assert(up.frame[plane ? 1 : 2] == 1.0 && down.frame[plane ? 1 : 2] == -1.0);
         if (!plane) {
             const double frame[] = {0, 0, 1, 1, 0, 0, 0, 1, 0};
@@ -222,8 +222,8 @@ START_TEST(layered_blocks) {
 }
 END_TEST
 
-// The order of nodes and cells is the host's affair: pairs come out the same in space, bit for bit, also where
-// rounding has moved the nodes of the two sides a little and the interface is upright.
+// The host decides the order of nodes and cells: in space the pairs are the same, bit for bit, even where rounding has
+// moved the nodes of the two sides a little and the interface is vertical.
 START_TEST(shuffled_nodes) {
     for (const CellType type : all_types) {
         const bool plane = topology(type).dimension == 2;
@@ -278,7 +278,7 @@ START_TEST(curved_interface) {
             const int j = (i + 1) % n;
             const int base = 2 * n * ring;
             cells.insert(cells.end(), {base + i, base + n + i, base + n + j, base + j});
-            labels.push_back(4 - ring);  // labels need not start at 0, nor be in order
+            labels.push_back(4 - ring);  // labels need not start at 0 or be in order
         }
     Mesh mesh(2, nodes);
     mesh.add_cells(CellType::quad4, cells, labels);
@@ -309,7 +309,7 @@ START_TEST(weights_of_distorted_faces) {
     ck_assert(*std::min_element(i.weight.begin(), i.weight.end()) > 0.0);
     double moment = 0.0;
     for (std::size_t p = 0; p < i.node_a.size(); ++p) moment += i.weight[p] * mesh.node(i.node_a[p])[1];
-    ck_assert(std::abs(moment - 1.0) < 1e-2);  // a nodal rule: near the exact first moment, not on it
+    ck_assert(std::abs(moment - 1.0) < 1e-2);  // a nodal rule: near the exact first moment, but not equal
 }
 END_TEST
 
@@ -319,7 +319,7 @@ START_TEST(curved_cells) {
     for (const CellType type : {CellType::quad8, CellType::quad9, CellType::tri6}) {
         const int n = 24;
         Mesh plain = layers(type, {2.0 * M_PI}, {n}, {0.5, 0.5}, {1, 1});
-        // Bent by (x, y) -> (1+y)(cos x, -sin x), upper half plane first; the ends meet but are not one.
+        // Bent by (x, y) -> (1+y)(cos x, -sin x), upper half plane first; the ends meet but are not connected.
         Mesh mesh = rebuilt(plain, 4, [](std::span<double> x) {
             const double radius = 1.0 + x[1];
             const double angle = x[0];
@@ -347,8 +347,8 @@ START_TEST(curved_cells) {
 }
 END_TEST
 
-// Weights of flat faces by hand; of faces with shifted middle nodes and of warped ones: positive, summing to the
-// length, to the area of what the nodes span.
+// Weights of flat faces by hand; those of faces with shifted middle nodes and of warped faces are positive and sum to
+// the length, or the area that the nodes span.
 START_TEST(weights_of_quadratic_faces) {
     const auto weights_of = [](CellType type, const std::function<void(std::span<double>)>& map) {
         const bool plane = topology(type).dimension == 2;
@@ -401,7 +401,7 @@ START_TEST(weights_of_quadratic_faces) {
 }
 END_TEST
 
-// Triangles among quadrilaterals: rows of eight with a shrunken side.
+// Triangles among quadrilaterals: rows of eight with a collapsed side.
 START_TEST(mixed_faces) {
     const Mesh bricks = layers(CellType::hex20, {1, 1}, {1, 1}, {1, 1}, {1, 1});
     const Mesh tetrahedra = layers(CellType::tet10, {1, 1}, {1, 1}, {1, 1}, {1, 1});
@@ -427,7 +427,7 @@ START_TEST(mixed_faces) {
         const auto x = [&](std::size_t k, std::size_t axis) { return mesh.node(i.node_a[at(face[k])])[axis]; };
         shrunken += face[2] == face[3] ? 1 : 0;
         ck_assert((face[2] == face[3]) == (x(0, 0) >= 5.0));
-        for (std::size_t k = 0; k < 4; ++k)  // every middle node between its corners, the shrunken side included
+        for (std::size_t k = 0; k < 4; ++k)  // every middle node lies between its corners, on the collapsed side too
             for (std::size_t axis = 0; axis < 2; ++axis)
                 ck_assert(std::abs(x(4 + k, axis) - 0.5 * (x(k, axis) + x((k + 1) % 4, axis))) < 1e-15 * 8);
     }
@@ -435,7 +435,7 @@ START_TEST(mixed_faces) {
 }
 END_TEST
 
-// A mid-side node that has no partner is named, wherever it is missing.
+// A mid-side node without a partner is named, wherever the partner is missing.
 START_TEST(missing_middle_nodes) {
     for (const CellType type : all_types) {
         if (!quadratic(type)) continue;
@@ -540,7 +540,7 @@ START_TEST(refused_cells) {
     ck_assert_refused(DELAM_ERROR_MESH, "overlap", boundary_faces(mesh, 0));
     ck_assert_refused(DELAM_ERROR_ARGUMENT, "not finite", Mesh(2, Numbers{0, std::nan("")}));
     ck_assert_refused(DELAM_ERROR_ARGUMENT, "dimension 4", Mesh(4, Numbers{0, 0, 0, 0}));
-    // The same cell in metres and in nanometres is as sound.
+    // The same cell is as good in metres as in nanometres.
     for (const double unit : {1e-9, 1e9}) {
         Mesh scaled = rebuilt(layers(CellType::tet4, {1, 1}, {1, 1}, {1e-3}, {1}), 0, [&](std::span<double> x) {
             for (double& v : x) v *= unit;
@@ -550,7 +550,7 @@ START_TEST(refused_cells) {
 }
 END_TEST
 
-// Two blocks, the upper one cut and placed at will.
+// Two blocks, the upper one cut and placed arbitrarily.
 Mesh two_blocks(CellType type, std::int64_t lower_cells, std::int64_t upper_cells, double length, double shift,
                 double gap) {
     const bool plane = topology(type).dimension == 2;
@@ -594,7 +594,7 @@ START_TEST(refused_interfaces) {
         ck_assert_refused(DELAM_ERROR_MESH, "as close as 0.125", apart.add_interface(0, 1, 0.0));
         Mesh corner = two_blocks(type, 4, 4, 1.0, 1.0, 0.0);
         ck_assert_refused(DELAM_ERROR_MESH, "as close as 0", corner.add_interface(0, 1, 0.0));
-        // A shorter body on a longer one is fine, and so is one that overhangs in steps of whole cells.
+        // A shorter body on a longer one is accepted, and so is one that overhangs by whole cells.
         Mesh shorter = two_blocks(type, 4, 2, 0.5, 0.25, 0.0);
         shorter.add_interface(0, 1, 0.0);
         ck_assert(std::abs(sum(shorter.interfaces()[0].weight) - 0.5) < 1e-14);
@@ -606,7 +606,7 @@ START_TEST(refused_interfaces) {
         ck_assert_refused(DELAM_ERROR_MESH, quadratic(type) ? "as close as 0.012" : "as close as 0.024",
                           near.add_interface(0, 1, 0.09));
         near.add_interface(0, 1, 0.1);
-        // Sitting inside each other.
+        // One inside the other.
         Mesh inside = two_blocks(type, 4, 4, 1.0, 0.0, -0.5);
         ck_assert_refused(DELAM_ERROR_MESH, "overlap", inside.add_interface(0, 1, 0.0));
     }
@@ -623,7 +623,7 @@ START_TEST(refused_interfaces) {
 }
 END_TEST
 
-// A body that comes later with a label in between moves the indices of the others; interfaces follow.
+// A later body with a label in between moves the indices of the others; interfaces follow.
 START_TEST(late_bodies) {
     const Numbers nodes{0, 0, 1, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 2, 0, 2, 5, 5, 6, 5, 6, 6, 5, 6};
     Mesh mesh(2, nodes);
@@ -641,16 +641,16 @@ START_TEST(nodes_in_boxes) {
     const Mesh mesh = layers(CellType::quad4, {1.0}, {10}, {0.2, 0.2}, {2, 2});
     ck_assert_uint_eq(find_nodes(mesh, -1, Numbers{0, 0.2}, Numbers{1, 0.2}).size(), 22);
     ck_assert_uint_eq(find_nodes(mesh, 1, Numbers{0, 0.2}, Numbers{1, 0.2}).size(), 11);
-    ck_assert(find_nodes(mesh, 0, Numbers{0.3, 0.0}, Numbers{0.4, 0.0}) ==
-              (Indices{3, 4}));  // 0.3 is not a sum of tenths
+    // Rounding: 0.3 is not a sum of tenths.
+    ck_assert(find_nodes(mesh, 0, Numbers{0.3, 0.0}, Numbers{0.4, 0.0}) == (Indices{3, 4}));
     ck_assert(find_nodes(mesh, 0, Numbers{0.35, 0.0}, Numbers{0.36, 0.0}).empty());
     ck_assert_refused(DELAM_ERROR_ARGUMENT, "axis 1", find_nodes(mesh, 0, Numbers{0, 1}, Numbers{1, 0}));
     ck_assert_refused(DELAM_ERROR_ARGUMENT, "body index 2", find_nodes(mesh, 2, Numbers{0, 0}, Numbers{1, 1}));
 }
 END_TEST
 
-// Shape functions sum to one and carry linear fields: the weights and their first moments are those of the patch
-// itself, wherever the box ends.
+// Shape functions sum to one and reproduce linear fields: the weights and their first moments are those of the patch,
+// wherever the box ends.
 START_TEST(patches) {
     for (const CellType type : all_types) {
         const bool plane = topology(type).dimension == 2;
@@ -671,7 +671,7 @@ START_TEST(patches) {
                 high.push_back(trial == 0 ? 9.0 : b);
                 extent *= trial == 0 ? length : b - a;
             }
-            low.push_back(trial % 2 == 0 ? top : -5.0);  // a mere plane, or a box
+            low.push_back(trial % 2 == 0 ? top : -5.0);  // a plane, or a box
             high.push_back(trial % 2 == 0 ? top : 5.0);
             const Patch patch = find_patch(mesh, 0, low, high, up);
             ck_assert(std::abs(sum(patch.weights) - extent) <= 1e-13);
@@ -790,7 +790,7 @@ START_TEST(partitions) {
 }
 END_TEST
 
-// Two squares of one body that touch in a node, and one far away: three subdomains at least.
+// Two squares of one body that share a node, and one far away: at least three subdomains.
 START_TEST(parts_that_touch_in_a_node) {
     const Numbers nodes{0, 0, 1, 0, 1, 1, 0, 1, 2, 1, 2, 2, 1, 2, 5, 5, 6, 5, 6, 6, 5, 6};
     Mesh mesh(2, nodes);
@@ -814,7 +814,7 @@ START_TEST(host_is_left_alone) {
     const Partition before = partition(mesh, 12);
     for (std::size_t i = 5; i < 12; ++i) found[i] = std::rand();
     ck_assert(found == expected);
-    std::srand(4711);  // nor does the host's sequence reach the partition
+    std::srand(4711);  // the host's random sequence must not affect the partition either
     ck_assert(partition(mesh, 12).cell_subdomain == before.cell_subdomain);
 
     struct sigaction own {};

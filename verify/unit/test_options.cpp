@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of options from inside: hashes stay as they were, new rows leave them alone, aliases and other words.
+// The table of options from inside: hashes stay as they were, new rows do not change them, aliases and alternative
+// words.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -19,12 +20,12 @@ namespace {
 
 constexpr std::uint64_t seed = 0xcbf29ce484222325u;
 
-// The end of a range, or a number well inside if the end does not belong to it.
+// The end of a range, or a number well inside if the end is excluded.
 double allowed_end(const Bound& end, const Bound& other) {
     return end.included ? end.number : 0.5 * (end.number + other.number);
 }
 
-// What is said about a value; "": it is taken.
+// The message about a value; "": it is accepted.
 template <class Value>
 std::string refusal(const std::string& key, const Value& value) {
     Options options;
@@ -42,7 +43,7 @@ std::string refusal(const std::string& key, const Value& value) {
 
 }  // namespace
 
-// Saved states and results name their scene by this hash. Both numbers were computed before there was a table.
+// Saved states and results identify their scene by this hash. Both numbers were computed before the table existed.
 START_TEST(hashes_stay_as_they_were) {
     Options options;
     ck_assert_uint_eq(hash(options, seed), 0x17c7745f32b9ddd7u);
@@ -74,7 +75,7 @@ START_TEST(hashes_stay_as_they_were) {
 }
 END_TEST
 
-// A row that came later enters where it is set; one that no digit depends on never does.
+// A later row enters the hash if it is set; a row that affects no digit never does.
 START_TEST(new_rows_leave_old_hashes_alone) {
     const auto whole = option_table();
     std::vector<Option> table(whole.begin(), whole.end());
@@ -90,7 +91,7 @@ START_TEST(new_rows_leave_old_hashes_alone) {
     options.threads = 3;
     const std::uint64_t three = hash(options, seed, table);
     ck_assert(two != before && three != before && two != three);
-    // The key enters as well: another option with the same value is another scene.
+    // The key enters as well: the same value for another option is another scene.
     late->key = "strands";
     ck_assert_uint_ne(hash(options, seed, table), three);
     late->hashed = Hashed::never;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Large dense operations are done in parts, between which the host is asked: the same matrices, the same digits each
-// time, and an exception on the way out at each part.
+// Large dense operations run in panels, with a poll in between: the same matrices, the same digits each time, and an
+// exception passes through at each panel.
 #include <cmath>
 #include <random>
 #include <stdexcept>
@@ -14,7 +14,7 @@ using namespace delam;
 
 namespace {
 
-constexpr std::int64_t n = 1400;  // a whole number of panels and a rest
+constexpr std::int64_t n = 1400;  // a whole number of panels and a remainder
 
 // Definite, with a decaying coupling.
 DenseMatrix definite() {

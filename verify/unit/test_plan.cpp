@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a march leaves out changes nothing: contact where pairs cannot close, mixity where the law does not see it,
-// displacements that nobody reads. And the bodies are factored once.
+// What an analysis leaves out changes nothing: contact where pairs cannot close, mixity where the law does not depend
+// on it, displacements that nobody reads. And the bodies are factored only once.
 #include <cstring>
 #include <string>
 
@@ -27,7 +27,7 @@ unit::Flexure linear_law() {
     return f;
 }
 
-// All values that do not need displacements, step after step.
+// All values that do not need displacements, step by step.
 std::vector<double> history(const Problem& problem, Solver** kept = nullptr) {
     static Monitor monitor;
     auto solver = std::make_unique<Solver>(problem, monitor, 0.0);
@@ -65,7 +65,7 @@ START_TEST(mixity_left_out_changes_no_digit) {
         ck_assert(left_out->state().mixity[p] == 0.0);
         seen = std::max(seen, computed->state().mixity[p]);
     }
-    ck_assert(seen > 0.5);  // bending shears the interface: there was something to leave out
+    ck_assert(seen > 0.5);  // bending shears the interface, so there was something to leave out
     delete left_out;
     delete computed;
 }
@@ -90,7 +90,7 @@ END_TEST
 
 START_TEST(contact_left_out_changes_no_digit) {
     Problem problem = unit::make_flexure({});
-    if (_i == 1) {  // one layer drawn off the other by its whole face: nothing can close
+    if (_i == 1) {  // one layer pulled off the other by its whole face: no pair can close
         unit::Flexure f;
         f.along = 12;
         f.through = 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Interfaces of unmatched meshes by projection, and obstacles: areas, normals, linear fields, and what is refused
-// where.
+// Interfaces of unmatched meshes by projection, and obstacles: areas, normals, linear fields, and which input is
+// refused at which call.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -30,7 +30,7 @@ constexpr CellType all_types[] = {CellType::tri3,  CellType::quad4, CellType::te
                                   CellType::quad8, CellType::quad9, CellType::tet10, CellType::hex20};
 bool quadratic(CellType type) { return topology(type).nodes > topology(type).corners; }
 
-// Text of the error that an action ends with; empty when there is none.
+// Message of the error in which an action ends; empty if there is none.
 std::string refusal(std::int32_t status, const std::function<void()>& action) {
     try {
         action();
@@ -48,8 +48,8 @@ std::string refusal(std::int32_t status, const std::function<void()>& action) {
 
 using Map = std::function<void(std::span<double>)>;
 
-// Blocks of cells of their own types, each from a corner with sides and divisions along x, (y,) and the last axis; body
-// by position in the list.
+// Blocks of cells of their own types, each given by a corner, sides and divisions along x, (y,) and the last axis;
+// bodies in the order of the list.
 struct Block {
     CellType type;
     Numbers corner, sides;
@@ -99,7 +99,8 @@ double linear(std::span<const double> x) {
     return value;
 }
 
-// Tied nodes sit where their weights say, sum to one, carry linear fields, belong to nobody, and hang on one body.
+// Tied nodes lie where their weights put them; the weights sum to one and reproduce linear fields; tied nodes belong to
+// no body and depend on one.
 void expect_ties(const Mesh& mesh, const InterfaceGeometry& i) {
     ck_assert_uint_eq(mesh.ties().size(), i.node_a.size());
     for (const NodeTie& tie : mesh.ties()) {
@@ -147,7 +148,7 @@ START_TEST(flat) {
                     ck_assert(std::abs(mesh.node(i.node_a[p])[k] - mesh.node(i.node_b[p])[k]) < 1e-13);
                 ck_assert(std::abs(i.frame[p * dim * dim + dim - 1] - 1.0) < 1e-14);
             }
-            // The other way round it is another interface, with the same area and the opposite normal.
+            // With the two bodies exchanged it is another interface, with the same area and the opposite normal.
             Mesh back = blocks(stack(lower, upper, 3, 5));
             back.add_projected_interface(1, 0, 0.0);
             expect_ties(back, back.interfaces()[0]);
@@ -158,7 +159,7 @@ START_TEST(flat) {
 }
 END_TEST
 
-// Faces that match anyway: each node is tied to its partner alone, and the interface is the matched one's.
+// Faces that match: each node is tied to its partner alone, and the interface is that of matched faces.
 START_TEST(matching) {
     for (const CellType type : all_types) {
         Mesh mesh = blocks(stack(type, type, 4, 4));
@@ -184,7 +185,8 @@ START_TEST(matching) {
 }
 END_TEST
 
-// Two rings around a quarter circle (a cylinder in 3D): b's nodes are off a's faces by what the chords are off the arc.
+// Two rings around a quarter circle (a cylinder in 3D): b's nodes are off a's faces by the distance of the chords from
+// the arc.
 START_TEST(curved) {
     for (const CellType type :
          {CellType::quad4, CellType::quad8, CellType::tri6, CellType::hex8, CellType::hex20, CellType::tet10}) {
@@ -229,7 +231,7 @@ START_TEST(curved) {
 }
 END_TEST
 
-// b may end within a; beyond a's rim only whole faces of it may lie, side by side with a.
+// b may end inside a; beyond a's rim only whole faces of b may lie, side by side with a.
 START_TEST(partly_covered) {
     for (const CellType type : all_types) {
         Mesh within = blocks(stack(type, type, 3, 5, 0.1, 0.7));
@@ -258,7 +260,7 @@ START_TEST(partly_covered) {
         for (const double bad : {-1e-3, std::nan(""), HUGE_VAL})
             ck_assert_refused(DELAM_ERROR_ARGUMENT, "gap", apart.add_projected_interface(0, 1, bad));
     }
-    // Tied nodes take no cells.
+    // Tied nodes belong to no cell.
     Mesh mesh = blocks(stack(CellType::quad4, CellType::quad4, 1, 2));
     mesh.add_projected_interface(0, 1, 0.0);
     const std::int64_t tied = mesh.ties()[0].node;
@@ -269,7 +271,7 @@ START_TEST(partly_covered) {
 }
 END_TEST
 
-// The nearest point of a curved face is where the offset is along the normal.
+// The nearest point of a curved face is the one whose offset is along the normal.
 START_TEST(nearest_points) {
     for (const CellType type : {CellType::quad8, CellType::hex20, CellType::tet10, CellType::hex8}) {
         const std::size_t dim = at(topology(type).dimension);
@@ -299,7 +301,7 @@ START_TEST(obstacles) {
         const std::int64_t control = mesh.node_count() - 1;
         Indices top;
         Numbers down;
-        for (std::int64_t n = control - 1; n >= 0; --n) {  // the order is the host's
+        for (std::int64_t n = control - 1; n >= 0; --n) {  // in an order chosen by the host
             if (mesh.node(n)[dim - 1] != 0.5 || mesh.node(n)[0] > 0.5) continue;
             top.push_back(n);
             for (std::size_t i = 0; i < dim; ++i) down.push_back(i == dim - 1 ? -3.0 : 0.0);
@@ -312,14 +314,14 @@ START_TEST(obstacles) {
         for (std::size_t p = 0; p < top.size(); ++p) ck_assert(i.frame[p * dim * dim + dim - 1] == -1.0);
         ck_assert(i.face_count() > 0);
 
-        // One node alone needs a weight.
+        // A single node needs a weight.
         const Indices one{top[0]};
         const Numbers normal(down.begin(), down.begin() + static_cast<std::ptrdiff_t>(dim));
         ck_assert_refused(DELAM_ERROR_MESH, "give weights", mesh.add_obstacle(one, normal, {}, control));
         ck_assert_int_eq(mesh.add_obstacle(one, normal, Numbers{0.25}, control), 1);
         ck_assert(mesh.interfaces()[1].weight == Numbers{0.25} && mesh.interfaces()[1].face_count() == 0);
 
-        // A body that comes later moves no index of the obstacle, and the control node takes no cells.
+        // A later body changes no index of the obstacle, and the control node belongs to no cell.
         ck_assert_refused(DELAM_ERROR_MESH, "control node",
                           mesh.add_cells(type, Indices(at(topology(type).nodes), control), Labels{3}));
         ck_assert_refused(DELAM_ERROR_ARGUMENT, "length 0",

@@ -17,7 +17,7 @@ using namespace delam;
 
 namespace {
 
-// The error that an action ends with: its status and words. Status 0: none.
+// The error in which an action ends: its status and message. Status 0: none.
 struct Outcome {
     std::int32_t status = 0;
     std::string words;
@@ -148,7 +148,7 @@ START_TEST(incomplete_scenes_are_refused_by_name) {
     hold(problem, node_at(problem, 0, {0.0, 0.0}), 0);
     expect(problem, "prescribes what other constraints do already");
 
-    // A mean over nodes that are held already, and the same mean twice.
+    // A mean over nodes that are already fixed, and the same mean twice.
     problem = good;
     const std::int64_t left = node_at(problem, 0, {0.0, 0.0});
     const std::int64_t right = node_at(problem, 0, {4.0, 0.0});
@@ -178,7 +178,7 @@ START_TEST(missing_supports_are_described) {
     hold(problem, node_at(problem, 0, {4.0, 0.0}), 1);
     expect(problem, "bodies 0, 1 can rotate about the point (4, 0)");
 
-    // A support on a slope leaves the motion along it.
+    // A support on a slope leaves the motion along the slope free.
     problem.constraints.clear();
     for (const double x : {0.0, 4.0}) {
         const std::int64_t node = node_at(problem, 0, {x, 0.0});
@@ -210,7 +210,7 @@ START_TEST(floating_plies_are_legal) {
     debond(loose, 0);
     expect_valid(loose);
 
-    // A dead force on it is another matter; one on the ply that is held is not.
+    // A dead force on it is an error; one on the supported ply is not.
     Problem pulled = loose;
     push(pulled, node_at(loose, 1, {0.0, 2.0}), 0);
     expect(pulled, "dead forces of pattern 'push'");
@@ -218,7 +218,7 @@ START_TEST(floating_plies_are_legal) {
     push(held, node_at(loose, 0, {0.0, 1.0}), 0);
     expect_valid(held);
 
-    // Two plies glued to each other, loose on a third; a ply hanging at a single pair (2D: it can turn there).
+    // Two plies bonded to each other, loose on a third; a ply attached at a single pair (in 2D it can rotate there).
     Problem pair = stack(2, 3);
     hold_bottom(pair);
     debond(pair, 0);
@@ -229,7 +229,7 @@ START_TEST(floating_plies_are_legal) {
     push(hinge, node_at(hinge, 1, {4.0, 2.0}), 0);
     expect(hinge, "body 1 can rotate about the point (0, 1)");
 
-    // Supports on the loose ply alone do not excuse those missing on the structure.
+    // Supports on the loose ply do not replace those missing on the structure.
     Problem nothing = stack(2, 2);
     debond(nothing, 0);
     expect(nothing, "no displacement is prescribed");
@@ -255,7 +255,7 @@ START_TEST(bodies_without_contact_need_their_own_supports) {
 END_TEST
 
 START_TEST(cells_that_share_a_node_are_hinged) {
-    // Two squares touch at (1, 1): one body for the host, two pieces that turn about the common node.
+    // Two squares touch at (1, 1): one body for the host, two pieces that rotate about the common node.
     const std::vector<double> nodes{0, 0, 1, 0, 0, 1, 1, 1, 2, 1, 1, 2, 2, 2};
     auto mesh = std::make_shared<Mesh>(2, nodes);
     const std::vector<std::int64_t> cells{0, 1, 3, 2, 3, 4, 6, 5};
@@ -285,7 +285,7 @@ START_TEST(supports_do_not_depend_on_units) {
         Problem problem(mesh);
         for (auto& material : problem.material) material = Elastic{75e9, 0.3};
         problem.interfaces[0].law = ductile();
-        // Neighbouring nodes hold a rotation as well, if softly.
+        // Neighbouring nodes restrain a rotation too, if softly.
         hold(problem, 0, 0);
         hold(problem, 0, 1);
         expect(problem, "rotate about the point (0, 0)");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every shape of softening with every criterion, against brute force over the energy, quadrature of the traction, and
+// Every softening shape with every criterion, against brute-force minimisation, quadrature of the traction, and
 // differences.
 #include <cmath>
 #include <cstdlib>
@@ -32,7 +32,7 @@ void everywhere(Body&& body) {
                     body((named.name + ", B = " + std::to_string(b)).c_str(), named.law, named.law.toughness(b));
 }
 
-// Where Y stands when `share` of the adhesion's way down to 1e-3 is done, with room beyond either end.
+// Y at which the fraction `share` of the adhesion's way down to 1e-3 is done, with room beyond either end.
 double driving_at(const Law& law, const Toughness& t, double share) {
     const double first = 0.5 * t.onset, last = 1.5 * law.driving(t, 1e-3);
     return first * std::pow(last / first, share);
@@ -103,7 +103,7 @@ START_TEST(energy) {
 }
 END_TEST
 
-// Inside, the minimiser inverts Y(zeta), with one over its slope.
+// Inside the bounds the minimiser inverts Y(zeta), with the reciprocal of its slope.
 START_TEST(inverse) {
     everywhere([](const char* name, const Law& law, const Toughness& t) {
         for (int i = 1; i < 200; ++i) {
@@ -126,8 +126,8 @@ START_TEST(inverse) {
 }
 END_TEST
 
-// First loading with stiffness k: peak sqrt(2 k Go) at the onset, area Gc. The midpoint rule on 200,000 steps errs by
-// 1e-9 where the curve is smooth, by a step's part at a drop.
+// First loading with stiffness k: peak sqrt(2 k Go) at the onset, area Gc. The midpoint rule with 200,000 steps has an
+// error of 1e-9 where the curve is smooth, and of part of a step at a drop.
 START_TEST(traction) {
     constexpr double k = 125e9;
     everywhere([&](const char* name, const Law& law, const Toughness& t) {
@@ -152,7 +152,7 @@ START_TEST(traction) {
 }
 END_TEST
 
-// Next to Griffith every shape breaks between Go and Gc^2/Go and spends Gc, without a rounding accident.
+// Close to Griffith's law every shape breaks between Go and Gc^2/Go and dissipates Gc, without a rounding accident.
 START_TEST(towards_griffith) {
     for (const delam::Criterion criterion : laws::criteria) {
         for (laws::Named& named : laws::shapes(criterion, 1.0)) {
@@ -222,7 +222,7 @@ START_TEST(mixity_slopes) {
 }
 END_TEST
 
-// Powers of two scale doubles exactly: whatever depends on units by anything but a factor would show in the last bit.
+// Powers of two scale doubles exactly: any dependence on units other than by a factor would show in the last bit.
 START_TEST(units) {
     for (const laws::Named& named : laws::shapes(delam::Criterion::benzeggagh_kenane, 3.7)) {
         const Law& law = named.law;
@@ -266,7 +266,7 @@ START_TEST(values) {
 }
 END_TEST
 
-// Jumps whose energy is at the end of all numbers, or beyond.
+// Jumps whose energy is near or beyond the largest double.
 START_TEST(huge_jumps_break) {
     for (const laws::Named& named : laws::shapes(laws::criteria[0], 2.5))
         for (const double driving :

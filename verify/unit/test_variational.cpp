@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One pair under the variational rule, and mixities that follow an iterate: slopes by differences, the spring that
-// bounds the curvature, the
-// damage against brute force, an end to swings.
+// bounds the curvature, the damage against brute force, termination of oscillations.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,7 +30,7 @@ Law some_law(std::mt19937& random) {
     return law;
 }
 
-// A jump whose Y is about that of the softening branch, open.
+// An open jump whose Y is about that of the softening branch.
 std::array<double, 3> some_jump(std::mt19937& random, const Law& law) {
     const auto real = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
     const double size = std::sqrt(2.0 * law.normal_onset / law.normal_stiffness) * real(0.3, 2.5),
@@ -120,7 +119,7 @@ START_TEST(damage_is_the_minimiser) {
 }
 END_TEST
 
-// Near j the energy stays below the model with the spring mu K: that is what makes linearised steps descend.
+// Near j the energy stays below the model with the spring mu K, and therefore linearised steps descend.
 START_TEST(proximal_spring_bounds_the_curvature) {
     std::mt19937 random(4);
     for (int trial = 0; trial < 300; ++trial) {
@@ -147,7 +146,7 @@ START_TEST(proximal_spring_bounds_the_curvature) {
 }
 END_TEST
 
-// No jump, and contact: no traction of the mixity; closer and closer to no jump the energy stays bounded.
+// No jump, and contact: the mixity gives no traction; as the jump tends to zero the energy stays bounded.
 START_TEST(small_jumps_and_contact) {
     std::mt19937 random(5);
     const Law law = some_law(random);
@@ -168,7 +167,7 @@ START_TEST(small_jumps_and_contact) {
 }
 END_TEST
 
-// A pair whose shown mixity answers to the one in use by overshooting, however much: a finite number of updates.
+// A pair whose shown mixity overshoots that in use, however much: a finite number of updates.
 START_TEST(swings_end) {
     Law law;
     law.normal_stiffness = law.tangential_stiffness = 1e11;
@@ -207,7 +206,7 @@ START_TEST(broken_pairs_keep_theirs) {
     mixity.look(std::vector<double>{0.0, 0.5}, jump);
     ck_assert(mixity.used()[0] == 0.1);
     ck_assert_double_eq_tol(mixity.used()[1], 0.5, 1e-12);
-    // Frozen ones stay, but are compared with what was shown: Gc = 250 / sqrt((1-B)^2 + B^2).
+    // Frozen mixities stay, but are compared with those shown: Gc = 250 / sqrt((1-B)^2 + B^2).
     StepMixity frozen(pairs, MixityRule::frozen, 1e-6, std::vector<double>{0.1, 0.0});
     frozen.look(std::vector<double>{0.0, 0.5}, jump);
     ck_assert(frozen.used()[1] == 0.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// calls_cpp CALLS STEPS: as calls.c, through delam.hpp.
+// calls_cpp CALLS STEPS: the program of calls.c through delam.hpp.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
