@@ -13,16 +13,16 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source verify/packages.sh
 
 # Cell sizes of each family, mm.
-slides="1.0 0.75 0.5 0.25 0.1"
+meshes="1.0 0.75 0.5 0.25 0.1"
 declare -A sizes=(
-    [enf-ductile]=$slides
-    [enf-brittle-local]=$slides
-    [enf-brittle-energetic]=$slides
+    [enf-ductile]=$meshes
+    [enf-brittle-local]=$meshes
+    [enf-brittle-energetic]=$meshes
     [enf-modified]="0.1"
-    [mmf-ductile]=$slides
-    [mmf-ductile-640]=$slides
-    [mmf-ductile-converged]=$slides
-    [mmf-brittle-energetic]=$slides
+    [mmf-ductile]=$meshes
+    [mmf-ductile-640]=$meshes
+    [mmf-ductile-converged]=$meshes
+    [mmf-brittle-energetic]=$meshes
 )
 
 # names: all that can be asked for, one a line.
