@@ -32,7 +32,7 @@ void copy_rows(const Bulk& bulk, std::size_t patterns, const CondensedMatrices& 
     std::int64_t entry = 0;
     if (out.row_starts != nullptr) out.row_starts[0] = 0;
     for (std::size_t r = 0; r < bulk.rows().size(); ++r) {
-        const Bulk::Row& row = bulk.rows()[r];
+        const JumpRow& row = bulk.rows()[r];
         for (const auto& [unknown, value] : row.unknowns) {
             if (out.columns != nullptr) out.columns[entry] = unknown;
             if (out.values != nullptr) out.values[entry] = value;
@@ -49,7 +49,7 @@ void copy_rows(const Bulk& bulk, std::size_t patterns, const CondensedMatrices& 
 CondensedSize condensed_size(const Solver& solver) {
     const Bulk& bulk = bulk_of(solver);
     CondensedSize size{bulk.energy().rows(), 0};
-    for (const Bulk::Row& row : bulk.rows()) size.entries += static_cast<std::int64_t>(row.unknowns.size());
+    for (const JumpRow& row : bulk.rows()) size.entries += static_cast<std::int64_t>(row.unknowns.size());
     return size;
 }
 

@@ -19,6 +19,7 @@
 namespace delam {
 
 class Bulk;
+class Zone;
 
 // What an interface row is at the moment.
 struct Springs {
@@ -73,6 +74,14 @@ public:
     }
     // Another operator over the same condensed bodies, with a memory of its own; null: there is none that is cheap.
     virtual std::unique_ptr<JumpOperator> twin() const { return nullptr; }
+    // A local dense system about the wanted rows [rows], with everything else minimised out at these springs, for
+    // minimisers that change springs and contact there. It holds until the next call of zone(), solve() or recall().
+    // Null: none this time, or never (offers_zone() is false). tight: a zone at hand that is much larger than what is
+    // wanted is not used.
+    virtual bool offers_zone() const { return false; }
+    virtual Zone* zone(const Springs& /*springs*/, std::span<const std::uint8_t> /*wanted*/, bool /*tight*/) {
+        return nullptr;
+    }
     // The bodies condensed onto the jumps; null: they are not.
     virtual const Bulk* bulk() const { return nullptr; }
     // Sparse factorisations of the bodies since the operator was made, and how often displacements were recovered.

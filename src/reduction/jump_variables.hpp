@@ -17,11 +17,10 @@
 #include <vector>
 
 #include "linalg/sparse.hpp"
+#include "reduction/zone/jump_row.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {
-
-using SparseVector = std::vector<std::pair<std::int64_t, double>>;
 
 struct JumpVariables {
     // v = [leading displacements | displacements kept for the dense stage | independent jumps]

@@ -31,5 +31,16 @@ sources() {
         done
     fi
 }
-sources '*.cpp' '*.hpp' | xargs -0 -r "$tool" "${mode[@]}"
-sources '*.c' '*.h' | xargs -0 -r "$tool" --style=file:include/.clang-format "${mode[@]}"
+# One line for each file that differs.
+check() {
+    local listed
+    listed=$(xargs -0 -r "$tool" "$@" "${mode[@]}" 2>&1 | grep -oE '^[^: ]+' | sort -u) || true
+    if [[ -n $listed ]]; then
+        printf 'not formatted: %s\n' $listed
+        return 1
+    fi
+}
+failed=0
+sources '*.cpp' '*.hpp' | check || failed=1
+sources '*.c' '*.h' | check --style=file:include/.clang-format || failed=1
+exit "$failed"

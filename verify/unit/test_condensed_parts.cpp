@@ -17,10 +17,10 @@
 #include "linalg/echelon.hpp"
 #include "linalg/sparse.hpp"
 #include "mesh/layers.hpp"
-#include "reduction/condensed/dense_energy.hpp"
-#include "reduction/condensed/rigid_jumps.hpp"
-#include "reduction/condensed/zone.hpp"
 #include "reduction/jump_variables.hpp"
+#include "reduction/zone/dense_energy.hpp"
+#include "reduction/zone/rigid_jumps.hpp"
+#include "reduction/zone/zone.hpp"
 #include "scene/problem.hpp"
 
 // Last: its macro fail() would break delam::fail().
@@ -401,7 +401,7 @@ std::vector<Quad> solve_quad(std::vector<std::vector<Quad>> a, std::vector<Quad>
 struct ZoneCase {
     DenseEnergy energy;
     std::vector<std::vector<Quad>> stiffness;  // exactly singular along `rigid`
-    std::vector<Bulk::Row> rows;
+    std::vector<JumpRow> rows;
     DenseMatrix rigid;
     std::vector<Zone::Coupling> couplings;
     std::vector<std::uint8_t> held;
@@ -451,7 +451,7 @@ ZoneCase zone_case(Random& random, Index n, Index more, Index motions, bool offs
             z.energy.stiffness(i, j) = static_cast<double>(z.stiffness[at(std::min(i, j))][at(std::max(i, j))]);
     for (Index i = 0; i < n; ++i) z.rows.push_back({{{i, 1.0}}, {}});
     for (Index r = 0; r < more; ++r) {
-        Bulk::Row row;
+        JumpRow row;
         for (Index k = 0; k < 2 + r % 2; ++k) {
             const Index i = random.below(n);
             if (std::none_of(row.unknowns.begin(), row.unknowns.end(), [&](const auto& e) { return e.first == i; }))
@@ -523,7 +523,7 @@ std::vector<double> brute_force(const ZoneCase& z) {
 }
 
 void check_zone(ZoneCase& z, double tolerance, const char* what) {
-    Zone zone(z.energy, z.rows, z.rigid);
+    Zone zone(z.energy, z.rows, {}, z.rigid);
     // Twice, after another held set and other couplings: these must have no effect.
     std::vector<std::uint8_t> none(z.held.size(), 0);
     std::vector<Zone::Coupling> springs;
@@ -607,7 +607,7 @@ START_TEST(unbalanced_zones) {
     Random random(static_cast<unsigned>(_i) + 1300U);
     ZoneCase z = zone_case(random, 10, 0, 2, false, 0.0);
     std::fill(z.held.begin(), z.held.end(), std::uint8_t{0});
-    Zone zone(z.energy, z.rows, z.rigid);
+    Zone zone(z.energy, z.rows, {}, z.rigid);
     ck_assert(zone.factor({}, z.held));
     ck_assert(!zone.solve(z.theta, {}).balanced);
     // The same load without its part along the motions has an equilibrium.

@@ -86,8 +86,8 @@ double Minimiser::energy(const State& state, std::span<const double> adhesion_ol
 // with.
 bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) const {
     StepMixity mixity(pairs, rule, tolerance, state.mixity);
-    // The leap eliminates the damage pair by pair, which a gradient term forbids.
-    auto* condensed = pairs.gradient.empty() ? dynamic_cast<Condensed*>(&op) : nullptr;
+    // Newton's method eliminates the damage pair by pair, which a gradient term forbids.
+    const bool by_newton = pairs.gradient.empty() && op.offers_zone();
     bool leapt = false;
     std::optional<State> before;
     std::optional<StepMixity::Memory> mixity_before;
@@ -122,7 +122,11 @@ bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) c
         }
         before = state;
         mixity_before = mixity.memory();
-        if (condensed == nullptr) {
+        std::optional<double> added;
+        if (by_newton)
+            added = ZoneNewton{op, pairs, contact, monitor, tolerance, std::min(leap_steps, limit)}.leap(state, mixity,
+                                                                                                         adhesion_old);
+        if (!added) {
             state.adhesion = extrapolation.next(state.adhesion, plain);
             // Where plain steps grow, the fixed point that extrapolation aims at lies behind them.
             double along = 0.0;
@@ -137,8 +141,7 @@ bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) c
             leapt = state.adhesion != plain;
             continue;
         }
-        level += ZoneNewton{*condensed, pairs, contact, monitor, tolerance, std::min(leap_steps, limit)}.leap(
-            state, mixity, adhesion_old);
+        level += *added;
         leapt = state.adhesion != before->adhesion;
         if (!leapt) state.adhesion = plain;
     }

@@ -48,7 +48,7 @@ Search::Search(const Problem& problem, const PairLaws& pairs, const ContactScene
       graph_(problem.mesh->interfaces()),
       rule_(mixity_rule(pairs, problem.options.mixity_rule)),
       follow_mixity_(rule_ == MixityRule::converged) {
-    if (auto* condensed = dynamic_cast<Condensed*>(&op)) zone_.emplace(*condensed, pairs, contact);
+    if (op.offers_zone()) zone_.emplace(op, pairs, contact);
 }
 
 // What a search finds depends on its step alone: a march that was saved, rolled back or cancelled goes on with the same

@@ -32,8 +32,9 @@ bool ZoneEnergies::focus(const State& known, std::span<const std::uint8_t> wante
             springs.held[p * dim + c] = contact_.bonded[p] != 0 || (c == 0 && known.closed[p] != 0) ? 1 : 0;
             rows[p * dim + c] = wanted[p];
         }
-    zone_ = &op_.zone(springs, rows, true);
-    const std::vector<std::int64_t>& members = op_.zone_rows();
+    zone_ = op_.zone(springs, rows, true);
+    if (zone_ == nullptr) return false;
+    const std::vector<std::int64_t>& members = zone_->jump_rows();
     place_.assign(wanted.size(), -1);
     held_.assign(members.size(), 0);
     normal_.assign(members.size(), 0);
@@ -60,7 +61,7 @@ std::optional<double> ZoneEnergies::energy(std::span<const double> adhesion) {
 
 std::optional<double> ZoneEnergies::zone_energy(std::span<const double> adhesion) {
     const auto dim = static_cast<std::size_t>(pairs_.dimension);
-    const std::vector<std::int64_t>& members = op_.zone_rows();
+    const std::vector<std::int64_t>& members = zone_->jump_rows();
     std::vector<double> spring(members.size());
     std::vector<Zone::Coupling> couplings;
     for (std::size_t z = 0; z < members.size(); ++z) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Energies of many states that differ from one known state in a few pairs, where the operator is condensed: the other
+// Energies of many states that differ from one known state in a few pairs, where the operator offers a zone: the other
 // pairs and their contact stay as they are in the known state, so that each energy is a small dense solve with contact
 // inside the zone.
 #pragma once
@@ -12,13 +12,14 @@
 #include "evolution/increment/contact.hpp"
 #include "evolution/increment/damage_step.hpp"
 #include "evolution/increment/state.hpp"
-#include "reduction/condensed/condensed.hpp"
+#include "reduction/jump_operator.hpp"
+#include "reduction/zone/zone.hpp"
 
 namespace delam {
 
 class ZoneEnergies {
 public:
-    ZoneEnergies(Condensed& op, const PairLaws& pairs, const ContactScene& contact)
+    ZoneEnergies(JumpOperator& op, const PairLaws& pairs, const ContactScene& contact)
         : op_(op), pairs_(pairs), contact_(contact) {}
     // known: a state with displacements and booked energy. wanted: [pairs] that may differ; those of a floating zone
     // fail. False: the zone cannot tell its energy from its neighbours'.
@@ -36,7 +37,7 @@ public:
 private:
     std::optional<double> zone_energy(std::span<const double> adhesion);
 
-    Condensed& op_;
+    JumpOperator& op_;
     const PairLaws& pairs_;
     const ContactScene& contact_;
     const State* known_ = nullptr;

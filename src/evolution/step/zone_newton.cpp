@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "evolution/increment/extrapolation.hpp"
+#include "reduction/zone/zone.hpp"
 
 namespace delam {
 
@@ -54,15 +55,16 @@ private:
 
 class Leap {
 public:
-    Leap(const ZoneNewton& newton, State& state, StepMixity& mixity, std::span<const double> adhesion_old)
+    Leap(const ZoneNewton& newton, State& state, StepMixity& mixity, std::span<const double> adhesion_old,
+         const Springs& springs_, Zone& zone)
         : newton_(newton),
           state_(state),
           mixity_(mixity),
           toughness_(mixity.toughness()),
           old_(adhesion_old),
           dim_(static_cast<std::size_t>(newton.pairs.dimension)),
-          zone_(find_zone()) {
-        const std::vector<std::int64_t>& rows = newton_.op.zone_rows();
+          zone_(zone) {
+        const std::vector<std::int64_t>& rows = zone_.jump_rows();
         const std::span<const std::uint8_t> prescribed = newton_.op.prescribed_rows();
         held_.resize(rows.size());
         spring_.assign(rows.size(), 0.0);
@@ -97,7 +99,6 @@ private:
         double size = 0.0;  // of the terms that the energy is the sum of
     };
 
-    Zone& find_zone();
     Point point(std::vector<double> unknowns) const;
     // Model about a point: tangents of the members scaled between secant (0) and full (1), with one of them debonded
     // (or none: -1).
@@ -123,7 +124,6 @@ private:
     double added_ = 0.0;
     std::span<const double> old_;
     std::size_t dim_;
-    Springs springs_;
     Zone& zone_;
     std::vector<std::uint8_t> held_;
     std::vector<std::uint8_t> normal_;
@@ -132,24 +132,6 @@ private:
     std::vector<Zone::Coupling> couplings_;
     std::vector<double> row_force_;
 };
-
-Zone& Leap::find_zone() {
-    springs_.stiffness = spring_stiffness(newton_.pairs, state_.adhesion);
-    springs_.held.assign(springs_.stiffness.size(), 0);
-    std::vector<std::uint8_t> wanted(springs_.stiffness.size(), 0);
-    for (std::size_t p = 0; p < old_.size(); ++p) {
-        const bool bonded = newton_.contact.bonded[p] != 0;
-        for (std::size_t c = 0; c < dim_; ++c)
-            springs_.held[p * dim_ + c] = bonded || (c == 0 && state_.closed[p] != 0) ? 1 : 0;
-        if (bonded || newton_.pairs.law[p] == nullptr || old_[p] <= 0.0) continue;
-        const double driving = driving_energy(newton_.pairs, p, state_.response.jump).total();
-        const bool partly = mixity_.rule() == MixityRule::variational && old_[p] < 1.0;
-        if (partly || state_.adhesion[p] < old_[p] ||
-            newton_.pairs.law[p]->minimiser(toughness_[p], driving / nearly_loaded, old_[p]) < old_[p])
-            for (std::size_t c = 0; c < dim_; ++c) wanted[p * dim_ + c] = 1;
-    }
-    return newton_.op.zone(springs_, wanted);
-}
 
 Leap::Point Leap::point(std::vector<double> unknowns) const {
     Point at;
@@ -328,9 +310,9 @@ double Leap::run() {
     if (members_.empty()) return 0.0;
     Point at = point([&] {
         std::vector<double> x(static_cast<std::size_t>(zone_.energy().rows()), 0.0);
-        const std::vector<std::int64_t>& rows = newton_.op.zone_rows();
+        const std::vector<std::int64_t>& rows = zone_.jump_rows();
         for (std::size_t z = 0; z < rows.size(); ++z)
-            if (const Bulk::Row& row = zone_.rows()[z];
+            if (const JumpRow& row = zone_.rows()[z];
                 row.offset.empty() && row.unknowns.size() == 1 && row.unknowns.front().second == 1.0)
                 x[static_cast<std::size_t>(row.unknowns.front().first)] =
                     state_.response.jump[static_cast<std::size_t>(rows[z])];
@@ -385,7 +367,7 @@ double Leap::run() {
         if (newton && !renewed ? change * change <= 0.01 * newton_.tolerance : change <= newton_.tolerance) break;
     }
     for (std::size_t i = 0; i < members_.size(); ++i) state_.adhesion[members_[i].pair] = at.adhesion[i];
-    const std::vector<std::int64_t>& rows = newton_.op.zone_rows();
+    const std::vector<std::int64_t>& rows = zone_.jump_rows();
     for (std::size_t z = 0; z < rows.size(); ++z)
         if (normal_[z] != 0) state_.closed[static_cast<std::size_t>(rows[z]) / dim_] = held_[z];
     if (mixity_.rule() == MixityRule::variational)
@@ -396,8 +378,25 @@ double Leap::run() {
 
 }  // namespace
 
-double ZoneNewton::leap(State& state, StepMixity& mixity, std::span<const double> adhesion_old) const {
-    return Leap(*this, state, mixity, adhesion_old).run();
+std::optional<double> ZoneNewton::leap(State& state, StepMixity& mixity, std::span<const double> adhesion_old) const {
+    const auto dim = static_cast<std::size_t>(pairs.dimension);
+    Springs springs{spring_stiffness(pairs, state.adhesion), {}};
+    springs.held.assign(springs.stiffness.size(), 0);
+    std::vector<std::uint8_t> wanted(springs.stiffness.size(), 0);
+    for (std::size_t p = 0; p < adhesion_old.size(); ++p) {
+        const bool bonded = contact.bonded[p] != 0;
+        for (std::size_t c = 0; c < dim; ++c)
+            springs.held[p * dim + c] = bonded || (c == 0 && state.closed[p] != 0) ? 1 : 0;
+        if (bonded || pairs.law[p] == nullptr || adhesion_old[p] <= 0.0) continue;
+        const double driving = driving_energy(pairs, p, state.response.jump).total();
+        const bool partly = mixity.rule() == MixityRule::variational && adhesion_old[p] < 1.0;
+        if (partly || state.adhesion[p] < adhesion_old[p] ||
+            pairs.law[p]->minimiser(mixity.toughness()[p], driving / nearly_loaded, adhesion_old[p]) < adhesion_old[p])
+            for (std::size_t c = 0; c < dim; ++c) wanted[p * dim + c] = 1;
+    }
+    Zone* zone = op.zone(springs, wanted, false);
+    if (zone == nullptr) return std::nullopt;
+    return Leap(*this, state, mixity, adhesion_old, springs, *zone).run();
 }
 
 }  // namespace delam

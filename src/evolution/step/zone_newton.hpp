@@ -10,6 +10,7 @@
 // zeta), its tangents are those of variational.hpp, and all pairs that are partly damaged belong to the zone.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "base/monitor.hpp"
@@ -17,12 +18,12 @@
 #include "evolution/increment/damage_step.hpp"
 #include "evolution/increment/mixity_rule.hpp"
 #include "evolution/increment/state.hpp"
-#include "reduction/condensed/condensed.hpp"
+#include "reduction/jump_operator.hpp"
 
 namespace delam {
 
 struct ZoneNewton {
-    Condensed& op;
+    JumpOperator& op;
     const PairLaws& pairs;
     const ContactScene& contact;
     Monitor& monitor;
@@ -32,7 +33,7 @@ struct ZoneNewton {
     // state: displacements at its adhesion; out: adhesion and contact set after the leap (displacements are left
     // behind; variational: their jumps in the zone are those of its end, for the next displacement step to start from).
     // Returns the energy that new mixities alone have added.
-    double leap(State& state, StepMixity& mixity, std::span<const double> adhesion_old) const;
+    std::optional<double> leap(State& state, StepMixity& mixity, std::span<const double> adhesion_old) const;
 };
 
 }  // namespace delam

@@ -8,7 +8,7 @@
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "reduction/condensed/rigid_jumps.hpp"
+#include "reduction/zone/rigid_jumps.hpp"
 #include "scene/carriers.hpp"
 #include "scene/strain_loads.hpp"
 
@@ -355,7 +355,7 @@ void Bulk::resolve_equations(const Poll& poll) {
     // Rows of the jumps in unknowns.
     for (std::size_t r = 0; r < variables_.row.size(); ++r) {
         const SparseVector& in_jumps = variables_.row[r];
-        Row row;
+        JumpRow row;
         row.offset = variables_.row_offset[r];
         std::map<std::int64_t, double> entries;
         for (const auto& [jump, c] : in_jumps) {

@@ -19,8 +19,9 @@
 
 #include "base/monitor.hpp"
 #include "linalg/cholesky.hpp"
-#include "reduction/condensed/dense_energy.hpp"
 #include "reduction/jump_variables.hpp"
+#include "reduction/zone/dense_energy.hpp"
+#include "reduction/zone/jump_row.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {
@@ -31,12 +32,7 @@ public:
     Bulk(const Problem& problem, Monitor& monitor);
     void condense(Monitor& monitor);
 
-    struct Row {
-        SparseVector unknowns;
-        std::vector<double> offset;  // [patterns], empty: none
-        bool prescribed() const { return unknowns.empty(); }
-    };
-    const std::vector<Row>& rows() const { return rows_; }
+    const std::vector<JumpRow>& rows() const { return rows_; }
     // The first jump row that is nothing but unknown i. Others may be (on opposite faces of a periodic cell).
     const std::vector<std::int64_t>& row_of_unknown() const { return row_of_unknown_; }
     const DenseEnergy& energy() const { return base_ ? base_->energy() : energy_; }
@@ -97,7 +93,7 @@ private:
 
     DenseEnergy energy_;
     std::unique_ptr<Condensation> base_;
-    std::vector<Row> rows_;
+    std::vector<JumpRow> rows_;
     std::vector<std::int64_t> row_of_unknown_;
     DenseMatrix pattern_stiffness_;
     std::vector<double> left_over_;  // [patterns] work of the forces that leading_solve() left, of signs at random

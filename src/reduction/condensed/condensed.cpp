@@ -34,7 +34,7 @@ Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor
     rows_of_.resize(unknowns);
     always_.assign(unknowns, 0);
     for (std::size_t r = 0; r < bulk_->rows().size(); ++r) {
-        const Bulk::Row& row = bulk_->rows()[r];
+        const JumpRow& row = bulk_->rows()[r];
         prescribed_.push_back(row.prescribed() ? 1 : 0);
         const bool own = row.unknowns.size() == 1 &&
                          bulk_->row_of_unknown()[index(row.unknowns.front().first)] == static_cast<std::int64_t>(r);
@@ -254,23 +254,23 @@ void Condensed::condense_inner() {
     std::vector<std::int64_t> place(unknowns, -1);
     for (std::size_t z = 0; z < zone_unknowns_.size(); ++z)
         place[index(zone_unknowns_[z])] = static_cast<std::int64_t>(z);
-    zone_rows_.clear();
-    std::vector<Bulk::Row> rows;
+    std::vector<std::int64_t> zone_rows;
+    std::vector<JumpRow> rows;
     const auto dim = index(problem_.mesh->dimension());
     const auto pair_inside = [&](std::size_t pair) {
         for (std::size_t r = pair * dim; r < (pair + 1) * dim; ++r)
-            if (const Bulk::Row& row = bulk_->rows()[r];
+            if (const JumpRow& row = bulk_->rows()[r];
                 !row.prescribed() && place[index(row.unknowns.front().first)] >= 0)
                 return true;
         return false;
     };
     for (std::size_t r = 0; r < bulk_->rows().size(); ++r) {
-        const Bulk::Row& row = bulk_->rows()[r];
+        const JumpRow& row = bulk_->rows()[r];
         // A prescribed row comes with the others of its pair: who works in the zone needs whole pairs.
         if (row.prescribed() ? !pair_inside(r / dim) : place[index(row.unknowns.front().first)] < 0) continue;
-        Bulk::Row local{{}, row.offset};
+        JumpRow local{{}, row.offset};
         for (const auto& [i, n] : row.unknowns) local.unknowns.emplace_back(place[index(i)], n);
-        zone_rows_.push_back(static_cast<std::int64_t>(r));
+        zone_rows.push_back(static_cast<std::int64_t>(r));
         rows.push_back(std::move(local));
     }
     // Rigid motions that no active row outside the zone holds.
@@ -285,10 +285,11 @@ void Condensed::condense_inner() {
             for (std::int64_t z = 0; z < floating.rows; ++z) floating(z, c) = free(zone_unknowns_[index(z)], c);
         floating = orthonormalised(std::move(floating));
     }
-    zone_ = std::make_unique<Zone>(inner_->energy(), std::move(rows), std::move(floating), poll());
+    zone_ =
+        std::make_unique<Zone>(inner_->energy(), std::move(rows), std::move(zone_rows), std::move(floating), poll());
 }
 
-Zone& Condensed::zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) {
+Zone* Condensed::zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) {
     std::vector<std::uint8_t> unknowns(always_.size(), 0);
     bool inside = covers(springs);
     const auto rows = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}));
@@ -309,7 +310,7 @@ Zone& Condensed::zone(const Springs& springs, std::span<const std::uint8_t> want
                 if (inside_[i] == 0 && spring_[i] != spring_of(springs, i)) unknowns[i] = 1;
         choose(springs, unknowns);
     }
-    return *zone_;
+    return zone_.get();
 }
 
 void Condensed::solve(const Springs& springs, std::span<const double> theta, Response& response) {
@@ -326,8 +327,7 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
     bool loaded = std::any_of(load.begin(), load.end(), [](double v) { return v != 0.0; });
     for (std::size_t r = 0; r < springs.force.size(); ++r)
         loaded = loaded || (springs.force[r] != 0.0 && springs.held[r] == 0);
-    for (const Bulk::Row& row : bulk_->rows())
-        loaded = loaded || (!row.offset.empty() && dot(row.offset, theta) != 0.0);
+    for (const JumpRow& row : bulk_->rows()) loaded = loaded || (!row.offset.empty() && dot(row.offset, theta) != 0.0);
     if (all_held || !loaded) {
         respond(springs, theta, nullptr, response);
         return;
@@ -343,24 +343,24 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
     if (!springs.force.empty()) {
         std::vector<std::uint8_t> pulled(springs.force.size());
         for (std::size_t r = 0; r < pulled.size(); ++r) pulled[r] = springs.force[r] != 0.0 ? 1 : 0;
-        zone(springs, pulled);
+        zone(springs, pulled, false);
     }
     last_ = std::move(now);
 
     std::vector<Zone::Coupling> couplings;
-    std::vector<std::uint8_t> held(zone_rows_.size());
-    for (std::size_t z = 0; z < zone_rows_.size(); ++z) {
-        const auto r = index(zone_rows_[z]);
+    std::vector<std::uint8_t> held(zone_->jump_rows().size());
+    for (std::size_t z = 0; z < zone_->jump_rows().size(); ++z) {
+        const auto r = index(zone_->jump_rows()[z]);
         if (prescribed_[r] != 0) continue;  // constant: no unknown, whatever holds it
         held[z] = springs.held[r];
         if (held[z] == 0 && springs.stiffness[r] > 0.0)
             couplings.push_back({static_cast<std::int64_t>(z), static_cast<std::int64_t>(z), springs.stiffness[r]});
     }
     if (!zone_->factor(couplings, held))
-        fail(DELAM_ERROR_NUMERICAL, "the condensed stiffness of the process zone (", zone_rows_.size(),
+        fail(DELAM_ERROR_NUMERICAL, "the condensed stiffness of the process zone (", zone_->jump_rows().size(),
              " rows) is not positive definite");
-    std::vector<double> force(springs.force.empty() ? 0 : zone_rows_.size());
-    for (std::size_t z = 0; z < force.size(); ++z) force[z] = springs.force[index(zone_rows_[z])];
+    std::vector<double> force(springs.force.empty() ? 0 : zone_->jump_rows().size());
+    for (std::size_t z = 0; z < force.size(); ++z) force[z] = springs.force[index(zone_->jump_rows()[z])];
     const Zone::Solution solution = zone_->solve(theta, force);
     respond(springs, theta, &solution, response);
 }
@@ -386,9 +386,9 @@ void Condensed::respond(const Springs& springs, std::span<const double> theta, c
     response.force.assign(rows, 0.0);
     std::vector<double> offset(rows, 0.0), left = load;
     for (std::size_t z = 0; solution != nullptr && z < solution->multiplier.size(); ++z)
-        response.force[index(zone_rows_[z])] = solution->multiplier[z];
+        response.force[index(zone_->jump_rows()[z])] = solution->multiplier[z];
     for (std::size_t r = 0; r < rows; ++r) {
-        const Bulk::Row& row = bulk_->rows()[r];
+        const JumpRow& row = bulk_->rows()[r];
         if (!row.offset.empty()) offset[r] = dot(row.offset, theta);
         if (springs.held[r] == 0) {
             response.jump[r] = offset[r];

@@ -10,8 +10,8 @@
 #include <memory>
 
 #include "reduction/condensed/bulk.hpp"
-#include "reduction/condensed/zone.hpp"
 #include "reduction/jump_operator.hpp"
+#include "reduction/zone/zone.hpp"
 
 namespace delam {
 
@@ -37,11 +37,8 @@ public:
         if (!memory.empty()) parse(memory);
     }
 
-    // For minimisers that work within the zone: makes all rows in `rows` part of it, with the other unknowns at these
-    // springs. tight: a zone that is much larger than what is wanted is chosen anew.
-    Zone& zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight = false);
-    // Jump rows of the zone, in its order.
-    const std::vector<std::int64_t>& zone_rows() const { return zone_rows_; }
+    bool offers_zone() const override { return true; }
+    Zone* zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) override;
     // All rows, forces and energies from a zone solution under these springs; none: no unknown moves.
     void respond(const Springs& springs, std::span<const double> theta, const Zone::Solution* solution,
                  Response& response) const;
@@ -88,7 +85,7 @@ private:
     double spent_ = 0.0;                               // multiplications since the first step
     std::unique_ptr<Condensation> outer_, inner_;
     std::unique_ptr<Zone> zone_;
-    std::vector<std::int64_t> zone_unknowns_, zone_rows_;
+    std::vector<std::int64_t> zone_unknowns_;
     std::int64_t condensations_ = 0;
 };
 

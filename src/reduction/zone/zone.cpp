@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reduction/condensed/zone.hpp"
+#include "reduction/zone/zone.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,10 +19,15 @@ constexpr double unbalanced = 1e-8;  // largest part of a load that may be left 
 
 }  // namespace
 
-Zone::Zone(const DenseEnergy& energy, std::vector<Bulk::Row> rows, DenseMatrix rigid, Poll poll)
-    : energy_(&energy), rows_(std::move(rows)), rigid_(std::move(rigid)), poll_(std::move(poll)) {
+Zone::Zone(const DenseEnergy& energy, std::vector<JumpRow> rows, std::vector<std::int64_t> jump_rows, DenseMatrix rigid,
+           Poll poll)
+    : energy_(&energy),
+      rows_(std::move(rows)),
+      jump_rows_(std::move(jump_rows)),
+      rigid_(std::move(rigid)),
+      poll_(std::move(poll)) {
     std::vector<std::uint8_t> taken(index(energy.rows()), 0);
-    for (const Bulk::Row& row : rows_) {
+    for (const JumpRow& row : rows_) {
         const bool plain = row.offset.empty() && row.unknowns.size() == 1 && row.unknowns.front().second == 1.0 &&
                            taken[index(row.unknowns.front().first)] == 0;
         if (plain) taken[index(row.unknowns.front().first)] = 1;

@@ -15,17 +15,19 @@
 #include <span>
 #include <vector>
 
-#include "reduction/condensed/bulk.hpp"
-#include "reduction/condensed/dense_energy.hpp"
-#include "reduction/condensed/rigid_jumps.hpp"
+#include "base/monitor.hpp"
+#include "reduction/zone/dense_energy.hpp"
+#include "reduction/zone/jump_row.hpp"
+#include "reduction/zone/rigid_jumps.hpp"
 
 namespace delam {
 
 class Zone {
 public:
-    // rows: with unknowns counted within the zone. rigid: [unknowns][motions], orthonormal.
-    // poll: called within factor().
-    Zone(const DenseEnergy& energy, std::vector<Bulk::Row> rows, DenseMatrix rigid, Poll poll = {});
+    // rows: in unknowns of the zone; jump_rows: which jump row of the operator each of them is, ascending.
+    // rigid: [unknowns][motions], orthonormal. poll: called within factor(). `energy` must outlive the zone.
+    Zone(const DenseEnergy& energy, std::vector<JumpRow> rows, std::vector<std::int64_t> jump_rows, DenseMatrix rigid,
+         Poll poll = {});
 
     struct Coupling {
         std::int64_t row, column;  // of the zone; both (r, q) and (q, r) are given
@@ -43,7 +45,8 @@ public:
     // row_force: h, [rows] or empty.
     Solution solve(std::span<const double> theta, std::span<const double> row_force) const;
 
-    const std::vector<Bulk::Row>& rows() const { return rows_; }
+    const std::vector<JumpRow>& rows() const { return rows_; }
+    const std::vector<std::int64_t>& jump_rows() const { return jump_rows_; }
     const DenseEnergy& energy() const { return *energy_; }
     // j of all rows.
     std::vector<double> jumps(std::span<const double> theta, std::span<const double> unknowns) const;
@@ -61,7 +64,8 @@ private:
     std::vector<double> offsets(std::span<const double> theta) const;
 
     const DenseEnergy* energy_;
-    std::vector<Bulk::Row> rows_;
+    std::vector<JumpRow> rows_;
+    std::vector<std::int64_t> jump_rows_;
     std::vector<std::int64_t> plain_;
     bool with_offsets_ = false;
     DenseMatrix rigid_;       // Z

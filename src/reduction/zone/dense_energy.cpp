@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reduction/condensed/dense_energy.hpp"
+#include "reduction/zone/dense_energy.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reduction/condensed/rigid_jumps.hpp"
+#include "reduction/zone/rigid_jumps.hpp"
 
 #include <algorithm>
 #include <array>
