@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A bar bonded to a rigid base, pulled at its free end: one thin row of elements that can only stretch (no lateral
-// motion, no lateral contraction) on a base whose nodes are all held. The bond is a Griffith law: no damage before the
-// toughness, none after.
+// A bar bonded to a rigid base and pulled at its free end: one thin row of elements that can only stretch (no lateral
+// motion, no lateral contraction) on a base with all nodes fixed. The bond has a Griffith law: no damage before the
+// toughness is reached, complete damage after.
 //
-// With membrane stiffness Et per unit width, tangential stiffness k of the bond and the length lam = sqrt(Et/k) over
-// which it takes the load up, a bar free over a and bonded beyond (far end many lam away) has, for the end displacement
-// w,
-//     F = Et w / (a + lam),    G = F^2 / (2 Et),
-// so the plateau is F = sqrt(2 G Et) and the front a = w sqrt(Et/(2G)) - lam; a rigid bond is lam = 0 (model.md,
-// section 6).
+// Et is the membrane stiffness per unit width, k the tangential stiffness of the bond, and lam = sqrt(Et/k) the length
+// over which the bond takes up the load. A bar that is free over a and bonded beyond (with its far end many lam away)
+// has, for the end displacement w,
+//         F = Et w / (a + lam),    G = F^2 / (2 Et),
+// so the plateau is F = sqrt(2 G Et) and the front a = w sqrt(Et/(2G)) - lam; for a rigid bond lam = 0.
 #pragma once
 
 #include <cmath>
@@ -37,8 +36,8 @@ struct Bar {
 };
 
 inline reference::Scene make_bar(const Bar& bar) {
-    // A hundred times thinner than a cell is long: its upper nodes follow the lower ones, shear takes a 1e-4 part of
-    // the energy.
+    // A hundred times thinner than a cell is long: the upper nodes follow the lower ones, and shear takes 1e-4 of the
+    // energy.
     const double thickness = 0.01 * bar.h();
     reference::Scene scene(2, {bar.length}, {bar.cells}, {thickness, thickness}, {1, 1}, DELAM_QUAD4);
     scene.interface(0, 1);

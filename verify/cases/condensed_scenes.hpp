@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small scenes in all shapes for the reductions: blocks that meet along lines and in points, means, inclined and
-// redundant supports, prescribed jumps, new elements. Loads go from -1 to 1 with time.
+// Small scenes of all shapes for the reductions: blocks that meet in lines and points, means, inclined and redundant
+// supports, prescribed jumps, new elements. Loads go from -1 to 1 with time.
 #pragma once
 
 #include <array>
@@ -99,7 +99,7 @@ inline std::int64_t to_and_fro(Scene& scene, const char* name, double size) {
     return scene.pattern(name, {-1.0, 0.0, 1.0}, {-size, 0.0, size});
 }
 
-// Two or more plies, held at the left end, their right end moved along and across: opens, slides and presses.
+// Two or more plies, held at the left end; the right end is moved along and across: opens, slides and presses.
 inline Scene make_plies(int d, int count, std::int32_t cell, const char* formulation, const LawData& law,
                         int along = 12, int through = 1) {
     constexpr double length = 0.04, width = 0.01, ply = 0.003;
@@ -152,7 +152,7 @@ inline void clamp_and_pull(Scene& scene, const std::function<bool(const double*)
 
 constexpr double edge = 0.01;
 
-// A wide block below, two above that meet on it: three interfaces with a common point (2D) or line (3D).
+// A wide block below and two on top of it that touch: three interfaces with a common point (2D) or line (3D).
 inline Scene make_tee(int d, bool slanted, int bonded) {
     const int n = d == 2 ? 4 : 2;
     Scene scene = make_blocks(d,
@@ -177,7 +177,7 @@ inline Scene make_tee(int d, bool slanted, int bonded) {
     return scene;
 }
 
-// Four blocks around a point or line. bonded: bits of interfaces.
+// Four blocks around a point or line. bonded: bit mask of interfaces.
 inline Scene make_cross(int d, bool slanted, unsigned bonded, int loose = 0) {
     const int n = d == 2 ? 4 : 2;
     std::vector<Block> blocks;
@@ -199,7 +199,7 @@ inline Scene make_cross(int d, bool slanted, unsigned bonded, int loose = 0) {
     return scene;
 }
 
-// Two plies from blocks, so that coordinates may be turned: the ground of the constraint scenes.
+// Two plies made of blocks, so that coordinates may be rotated: the base of the constraint scenes.
 inline Scene two_plies(int d, const Map& map, int along = 10) {
     Scene scene = make_blocks(d,
                               {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {along, 1, 2}},
@@ -212,7 +212,7 @@ inline Scene two_plies(int d, const Map& map, int along = 10) {
     return scene;
 }
 
-// Means over patches and, beside them, some of their nodes one by one.
+// Means over patches, and in addition some of their nodes one by one.
 inline Scene make_means(int d) {
     Scene scene = two_plies(d, nullptr);
     const auto left = nodes_where(scene, -1, [](const double* x) { return x[0] < 0.006; });
@@ -230,7 +230,7 @@ inline Scene make_means(int d) {
     return scene;
 }
 
-// Single nodes held along slanted directions, on faces of pairs too.
+// Single nodes fixed along oblique directions, on faces of pairs too.
 inline Scene make_slanted_supports(int d) {
     Scene scene = two_plies(d, nullptr);
     const auto left = nodes_where(scene, 0, [](const double* x) { return x[0] < 1e-6; });
@@ -279,7 +279,7 @@ inline Scene make_opened(int d, double turn) {
     return scene;
 }
 
-// Lower nodes of two pairs held, their upper nodes moved by their mean: one row binds two jumps, another four.
+// The lower nodes of two pairs are fixed, their upper nodes moved by their mean: one row binds two jumps, another four.
 inline Scene make_bound_jumps(int d) {
     Scene scene = two_plies(d, nullptr);
     const auto pairs = scene.pairs(0);
@@ -299,7 +299,7 @@ inline Scene make_bound_jumps(int d) {
     return scene;
 }
 
-// The same on a slanted face by single nodes: the lower ones are held, the upper ones lifted, but left free across.
+// The same on an inclined face by single nodes: the lower ones are fixed, the upper ones lifted but free across.
 inline Scene make_bound_slip(int d) {
     Scene scene = two_plies(d, inclined());
     const auto pairs = scene.pairs(0);
@@ -311,7 +311,7 @@ inline Scene make_bound_slip(int d) {
     return scene;
 }
 
-// Bonded for ever, and both nodes of some pairs held: supports that follow from each other through the bond.
+// Permanently bonded, with both nodes of some pairs fixed: supports that follow from each other through the bond.
 inline Scene make_redundant(int d) {
     Scene scene = make_blocks(d,
                               {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {10, 1, 2}},
@@ -360,7 +360,7 @@ inline std::vector<double> components(int d, const std::vector<std::pair<int, do
     return c;
 }
 
-// Two plies and nodes without cells, 0, 1, ..., that are there to be referred to.
+// Two plies and nodes without cells, 0, 1, ..., for use in constraints.
 inline Scene plies_with_controls(int d, int controls, const Map& map = nullptr) {
     Scene scene = make_blocks(
         d, {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {10, 1, 2}}, {{0.0, 0.003, 0.0}, {0.04, 0.006, 0.01}, {10, 1, 2}}},
@@ -380,7 +380,7 @@ inline void clamp_left(Scene& scene) {
         scene.hold(body_nodes_where(scene, [](const double* x) { return x[0] < 1e-6; }), unit(scene.dimension(), k));
 }
 
-// A rigid nose on the upper face: its nodes share the height of control node 0, which is moved, or loaded by a dead
+// A rigid nose on the upper face: its nodes share the height of control node 0, which is moved or loaded by a dead
 // force.
 inline Scene make_nose(int d, bool dead) {
     Scene scene = plies_with_controls(d, 1);
@@ -396,8 +396,8 @@ inline Scene make_nose(int d, bool dead) {
     return scene;
 }
 
-// A lever: the mean heights of two patches, weighted, are moved together (one long equation), control node 0 measures
-// one of them.
+// A lever: the weighted mean heights of two patches are moved together (one long equation); control node 0 measures one
+// of them.
 inline Scene make_lever(int d) {
     Scene scene = plies_with_controls(d, 1);
     clamp_left(scene);
@@ -420,8 +420,8 @@ inline Scene make_lever(int d) {
     return scene;
 }
 
-// The right end of both plies is rigid: it moves with control node 0 and turns by control node 1 (x: the angle times an
-// arm), so that the jumps there follow from each other. 0 is moved across, the turn is free.
+// The right end of both plies is rigid: it moves with control node 0 and rotates with control node 1 (x: the angle
+// times an arm), so that the jumps there depend on each other. 0 is moved across, the rotation is free.
 inline Scene make_rigid_end(int d, const Map& map) {
     Scene scene = plies_with_controls(d, 2, map);
     const auto left = [&](const double* x) {
@@ -458,8 +458,8 @@ inline Scene make_chains(int d) {
     return scene;
 }
 
-// A periodic cell of plies, its interface cut by two faces; strain along is prescribed, the shear free, the rest driven
-// by dead forces.
+// A periodic cell of plies whose interface is cut by two faces; the strain along the plies is prescribed, the shear is
+// free, and dead forces drive the rest.
 inline Scene make_periodic_plies(int d, bool dead) {
     Scene scene = plies_with_controls(d, d - 1);
     std::vector<double> periods(static_cast<std::size_t>((d - 1) * d), 0.0);
@@ -472,7 +472,7 @@ inline Scene make_periodic_plies(int d, bool dead) {
     scene.periodic(periods, controls);
     const auto inside = [d](const double* x) {
         return d == 2 || x[2] < 0.009;
-    };  // what lies opposite would be prescribed twice
+    };  // otherwise the opposite side would be prescribed twice
     const auto bottom = body_nodes_where(
         scene, [&](const double* x) { return x[1] < 1e-6 && x[0] > 0.015 && x[0] < 0.033 && inside(x); });
     for (int k = 0; k < d; ++k) scene.hold(bottom, unit(d, k));
@@ -490,7 +490,7 @@ inline Scene make_periodic_plies(int d, bool dead) {
     return scene;
 }
 
-// A joint without glue beside one with it.
+// An interface without adhesion beside one with it.
 inline Scene make_unglued(int d) {
     Scene scene = make_blocks(d, {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {10, 1, 2}},
                                   {{0.0, 0.003, 0.0}, {0.04, 0.006, 0.01}, {10, 1, 2}},
@@ -511,8 +511,9 @@ inline Scene make_unglued(int d) {
     return scene;
 }
 
-// Plies whose faces do not match: b's nodes are paired with projections on a. Periodic along x where asked for, so that
-// equations act on nodes that others hang on. The middle ply is finer than its neighbours, so it is b once and a once.
+// Plies whose faces do not match: b's nodes are paired with projections on a. Periodic along x if requested, so that
+// equations act on nodes to which others are tied. The middle ply is finer than its neighbours, so it is b once and a
+// once.
 inline Scene make_unmatched(int d, bool periodic) {
     Scene scene = make_blocks(d,
                               {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {7, 1, 2}},
@@ -546,7 +547,7 @@ inline Scene make_unmatched(int d, bool periodic) {
     return scene;
 }
 
-// Two glued plies between obstacles: below one that is at rest, above one that a pattern moves, or a dead force.
+// Two bonded plies between obstacles: one below that is at rest, one above that a pattern or a dead force moves.
 inline Scene make_obstacles(int d, bool dead) {
     Scene scene = make_blocks(
         d, {{{0.0, 0.0, 0.0}, {0.04, 0.003, 0.01}, {10, 1, 2}}, {{0.0, 0.003, 0.0}, {0.04, 0.006, 0.01}, {10, 1, 2}}},

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small scenes with several fronts, none, or floating parts, for energetic marches; and the lowest energy among given
-// sets of broken pairs, from displacement solves alone.
+// Small scenes with several fronts, with none, or with floating parts, for energetic analyses; and the lowest energy
+// among given sets of broken pairs, from displacement solves alone.
 //
-// All laws here dissipate G w zeta when a pair of weight w and adhesion zeta is broken (onset = toughness, the same in
+// All laws here dissipate G w zeta when a pair of weight w and adhesion zeta breaks (onset = toughness, the same in
 // both modes, exponents 1). Loads are proportional and contact has no friction, so E(t, z) = t^2 E(1, z).
 #pragma once
 
@@ -37,7 +37,7 @@ inline void notch(reference::Scene& scene, std::int64_t interface, double low, d
     scene.adhesion(interface, pairs, std::vector<double>(pairs.size(), 0.0));
 }
 
-// Layers of 3 mm over 120 mm in squares of h, a simply supported beam pressed at mid-span down to `press`.
+// Layers of 3 mm over 120 mm in squares of h: a simply supported beam pressed at mid-span down to `press`.
 struct Beam {
     double h = 1.5e-3;
     int layers = 2;
@@ -77,8 +77,8 @@ inline reference::Scene make_beam(const Beam& b) {
     return scene;
 }
 
-// A slim block without lateral contraction, `cells` wide, on a stiff one that is held: a spring of K per area in series
-// with the interface. held: laterally; else the block floats once it is free.
+// A slim block without lateral contraction, `cells` wide, on a stiff fixed one: a spring of K per area in series with
+// the interface. held: laterally; otherwise the block floats once it has separated.
 struct Block {
     std::int64_t cells = 12;
     double spring = 1e10, stiffness = 1e12;  // N/m3
@@ -124,7 +124,7 @@ inline std::vector<double> all_weights(const reference::Scene& scene) {
     return w;
 }
 
-// States in which each run of pairs is broken from its first pair up to any place, in all combinations.
+// States in which each run of pairs is broken from its first pair up to any position, in all combinations.
 class Rivals {
 public:
     using Run = std::vector<std::size_t>;  // pairs of all interfaces, one after another
@@ -147,7 +147,7 @@ public:
         }
     }
     std::size_t count() const { return list_.size(); }
-    // Least E(t, z) + D(before, z) over those that can be reached from `before`.
+    // Least E(t, z) + D(before, z) over the states that can be reached from `before`.
     double least(double time, const std::vector<double>& before) const {
         double best = INFINITY;
         for (const Rival& r : list_) {
@@ -182,8 +182,8 @@ inline Rivals::Run run(const reference::Scene& scene, std::int64_t interface, do
     return r;
 }
 
-// A march in which no step may lie above the rivals that its start could reach, nor below its search's own candidates.
-// Returns the dissipated energy of every step.
+// An analysis in which no step may have more energy than the rivals reachable from its start, or than the candidates of
+// its search. Returns the dissipated energy of every step.
 inline std::vector<double> march_below(const reference::Scene& scene, const Rivals& rivals, int steps,
                                        double tolerance = 1e-8) {
     reference::Solver solver(scene, 0.0);
@@ -192,7 +192,7 @@ inline std::vector<double> march_below(const reference::Scene& scene, const Riva
         const double time = static_cast<double>(k) / steps;
         const std::string where = "step " + std::to_string(k) + ": ";
         solver.step(time);
-        // The step's own start, after what it has replaced.
+        // The step's own start, after the steps that it replaced.
         scene.require(delam_solver_look(solver.get(), k - 1), "delam_solver_look");
         const std::vector<double> before = solver.field("adhesion");
         const double spent = solver.value("dissipated");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The end-notched flexure test of the slides: two arms of 120 mm x 3 mm, notch of 30 mm at the left, plane strain, held
-// at the bottom corners, pressed down at the top of mid-span by 3 mm per unit time.
+// The end-notched flexure test of Zeman, Kruzik, Gruber (PANM 15, 2010), "Examples": two arms of 120 mm x 3 mm, notch
+// of 30 mm at the left, plane strain, supported at the bottom corners, pressed down at the top of mid-span by 3 mm per
+// unit time.
 #pragma once
 
 #include <cmath>
@@ -68,7 +69,7 @@ inline reference::Scene make_enf(const Enf& e) {
 
 inline double enf_time(int step, int steps) { return enf_end_time * step / steps; }
 
-// Adhesion of every step of one march, step 0 included.
+// Adhesion of every step of one analysis, step 0 included.
 inline std::vector<std::vector<double>> enf_march(const Enf& e, int steps) {
     const auto scene = make_enf(e);
     reference::Solver solver(scene, 0.0);

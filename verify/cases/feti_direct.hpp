@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FETI against the direct reference on the states of one ductile ENF march: one displacement step per load step at the
-// exported adhesion.
+// FETI against the direct reference on the states of one ductile ENF analysis: one displacement step per load step at
+// the exported adhesion.
 #pragma once
 
 #include <algorithm>
@@ -47,10 +47,10 @@ struct FetiChoice {
     std::string text() const { return std::to_string(subdomains) + " subdomains, " + preconditioner + ", " + gluing; }
 };
 
-// `each` sees every state: its index, the comparison, the status and the Krylov iterations. The contact set of one
-// state is the first guess of the next, as in a march. The preconditioners that are not made for compliant interfaces
-// may stall just above the linear tolerance and say so (DELAM_NOT_CONVERGED); what counts here is how far the state
-// they end with is from the reference's.
+// Calls `each` for every state: its index, the comparison, the status and the Krylov iterations. The contact set of one
+// state is the first guess of the next, as in an analysis. Preconditioners that are not made for compliant interfaces
+// may stall just above the linear tolerance and report it (DELAM_NOT_CONVERGED); the test compares the state in which
+// they end with the reference's.
 template <class Each>
 void solve_all(const DirectStates& states, const FetiChoice& choice, Each&& each, double* worst_kkt = nullptr) {
     Enf e;

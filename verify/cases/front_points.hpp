@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The crack fronts of an interface as the public API hands them over.
+// The crack fronts of an interface as returned by the public API.
 #pragma once
 
 #include <array>

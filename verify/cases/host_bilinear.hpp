@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bilinear law as a host would write its own, for delam_law_create_host; shares nothing with the library.
+// The bilinear law as a host would write it for delam_law_create_host; shares no code with the library.
 #pragma once
 
 #include <algorithm>

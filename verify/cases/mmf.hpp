@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The mixed-mode flexure test (single-leg bending): the two arms of the ENF, but the notched end is held at the upper
-// arm's interface corner and the
-// lower arm is free there. Beam theory: G_I/G_II = 4/3, so B = 3/7.
+// The mixed-mode flexure test (single-leg bending): the two arms of the ENF, but the notched end is supported at the
+// upper arm's interface corner, and the lower arm is free there. Beam theory: G_I/G_II = 4/3, so B = 3/7.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +40,7 @@ inline reference::Scene make_mmf(double h, const reference::LawData& law, const 
     return scene;
 }
 
-// Lines of warning that a march has caused.
+// Warnings that an analysis has logged.
 class Warnings {
 public:
     explicit Warnings(const reference::Scene& scene) : scene_(scene) {
@@ -63,7 +62,7 @@ struct MmfMarch {
     double dissipated, front, defect, defect_slides;  // at the end
     double worst_error = 0.0;                         // of the mixity, in a step
     double solves = 0.0;
-    int below = 0, above = 0, unfinished = 0;  // steps beyond their bounds, or not converged
+    int below = 0, above = 0, unfinished = 0;  // steps outside their bounds, or not converged
     std::vector<std::string> warnings;         // of the mode mixity
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bits of a march: every value and every field, for tests that ask for the same digits.
+// All values and fields of an analysis, bit by bit, for tests that require the same digits.
 #pragma once
 
 #include <cstring>
@@ -19,7 +19,8 @@ inline constexpr const char* all_fields[] = {"displacement", "stress", "jump",  
 
 inline Bits read_bits(const reference::Solver& solver) {
     Bits bits{solver.values(), {}};
-    for (std::size_t i = 0; i < bits.values.size(); ++i) {  // counts over the solver's life do not belong to its state
+    // Counts over the solver's lifetime are not part of its state.
+    for (std::size_t i = 0; i < bits.values.size(); ++i) {
         const std::string name = delam_solver_value_name(solver.get(), static_cast<std::int64_t>(i));
         if (name == "bulk_factorisations" || name == "field_recoveries") bits.values[i] = 0.0;
     }

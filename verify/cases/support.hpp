@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Check with C++ bodies: an exception is a failed test, thrown past every destructor before Check jumps away.
+// Check with C++ test bodies: an exception fails the test, and unwinds all destructors before Check jumps out.
 #pragma once
 
 #include <check.h>
@@ -42,7 +42,7 @@ inline void run_body(void (*body)(int), int loop) {
     } catch (const std::exception& e) {
         failure = e.what();
     }
-    // The copy lives outside every destructor: Check leaves by longjmp or by ending the forked process.
+    // The copy lives outside every destructor, because Check leaves by longjmp or by ending the forked process.
     static char text[1200];
     std::snprintf(text, sizeof text, "%s", failure.c_str());
     failure = std::string();

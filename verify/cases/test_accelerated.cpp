@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Accelerated against plain alternate minimisation. Where the incremental problem has one critical point the marches
+// Accelerated against plain alternate minimisation. Where the incremental problem has one critical point the analyses
 // agree; where it has many, each end state is shown to be one (watched_march.hpp) and the energies are printed.
 #include <array>
 #include <cstdio>
@@ -76,8 +76,8 @@ struct Peel {
     bool unique;
 };
 
-// Plies of 40 mm x 2 mm with a notch of 10 mm in each interface, held at the right end. Bottom and top edge of the left
-// end are pulled apart and drawn along.
+// Plies of 40 mm x 2 mm with a notch of 10 mm in each interface, held at the right end. The bottom and top edges of the
+// left end are pulled apart and sideways.
 Scene peel(const Peel& p, const char* reduction, const char* minimisation, double delta, double limit = 100000) {
     constexpr double length = 0.04, width = 0.006, ply = 0.002;
     const int d = p.dimension;
@@ -159,7 +159,7 @@ CASE_TEST(peeling) {
     const Watched fast = march("condensed", "accelerated");
     if (p.unique) cases::expect_same_march(fast, plain, 1e-4, p.name);
     cases::expect(fast.steps.back().dissipated > 0.0, std::string(p.name) + ": nothing was damaged");
-    if (p.dimension == 3 && !p.unique) return;  // the Krylov solves of long alternations take their time
+    if (p.dimension == 3 && !p.unique) return;  // the Krylov solves of long alternations take long
     const Watched feti = march("feti", "accelerated");
     if (p.unique) cases::expect_same_march(feti, plain, 1e-4, std::string(p.name) + ", feti");
 }
@@ -175,7 +175,7 @@ CASE_TEST(brittle_enf) {
     cases::expect(fast.steps.back().dissipated > 0.0, where + ": nothing was damaged");
 }
 
-// From the same states the two ways end in critical points; their energies are printed, and neither is above the
+// From the same states both methods end in critical points; their energies are printed, and neither exceeds that of the
 // elastic answer.
 CASE_TEST(brittle_steps_from_the_same_states) {
     const Scene fast = enf(1e-3, brittle, "condensed", "accelerated", 1e-5);
@@ -221,8 +221,8 @@ CASE_TEST(counts_of_the_ductile_march) {
 
 // ---- where plain steps end -----------------------------------------------------------------------------------------
 
-// Six elements along, toughness a thousand times the onset: a pair comes to its onset just when the others have
-// settled. The state that is handed out must itself be a fixed point, not the one before it.
+// Six elements along, toughness a thousand times the onset: a pair reaches its onset just when the others have settled.
+// The returned state must itself be a fixed point, not the one before it.
 CASE_TEST(end_of_plain_alternation) {
     const double k = loop == 0 ? 1e16 : 1e13;
     LawData law{k, k, 5e9 / k, 5e9 / k, 5e12 / k, 5e12 / k};
@@ -239,7 +239,7 @@ CASE_TEST(end_of_plain_alternation) {
 }
 
 // Near a growing mode plain steps get longer; extrapolated, they point backwards, and what they heal or break is worth
-// less energy than the rounding of the whole. FETI, extrapolated, must come to an end all the same.
+// less energy than the rounding of the total. FETI with extrapolation must terminate all the same.
 CASE_TEST(growing_modes_end) {
     const LawData laws[] = {{5734538321725559.0, 13778830381103614.0, 4.8624263356114658e-07, 7.3025404161363605e-07,
                              1.5554332683917959e-06, 2.4971317961320756e-06, 2.4369361701978729},
@@ -283,7 +283,7 @@ CASE_TEST(few_alternations) {
                         where + ": increment");
     for (const double zeta : solver.field("adhesion")) cases::expect(zeta >= 0.0 && zeta <= 1.0, where + ": adhesion");
     solver.commit();
-    // The march goes on from it.
+    // The analysis continues from it.
     const std::int32_t next = solver.advance(1.1);
     cases::expect(next == DELAM_OK || next == DELAM_NOT_CONVERGED, where + ", next step: " + delam_status_name(next));
     cases::expect_below(reference::accept(solver, exported).worst(), 1e-10, where + ", next step");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Volume averages, rotations, predicted process zones, and the warnings that go with them.
+// Volume averages, rotations, predicted process zones, and the related warnings.
 #include <array>
 #include <cmath>
 
@@ -57,8 +57,8 @@ std::int64_t scene_pattern(const reference::Scene& scene, const char* name) {
 
 }  // namespace
 
-// Affine displacements: averages and rotations are those of the gradient, stresses those of Hooke's law, in every body
-// and in all.
+// Affine displacements: averages and rotations are those of the gradient, stresses those of Hooke's law, in each body
+// and in all together.
 CASE_TEST(affine_averages) {
     struct {
         int dimension;
@@ -111,8 +111,8 @@ CASE_TEST(affine_averages) {
                 "rotation_max");
 }
 
-// A prescribed strain in a body that is held: the strain stays that of the displacements, the stress lacks C e*; out of
-// the plane likewise.
+// A prescribed strain in a fixed body: the strain stays that of the displacements, the stress lacks C e*; the same out
+// of the plane.
 CASE_TEST(eigenstrains) {
     const bool stress = loop == 1;
     const int dim = loop == 2 ? 3 : 2;
@@ -139,7 +139,7 @@ CASE_TEST(eigenstrains) {
     }
 }
 
-// Said once: a rotation of more than 0.1, and only when somebody asks; a front that grows on too few pairs.
+// Warns once: of a rotation of more than 0.1, and only when it is read; of a front that grows over too few pairs.
 CASE_TEST(warnings) {
     const bool brittle = loop == 0;
     const reference::Scene scene = make_mmf(1e-3, brittle ? mmf_brittle : mmf_ductile, "converged");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Returns on the two-sided estimate: what they achieve, that the history they leave is one history, and that it can be
-// rolled back, saved and cut like any other.
+// Returns to earlier steps by the two-sided estimate: what they achieve, that the resulting history is consistent, and
+// that it can be rolled back, saved and cut like any other.
 #include "energetic_scenes.hpp"
 #include "flexure.hpp"
 #include "mmf.hpp"
@@ -30,7 +30,7 @@ void look(const Solver& solver, int step) {
     solver.scene().require(delam_solver_look(solver.get(), step), "delam_solver_look");
 }
 
-// What is said of a step, as a host reads it.
+// The values of a step, as a host reads them.
 struct Row {
     double energy, dissipated, work, lower, increment, increment_lower, upper;
     std::vector<double> adhesion;
@@ -58,7 +58,7 @@ int first_break(const std::vector<Row>& rows, double least = 1e-3) {
     while (k < static_cast<int>(rows.size()) && rows[static_cast<std::size_t>(k)].dissipated < least) ++k;
     return k;
 }
-// variational: the increment is that of the slides' split.
+// variational: the increment is that of the ledger of PANM 15 (2010).
 void expect_one_history(const std::vector<Row>& rows, const std::string& where, bool variational = false) {
     for (std::size_t k = 1; k < rows.size(); ++k) {
         const Row &a = rows[k - 1], &b = rows[k];
@@ -72,7 +72,7 @@ void expect_one_history(const std::vector<Row>& rows, const std::string& where, 
             cases::expect(b.adhesion[p] <= a.adhesion[p], step + "adhesion grows");
     }
 }
-// Walks to `steps`; every pending history is one history too. Returns the returns.
+// Runs to `steps` and checks every pending history for consistency. Returns the number of returns.
 double walk(Solver& solver, int first, int last, int steps, bool check = false) {
     double returns = 0.0;
     for (int k = first; k <= last; ++k) {
@@ -116,7 +116,8 @@ CASE_TEST(no_bound_is_missed_afterwards) {
     cases::expect(first_break(rows) < first_break(plain), "the jump is earlier than the local one");
 }
 
-// Each kept step alone: displacements at its adhesion have its energy; the cost of its adhesion is what was spent.
+// Each kept step alone: displacements at its adhesion have its energy; the energy of its adhesion is what was
+// dissipated.
 CASE_TEST(replaced_steps_hold_on_their_own) {
     const int steps = 40;
     const FlexureScene on = make(brittle(), "on");
@@ -143,11 +144,11 @@ CASE_TEST(replaced_steps_hold_on_their_own) {
     }
 }
 
-// ---- rolled back, saved, looked at --------------------------------------------------------------------------------
+// ---- rolled back, saved, read again -------------------------------------------------------------------------------
 
 const char* concept_of(int loop) { return loop == 0 ? "local" : "energetic"; }
 
-// The step of a march that makes the first return; 0: none.
+// The step of an analysis that makes the first return; 0: none.
 int first_return(const FlexureScene& f, int steps) {
     Solver solver(f.scene, 0.0);
     for (int k = 1; k <= steps; ++k) {
@@ -178,7 +179,7 @@ CASE_TEST(rollback_of_a_return) {
         look(solver, j);
         cases::expect(solver.value("revisions") == 0.0, "no step has been replaced");
     }
-    // A farther step, refused too, must leave no trace.
+    // A further step, rolled back too, must leave no trace.
     solver.step(time_of(k + 3, steps));
     solver.rollback();
     solver.step(time_of(k, steps));
@@ -242,7 +243,7 @@ CASE_TEST(limits_and_depth) {
     expect_one_history(history(c, steps), "limit 1");
 }
 
-// A state that the host sets is no step: a later return must not undo it.
+// A state set by the host is no step: a later return must not undo it.
 CASE_TEST(a_set_state_is_kept) {
     const int steps = 40;
     FlexureScene f = make(brittle(2.0), "on");
@@ -251,7 +252,7 @@ CASE_TEST(a_set_state_is_kept) {
     walk(solver, 1, k - 1, steps);
     auto adhesion = solver.field("adhesion");
     for (std::size_t p = 0; p < adhesion.size(); ++p)
-        if (f.position[p] > 0.110) adhesion[p] = 0.0;  // a crack that no march makes
+        if (f.position[p] > 0.110) adhesion[p] = 0.0;  // a crack that no analysis makes
     solver.equilibrate(time_of(k - 1, steps), adhesion);
     solver.commit();
     solver.step(time_of(k, steps));
@@ -260,7 +261,7 @@ CASE_TEST(a_set_state_is_kept) {
         cases::expect(now[p] <= adhesion[p], "what was set broken is whole again at pair " + std::to_string(p));
 }
 
-// Laws that soften, marches that return many times, every rule: the loops end.
+// Laws that soften, analyses that return many times, every rule: the loops terminate.
 CASE_TEST(returns_end) {
     const char* rules[] = {"frozen", "converged", "variational"};
     reference::Scene scene = cases::make_mmf(1.5e-3, cases::mmf_ductile, rules[loop % 3]);

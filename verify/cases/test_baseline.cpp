@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The baseline of the benchmarks is an independent second writing of the plain march: ductile ENF, h = 1 mm, 10 steps,
-// same reactions, energies and numbers of alternations as the library. Only then are ratios of times fair.
+// The baseline of the benchmarks is an independent implementation of plain alternate minimisation: for the ductile ENF,
+// h = 1 mm, 10 steps, it must give the same reactions, energies and numbers of alternations as the library. Only then
+// are ratios of times fair.
 #include "baseline.hpp"
 #include "enf.hpp"
 #include "scenes.hpp"
@@ -16,7 +17,7 @@ bench::SceneData coarse() {
     return data;
 }
 
-// The library as it is when asked for plain alternate minimisation; older ones know nothing else.
+// The library with plain alternate minimisation; older versions have nothing else.
 void declare_plain(bench::Stage& stage) {
     if (!bench::declare(stage, {nullptr, "alternate", 1e-5})) bench::declare(stage, {});
 }
@@ -69,14 +70,14 @@ CASE_TEST(same_march_in_3d) {
     compare(data, 1e-8, false);
 }
 
-// The scene that is timed is the scene that is tested elsewhere.
+// The timed scene is the scene tested elsewhere.
 CASE_TEST(same_scene) {
     cases::Enf e;
     e.h = 1e-3;
     const auto known = cases::make_enf(e);
     auto stage = bench::make_mesh(bench::find_scene("enf-ductile-1"));
     bench::declare(stage, {});
-    // What differs are options that do not belong to the mechanics: given alike, the hashes agree.
+    // The scenes differ in options that do not affect the mechanics; with equal options the hashes agree.
     for (const reference::Scene* scene : {&known, static_cast<const reference::Scene*>(&stage.scene)}) {
         const auto number = [&](const char* key, double value) {
             scene->require(delam_problem_set_number(scene->problem(), key, value), key);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From inside a callback nothing can be done to the island that is at work: calls are refused, what is destroyed lives
-// to the end of the call, and the call itself ends with the digits that it would have had. Another island may be used
+// From inside a callback nothing can be done to the running context: calls are refused, destroyed objects live until
+// the end of the call, and the call itself ends with the digits that it would have had. Another context may be used
 // there.
 #include <functional>
 #include <string>
@@ -14,7 +14,7 @@ namespace {
 using reference::Scene;
 using reference::Solver;
 
-// Acts once, at the third look.
+// Acts once, at the third poll.
 struct Watch {
     std::function<void()> act;
     int looks = 0;
@@ -28,7 +28,7 @@ struct Watch {
     }
 };
 
-// What a callback may think of; every one of them is refused.
+// Calls that a callback may try; each of them is refused.
 void try_everything(const Scene& scene, delam_solver* solver) {
     int asked = 0;
     const auto refused = [&](std::int32_t status, const char* call) {
@@ -72,7 +72,7 @@ CASE_TEST(in_progress) {
     cases::expect(watched.save() == plain.save(), "snapshots differ");
 }
 
-// The log hears errors, and is not told of those that it makes itself.
+// The log receives errors, but not those that it causes itself.
 struct Log {
     const Scene* scene = nullptr;
     int lines = 0;
@@ -99,7 +99,7 @@ CASE_TEST(in_the_log) {
     scene.number("damage_tolerance", 1e-7);
 }
 
-// A law of the host's own that asks the solver it works for.
+// A host law that calls the solver for which it works.
 struct Asking {
     laws::Bilinear law;
     delam_solver* solver = nullptr;
@@ -136,7 +136,7 @@ CASE_TEST(in_a_law) {
                   std::to_string(asking.refused) + " refused, " + std::to_string(asking.other) + " not");
 }
 
-// A law of another context, which is not at work, ended by its own callback while a problem takes it.
+// A law of another context, which is not running, destroyed by its own callback while a problem copies it.
 struct Ending {
     laws::Bilinear law;
     delam_law* handle = nullptr;
@@ -166,7 +166,7 @@ CASE_TEST(law_that_ends_itself) {
     cases::walk(solver, 1, 2);
 }
 
-// Whatever is destroyed in the midst of a step lives until it has ended.
+// Objects destroyed in the middle of a step live until the step has ended.
 CASE_TEST(destroyed_at_work) {
     (void)loop;
     for (const bool energetic : {false, true}) {

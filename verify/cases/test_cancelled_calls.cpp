@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every call that goes over all cells, nodes or faces looks up to the host every few hundred of them, so that what a
-// cancel waits for does not grow with the mesh; one that is stopped leaves everything as it was. Looks are counted, no
-// clock is read.
+// Every call that goes over all cells, nodes or faces polls for cancellation every few hundred of them, so that the
+// time until a cancel takes effect does not grow with the mesh; a cancelled call leaves everything unchanged. The test
+// counts polls and reads no clock.
 #include <functional>
 #include <vector>
 
@@ -114,13 +114,13 @@ public:
         expect(status == DELAM_OK,
                std::string(name) + ": " + delam_status_name(status) + ": " + delam_context_message(h.context));
     }
-    // Stopped at some looks, first by first, the call changes nothing; in the end it goes through, with a look for
-    // every 256 of `passes`.
+    // Cancelled at some polls, the first ones one by one, the call changes nothing; at last it succeeds, with a poll
+    // for every 256 of `passes`.
     void call(const char* name, std::int64_t passes, const std::function<std::string()>& print,
               const std::function<std::int32_t()>& call) {
         stopped(name, passes, print, call, false);
     }
-    // The same of a call that reads: what the callback returns is not heeded.
+    // The same for a call that only reads: it ignores the callback's result.
     void read(const char* name, std::int64_t passes, const std::function<std::string()>& print,
               const std::function<std::int32_t()>& call) {
         watch_.by_request = false;
@@ -131,7 +131,7 @@ public:
         if (again) again();
         stopped(name, passes, print, call, true);
     }
-    // Makes an object forget what it has worked out for a call.
+    // Makes an object discard what it has computed for a call.
     std::function<void()> again;
     void stopped(const char* name, std::int64_t passes, const std::function<std::string()>& print,
                  const std::function<std::int32_t()>& call, bool reads) {
@@ -165,7 +165,7 @@ private:
 
 std::string nothing() { return ""; }
 
-// A block of two layers, as the host gives it: its nodes, and one without cells behind them.
+// A block of two layers as the host provides it: its nodes, and one without cells after them.
 struct Block {
     std::int32_t type = 0, dimension = 0;
     std::int64_t node_count = 0, cells = 0;
@@ -225,7 +225,7 @@ void build_meshes(Host& host, const Block& b) {
     std::vector<double> normals(bottom.size() * at(b.dimension), 0.0);
     for (std::size_t i = at(b.dimension) - 1; i < normals.size(); i += at(b.dimension)) normals[i] = 1.0;
 
-    // Stripes of bodies across a mesh that touches: most nodes are doubled.
+    // Stripes of bodies across a mesh with common nodes: most nodes are doubled.
     fresh(false);
     std::vector<std::int32_t> stripes(at(b.cells));
     for (std::int64_t c = 0; c < b.cells; ++c) stripes[at(c)] = 2 * b.labels[at(c)] + static_cast<std::int32_t>(c % 2);
@@ -266,7 +266,7 @@ void build_meshes(Host& host, const Block& b) {
     });
 }
 
-// Loads on all nodes, and what a problem tells of itself.
+// Loads on all nodes, and queries of a problem.
 void build_problems(Host& host, const Block& b) {
     delam_problem*& problem = host.h.other_problem;
     const auto print = [&] { return print_of(problem); };
@@ -317,7 +317,7 @@ void build_problems(Host& host, const Block& b) {
               [&] { return delam_problem_eigenstrain_energy(problem, 9, energy); });
 }
 
-// A scene of two layers, held at the bottom, drawn at the top.
+// A scene of two layers, fixed at the bottom, pulled at the top.
 void make_problem(Host& host, const Block& b, const char* reduction) {
     Handles& h = host.h;
     std::int64_t index = -1;
@@ -365,7 +365,7 @@ void read_problem(Host& host, const Block& b) {
     const auto print = [&] { return print_of(h.problem); };
     std::int64_t rows = 0;
     double length = 0.0;
-    host.again = [&] {  // the matrix that was asked for last is kept
+    host.again = [&] {  // the matrix requested last is kept
         host.require(delam_problem_body_matrix(h.problem, 1, &rows, nullptr, nullptr, nullptr, nullptr),
                      "delam_problem_body_matrix");
     };
@@ -381,7 +381,7 @@ void read_solver(Host& host, const Block& b) {
     host.require(delam_solver_create(host.h.problem, 0.0, &solver), "delam_solver_create");
     host.require(delam_solver_advance(solver, 0.5), "delam_solver_advance");
     const auto print = [&] { return print_of(solver); };
-    const auto forget = [&] {  // what was recovered belongs to a state
+    const auto forget = [&] {  // recovered displacements belong to a state
         host.require(delam_solver_rollback(solver), "delam_solver_rollback");
         host.require(delam_solver_advance(solver, 0.5), "delam_solver_advance");
     };
@@ -430,8 +430,7 @@ CASE_TEST(calls_that_read) {
     read_solver(host, block);
 }
 
-// A request that came before is for the march: calls that build or read go through, and the next call of the march
-// ends.
+// A request made earlier concerns the analysis: calls that build or read succeed, and the next step is cancelled.
 CASE_TEST(waiting_request) {
     Watch watch;
     Host host(watch);
@@ -442,7 +441,8 @@ CASE_TEST(waiting_request) {
     host.require(delam_problem_check(host.h.problem), "delam_problem_check");
     expect(delam_solver_create(host.h.problem, 0.0, &host.h.solver) == DELAM_CANCELLED && host.h.solver == nullptr,
            "the request has waited for delam_solver_create");
-    host.require(delam_solver_create(host.h.problem, 0.0, &host.h.solver), "delam_solver_create");  // and is gone
+    // Now the request is consumed.
+    host.require(delam_solver_create(host.h.problem, 0.0, &host.h.solver), "delam_solver_create");
     host.require(delam_solver_advance(host.h.solver, 0.5), "delam_solver_advance");
     expect(delam_context_cancel(context) == DELAM_OK, "delam_context_cancel");
     double value = 0.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The condensed jump operator against FETI and against the direct reference, scene by scene, at random adhesion and
-// under loads that are reversed. Then long walks in which a few pairs change at a time, so that zones are chosen anew,
-// released and renewed: every state against that of a solver which has no past.
+// under reversed loads. Then long sequences in which a few pairs change at a time, so that zones are newly chosen,
+// released and renewed: every state is compared with that of a solver without history.
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -26,7 +26,7 @@ using reference::Solver;
 struct Entry {
     const char* name;
     Scene (*make)();
-    bool unique_forces = true;  // of supports and bonds: else only displacements and energies are compared
+    bool unique_forces = true;  // of supports and bonds; otherwise only displacements and energies are compared
     bool both_signs = true;     // of the load
 };
 
@@ -110,7 +110,7 @@ const Entry entries[] = {
 };
 constexpr int entry_count = static_cast<int>(std::size(entries));
 
-// Bonded interfaces keep the adhesion that they have.
+// Bonded interfaces keep their adhesion.
 std::vector<double> random_adhesion(const Scene& scene, std::mt19937& random, const std::vector<double>& initial) {
     std::uniform_real_distribution<double> draw(0.0, 1.0);
     std::vector<double> zeta(initial);
@@ -193,7 +193,7 @@ CASE_TEST(every_scene) {
             auto c = reference::compare(a, state, exported, 1e-9);
             if (!entry.unique_forces) c.traction = 0.0;
             cases::expect_below(c.worst(), 1e-8, where + ", direct: " + c.text());
-            // A stiff spring under pressure penetrates less than rounding: closed or not is then a matter of taste.
+            // A stiff spring under pressure penetrates by less than rounding, so either contact state is right.
             const bool rigid = std::any_of(condensed.stiffness().begin(), condensed.stiffness().end(),
                                            [](const auto& s) { return s.normal > 1e16; });
             if (entry.unique_forces && !rigid) cases::expect(c.contacts == 0, where + ", direct: " + c.text());
@@ -213,14 +213,14 @@ CASE_TEST(every_scene) {
                                           std::to_string(direct_states) + " states");
 }
 
-// ---- what floats ---------------------------------------------------------------------------------------------------
+// ---- floating parts -----------------------------------------------------------------------------------------------
 
-// Cross and tee with interfaces that have lost all adhesion: contact alone, or nothing, holds what is above. Only
+// Cross and tee with interfaces that have lost all adhesion: contact alone, or nothing, holds the parts above. Only
 // stresses, energies and forces are unique.
 CASE_TEST(floating) {
     const int d = loop % 2 == 0 ? 2 : 3;
     const bool slanted = loop / 2 % 2 == 1;
-    const unsigned lost = static_cast<unsigned>(loop) / 4U;  // which
+    const unsigned lost = static_cast<unsigned>(loop) / 4U;  // which ones
     const auto make = [&] { return cases::make_cross(d, slanted, 0); };
     Scene condensed = make(), feti = make();
     condensed.text("reduction", "condensed");
@@ -234,7 +234,7 @@ CASE_TEST(floating) {
                     lost == 0   ? 0.0
                     : lost == 1 ? (i >= 2 ? 0.0 : 1.0)
                                 : (i == 1 || i == 3 ? 0.0 : 1.0));
-    // One weak spring more: the loose block hangs on almost nothing.
+    // With one more weak spring the loose block has almost no support.
     if (lost == 3) zeta.back() = 1e-12;
     for (const double time : {1.0, -1.0, 0.5, -0.25}) {
         const std::string where = std::string(d == 2 ? "2D" : "3D") + (slanted ? " slanted" : "") + ", case " +
@@ -244,7 +244,7 @@ CASE_TEST(floating) {
         const auto sb = delam_solver_equilibrate(b.get(), time, zeta.data());
         cases::expect(sb == DELAM_OK, where + ": feti: " + delam_context_message(feti.context()));
         const double size = largest(b.field("reaction"));
-        if (size > 1.0) {  // else the pulled blocks have left without stress
+        if (size > 1.0) {  // otherwise the pulled blocks have separated without stress
             expect_accepted(a, exported, 1e-10, where);
             expect_equal(a, b, {"traction", "reaction"}, 1e-7, where);
         } else {
@@ -256,8 +256,8 @@ CASE_TEST(floating) {
     }
 }
 
-// Dead forces on a ply that has lost its adhesion: pressed it rests (equal in both), lifted it is lost: DELAM_LIMIT in
-// both.
+// Dead forces on a ply that has lost its adhesion: pressed, it rests (equal in both); lifted, there is no equilibrium:
+// DELAM_LIMIT in both.
 CASE_TEST(dead_forces_on_a_loose_ply) {
     const int d = loop == 0 ? 2 : 3;
     std::int32_t lifted[2];
@@ -286,7 +286,7 @@ CASE_TEST(dead_forces_on_a_loose_ply) {
         traction[which] = solver.field("traction");
         solver.commit();
         lifted[which] = delam_solver_equilibrate(solver.get(), -1.0, none.data());
-        // The solver is none the worse for it.
+        // The solver stays usable.
         scene.require(delam_solver_equilibrate(solver.get(), 1.0, none.data()), "pressed again");
         expect_accepted(solver, Exported(scene), 1e-10, "again");
     }
@@ -296,8 +296,7 @@ CASE_TEST(dead_forces_on_a_loose_ply) {
         cases::expect_near(traction[0][i], traction[1][i], 1e-8, largest(traction[1]), "traction");
 }
 
-// ---- prescribed values that bind several jumps
-// -----------------------------------------------------------------------
+// ---- prescribed values that bind several jumps -------------------------------------------------------------------
 
 // Nothing is damaged: the energy of a step lies between its two estimates.
 CASE_TEST(estimates_with_bound_jumps) {
@@ -318,7 +317,7 @@ CASE_TEST(estimates_with_bound_jumps) {
     }
 }
 
-// A mean over the upper nodes of bonded pairs whose lower nodes are held contradicts the bond.
+// A mean over the upper nodes of bonded pairs whose lower nodes are fixed contradicts the bond.
 CASE_TEST(bound_jumps_of_a_bond) {
     Scene scene = cases::make_bound_jumps(2);
     scene.bonded(0);
@@ -363,7 +362,7 @@ const Walk walks[] = {
 };
 constexpr int walk_count = static_cast<int>(std::size(walks));
 
-// A front that creeps, with now and then a change somewhere else, a jump back, or all at once.
+// A front that creeps, sometimes with a change elsewhere, a jump back, or a change everywhere.
 CASE_TEST(long_walk) {
     const Walk& w = walks[loop];
     Scene scene = w.make();
@@ -402,7 +401,7 @@ CASE_TEST(long_walk) {
     }
 }
 
-// Nothing adheres: the first step is taken, rolled back and another taken.
+// Nothing adheres: the first step is computed, rolled back, and another one computed.
 CASE_TEST(rollback_of_the_first_step) {
     const auto make = [] {
         Scene scene = cases::make_plies(2, 2, DELAM_QUAD4, "standard", block_law, 60);
@@ -424,7 +423,7 @@ CASE_TEST(rollback_of_the_first_step) {
     cases::expect(solver.save() == fresh.save(), "bytes of the snapshot");
 }
 
-// A soft arm below or above one 1e8 times stiffer: its tractions come out of its own stiffness, whichever side it is
+// A soft arm below or above one 1e8 times stiffer: its tractions result from its own stiffness, whichever side it is
 // on.
 CASE_TEST(soft_on_stiff) {
     const double ratio = loop == 0 ? 1e8 : 1e-8;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the method promises in numbers that do not depend on the machine: Krylov iterations against the stiffness of the
-// interface and at constant H/h, the energy balance against the number of steps, active-set steps along the march.
-// The bounds stand a little above what was measured; the measured numbers go to standard output.
+// Machine-independent numbers that the method promises: Krylov iterations against the stiffness of the interface and at
+// constant H/h, the energy balance against the number of steps, active-set steps over the analysis. The bounds are
+// slightly above the measured values, which the test prints.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -77,7 +77,7 @@ CASE_TEST(iterations_at_constant_ratio) {
     }
 }
 
-// ---- the ductile march, h = 1 mm -------------------------------------------------------------------------------
+// ---- the ductile analysis, h = 1 mm ----------------------------------------------------------------------------
 
 struct March {
     int steps = 0;
@@ -121,7 +121,7 @@ March march(int steps, std::int64_t subdomains) {
     return m;
 }
 
-// Made once before Check forks; the tests only look at the numbers.
+// Computed once before Check forks; the tests only read the numbers.
 std::vector<March> marches;
 March cut_march;  // 40 steps with 8 subdomains
 std::string march_failure;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is left when the load goes away: unloading to exactly zero keeps damage and mixity, whichever preconditioner
-// solves; a body held by just as many supports as it has rigid motions stands on every mesh.
+// Unloading: unloading to exactly zero keeps damage and mixity, with every preconditioner; a body with exactly as many
+// supports as it has rigid motions is held on every mesh.
 #include "api.hpp"
 #include "enf.hpp"
 #include "support.hpp"
@@ -13,7 +13,7 @@ using reference::Solver;
 constexpr reference::LawData law{125e9, 80e9, 100.0, 160.0, 250.0, 480.0};
 constexpr const char* preconditioners[] = {"none", "lumped", "dirichlet", "series"};
 
-// The lower block held, the upper one slid by the pattern.
+// The lower block is fixed, and the pattern slides the upper one.
 Scene slide(double amount, const char* preconditioner) {
     Scene scene(2, {1.0}, {1}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
     scene.interface(0, 1);
@@ -48,7 +48,7 @@ CASE_TEST(a_cycle_through_zero_keeps_damage_and_mode) {
     for (const double b : solver.field("mixity")) cases::expect_near(b, 1.0, 1e-12, 1.0, "mode II is remembered");
 }
 
-// The whole ENF: bent, released, bent again. The second bending is elastic along the secant.
+// The whole ENF: bent, released, bent again. The second bending is elastic, along the secant.
 CASE_TEST(enf_released_and_bent_again) {
     cases::Enf e;
     e.h = 1.5e-3;

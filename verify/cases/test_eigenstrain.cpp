@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Thermal strains: free expansion, a bar between walls, the bimetal strip, a cross-ply laminate; both realisations
-// against the direct reference; the ledger of a cure that is followed by loading.
+// against the direct reference; the ledger of a cure followed by loading.
 #include <array>
 #include <cmath>
 #include <string>
@@ -47,7 +47,8 @@ bool flat(std::int32_t cell) {
            cell == DELAM_QUAD9;
 }
 
-// Two plies, glued; x = 0 held along x, and what else keeps them in place. With `walls` x = length is held too.
+// Two bonded plies; x = 0 is fixed along x, with whatever else holds them in place. With `walls` x = length is fixed
+// too.
 Scene bar(const Element& e, const char* plane, bool walls) {
     const bool two = flat(e.cell);
     const int d = two ? 2 : 3;
@@ -152,7 +153,7 @@ CASE_TEST(bimetal) {
     }
 }
 
-// [0/90/0] cooled from its cure: in the middle, sigma_x = E_x (eps - alpha_x dT), eps = sum t E_x alpha_x dT / sum t
+// [0/90/0] cooled after its cure: in the middle, sigma_x = E_x (eps - alpha_x dT), eps = sum t E_x alpha_x dT / sum t
 // E_x.
 CASE_TEST(cross_ply) {
     const double length = 0.08, thick = 0.002, inner = 0.003, a1 = -0.3e-6, a2 = 28e-6, cold = -120.0;
@@ -186,7 +187,7 @@ CASE_TEST(cross_ply) {
 
 namespace {
 
-// Plies that open, slide and press under a pattern, with thermal strains of turned orthotropic plies besides.
+// Plies that open, slide and press under a pattern, in addition with thermal strains of rotated orthotropic plies.
 Scene loaded(int which, const LawData& law) {
     static const struct {
         int d;
@@ -230,8 +231,7 @@ CASE_TEST(against_the_reference) {
     }
 }
 
-// With the adhesion held and no contact that changes, E is quadratic in the factors: a central difference is its
-// derivative.
+// At fixed adhesion and contact, E is quadratic in the factors, so a central difference is its exact derivative.
 CASE_TEST(conjugates_are_derivatives) {
     Scene scene = loaded(loop, cases::block_law);
     const std::vector<double> adhesion(scene.pair_count(), 1.0);
@@ -261,7 +261,7 @@ CASE_TEST(conjugates_are_derivatives) {
 
 namespace {
 
-// Two plies, held at the left end and notched at the right one, where they are opened once they have cooled.
+// Two plies, held at the left end and notched at the right one, where they are opened after cooling.
 Scene cured(int which) {
     const std::int32_t cell = which == 0 ? DELAM_QUAD4 : which == 1 ? DELAM_TRI6 : DELAM_HEX8;
     const int d = which == 2 ? 3 : 2;
@@ -299,7 +299,7 @@ Scene cured(int which) {
 
 }  // namespace
 
-// Cure first, then load until it debonds: the bounds hold in every step and the ledger closes.
+// Cure first, then load until the plies debond: the bounds hold in every step and the ledger closes.
 CASE_TEST(cure_then_load) {
     Scene scene = cured(loop);
     double kept = 0.0, spent = 0.0;
@@ -334,7 +334,7 @@ CASE_TEST(cure_then_load) {
     }
 }
 
-// One material throughout, one expansion: nothing loads the interface, and its rounding is no contact.
+// One material and one expansion throughout: nothing loads the interface, and rounding must not count as contact.
 CASE_TEST(nothing_to_hold) {
     const Element& e = elements[loop];
     const int d = flat(e.cell) ? 2 : 3;
@@ -361,7 +361,7 @@ CASE_TEST(nothing_to_hold) {
     }
 }
 
-// A ply that nothing holds is heated: it expands, and no part of it stands in the way.
+// An unsupported ply is heated: it expands, and no part of it resists.
 CASE_TEST(floating_ply) {
     const Element& e = elements[loop];
     const int d = flat(e.cell) ? 2 : 3;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A small delamination march with each cell type and formulation through the public API: two plies, a notch at one end,
-// peeled apart there, held at the other. The states pass the conditions of equilibrium and contact outside the solver,
-// and reactions and energies match what the direct reference finds for the same adhesion; elements that bend well agree
-// with each other.
+// A small delamination analysis with each cell type and formulation through the public API: two plies, notched at one
+// end and peeled apart there, held at the other. The states satisfy equilibrium and contact checked outside the solver,
+// and reactions and energies match the direct reference at the same adhesion; elements that bend well agree with each
+// other.
 #include <algorithm>
 #include <cmath>
 
@@ -108,7 +108,7 @@ CASE_TEST(small_march) {
     cases::expect(o.front > 1e-3 && o.front < length - notch, std::string(e.name) + ": the front moves");
 }
 
-// One cell across a ply is enough for those that bend: plane strain, so the plane ones compare among each other.
+// One cell across a ply is enough for elements that bend well: plane strain, so the plane ones are comparable.
 CASE_TEST(elements_agree) {
     const Outcome fine = march(elements[4]);
     for (const Element& e : elements) {
@@ -121,7 +121,7 @@ CASE_TEST(elements_agree) {
     }
 }
 
-// Saved and loaded, with the formulation part of the scene's identity.
+// Saved and loaded, with the formulation as part of the scene's identity.
 CASE_TEST(formulation_is_part_of_the_scene) {
     const Scene scene = peel(elements[1]);
     const Scene other = peel(elements[0]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Closed forms of local and of energetic solutions (model.md, section 6): when a spring in series with an interface
-// lets go, and how far a bar peels off a rigid base.
+// Closed forms of local and energetic solutions: when a spring in series with an interface lets go, and how far a bar
+// peels off a rigid base.
 #include <algorithm>
 
 #include "bonded_bar.hpp"
@@ -11,8 +11,7 @@ namespace {
 using reference::Scene;
 using reference::Solver;
 
-// ---- spring K in series with a bilinear law
-// ---------------------------------------------------------------------------
+// ---- spring K in series with a bilinear law ------------------------------------------------------------------------
 
 constexpr double k = 125e9;
 constexpr double onset = 100.0;
@@ -46,7 +45,7 @@ double energetic_load(double spring) { return std::sqrt(2.0 * toughness * series
 double largest(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
 double least(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
 
-// Load at which one step from the unloaded state lets the interface go, by halving `halvings` times; every trial is
+// Load at which one step from the unloaded state separates the interface, by `halvings` bisections; every trial is
 // rolled back.
 double jump_by_halving(Solver& solver, double end, int halvings) {
     double low = 0.0;
@@ -81,7 +80,7 @@ CASE_TEST(soft_spring_energetic_jump) {
                        "energetic jump");
 }
 
-// Above the softening slope the solution is unique, and the search must not find anything else.
+// Above the softening slope the solution is unique, and the search must find nothing else.
 CASE_TEST(stiff_spring_energetic_is_continuous) {
     const double spring = slope * (loop == 0 ? 1.5 : 4.0);
     const double end = 1.1 * dc;
@@ -117,9 +116,9 @@ Jump only_jump(const Solver& solver) {
     return jump;
 }
 
-// With the instant located, the ledger knows the load of the jump: work is done up to it, w^2/2 (1/K + 1/k)^-1, and
-// none after it. What is not dissipated was released: nothing when the two energies cross, sigma0^2/2 (1/K + 1/k) - Gc
-// at the local load.
+// With the instant located, the ledger has the load of the jump: work is done up to it, w^2/2 (1/K + 1/k)^-1, and none
+// after it. What is not dissipated was released: nothing where the two energies cross, sigma0^2/2 (1/K + 1/k) - Gc at
+// the local load.
 CASE_TEST(soft_spring_jump_is_located) {
     const bool energetic = loop >= 3;
     const double spring = soft[loop % 3] * slope;
@@ -152,10 +151,9 @@ CASE_TEST(soft_spring_jump_is_located) {
     cases::expect_near(released, jump.released, 1e-12, toughness * area, "the step books the same release");
 }
 
-// ---- bar bonded to a rigid base
-// ---------------------------------------------------------------------------------------------
+// ---- bar bonded to a rigid base ------------------------------------------------------------------------------------
 
-// Energies of all fronts at time 1, the debonded bar included: an exhaustive scan as in reference/fronts.
+// Energies of all fronts at time 1, including the debonded bar: an exhaustive scan as in reference/fronts.
 class BarScan {
 public:
     explicit BarScan(const cases::Bar& bar) : bar_(bar), scene_(cases::make_bar(bar)) {
@@ -225,8 +223,8 @@ void expect_first_order(const Errors* errors, const char* what) {
     }
 }
 
-// Least energy of all fronts, 8 loads per cell: the front hops from pair to pair, so it is never further off than one
-// cell, and the force is a saw blade around the plateau; both are of first order in h.
+// Least energy of all fronts, 8 loads per cell: the front jumps from pair to pair, so its error never exceeds one cell,
+// and the force is a sawtooth around the plateau; both errors are of first order in h.
 CASE_TEST(bar_scan_follows_the_plateau) {
     Errors errors[3];
     for (int m = 0; m < 3; ++m) {
@@ -245,7 +243,7 @@ CASE_TEST(bar_scan_follows_the_plateau) {
     expect_first_order(errors, "scan");
 }
 
-// The same bar by the local march: the pair at the tip has to reach its strength, which it does late by h over the
+// The same bar by the local analysis: the pair at the tip must reach its strength, which happens late by h over the
 // length lam of the bond. First order too, with a larger constant: energetic = local in the limit.
 CASE_TEST(bar_local_converges_to_the_plateau) {
     Errors errors[3];
@@ -266,7 +264,7 @@ CASE_TEST(bar_local_converges_to_the_plateau) {
     expect_first_order(errors, "local");
 }
 
-// The library's search along the plateau: as low as the scan after every step.
+// The library's search along the plateau: no more energy than the scan after every step.
 CASE_TEST(bar_energetic_follows_the_plateau) {
     const cases::Bar bar = bar_of(meshes[loop], 0.7);
     Scene scene = cases::make_bar(bar);
@@ -291,7 +289,7 @@ CASE_TEST(bar_energetic_follows_the_plateau) {
     cases::expect_below(errors.force, 2.2 * bar.h() / bar.length, "force over the plateau");
 }
 
-// Free far end, a0 < L/2: full debonding costs as little as the front at (a + lam) = (L + lam)/2 does, and the
+// Free far end, a0 < L/2: full debonding takes as little energy as the front at (a + lam) = (L + lam)/2, and the
 // energetic solution jumps to it.
 double full_debonding_load(const cases::Bar& bar) {
     return 0.5 * (bar.length + bar.bond_length) * bar.plateau() / bar.membrane;
@@ -302,7 +300,7 @@ CASE_TEST(free_bar_scan_jumps_halfway) {
     for (int m = 0; m < 3; ++m) {
         const cases::Bar bar = bar_of(meshes[m], 0.7, false);
         const BarScan scan(bar);
-        // The load where the debonded state takes over, by halving.
+        // The load from which the debonded state has less energy, by bisection.
         double low = 0.0;
         double high = 1.0;
         for (int i = 0; i < 40; ++i) {
@@ -333,8 +331,8 @@ CASE_TEST(free_bar_energetic_jumps_halfway) {
         before = solver.value("work");
     }
     cases::expect(largest(solver.field("adhesion")) == 0.0, "the bar never comes off");
-    // Along the plateau the work is F (w - w0/2), w0 the load at which the front starts: the ledger knows the load of
-    // the jump.
+    // Along the plateau the work is F (w - w0/2), where w0 is the load at which the front starts: the ledger has the
+    // load of the jump.
     const double start = bar.load(bar.start);
     const double load = solver.value("work") / bar.plateau() + 0.5 * start;
     cases::expect(solver.value("work") >= before, "work is done up to the jump");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Energetic marches under loads that rest, turn back and change direction, with laws that soften, with other cells: the
-// bounds hold, no candidate of the search lies below the state kept, and the history is one history.
+// Energetic analyses under loads that rest, turn back and change direction, with laws that soften, and with other
+// cells: the bounds hold, no candidate of the search has less energy than the kept state, and the history is
+// consistent.
 #include "energetic_scenes.hpp"
 #include "flexure.hpp"
 #include "small_march.hpp"
@@ -19,11 +20,11 @@ struct Checked {
     int violated = 0;
 };
 
-// Walks to the times; every step against its bounds and its search; afterwards all kept steps as one history.
+// Runs to the times; checks every step against its bounds and its search, and finally all kept steps as one history.
 Checked walk(Solver& solver, const std::vector<double>& times) {
     const Scene& scene = solver.scene();
     const bool own = solver.value("step") == 0.0;
-    double largest = 0.0;  // of all energies so far: a load that returns to nothing has none of its own
+    double largest = 0.0;  // of all energies so far: a load that returns to zero has no scale of its own
     Checked c;
     for (const double time : times) {
         const std::int32_t status = solver.advance(time);
@@ -111,7 +112,7 @@ CASE_TEST(rest_reversal_and_reloading) {
     Checked c = walk(solver, times(40));
     expect_sound(c, "reversed");
     cases::expect(solver.value("dissipated") > 0.0, "it breaks");
-    // What the way down and the rest have added: nothing.
+    // The decreasing load and the rest have added nothing.
     double at_top = -1.0, at_rest = -1.0;
     for (int k = 0; k <= 40; ++k) {
         scene.require(delam_solver_look(solver.get(), k), "delam_solver_look");
@@ -122,7 +123,7 @@ CASE_TEST(rest_reversal_and_reloading) {
     cases::expect(at_top == at_rest, "unloading costs nothing");
 }
 
-// Two loads that are not proportional; saved on the way, the rest is the same to the bit.
+// Two loads that are not proportional; saved during the analysis, the rest is the same to the bit.
 CASE_TEST(turning_load_and_snapshot) {
     Scene scene = loaded({0.0, 1.0}, {0.0, 1.5e-3}, true), again = loaded({0.0, 1.0}, {0.0, 1.5e-3}, true);
     for (Scene* s : {&scene, &again}) cases::set_energetic(*s, 1e-2);
@@ -139,7 +140,8 @@ CASE_TEST(turning_load_and_snapshot) {
     cases::expect(whole.value("dissipated") > 0.0, "it breaks");
 }
 
-// Fronts that mirror each other: their candidates are as low but for rounding, so whoever goes on must choose alike.
+// Mirror-symmetric fronts: their candidates have equal energies except for rounding, so a continued analysis must
+// choose alike.
 CASE_TEST(equal_fronts_and_snapshot) {
     Beam b;
     b.right = b.left;
@@ -154,7 +156,7 @@ CASE_TEST(equal_fronts_and_snapshot) {
     for (std::size_t k = 0; k < all.size(); ++k) {
         Solver resumed(scene, 0.0);
         scene.require(resumed.load(whole.save()), "delam_solver_load");
-        // A step too far, refused, leaves nothing behind.
+        // A further step, rolled back, leaves nothing behind.
         whole.step(1.5 * all[k] + 0.2);
         whole.rollback();
         walk(whole, {all[k]});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Energetic marches of the brittle ENF beside the exhaustive scan of fronts: after every step no more energy than the
-// scan, the jump in the same step and, located, at the load where the scan's energies cross; no bound violated.
+// Energetic analyses of the brittle ENF against the exhaustive scan of fronts: after every step no more energy than the
+// scan, the jump in the same step and, when located, at the load where the scan's energies cross; no bound violated.
 #include <algorithm>
 
 #include "fronts.hpp"
@@ -48,14 +48,14 @@ CASE_TEST(no_step_above_the_scan) {
         solver.step(data.end_time * k / steps);
         solver.commit();
     }
-    // Looked back at, so that steps that were replaced count as what they are now.
+    // Read again, so that replaced steps count with their final values.
     for (int k = 1; k <= steps; ++k) {
         flexure.scene.require(delam_solver_look(solver.get(), k), "delam_solver_look");
         const reference::ScanStep& s = scan[static_cast<std::size_t>(k - 1)];
         const std::string where = "step " + std::to_string(k) + ": ";
         cases::expect_below(total(solver) / s.total(), 1.0 + 1e-6, where + "energy over the scan's");
-        // No damage to speak of before the scan's jump, and the scan's front after it, but for a few pairs: the energy
-        // is flat there.
+        // No significant damage before the scan's jump, and the scan's front after it except for a few pairs: the
+        // energy is flat there.
         const double advance = s.dissipated / data.law.tangential_toughness;
         if (s.front == 0)
             cases::expect_below(solver.value("debonded_length"), 0.0, where + "debonded before the scan's jump");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The scene enf: ductile end-notched flexure, h = 0.5 mm, 40 steps. In every step the energy balance, both bounds of
-// the two-sided estimate, the KKT conditions outside the solver, and the displacement step against the direct
+// the two-sided estimate, the KKT conditions checked outside the solver, and the displacement step against the direct
 // reference.
 #include <algorithm>
 
@@ -51,7 +51,7 @@ std::vector<StepRecord> march() {
     return records;
 }
 
-// One march for all tests, made before Check forks; the tests only look at its numbers.
+// One analysis for all tests, computed before Check forks; the tests only read its numbers.
 std::vector<StepRecord> records;
 std::string march_failure;
 

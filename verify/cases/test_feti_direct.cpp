@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FETI against the direct reference: every eighth state of the ductile ENF march, 8 subdomains, every preconditioner
-// but none.
+// FETI against the direct reference: every eighth state of the ductile ENF analysis, 8 subdomains, every preconditioner
+// except "none".
 #include "feti_direct.hpp"
 #include "support.hpp"
 
@@ -10,7 +10,7 @@ constexpr cases::FetiChoice choices[] = {{8, "lumped", "orthonormal"},
                                          {8, "dirichlet", "orthonormal"},
                                          {8, "series", "orthonormal"},
                                          {8, "series", "redundant"}};
-// The states are made in the test itself: OpenMP threads of the linear algebra do not survive Check's fork.
+// The test itself computes the states, because OpenMP threads of the linear algebra do not survive Check's fork.
 CASE_TEST(same_displacement_step) {
     const cases::DirectStates states(8);
     for (const auto& choice : choices) {

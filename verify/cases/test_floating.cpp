@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plies that only contact holds, or nothing at all; several interfaces; four blocks around a cross point. The state
-// must pass the KKT conditions outside the solver. A free slide makes displacements non-unique, so the reference pins
-// one node where that changes neither stresses nor energies.
+// Plies held only by contact, or by nothing; several interfaces; four blocks around a cross point. The state must pass
+// the KKT conditions outside the solver. Free sliding makes displacements non-unique, so the reference pins one node
+// where that changes neither stresses nor energies.
 #include <algorithm>
 
 #include "acceptance.hpp"
@@ -39,8 +39,8 @@ std::vector<std::int64_t> all_pairs(const Scene& scene, std::int64_t interface_i
     return pairs;
 }
 
-// Three plies on a held bottom face; `loose` interfaces have lost all adhesion. Nodes of the top face near mid-span are
-// driven by `push` along the stacking axis; with push 0 nothing touches the top. `pinned`: bodies of which one node is
+// Three plies on a fixed bottom face; `loose` interfaces have lost all adhesion. `push` drives nodes of the top face
+// near mid-span along the stacking axis; with push 0 nothing touches the top. `pinned`: bodies of which one node is
 // held laterally.
 Scene plies(int d, const std::vector<std::int64_t>& loose, double push, const std::vector<std::int32_t>& pinned,
             int subdomains) {
@@ -64,7 +64,7 @@ Scene plies(int d, const std::vector<std::int64_t>& loose, double push, const st
         const auto top = scene.find(2, point(d, 0.3 * length, 0, 3 * ply), point(d, 0.6 * length, width, 3 * ply));
         scene.drive(top, axis(d, d - 1), load, std::vector<double>(top.size(), -1.0));
     }
-    // One corner held in the plane and, in 3D, another one against turning about the stacking axis.
+    // One corner is held in the plane and, in 3D, another one against rotation about the stacking axis.
     for (const auto body : pinned) {
         const double z = (body + 0.5) * ply;
         const auto corner = scene.find(body, point(d, 0, 0, z), point(d, 0, 0, z));
@@ -91,7 +91,7 @@ struct Loose {
 const Loose loose_cases[] = {
     {{1}, {2}, "top ply"}, {{0}, {1}, "two plies together"}, {{0, 1}, {1, 2}, "middle and top ply"}};
 
-// Pressed down in the middle, the loose plies rest on what is below; their ends may lift off.
+// Pressed down in the middle, the loose plies rest on those below; their ends may lift off.
 CASE_TEST(pressed_plies) {
     const int d = loop / 3 == 0 ? 2 : 3;
     const Loose& l = loose_cases[loop % 3];
@@ -122,7 +122,7 @@ CASE_TEST(pressed_plies) {
     }
 }
 
-// Pulled up: what is loose leaves as a whole, without stress.
+// Pulled up: loose plies leave as a whole, without stress.
 CASE_TEST(lifted_plies) {
     const int d = loop / 3 == 0 ? 2 : 3;
     const Loose& l = loose_cases[loop % 3];
@@ -130,7 +130,7 @@ CASE_TEST(lifted_plies) {
     const Scene scene = plies(d, l.interfaces, -press, {}, 3);
     Solver solver(scene, 0.0);
     solver.equilibrate(1.0, {});
-    const double scale = 70e9 * press;  // stress that holding the plies back would cause, times a ply
+    const double scale = 70e9 * press;  // the stress that holding the plies back would cause, times a ply
     for (const double t : solver.field("traction"))
         cases::expect_near(t, 0.0, 1e-10, scale / ply, where + ": traction");
     for (const double j : solver.field("jump")) cases::expect(std::isfinite(j), where + ": jump");
@@ -141,7 +141,7 @@ CASE_TEST(lifted_plies) {
     }
 }
 
-// Nothing touches the loose ply: it may lie anywhere above, at rest, at no energy.
+// Nothing touches the loose ply: it may lie anywhere above, at rest, without energy.
 CASE_TEST(idle_plies) {
     const int d = loop / 3 == 0 ? 2 : 3;
     const Loose& l = loose_cases[loop % 3];
@@ -174,7 +174,7 @@ CASE_TEST(dead_load_on_a_loose_ply) {
     cases::expect(std::string(delam_context_message(scene.context())) != "", "a message says why");
 }
 
-// A dead load that grows beyond the interface's strength tears a ply off: no equilibrium, and the solver says so.
+// A dead load beyond the interface's strength tears a ply off: there is no equilibrium, and the solver reports it.
 CASE_TEST(dead_load_tears_a_ply_off) {
     Scene scene = plies(2, {}, 0.0, {}, 3);
     const double strength = std::sqrt(2.0 * law.normal_stiffness * law.normal_onset);
@@ -213,7 +213,7 @@ CASE_TEST(bent_layers) {
         std::vector<std::int64_t> held;
         const auto upper = scene.pairs(1).node_b;
         for (const auto n : root) {
-            // Of two nodes bonded for ever one support is enough: tractions stay unique.
+            // One support is enough for two permanently bonded nodes: tractions stay unique.
             if (!bonded || std::find(upper.begin(), upper.end(), n) == upper.end()) held.push_back(n);
         }
         for (int k = 0; k < d; ++k) scene.hold(held, axis(d, k));

@@ -85,7 +85,8 @@ double dcb_rate(double a, double opening, double arm, double stiffness) {
 
 }  // namespace
 
-// Below onset: the springs of the interface act on arms of known stiffness. With shear of the arms left out of the
+// Below onset: the springs of the interface act on arms of known stiffness. The closed form ignores shear of the arms,
+// hence an error of a few percent.
 // closed form, a few percent.
 CASE_TEST(dcb_below_onset) {
     Dcb d;
@@ -106,7 +107,7 @@ CASE_TEST(dcb_below_onset) {
     expect(point.zone_pairs == 0.0 && point.zone == 0.0, "no process zone below onset");
 }
 
-// G = -dU/da at held ends: the front moved by a cell. Stiff and soft interfaces, linear and quadratic cells.
+// G = -dU/da at fixed ends: the front moved by a cell. Stiff and soft interfaces, linear and quadratic cells.
 CASE_TEST(energy_differences) {
     struct {
         std::int32_t cell;
@@ -135,8 +136,8 @@ CASE_TEST(energy_differences) {
     expect_near(rate[1], difference, of[loop].tolerance, difference, "G against the energies");
 }
 
-// ENF, closed contact behind the tip: mode II, and beam theory's G = 9 P^2 a^2 / (16 E b^2 h^3) for the load that the
-// solution bears.
+// ENF with closed contact behind the tip: mode II, and beam theory's G = 9 P^2 a^2 / (16 E b^2 h^3) for the load of the
+// solution.
 CASE_TEST(enf_below_onset_and_growing) {
     reference::Flexure data;
     data.h = loop == 0 ? 0.5e-3 : 1e-3;
@@ -222,7 +223,7 @@ CASE_TEST(mixed_mode_growth) {
     expect(seen > 3.0, "it has grown");
 }
 
-// A wide DCB in space: what the plane has, at mid-width; without Poisson's effect, everywhere.
+// A wide DCB in space: the plane values at mid-width; without Poisson effect, everywhere.
 CASE_TEST(dcb_in_space) {
     Dcb d;
     d.h = 1e-3;

@@ -35,7 +35,7 @@ CASE_TEST(energy_is_quadratic_in_the_load) {
     const reference::FlexureScene& s = fronts.flexure();
     for (const double load : {0.03e-3, 0.5e-3, 2.7e-3, 6e-3}) {
         for (std::size_t f = 0; f < fronts.list().size(); f += 11) {
-            // Contact sets are not handed on from front to front here.
+            // Contact sets are not passed from front to front here.
             reference::Solver solver(s.scene, 0.0);
             const reference::Front& front = fronts.list()[f];
             solver.equilibrate(s.data.time(load), broken_up_to(s, front.first_intact));
@@ -63,7 +63,7 @@ CASE_TEST(fronts_agree_with_the_direct_solver) {
     }
 }
 
-// Breaking more never stores more.
+// Breaking more pairs never stores more energy.
 CASE_TEST(energy_falls_with_the_front) {
     const Fronts fronts(specimen(loop));
     for (std::size_t f = 1; f < fronts.list().size(); ++f)
@@ -71,7 +71,7 @@ CASE_TEST(energy_falls_with_the_front) {
                             "front " + std::to_string(f));
 }
 
-// No reuse: every front at every load, each by a displacement step of its own.
+// Without reuse: every front at every load, each by a separate displacement step.
 CASE_TEST(scan_is_exhaustive) {
     const reference::Flexure data = specimen(loop);
     const Fronts fronts(data);
@@ -116,8 +116,8 @@ CASE_TEST(crossing_of_the_energies) {
     }
 }
 
-// Mode II alone in the ENF: the criterion's exponents cost less than 0.1 % of the toughness; the MMF has beam theory's
-// psi^2 = 3/4 at the front, 35 J/m2, while pairs far ahead have the mixity that they had before the front came.
+// The ENF is pure mode II: the criterion's exponents change the toughness by less than 0.1 %. The MMF has beam theory's
+// psi^2 = 3/4 at the front, 35 J/m2, while pairs far ahead keep the mixity that they had before the front came.
 CASE_TEST(mixity_rules_differ_in_the_mixed_mode_only) {
     const Fronts enf(specimen(0));
     const auto middle = enf.list().size() / 2;

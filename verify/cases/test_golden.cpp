@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Saved states of every format version that the library reads are there and are read, whatever wrote them:
-// golden/vN-NAME.state, the values beside them in golden/vN-NAME.txt (key value). With a folder as its argument the
-// program writes both for the present version.
+// Saved states of every format version that the library reads exist and are read, whatever version wrote them:
+// golden/vN-NAME.state, with the values in golden/vN-NAME.txt (key value). Given a folder as its argument, the program
+// writes both for the present version.
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -18,7 +18,7 @@ namespace {
 using reference::Scene;
 using reference::Solver;
 
-// A bar of two cells that is pulled and sheared until its interface softens.
+// A bar of two cells, pulled and sheared until its interface softens.
 Scene bar(const char* name) {
     Scene scene(2, {1.0}, {2}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
     scene.interface(0, 1);
@@ -38,7 +38,7 @@ Scene bar(const char* name) {
     return scene;
 }
 
-// The same in space, a cell across.
+// The same in space, one cell across.
 Scene slab() {
     Scene scene(3, {1.0, 0.5}, {2, 1}, {1.0, 1.0}, {1, 1}, DELAM_HEX8);
     scene.interface(0, 1);
@@ -61,7 +61,7 @@ Scene slab() {
 
 Scene scene_of(const std::string& name) { return name == "space" ? slab() : bar(name.c_str()); }
 
-// Scenes, and the first version that a state of theirs is kept of.
+// Scenes, and the first version for which one of their states is kept.
 struct Golden {
     const char* name;
     std::uint32_t since;
@@ -69,7 +69,7 @@ struct Golden {
 constexpr Golden goldens[] = {{"feti", 5}, {"energetic", 5}, {"told", 6}, {"space", 6}, {"recorded", 7}};
 constexpr int steps = 8, saved = 5;
 
-// told: the host changes a history half-way; recorded: it has a value recorded. Both are then part of what is saved.
+// told: the host changes a history halfway; recorded: it records a value. Both are then part of the saved state.
 void march(Solver& solver, int first, int last, const std::string& name) {
     for (int k = first; k <= last; ++k) {
         const double times[] = {0.6, 1.0}, values[] = {2e-5, 9e-5};
@@ -97,11 +97,11 @@ std::vector<double> recorded_work(const Solver& solver) {
     return work;
 }
 
-// Values that machines agree on but for rounding.
+// Values on which machines agree except for rounding.
 constexpr const char* keys[] = {"step",  "time",  "stored_bulk",     "stored_interface", "dissipated",    "work",
                                 "lower", "upper", "debonded_length", "reaction:pull",    "reaction:shear"};
 
-// The format version stands behind eight bytes of magic.
+// The format version follows eight bytes of magic.
 constexpr std::size_t version_at = 8;
 std::uint32_t version_of(const std::vector<std::uint8_t>& bytes) {
     std::uint32_t version = 0;
@@ -130,8 +130,8 @@ void write(const std::filesystem::path& folder) {
     }
 }
 
-// Versions that are read, among all up to the one after the present: any other is refused as a version, these for their
-// checksum.
+// Versions that are read, among all up to the one after the present: any other is refused because of its version, these
+// because of their checksum.
 std::vector<std::uint32_t> versions_read() {
     const Scene scene = bar("feti");
     Solver solver(scene, 0.0);
@@ -186,7 +186,7 @@ CASE_TEST(every_version_is_read) {
         Solver solver(scene, 0.0), whole(scene, 0.0);
         scene.require(solver.load(bytes), path.c_str());
         // Saved again, a state of the present version has the same bytes; one of an earlier version has the present
-        // one.
+        // version.
         const auto again = solver.save();
         cases::expect(version_of(again) != version_of(bytes) || again == bytes, stem + ": saved again it differs");
         cases::expect(solver.load(again) == DELAM_OK && solver.save() == again, stem + ": the present version of it");
@@ -196,7 +196,7 @@ CASE_TEST(every_version_is_read) {
         int compared = 0;
         for (; text >> key >> value; ++compared) cases::expect(solver.value(key) == value, stem + ": " + key);
         cases::expect(compared == static_cast<int>(std::size(keys)), stem + ": its values are not there");
-        // Going on from it equals never having stopped, but for the rounding of another machine.
+        // Continuing from it equals never having stopped, except for the rounding of another machine.
         march(solver, saved + 1, steps, name);
         march(whole, 1, steps, name);
         cases::expect(whole.value("dissipated") > 0.0, "nothing was damaged");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Marches with a gradient term: a cantilever of two arms peeled apart, in plane and in space. Every step is checked
-// from outside against energies and optimality conditions written out for 2-node faces.
+// Analyses with a gradient term: a cantilever of two arms peeled apart, in the plane and in space. Every step is
+// checked from outside against energies and optimality conditions written independently for 2-node faces.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -78,7 +78,7 @@ Scene make(const Peel& p) {
 
 double energy(const Solver& solver) { return solver.value("stored_bulk") + solver.value("stored_interface"); }
 
-// Interface of 2-node faces along x, pair after pair: energies and optimality of the state at hand.
+// An interface of 2-node faces along x, pair after pair: energies and optimality of the present state.
 struct Outside {
     std::vector<double> x, weight, zeta, y;
     double kappa, stored, gradient;
@@ -170,8 +170,7 @@ void expect_same(const March& a, const March& b, double tolerance, const std::st
     }
 }
 
-// ---- both minimisations, both operators, plane and space
-// ------------------------------------------------------------------
+// ---- both minimisations, both operators, plane and space -----------------------------------------------------------
 
 CASE_TEST(accelerated_is_plain) {
     Peel p;
@@ -195,8 +194,7 @@ CASE_TEST(accelerated_is_plain) {
     expect_same(march(p, steps, where + ", feti"), plain, 1e-5, where + ", feti");
 }
 
-// ---- the profile of the process zone belongs to kappa, not to the mesh
-// ------------------------------------------------------
+// ---- the profile of the process zone depends on kappa, not on the mesh ---------------------------------------------
 
 CASE_TEST(profile_converges) {
     Peel p;
@@ -229,18 +227,17 @@ CASE_TEST(profile_converges) {
         std::printf("%s, level %zu: %.4g mm from the finest profile, steepest %.4g /mm\n", where.c_str(), l,
                     distance.back(), slope.back());
     }
-    // First order in h, since half of what the pair at the tip stands for lies in the notch; the Griffith front jumps,
-    // and where to depends on it.
+    // First order in h, because half of the weight of the pair at the tip lies in the notch. The Griffith front jumps,
+    // to a position that depends on it.
     for (std::size_t l = 1; l < distance.size(); ++l)
         cases::expect_below(distance[l], 0.8 * distance[l - 1], where + ": distance to the finest");
     cases::expect_below(distance[2], loop == 0 ? 0.02 : 0.3, where + ": distance of the last but one");
-    // The slope of the zone does not follow the cells, as it does without the term (there it doubles each time).
+    // The slope of the zone does not depend on the cells, as it does without the term (there it doubles each time).
     for (std::size_t l = 2; l < slope.size(); ++l)
         cases::expect_near(slope[l], slope[l - 1], 0.08, slope[l - 1], where + ": steepest");
 }
 
-// ---- limits of kappa
-// ------------------------------------------------------------------------------------------------------
+// ---- limits of kappa -----------------------------------------------------------------------------------------------
 
 CASE_TEST(small_kappa_is_the_pointwise_march) {
     Peel p;
@@ -260,7 +257,7 @@ CASE_TEST(small_kappa_is_the_pointwise_march) {
     cases::expect(distance[2] < 0.13 * distance[1] && distance[1] < 0.2 * distance[0], "first order in kappa");
 }
 
-// Zero is a value, and the same as none: every digit.
+// Zero is a value, and equals no value in every digit.
 CASE_TEST(kappa_zero_changes_no_digit) {
     Peel p;
     p.law = ductile;
@@ -301,13 +298,12 @@ CASE_TEST(kappa_zero_changes_no_digit) {
                   delam_solver_plan(c.get()));
 }
 
-// ---- the ledger
-// ------------------------------------------------------------------------------------------------------------
+// ---- the ledger -----------------------------------------------------------------------------------------------------
 
 CASE_TEST(ledger_closes) {
     Peel p;
     p.law = with(ductile, kappa);
-    p.law.exponent = 1.0;  // one toughness whatever the mixity: the ledger has no other defect than that of the steps
+    p.law.exponent = 1.0;  // one toughness for every mixity: the ledger has only the defect of the finite steps
     std::vector<double> defect;
     for (const int steps : {10, 20, 40, 80}) {
         const March m = march(p, steps, std::to_string(steps) + " steps");
@@ -318,8 +314,7 @@ CASE_TEST(ledger_closes) {
     cases::expect_below(defect.back(), 2e-3, "defect of the energy balance, 80 steps");
 }
 
-// ---- save, load, go on
-// -----------------------------------------------------------------------------------------------------
+// ---- save, load, continue -------------------------------------------------------------------------------------------
 
 CASE_TEST(resumed_march) {
     Peel p;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies of which the host gives the stiffness: handed the matrices that the library assembles itself, a march is the
-// same; supports of the host's are found or told; what is no solid is refused by name.
+// Bodies whose stiffness the host provides: with the matrices that the library assembles itself, an analysis is the
+// same; the host's own supports are found or declared; a matrix that is no solid is refused by name.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -94,7 +94,7 @@ std::int32_t give(const Scene& scene, const std::vector<std::int64_t>& nodes, co
                                        k.start.data(), k.column.data(), k.value.data(), kernel_count, kernel, 0);
 }
 
-// One matrix for all bodies, its rows and entries in an order of the host's own, from 1, each entry in two halves.
+// One matrix for all bodies, with rows and entries in the host's own order, from 1, each entry in two halves.
 void give_shuffled(const Scene& scene, const Scene& own, const std::vector<std::int32_t>& bodies) {
     const auto dim = static_cast<std::size_t>(own.dimension());
     std::vector<std::int64_t> nodes;
@@ -139,7 +139,7 @@ constexpr const char* keys[] = {
     "stored_bulk",         "stored_interface", "dissipated",      "work",          "lower", "upper", "crack_length",
     "energy_release_rate", "contact_pairs",    "debonded_length", "reaction:drive"};
 
-// Same march, same values and jumps; relative to the largest of the march.
+// Same analysis, same values and jumps, relative to the largest of the analysis.
 void same_march(const Scene& own, const Scene& other, double end, int steps, double tolerance,
                 const std::string& what) {
     Solver a(own, 0.0), b(other, 0.0);
@@ -188,7 +188,7 @@ void dress_flexure(Scene& scene) {
                 std::vector<double>(middle.size(), 1.0));
 }
 
-// Three plies in space, peeled from the left: the middle one floats but for what glues it.
+// Three plies in space, peeled from the left: only adhesion holds the middle one.
 void dress_peel(Scene& scene) {
     scene.law(0, {1e12, 1e12, 50.0, 50.0, 200.0, 400.0});
     scene.law(1, {1e12, 1e12, 60.0, 60.0, 220.0, 400.0});
@@ -263,14 +263,14 @@ void march_is_the_same(int loop) {
     options(bare);
     same_march(own, bare, example.end, steps, tolerance, name + ", without cells");
 
-    // One call for all, numbered otherwise.
+    // One call for all, with another numbering.
     Scene shuffled = without_cells(own, example.bodies);
     give_shuffled(shuffled, own, example.bodies);
     example.dress(shuffled);
     options(shuffled);
     same_march(own, shuffled, example.end, steps, tolerance, name + ", shuffled");
 
-    // Bodies with cells, one of them stiffened by the host: cells give the faces alone.
+    // Bodies with cells, one of them stiffened by the host: cells only provide the faces.
     Scene mixed = example.make();
     mixed.elastic(example.bodies.back(), 1.0, 0.0);
     mixed.require(give(mixed, nodes_of(own, example.bodies.back()), body_matrix(own, example.bodies.back())),
@@ -283,11 +283,11 @@ void march_is_the_same(int loop) {
 START_TEST(march) { cases::run_body(march_is_the_same, _i); }
 END_TEST
 
-// A bar on the host's own springs: the host adds them to the diagonal, the library finds what they hold. One cell a
-// body, no Poisson effect: springs in series, c (ground) + 1/E + 1/k + 1/E to 1 per unit area.
+// A bar on the host's own springs: the host adds them to the diagonal, and the library finds the motions that they
+// hold. One cell per body, no Poisson effect: springs in series, c (ground) + 1/E + 1/k + 1/E to 1 per unit area.
 void grounded_bar(int loop) {
     const int dim = loop < 3 ? 2 : 3;
-    const int way = loop % 3;  // condensed, found; FETI, found; condensed, told that nothing is free
+    const int way = loop % 3;  // condensed, found; FETI, found; condensed, declared that no motion is free
     const double young = 1e12, stiffness = 1e12, ground = 4e11;
     Scene own = dim == 2 ? Scene(2, {1.0}, {1}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4)
                          : Scene(3, {1.0, 1.0}, {1, 1}, {1.0, 1.0}, {1, 1}, DELAM_HEX8);
@@ -316,7 +316,7 @@ void grounded_bar(int loop) {
     up.back() = top.back() = 2.0;
     const auto upper = scene.find(1, up, top);
     scene.drive(upper, lift, scene.pattern("drive", {0.0, 1.0}, {0.0, 1.0}), std::vector<double>(upper.size(), 1.0));
-    // No support but the host's springs holds the bar against sliding and turning.
+    // Only the host's springs hold the bar against sliding and rotation.
     Solver solver(scene, 0.0);
     solver.step(1.0);
     const double exact = 1.0 / (1.0 / ground + 1.0 / young + 1.0 / stiffness + 1.0 / young);
@@ -329,7 +329,7 @@ void grounded_bar(int loop) {
 START_TEST(grounded) { cases::run_body(grounded_bar, _i); }
 END_TEST
 
-// Springs along one direction alone hold that translation; the rest is the library's to hold. The same bar, driven
+// Springs along one direction hold only that translation; the library's supports hold the rest. The same bar, driven
 // sideways too.
 CASE_TEST(partly_grounded) {
     Scene own(2, {1.0}, {1}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
@@ -367,7 +367,7 @@ CASE_TEST(partly_grounded) {
             cases::expect_near(solver.value("reaction:drive"), chain, 1e-10, chain,
                                std::string("chain of springs, ") + reduction);
         }
-        // A told kernel that is none is refused, and one that is not independent.
+        // A declared kernel that is none is refused, and so is one that is not independent.
         std::vector<double> along_y(along_x.size(), 0.0), bent = along_x;
         for (std::size_t i = 1; i < along_y.size(); i += 2) along_y[i] = 1.0;
         bent[0] = -3.0;
@@ -385,8 +385,8 @@ CASE_TEST(partly_grounded) {
     }
 }
 
-// Supports of the host's by empty rows and any diagonal, as finite element programs make them: the march of the scene
-// whose supports the library knows.
+// The host's supports as empty rows with any diagonal, as finite element programs make them: the same analysis as the
+// scene whose supports the library knows.
 void emptied_rows(int loop) {
     const Example& example = examples()[1];
     Scene own = example.make();
@@ -434,7 +434,7 @@ void emptied_rows(int loop) {
 START_TEST(emptied) { cases::run_body(emptied_rows, _i); }
 END_TEST
 
-// More rows than a dense square block may have: a body is sparse.
+// More rows than a dense square block may have, because a body is sparse.
 CASE_TEST(large_body) {
     Scene own(2, {1.0}, {152}, {1.0, 1.0}, {152, 1}, DELAM_QUAD4);
     own.interface(0, 1);
@@ -452,7 +452,7 @@ CASE_TEST(large_body) {
         kernel[4 * nodes.size() + 2 * i + 1] = own.coordinate(nodes[i], 0);
     }
     scene.require(give(scene, nodes, k, 3, kernel.data()), "told");
-    // It can be stopped, and nothing is taken then.
+    // It can be cancelled, and then nothing is taken over.
     char before[17], after[17];
     scene.require(delam_problem_hash(scene.problem(), before), "hash");
     const auto stop = [](const char*, std::int64_t, std::int64_t, void*) -> std::int32_t { return 1; };
@@ -463,7 +463,7 @@ CASE_TEST(large_body) {
     cases::expect(std::string(before) == after, "a cancelled call has changed the problem");
 }
 
-// A kernel told for two bodies in one call, three motions of each.
+// A kernel declared for two bodies in one call, three motions of each.
 CASE_TEST(kernel_of_two_bodies) {
     Scene own(2, {2.0}, {2}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
     own.interface(0, 1);
@@ -492,7 +492,7 @@ CASE_TEST(kernel_of_two_bodies) {
     scene.require(give(scene, nodes, both, 6, kernel.data()), "six motions of two bodies");
 }
 
-// One label, two plies that the matrix does not join: two pieces, each with its own motions.
+// One label, two plies that the matrix does not connect: two pieces, each with its own motions.
 CASE_TEST(two_pieces_of_one_body) {
     Scene own(2, {0.12}, {60}, {2e-3, 2e-3, 2e-3}, {1, 1, 1}, DELAM_QUAD4);
     own.interface(0, 1);
@@ -512,7 +512,7 @@ CASE_TEST(two_pieces_of_one_body) {
                     scene.pattern("drive", {0.0, 1.0}, {0.0, 1.5e-3}), {1.0});
     };
     dress(own, 2);
-    // Bodies 0 and 2 become body 0; interface 1 joins 1 and 0.
+    // Bodies 0 and 2 become body 0; interface 1 connects 1 and 0.
     reference::Context context;
     delam_context* c = nullptr;
     check(delam_context_create(&c), c);
@@ -532,7 +532,7 @@ CASE_TEST(two_pieces_of_one_body) {
     check(delam_mesh_add_host_body(m, 0, static_cast<std::int64_t>(outer.size()), outer.data(), 0), c);
     check(delam_mesh_add_host_body(m, 1, static_cast<std::int64_t>(middle.size()), middle.data(), 0), c);
     const auto a = own.pairs(0), b = own.pairs(1);
-    // Both interfaces are between bodies 0 and 1: one list of pairs, the second turned round.
+    // Both interfaces are between bodies 0 and 1: one list of pairs, with the second reversed.
     std::vector<std::int64_t> of_0 = a.node_a, of_1 = a.node_b;
     of_0.insert(of_0.end(), b.node_b.begin(), b.node_b.end());
     of_1.insert(of_1.end(), b.node_a.begin(), b.node_a.end());
@@ -583,7 +583,7 @@ CASE_TEST(two_pieces_of_one_body) {
     }
 }
 
-// What is wrong is named, and the problem stays as it was.
+// Errors are named, and the problem stays unchanged.
 CASE_TEST(refusals) {
     Scene own(2, {2.0}, {2}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
     own.interface(0, 1);
@@ -645,7 +645,7 @@ CASE_TEST(refusals) {
         const std::string text = delam_context_message(hinged.context());
         cases::expect(status == DELAM_ERROR_ARGUMENT && text.find("mechanism") != std::string::npos, "hinge: " + text);
     }
-    // A support neither stiff nor absent.
+    // A support that is neither stiff nor absent.
     changed([&](Csr& c, auto&) { c.value[0] *= 1.0 + 3e-10; }, "tell the kernel");
     // One matrix that couples two bodies.
     {
@@ -661,7 +661,7 @@ CASE_TEST(refusals) {
         list.insert(list.end(), upper.begin(), upper.end());
         refused(give(scene, list, two), DELAM_ERROR_ARGUMENT, "couples bodies 0 and 1");
     }
-    // Nothing was taken.
+    // Nothing was taken over.
     refused(delam_problem_check(scene.problem()), DELAM_ERROR_PROBLEM, "body 0: no cells and no stiffness");
     scene.require(give(scene, nodes, k), "a sound one");
     refused(delam_problem_check(scene.problem()), DELAM_ERROR_PROBLEM, "body 1: no cells and no stiffness");
@@ -684,7 +684,7 @@ CASE_TEST(refusals) {
             DELAM_ERROR_ARGUMENT, "joined by interface");
 }
 
-// Without faces there are no fronts, and a gradient term has nothing to act on.
+// Without faces there are no fronts, and nothing for a gradient term to act on.
 CASE_TEST(no_faces) {
     Scene own(2, {2.0}, {2}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
     own.interface(0, 1);

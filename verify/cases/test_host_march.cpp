@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a host does between steps: other histories as it goes, states as files, more threads.
+// What a host does between steps: changes histories, saves states as files, uses more threads.
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -18,7 +18,7 @@ namespace {
 using reference::Scene;
 using reference::Solver;
 
-// The bar of two cells, pulled along a history.
+// The bar of two cells, pulled by a given history.
 Scene bar(const std::vector<double>& times, const std::vector<double>& values, const char* solution = "local") {
     Scene scene(2, {1.0}, {1}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
     scene.interface(0, 1);
@@ -46,7 +46,7 @@ void to(Solver& solver, double time) {
     solver.commit();
 }
 
-// A history that is told as the march goes is the march of the scene that had it from the start, to the last bit.
+// A history given step by step leads to the same analysis as a scene that had it from the start, to the last bit.
 void told_history(int loop) {
     const char* solution = loop == 0 ? "local" : "energetic";
     const std::vector<double> times{0.0, 0.25, 0.5, 0.75, 1.0}, values{0.0, 6e-5, 2e-5, 9e-5, 7e-5};
@@ -54,7 +54,7 @@ void told_history(int loop) {
     Solver planned(known, 0.0), told(unknown, 0.0);
     for (std::size_t k = 1; k < times.size(); ++k) {
         to(planned, times[k]);
-        // A wrong guess that is taken back leaves nothing.
+        // A wrong guess that is rolled back leaves nothing.
         set(told, {times[k]}, {1e-4});
         told.step(times[k]);
         told.rollback();
@@ -63,7 +63,7 @@ void told_history(int loop) {
         cases::expect_same(told, cases::read_bits(told), cases::read_bits(planned), "step " + std::to_string(k));
     }
     cases::expect(planned.value("dissipated") > 0.0, "nothing was damaged");
-    // It is saved with the state; the scene's own history is not what goes on.
+    // It is saved with the state, and replaces the scene's own history.
     const auto bytes = told.save();
     set(told, {1.5, 2.0}, {1.2e-4, 0.0});
     const auto longer = told.save();
@@ -74,11 +74,11 @@ void told_history(int loop) {
     to(again, 1.75);
     cases::expect_same(again, cases::read_bits(again), cases::read_bits(told), "after loading");
     cases::expect(std::abs(again.value("load:pull") - 6e-5) < 1e-19, "halfway down");
-    // Loading the earlier one takes the later history back.
+    // Loading the earlier state restores the earlier history.
     unknown.require(again.load(bytes), "delam_solver_load");
     to(again, 1.75);
     cases::expect(again.value("load:pull") == 7e-5, "constant beyond the last point");
-    // The scene is the same one for both: a state of the planned march is refused, its histories differ.
+    // The scene is the same for both: a state of the planned analysis is refused, because the histories differ.
     cases::expect(again.load(planned.save()) == DELAM_ERROR_SNAPSHOT, "another scene");
 }
 
@@ -141,7 +141,7 @@ CASE_TEST(states_as_files) {
     cases::expect_same(again, cases::read_bits(again), bits, "loaded");
     to(again, 1.0);
     cases::expect_same(again, cases::read_bits(again), end, "gone on");
-    // Over an older one.
+    // Over an older file.
     scene.require(delam_solver_save_file(again.get(), path.c_str()), "delam_solver_save_file");
     cases::expect(folder.files() == 1, "something was left beside it");
     std::ifstream file(path, std::ios::binary);
@@ -158,7 +158,7 @@ CASE_TEST(states_as_files) {
     refused(delam_solver_save_file(again.get(), folder.path.c_str()), DELAM_ERROR_FILE, "directory");
     refused(delam_solver_save_file(again.get(), nullptr), DELAM_ERROR_ARGUMENT, "path");
     refused(delam_solver_save_file(again.get(), ""), DELAM_ERROR_FILE, "the path is empty");
-    // What is no file is not replaced: a host that runs as root has devices at its mercy.
+    // Only regular files are replaced: a host that runs as root could destroy devices.
     const std::string pipe = (folder.path / "pipe").string();
     cases::expect(mkfifo(pipe.c_str(), 0600) == 0, "mkfifo");
     refused(delam_solver_save_file(again.get(), pipe.c_str()), DELAM_ERROR_FILE, "a pipe, and only files are replaced");
@@ -178,7 +178,7 @@ CASE_TEST(states_as_files) {
     cases::expect_same(again, cases::read_bits(again), end, "after refusals");
 }
 
-// A disk that fills up: the file that was there stays, nothing else is left.
+// A disk that fills up: the existing file stays, and nothing else is left.
 CASE_TEST(full_disk) {
     const Folder folder;
     const std::string path = (folder.path / "state").string();
@@ -204,7 +204,7 @@ CASE_TEST(full_disk) {
     cases::expect(again.value("time") == 0.5, "the older state is there");
 }
 
-// Two islands save to one path at the same time: what is there is one of the two, whole.
+// Two contexts save to one path at the same time: the file is one of the two, complete.
 CASE_TEST(two_writers) {
     const Folder folder;
     const std::string path = (folder.path / "state").string();
@@ -244,7 +244,7 @@ CASE_TEST(threads_change_no_digit) {
         const std::string plan = delam_solver_plan(solver.get());
         cases::expect(plan.find("threads: ") != std::string::npos, plan);
     }
-    // They are none of the scene: what one number has saved, another goes on with.
+    // They are not part of the scene: a state saved with one number continues with another.
     char one[17], two[17];
     Scene scene = cases::small_enf(6);
     scene.require(delam_problem_hash(scene.problem(), one), "hash");
@@ -253,7 +253,7 @@ CASE_TEST(threads_change_no_digit) {
     cases::expect(std::string(one) == two, "the hash knows the threads");
 }
 
-// Cancelled while members of the team work: the state before, and the same end.
+// Cancelled while other threads of the team work: the state before, and the same end.
 CASE_TEST(cancelled_with_threads) {
     Scene scene = cases::small_enf(6);
     scene.number("threads", 3.0);

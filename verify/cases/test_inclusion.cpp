@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One circular fibre: the exact fields of an inclusion that is glued, held by springs, loose under tension (an open
+// One circular fibre: the exact fields of an inclusion that is bonded, held by springs, loose under tension (an open
 // gap) or pressed against its matrix without friction; and the bulk modulus of a composite cylinder.
 #include <algorithm>
 #include <array>
@@ -56,7 +56,7 @@ public:
     FibreMesh take() { return std::move(mesh_); }
 
 private:
-    // Nodes of one body at one place are one.
+    // Nodes of one body at the same position are merged.
     std::int64_t node(int body, std::array<double, 2> p) {
         const std::array<std::int64_t, 3> key{body, std::llround(p[0] / radius * 1e7),
                                               std::llround(p[1] / radius * 1e7)};
@@ -142,7 +142,7 @@ struct Errors {
     double displacement, stress, uniformity;
 };
 
-// A loose fibre may lie anywhere within its gap: its displacements are then left out.
+// A loose fibre may lie anywhere within its gap, so its displacements are not compared.
 Errors errors(const Scene& scene, Solver& solver, const FibreMesh& mesh, const Inclusion& exact, bool with_fibre) {
     const std::vector<double> u = solver.field("displacement"), s = solver.field("stress");
     const std::size_t per_cell = mesh.cells.size() / mesh.bodies.size();
@@ -181,7 +181,7 @@ struct Setting {
     Bond bond;
     std::array<double, 2> remote;  // Pa
 };
-// Tension and pressure are such that no part of the fibre's surface changes sides.
+// Tension and pressure such that no part of the fibre's surface changes between open and closed.
 constexpr std::array<Setting, 5> settings{{{"glued, uniaxial tension", Bond::perfect, {50e6, 0.0}},
                                            {"springs, tension", Bond::springs, {50e6, 25e6}},
                                            {"loose, tension", Bond::none, {50e6, 40e6}},
@@ -191,7 +191,7 @@ constexpr std::array<Setting, 5> settings{{{"glued, uniaxial tension", Bond::per
 Inclusion exact_field(const Setting& setting) {
     const bool pressed = setting.remote[0] < 0.0;
     const bool springs = setting.bond == Bond::springs;
-    // Closed contact is rigid along the normal; what does not adhere slides.
+    // Closed contact is rigid along the normal; faces that do not adhere slide.
     const double normal = springs && !pressed ? 1.0 / normal_stiffness : 0.0;
     const double tangential = springs                         ? 1.0 / tangential_stiffness
                               : setting.bond == Bond::perfect ? 0.0
@@ -199,7 +199,7 @@ Inclusion exact_field(const Setting& setting) {
     return Inclusion(fibre, matrix, radius, setting.remote, normal, tangential, setting.bond == Bond::none && !pressed);
 }
 
-// Each halving of the cells lowers the errors by the orders of the elements: displacements 2 (linear) and more than 2.5
+// Halving the cells lowers the errors by the orders of the elements: displacements 2 (linear) and more than 2.5
 // (quadratic), stresses at the centres of cells 1.5 and 2.
 CASE_TEST(fields_converge_to_the_exact_inclusion) {
     const Setting& setting = settings[static_cast<std::size_t>(loop) % settings.size()];
@@ -230,12 +230,12 @@ CASE_TEST(fields_converge_to_the_exact_inclusion) {
                  name + ": stress in the fibre, which is uniform or quadratic");
 }
 
-// The rim of a composite cylinder moves outwards evenly: force over displacement is the bulk modulus, order 2 and 4.
+// The rim of a composite cylinder moves outwards uniformly: force over displacement is the bulk modulus, order 2 and 4.
 CASE_TEST(bulk_modulus_of_a_composite_cylinder) {
     const bool quadratic = loop % 2 == 1;
     const Bond bond = loop / 2 == 0 ? Bond::perfect : loop / 2 == 1 ? Bond::springs : Bond::none;
     for (const double sign : {1.0, -1.0}) {
-        // Contact is rigid: pressed springs and loose fibres act like glued ones, since nothing slides.
+        // Contact is rigid: pressed springs and loose fibres act like bonded ones, because nothing slides.
         const bool rigid = bond == Bond::perfect || sign < 0.0;
         const double exact = reference::composite_cylinder_bulk(
             fibre, matrix, radius, outer, rigid ? 0.0 : 1.0 / normal_stiffness, bond == Bond::none && !rigid);
@@ -265,8 +265,7 @@ CASE_TEST(bulk_modulus_of_a_composite_cylinder) {
     }
 }
 
-// The exact field is one: equilibrium and Hooke's law by differences, the remote stress, the conditions at the
-// interface.
+// The exact field is exact: equilibrium and Hooke's law by differences, the remote stress, the interface conditions.
 CASE_TEST(the_reference_is_a_solution) {
     const Inclusion exact(fibre, matrix, radius, {50e6, -20e6}, 1.0 / normal_stiffness, 1.0 / tangential_stiffness);
     for (const bool inside : {true, false}) {

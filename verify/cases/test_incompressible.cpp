@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Nearly incompressible bodies: a thick-walled cylinder and a bent slab against closed forms, whose errors must not
-// know Poisson's ratio.
+// Nearly incompressible bodies: a thick-walled cylinder and a bent slab against closed forms; their errors must not
+// depend on Poisson's ratio.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -48,8 +48,8 @@ Scene moved(const Scene& plain, const Case& e, Map&& map) {
 
 constexpr double inner = 1.0, outer = 2.0, young = 1e9, push = 1e-3;
 
-// A quarter of a ring (a slice in space), its inner face pushed outwards: energy over the exact one, less 1; and the
-// worst error of sigma_xx + sigma_yy = 4 (lambda + mu) A in the plane at centres, over the pressure.
+// A quarter of a ring (a slice in space) with the inner face pushed outwards: the relative error of the energy, and the
+// largest error of sigma_xx + sigma_yy = 4 (lambda + mu) A in the plane at centres, over the pressure.
 double cylinder(const Case& e, const char* formulation, double nu, double& stress_error) {
     const double quarter = 0.5 * std::acos(-1.0), slice = 0.3;
     const int d = flat(e.cell) ? 2 : 3;
@@ -112,7 +112,7 @@ double cylinder(const Case& e, const char* formulation, double nu, double& stres
     return solver.value("stored_bulk") / exact - 1.0;
 }
 
-// A slab of length 10 and height 1 with its ends turned against each other, plane strain: energy over E/(1 - nu2) I
+// A slab of length 10 and height 1 with its ends rotated against each other, plane strain: energy over E/(1 - nu2) I
 // kappa2/2 l.
 double bending(const Case& e, const char* formulation, double nu, std::int64_t across) {
     const bool plane = flat(e.cell);
@@ -148,7 +148,7 @@ constexpr double ratios[] = {0.3, 0.4999, 0.499999};
 
 }  // namespace
 
-// Standard cells lock: quad4 and hex8 by 1e3 at the last ratio, quadrilateral quadratic ones by 10.
+// Standard cells lock: quad4 and hex8 by 1e3 at the last ratio, quadratic quadrilaterals by 10.
 CASE_TEST(thick_cylinder) {
     const Case& e = elements[loop];
     const bool quadratic = e.cell != DELAM_QUAD4 && e.cell != DELAM_HEX8;
@@ -167,8 +167,8 @@ CASE_TEST(thick_cylinder) {
                   "standard cells lock: " + std::to_string(locked));
 }
 
-// Linear functions hold a bending exactly; constants let it go, too soft by an error that is second order in the size
-// of the cells.
+// Linear dilatations represent bending exactly; constant ones are too soft, by an error of second order in the size of
+// the cells.
 CASE_TEST(bent_slab) {
     const Case& e = elements[loop];
     const bool exact = e.cell == DELAM_QUAD8 || e.cell == DELAM_QUAD9 || e.cell == DELAM_HEX20;

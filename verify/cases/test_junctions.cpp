@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Conforming meshes with junctions, where three bodies or more meet: a linear displacement through perfect bonds is
-// exact, and marches in the condensed, the FETI and the direct realisation agree.
+// exact, and analyses with the condensed, the FETI and the direct realisation agree.
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -23,7 +23,7 @@ constexpr LawData law{3e11, 2e11, 100.0, 150.0, 2000.0, 3000.0};
 using Box = std::array<std::int64_t, 3>;
 using LabelOf = std::function<std::int32_t(const Box&)>;
 
-// Two upper blocks on a lower one; in 3D the upper ones are halved along y as well, so that three lines end in a point
+// Two upper blocks on a lower one; in 3D the upper ones are also halved along y, so that three lines end in a point
 // where four bodies meet.
 std::int32_t tee(const Box& box, int d) {
     if (box[static_cast<std::size_t>(d - 1)] < 2) return 0;
@@ -58,7 +58,7 @@ constexpr Shape shapes[] = {
 const std::array<double, 3> sides{0.03, 0.02, 0.02};
 constexpr Box divisions{6, 4, 4};
 
-// One block, written as a mesher would, and cut into bodies.
+// One block, meshed as a mesher would do, and cut into bodies.
 Scene conforming(const Shape& shape, const LabelOf& label) {
     const auto d = static_cast<std::size_t>(shape.dimension);
     const std::vector<double> lengths(sides.begin(), sides.begin() + shape.dimension - 1);
@@ -75,7 +75,7 @@ Scene conforming(const Shape& shape, const LabelOf& label) {
     for (std::size_t c = 0; c < static_cast<std::size_t>(cells); ++c) {
         Box box{};
         for (std::size_t k = 0; k < d; ++k) {
-            double sum = 0.0;  // mid-side nodes included: the mean stays within the cell
+            double sum = 0.0;  // including mid-side nodes, the mean stays within the cell
             for (std::size_t a = 0; a < per_cell; ++a)
                 sum += block.coordinate(connectivity[c * per_cell + a], static_cast<int>(k));
             box[k] = static_cast<std::int64_t>(sum / static_cast<double>(per_cell) / sides[k] *
@@ -149,7 +149,7 @@ CASE_TEST(linear_field) {
         for (std::size_t i = 0; i < u.size(); ++i)
             cases::expect_near(u[i], exact(scene, static_cast<std::int64_t>(i) / d, static_cast<int>(i) % d), 1e-10,
                                size, where + "displacement " + std::to_string(i));
-        // One stress everywhere.
+        // Uniform stress.
         const auto stress = solver.field("stress");
         const std::size_t components = d == 2 ? 4 : 6;
         double stress_size = 0.0;
@@ -161,7 +161,7 @@ CASE_TEST(linear_field) {
     }
 }
 
-// Held at the bottom, drawn up and aside at the top until it softens.
+// Fixed at the bottom, pulled up and sideways at the top until it softens.
 Scene pulled(const Shape& shape, const Layout& layout, int subdomains) {
     Scene scene = joined(shape, layout);
     const int d = shape.dimension;
@@ -183,7 +183,7 @@ Scene pulled(const Shape& shape, const Layout& layout, int subdomains) {
     return scene;
 }
 
-// Each realisation marches by itself; at the adhesion that it finds, the direct one must find its state.
+// Each realisation runs its own analysis; at its adhesion the direct solver must find its state.
 CASE_TEST(marches_agree) {
     const Shape& shape = shapes[loop % 2 == 0 ? 0 : 2];
     const Layout& layout = layouts[loop / 2];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Laws of all kinds in whole scenes: closed forms at a point, the energy ledger, the host's law against the library's,
-// callbacks that fail in the middle of a march, what the hash sees.
+// Laws of all kinds in complete scenes: closed forms at a point, the energy ledger, a host law against the library's,
+// callbacks that fail during an analysis, the effect on the hash.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -26,7 +26,7 @@ struct Kind {
     double toughness;
     double plateau = -1.0;
     std::vector<double> xi, s;
-    // Traction over its peak at x = jump over onset jump >= 1, by itself.
+    // Traction over its peak at x = jump over onset jump >= 1, computed independently.
     std::function<double(double)> softened;
 };
 
@@ -93,7 +93,8 @@ Scene imposed(const std::vector<double>& direction, const std::vector<double>& t
 }
 
 // Loading, unloading and reloading at one pair, in both modes and between them (equal modes and exponent 1, so that the
-// toughness is the same): traction by the curve, and spent the area under it less what unloading gives back.
+// toughness is the same): the traction follows the curve, and the dissipation is the area under it less what unloading
+// returns.
 CASE_TEST(closed_forms) {
     const Kind kind = kinds()[static_cast<std::size_t>(loop)];
     const double d0 = std::sqrt(2.0 * onset / k), peak = k * d0;
@@ -112,14 +113,14 @@ CASE_TEST(closed_forms) {
         use(scene, law);
         Solver solver(scene, 0.0);
         double largest = 0.0, area = 0.0;
-        const int per_leg = 17;  // no step right at an onset or a drop
+        const int per_leg = 17;  // no step exactly at an onset or a drop
         for (int step = 1; step <= per_leg * 6; ++step) {
             const double time = static_cast<double>(step) / per_leg;
             const auto leg = std::min(static_cast<std::size_t>(time), turns.size() - 2);
             const double x = turns[leg] + (turns[leg + 1] - turns[leg]) * (time - static_cast<double>(leg));
             solver.step(time);
             solver.commit();
-            constexpr int parts = 4000;  // midpoint rule; a jump of the curve costs it half a part
+            constexpr int parts = 4000;  // midpoint rule; a jump of the curve causes an error of half a part
             for (int i = 0; i < parts && x > largest && x > 1.0; ++i) {
                 const double from = std::max(1.0, largest), at = from + (x - from) * (i + 0.5) / parts;
                 area += kind.softened(at) * (x - from) / parts;
@@ -143,7 +144,7 @@ CASE_TEST(closed_forms) {
     }
 }
 
-// Small ENF: what stored + dissipated - work is of the dissipated energy.
+// Small ENF: stored + dissipated - work, relative to the dissipated energy.
 double defect(const Kind& kind, int steps, double& spent) {
     cases::Enf e;
     e.h = 1.5e-3;
@@ -158,8 +159,8 @@ double defect(const Kind& kind, int steps, double& spent) {
     return (solver.value("stored_bulk") + solver.value("stored_interface") + spent - solver.value("work")) / spent;
 }
 
-// Where traction falls continuously the march follows, and the defect goes with the step. Where it drops (the last two)
-// the pairs snap one by one, and what each snap releases is lost: none of it may be gained.
+// Where the traction decreases continuously, the defect decreases with the step. Where it drops (the last two), the
+// pairs break one by one, and the energy that each releases is lost: none of it may be gained.
 CASE_TEST(ledger) {
     std::vector<Kind> all = kinds();
     Kind smooth = all[3];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Growing dead loads on a softening interface: below the limit load the march goes on, beyond it a call ends with
+// Growing dead loads on a softening interface: below the limit load the analysis continues, beyond it a call ends with
 // DELAM_LIMIT and leaves the state before it.
 #include <string>
 #include <vector>
@@ -14,16 +14,15 @@ using reference::Solver;
 
 constexpr double length = 0.04;
 
-// The lower ply is clamped along its bottom; the upper one is pulled off at its left end, directly or by way of a
-// control node that the end's nodes share: a peel test under a dead load. Nothing but the interface holds the upper
-// ply.
+// The lower ply is clamped along its bottom; the upper one is pulled off at its left end, directly or through a control
+// node that the end's nodes share: a peel test under a dead load. Only the interface holds the upper ply.
 Scene peel(int d, bool condensed, bool nose) {
     Scene scene = cases::plies_with_controls(d, 1);
     const auto bottom = cases::body_nodes_where(scene, [](const double* x) { return x[1] < 1e-6; });
     for (int k = 0; k < d; ++k) scene.hold(bottom, cases::unit(d, k));
     const auto end = cases::body_nodes_where(scene, [](const double* x) { return x[0] < 1e-6 && x[1] > 0.0059; });
     const auto load = scene.pattern("load", {0.0, 1.0}, {0.0, 1.0});
-    const double strength = 2.5e7 * length * (d == 3 ? 0.01 : 1.0);  // sqrt(2 k G_o) over all of the interface
+    const double strength = 2.5e7 * length * (d == 3 ? 0.01 : 1.0);  // sqrt(2 k G_o) over the whole interface
     if (nose) {
         for (const auto n : end) scene.equation({n, 0}, cases::components(d, {{1, 1.0}, {1, -1.0}}));
         for (int k = 0; k < d; ++k)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fine marches of the mixed-mode flexure test with returns: the loops end, and what they leave is as sound as without.
+// Fine analyses of the mixed-mode flexure test with returns: the loops terminate, and the results satisfy the same
+// checks as without returns.
 #include "mmf.hpp"
 #include "support.hpp"
 

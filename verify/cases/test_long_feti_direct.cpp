@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FETI against the direct reference on all 40 states of the ductile ENF march: 2, 8 and 32 subdomains, every
+// FETI against the direct reference on all 40 states of the ductile ENF analysis: 2, 8 and 32 subdomains, every
 // preconditioner, both gluings.
 #include "feti_direct.hpp"
 #include "support.hpp"
@@ -9,7 +9,7 @@ namespace {
 constexpr std::int64_t subdomains[] = {2, 8, 32};
 constexpr const char* preconditioners[] = {"none", "lumped", "dirichlet", "series"};
 constexpr const char* gluings[] = {"orthonormal", "redundant"};
-// The states are made in the test itself: OpenMP threads of the linear algebra do not survive Check's fork.
+// The test itself computes the states, because OpenMP threads of the linear algebra do not survive Check's fork.
 CASE_TEST(same_displacement_step) {
     const cases::DirectStates states(1);
     for (const std::int64_t n : subdomains) {

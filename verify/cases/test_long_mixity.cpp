@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mixity rules in many steps: which lower bounds a frozen march truly misses, that fine ones do not snap, and the
-// limits of both ledgers.
+// Mixity rules over many steps: which lower bounds a frozen analysis really violates, that fine ones do not snap, and
+// the limits of both ledgers.
 #include "mmf.hpp"
 #include "support.hpp"
 #include "turning_pair.hpp"
 
 namespace {
 
-// The lower bound with the mixity of the step before last is the provable one; at 320 steps the frozen march truly
-// jumps too early once.
+// The lower bound with the mixity of the step before last is the provable one; with 320 steps the frozen analysis
+// really jumps too early once.
 CASE_TEST(provable_bounds) {
     const int steps[] = {160, 320, 640}, below[] = {0, 1, 0};
     const cases::MmfMarch m = cases::march_mmf(1e-3, cases::mmf_ductile, "frozen", steps[loop]);
@@ -18,7 +18,7 @@ CASE_TEST(provable_bounds) {
         cases::expect(m.warnings.empty(), "a fine march warns: " + (m.warnings.empty() ? "" : m.warnings.front()));
 }
 
-// Booked defects shrink with the step; the slides' ones stay, unless the mixity is variational.
+// Booked defects decrease with the step; those of the ledger of PANM 15 (2010) stay, unless the mixity is variational.
 CASE_TEST(defects_side_by_side) {
     const int steps[] = {40, 160, 640};
     for (const char* rule : {"frozen", "converged", "variational"}) {

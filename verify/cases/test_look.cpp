@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading an earlier step leaves nothing behind; a gradient term is counted once where fronts are searched.
+// Reading an earlier step changes nothing; a gradient term is counted once where fronts are searched.
 #include "mmf.hpp"
 #include "small_march.hpp"
 
@@ -7,7 +7,7 @@ namespace {
 
 using reference::Solver;
 
-// look at step 1, read its displacements, commit step 2, read again: those of step 2.
+// Read displacements at step 1, commit step 2, read again: the displacements must be those of step 2.
 CASE_TEST(fields_after_a_look) {
     (void)loop;
     auto scene = cases::small_enf(0);
@@ -27,7 +27,7 @@ CASE_TEST(fields_after_a_look) {
     cases::expect(!cases::same_bits(now, earlier), "the load has grown");
 }
 
-// The margin of a search does not depend on how the bodies are reduced, with a gradient term either.
+// The margin of a search does not depend on the reduction of the bodies, with a gradient term either.
 CASE_TEST(gradient_term_in_the_search) {
     double margin[2], increment[2];
     for (int feti = 0; feti < 2; ++feti) {

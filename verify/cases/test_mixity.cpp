@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The three mixity rules: what they dissipate where a front passes many pairs, what does not close in either ledger,
-// snaps of frozen marches, and that
-// the answer depends neither on the realisation nor on the way of minimising.
+// The three mixity rules: what they dissipate where a front passes many pairs, the defect of each ledger, snaps of
+// frozen analyses, and that the result depends neither on the realisation nor on the method of minimisation.
 #include <algorithm>
 
 #include "acceptance.hpp"
@@ -19,10 +18,10 @@ using reference::Solver;
 
 constexpr const char* rules[] = {"frozen", "converged", "variational"};
 
-// ---- what is dissipated --------------------------------------------------------------------------------------------
+// ---- dissipation --------------------------------------------------------------------------------------------------
 
-// Beam theory has B = 3/7, where the criterion gives 25 / sqrt(B^2 + (1-B)^2) = 35 J/m2. Frozen pairs carry the mode of
-// where they lay ahead of the old front.
+// Beam theory has B = 3/7, where the criterion gives 25 / sqrt(B^2 + (1-B)^2) = 35 J/m2. Frozen pairs have the mode of
+// their position ahead of the old front.
 CASE_TEST(brittle_mmf) {
     const double h = loop == 0 ? 1e-3 : 0.5e-3;
     const double criterion = 25.0 / std::hypot(3.0 / 7.0, 4.0 / 7.0);
@@ -55,9 +54,9 @@ CASE_TEST(coarse_frozen_march_warns) {
 
 // ---- ledgers -------------------------------------------------------------------------------------------------------
 
-// With frozen mixity the slides' ledger misses int f_B dB however small the steps, the booked one closes like tau. With
-// converged mixity both bear
-// the same; the variational march closes the slides' ledger and leaves the booked one open.
+// With frozen mixity the ledger of PANM 15 (2010) misses int f_B dB however small the steps are, and the booked one
+// closes like tau. With converged mixity both have the same defect; the variational analysis closes the ledger of PANM
+// 15 and leaves the booked one open.
 CASE_TEST(mode_changes_while_it_softens) {
     const double limit = cases::turning_integral();
     std::printf("turning pair: int f_B dB = %.4f\n", limit);
@@ -75,7 +74,7 @@ CASE_TEST(mode_changes_while_it_softens) {
     cases::expect_below(std::abs(fine.slides), 0.2 * std::abs(coarse.slides), "variational: slides' ledger");
 }
 
-// The defects are what their definition says, in every step.
+// The defects follow their definition in every step.
 CASE_TEST(defects_by_definition) {
     const Scene scene = cases::make_mmf(1e-3, cases::mmf_ductile, rules[loop]);
     Solver solver(scene, 0.0);
@@ -91,7 +90,7 @@ CASE_TEST(defects_by_definition) {
                            1e-12, work, "slides' defect");
         cases::expect(solver.value("mixity_error") >= 0.0, "mixity error");
     }
-    // A state that is set does not move what the steps have missed.
+    // Setting a state does not change the accumulated defects.
     const double defect = solver.value("defect"), slides = solver.value("defect_slides");
     solver.equilibrate(0.3, {});
     cases::expect_near(solver.value("defect"), defect, 1e-12, solver.value("work"), "defect of a state that is set");
@@ -99,12 +98,12 @@ CASE_TEST(defects_by_definition) {
                        "slides' defect of a state that is set");
 }
 
-// ---- one answer ----------------------------------------------------------------------------------------------------
+// ---- one result ----------------------------------------------------------------------------------------------------
 
 constexpr LawData mixed{1e12, 5e11, 40.0, 90.0, 250.0, 600.0, 1.7};
 
-// Three plies; the lowest is held at its bottom, the uppermost drawn up and along at its right half: the middle one
-// hangs on two interfaces alone.
+// Three plies; the lowest is fixed at its bottom, the uppermost pulled up and sideways at its right half: only the two
+// interfaces hold the middle one.
 Scene floating_ply(int d, const LawData& law, const char* rule, const char* reduction, const char* minimisation,
                    double delta) {
     constexpr double length = 0.02, width = 0.006, ply = 0.002;
@@ -166,7 +165,7 @@ double largest(const std::vector<double>& values) {
     return m;
 }
 
-// booked: tolerance of what is booked as dissipated.
+// booked: tolerance of the booked dissipation.
 void expect_alike(const Seen& a, const Seen& b, double tolerance, double booked, const std::string& where) {
     const double force = largest(b.reaction), spent = std::max(largest(b.dissipated), largest(b.slides));
     cases::expect(spent > 0.0, where + ": nothing was damaged");
@@ -192,10 +191,9 @@ CASE_TEST(one_answer) {
     cases::expect(plain.least < 0.6, where + "hardly damaged");
     expect_alike(march(floating_ply(d, mixed, rule, "feti", "alternate", 1e-9), steps, end), plain, 1e-6, 1e-6,
                  where + "feti");
-    // The variational functional pays for turning the mode while damage grows, so that it has several critical points
-    // in the block; and a pair that breaks
-    // has the mixity of another iterate in each way of minimising, which only what is booked beside the slides' ledger
-    // shows.
+    // The variational functional favours changing the mode while damage grows, so it has several critical points in the
+    // block. A pair that breaks has the mixity of another iterate in each method of minimisation, and only the booked
+    // dissipation beside the ledger of PANM 15 (2010) shows this.
     if (loop == 5) return;
     const double booked = loop == 2 ? 1e-3 : 1e-5;
     expect_alike(march(floating_ply(d, mixed, rule, "condensed", "accelerated", 1e-9), steps, end), plain, 1e-5, booked,
@@ -204,7 +202,7 @@ CASE_TEST(one_answer) {
                  where + "feti, accelerated");
 }
 
-// A law that does not know modes: the same digits under all rules.
+// A law that does not depend on the mode: the same digits under all rules.
 CASE_TEST(no_mixity_no_difference) {
     LawData plain = mixed;
     plain.tangential_onset = plain.normal_onset;
@@ -229,7 +227,7 @@ CASE_TEST(no_mixity_no_difference) {
 // ---- the variational step ------------------------------------------------------------------------------------------
 
 // Outside the library, from exported fields: the traction of every open pair is the derivative of zeta Y + f(B(j),
-// zeta) by its jump.
+// zeta) with respect to its jump.
 CASE_TEST(variational_traction) {
     const int d = loop % 2 == 0 ? 2 : 3;
     const Scene scene = floating_ply(d, mixed, "variational", loop < 2 ? "condensed" : "feti", "accelerated", 1e-8);
@@ -239,7 +237,7 @@ CASE_TEST(variational_traction) {
         solver.step(k / 6.0);
         solver.commit();
         auto accepted = reference::accept(solver, exported);
-        accepted.law = 0.0;  // it knows of zeta k j alone
+        accepted.law = 0.0;  // it checks zeta k j alone
         cases::expect_below(accepted.worst(), 1e-9, accepted.text());
     }
     delam_law* raw = nullptr;

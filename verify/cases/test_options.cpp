@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The options as a host sees them: whatever the library lists is the default of a fresh solver, refuses what is outside
-// its range, and changes the hash of the scene. No option is named here but the one that no digit depends on.
+// The options as a host sees them: every listed option is at its default in a fresh solver, refuses values outside its
+// range, and changes the hash of the scene. No option is named here except the one that affects no digit.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,7 +15,7 @@ namespace {
 using reference::Scene;
 using reference::Solver;
 
-// Two cells on each other, pulled apart.
+// Two cells on top of each other, pulled apart.
 Scene pair_of_cells() {
     Scene scene(2, {1.0}, {1}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
     scene.interface(0, 1);
@@ -61,7 +61,7 @@ double number_of(const std::string& words) {
     return number;
 }
 
-// "0 <= value < 1", read as a person does.
+// Parses "0 <= value < 1".
 struct Range {
     double lower, upper;
     bool with_lower, with_upper;
@@ -138,7 +138,7 @@ CASE_TEST(ranges_are_kept) {
     }
 }
 
-// Each value of an option is another scene: hashes are all different. Other words for one value are the same scene.
+// Each value of an option gives another scene: all hashes differ. Other words for one value give the same scene.
 CASE_TEST(hash_changes_with_every_option) {
     const Scene scene = pair_of_cells();
     const std::string fresh = hash_of(scene);
@@ -172,7 +172,7 @@ CASE_TEST(hash_changes_with_every_option) {
                 scene.require(set(scene, option, tried), option.key.c_str());
                 look(std::to_string(tried));
             }
-            ++values;  // the default, which is not tried here
+            ++values;  // the default, which is not tested here
         }
         cases::expect(values > 1 && (option.key == "threads" || scenes == values - 1),
                       option.key + ": a value of it is no other scene than the default");

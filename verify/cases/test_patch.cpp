@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Patch tests of two blocks: a linear displacement on the boundary of perfectly bonded blocks is reproduced with its
-// constant stress; a compliant interface under uniform tension opens by t/k exactly. Both for any number of subdomains.
+// Patch tests of two blocks: a linear displacement on the boundary of perfectly bonded blocks gives its constant
+// stress; a compliant interface under uniform tension opens by exactly t/k. Both for any number of subdomains.
 #include <algorithm>
 
 #include "acceptance.hpp"
@@ -34,7 +34,7 @@ std::vector<double> upper_corner(const Shape& shape) {
     return shape.dimension == 2 ? std::vector<double>{0.3, 0.25} : std::vector<double>{0.3, 0.2, 0.25};
 }
 
-// Nodes on the outer surface; of the two nodes of a bonded pair there, both or only the lower block's.
+// Nodes on the outer surface; for bonded pairs there, both nodes or only the lower block's.
 std::vector<std::int64_t> surface(const Scene& scene, const Shape& shape, bool both_of_a_pair) {
     const auto corner = upper_corner(shape);
     const std::size_t d = corner.size();
@@ -121,7 +121,7 @@ CASE_TEST(bonded_blocks) {
     for (const int n : subdomain_counts) linear_field(shapes[loop], n, false);
 }
 
-// Both nodes of a bonded pair prescribed: the bond there says nothing new.
+// Both nodes of a bonded pair are prescribed: the bond there is redundant.
 CASE_TEST(bonded_blocks_redundant) {
     for (const int n : subdomain_counts) linear_field(shapes[loop], n, true);
 }
@@ -162,7 +162,7 @@ CASE_TEST(compliant_interface_in_series) {
         Solver solver(scene, 0.0);
         solver.step(1.0);
 
-        // Uniaxial stress: the bar's own stiffness is E/height, whatever the lateral contraction.
+        // Uniaxial stress: the bar's stiffness is E/height, whatever the lateral contraction.
         const double t = w / (height / young + 1.0 / k);
         const std::string where = std::string(shape.name) + ", " + std::to_string(subdomains) + " subdomains";
         const auto jump = solver.field("jump");
@@ -170,7 +170,7 @@ CASE_TEST(compliant_interface_in_series) {
         const double area = d == 2 ? corner[0] : corner[0] * corner[1];
         const auto accepted = reference::accept(solver, reference::Exported(scene));
         cases::expect_below(accepted.worst(), 1e-10, where + ": " + accepted.text());
-        // The corners of these faces bear no uniform traction (see test_reference): exact in equilibrium only.
+        // The corners of these faces carry no uniform traction (see test_reference): only equilibrium is exact.
         if (shape.cell == DELAM_TET10 || shape.cell == DELAM_HEX20) {
             const auto weight = scene.pairs(0).weight;
             double force = 0.0;

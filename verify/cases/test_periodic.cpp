@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Periodic cells: the stiffness of layered media in closed form (Backus 1962), with glued and with elastic interfaces,
+// Periodic cells: the stiffness of layered media in closed form (Backus 1962), with bonded and with elastic interfaces,
 // under prescribed strain and prescribed stress, in both realisations; the tangent against differences of reactions;
-// what is refused.
+// refused input.
 #include <array>
 #include <vector>
 
@@ -128,7 +128,7 @@ CASE_TEST(homogenised_stiffness) {
         cases::expect_near(solver.value(std::string("reaction:") + names[component[p][0]][component[p][1]]), reaction,
                            1e-9, size * 1e-6, "reaction");
     }
-    // The average stress over the cells' volumes is that of the control nodes' forces.
+    // The average stress over the cell's volume equals that of the control nodes' forces.
     const auto stress = solver.field("stress");
     const std::size_t columns = d == 2 ? 4 : 6, per_layer = static_cast<std::size_t>(d == 2 ? 6 : 12),
                       cells = stress.size() / columns;
@@ -141,8 +141,8 @@ CASE_TEST(homogenised_stiffness) {
     cases::expect_near(solver.value("reaction:yy") / volume(d), mean, 1e-9, size / volume(d) * 1e-6, "average stress");
 }
 
-// Tension along y by a dead force on control node 1, sides free to contract; the cell's rotation is held at control
-// nodes.
+// Tension along y by a dead force on control node 1, with sides free to contract; the cell's rotation is fixed at
+// control nodes.
 CASE_TEST(prescribed_stress) {
     const int d = loop % 2 == 0 ? 2 : 3;
     const bool condensed = loop / 2 == 0;
@@ -174,7 +174,7 @@ CASE_TEST(prescribed_stress) {
     cases::expect_near(tangent(solver, 1).front(), -force[1] * strain * ly, 1e-8, force[1] * strain * ly, "compliance");
 }
 
-// Reactions follow the tangent as long as adhesion and contact stay.
+// Reactions follow the tangent as long as adhesion and contact do not change.
 CASE_TEST(tangent_of_a_damaged_cell) {
     const int d = loop % 2 == 0 ? 2 : 3;
     Scene scene = loop / 4 == 0 ? cases::make_periodic_plies(d, true) : cases::make_lever(d);
@@ -227,7 +227,7 @@ CASE_TEST(refused) {
     });
     cases::expect(status(skew, {0.04, 0.0}, {0}) == DELAM_ERROR_MESH, "no partner");
     says(skew, "no partner for node");
-    // A free control node, and an equation that others imply.
+    // A free control node, and an equation implied by others.
     Scene loose = cases::plies_with_controls(2, 1);
     cases::clamp_left(loose);
     const auto load = loose.pattern("pull", {0.0, 1.0}, {0.0, 1.0});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values that the library records with each commit: what a host would have read step after step, returns included; part
-// of the saved state.
+// Values that the library records with each commit: they equal what a host would have read step after step, returns
+// included, and are part of the saved state.
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +16,7 @@ using reference::Solver;
 constexpr int steps = 40;
 double time_of(int k) { return 2.0 * k / steps; }
 
-// Brittle: its jump makes the march return to earlier steps.
+// Brittle: its jump makes the analysis return to earlier steps.
 FlexureScene returning() {
     FlexureScene f = reference::make_flexure(reference::find_flexure("enf-brittle"));
     f.scene.text("backtracking", "on");
@@ -62,7 +62,7 @@ void look(const Solver& solver, std::int64_t step) {
     solver.scene().require(delam_solver_look(solver.get(), step), "delam_solver_look");
 }
 
-// What the kept steps say when they are looked at.
+// The values of the kept steps when they are read again.
 void expect_as_looked_at(Solver& solver, const std::string& where) {
     const Size size = size_of(solver);
     for (const char* key : keys) {
@@ -84,7 +84,7 @@ CASE_TEST(steps_that_returns_replace) {
     cases::expect(size_of(solver).first == 0 && size_of(solver).steps == 1, "the present state is the first");
     for (int k = 1; k <= steps; ++k) {
         solver.step(time_of(k));
-        // Neither what is looked at nor what is thrown away is recorded.
+        // Neither reading earlier steps nor rolling back records anything.
         if (k == 3) {
             solver.rollback();
             cases::expect(size_of(solver).steps == k, "a step that was rolled back is recorded");
@@ -111,7 +111,7 @@ CASE_TEST(saved_with_the_state) {
     record_all(whole);
     record_all(first);
     walk(whole, 3, steps);
-    const int cut = 3;  // before the march returns behind it
+    const int cut = 3;  // before the analysis returns to a step before it
     walk(first, 3, cut);
     const auto bytes = first.save();
     record(second, "stored_bulk");
@@ -126,7 +126,7 @@ CASE_TEST(saved_with_the_state) {
     for (const char* key : keys)
         cases::expect(cases::same_bits(recorded(whole, key), recorded(second, key)),
                       std::string(key) + " after loading");
-    // A return behind the beginning of the record replaces what there is of it.
+    // A return to before the start of the record replaces the whole record.
     expect_as_looked_at(second, "resumed");
 }
 
@@ -162,7 +162,7 @@ CASE_TEST(later_keys_and_set_states) {
     cases::expect(
         work.size() == 4 && std::isnan(work[0]) && std::isnan(work[1]) && !std::isnan(work[2]) && work[3] > work[2],
         "not a number before it was asked for");
-    // A state that is set takes the place of its step.
+    // A state that is set replaces its step.
     solver.equilibrate(cases::small_time(5), solver.field("adhesion"));
     solver.commit();
     cases::expect(recorded(solver, "time").size() == 4 && recorded(solver, "time")[3] == cases::small_time(5),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The direct reference against closed forms, so that it may judge: uniform tension and compression across an interface
-// of any stiffness, and the refusal of what it cannot solve. The library only assembles here; its solver is not asked.
+// The direct reference against closed forms, because other tests rely on it: uniform tension and compression across an
+// interface of any stiffness, and the refusal of what it cannot solve. The library only assembles here; its solver is
+// not used.
 #include <algorithm>
 
 #include "direct.hpp"
@@ -20,12 +21,12 @@ bool in_plane(std::int32_t cell) {
            cell == DELAM_QUAD9;
 }
 
-// On the faces of tet10 and hex20 the forces of a uniform traction are not in the proportion of any positive nodal
-// weights (a corner gets none or a pull the other way): the traction of the pairs scatters around the exact one within
-// a cell's size, which makes the interface softer by about 0.2 h/E.
+// On the faces of tet10 and hex20 the forces of a uniform traction are not proportional to any positive nodal weights
+// (a corner gets none, or one of the opposite sign): the traction of the pairs scatters around the exact one within a
+// cell, which makes the interface softer by about 0.2 h/E.
 bool scatters(std::int32_t cell) { return cell == DELAM_TET10 || cell == DELAM_HEX20; }
 
-// Two blocks without lateral contraction, the lower face held, the upper one driven by `w` along the stack. With
+// Two blocks without lateral contraction, the lower face fixed, the upper one driven by `w` along the stack. With
 // `redundant` supports both nodes of the pairs at the rim are held sideways.
 Scene stack(std::int32_t cell, double k, double w, bool hold_below, bool redundant) {
     const int d = in_plane(cell) ? 2 : 3;
@@ -62,8 +63,8 @@ constexpr std::int32_t cells[] = {DELAM_TRI3,  DELAM_QUAD4, DELAM_TET4,  DELAM_H
 
 double area(std::int32_t cell) { return in_plane(cell) ? length : length * length; }
 
-// Interfaces far softer than this see the rounding of the assembled matrices: the bulk's K u is then nothing but the
-// difference of numbers as large as E w / h, and a translation costs eps of them.
+// Interfaces far softer than this show the rounding of the assembled matrices: the bulk's K u is then only the
+// difference of numbers as large as E w / h, and a translation has an error of eps times these.
 CASE_TEST(tension_at_any_stiffness) {
     for (const double k : {1e9, 1.25e11, 1e15, 1e20, 1e22}) {
         for (const bool redundant : {false, true}) {
@@ -95,7 +96,7 @@ CASE_TEST(tension_at_any_stiffness) {
     }
 }
 
-// Compressed faces close whatever holds them together, and carry the pressure of a monolithic block.
+// Compressed faces close whatever adhesion they have, and carry the pressure of a monolithic block.
 CASE_TEST(compression_closes) {
     for (const double adhesion : {0.0, 0.5, 1.0}) {
         const double w = -1e-5;
@@ -120,7 +121,7 @@ CASE_TEST(compression_closes) {
     }
 }
 
-// A torn-off block that is driven away: its faces open freely, and no force is left.
+// A separated block that is driven away: its faces open freely, and no force is left.
 CASE_TEST(debonded_block_opens) {
     const Scene scene = stack(cells[loop], 1e12, 1e-5, true, true);
     DirectReference direct(scene);
@@ -133,7 +134,7 @@ CASE_TEST(debonded_block_opens) {
     cases::expect_near(state.pattern[0], 0.0, 1e-12, 1e-5 * young / height, "reaction");
 }
 
-// Nothing holds the lower block once its bond is gone: out of scope, by a message and not by numbers.
+// Nothing holds the lower block once its bond is gone: refused by a message, without numbers.
 CASE_TEST(free_body_is_refused) {
     const Scene scene = stack(cells[loop], 1e12, 1e-5, false, false);
     DirectReference direct(scene);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plies so slender that their bending is rounding beside the stiffness of their cells: what the condensed operator
-// finds is held against the balance of forces, and a step that is none is not called converged. Opened (the jump is
-// large) and bent together (the jump is small, it is the inside of the bodies that loses its digits).
+// Plies so slender that rounding of their cell stiffnesses hides their bending: the result of the condensed operator is
+// checked against the balance of forces, and a step without balance must not be called converged. Opened (the jump is
+// large) and bent together (the jump is small, and the inside of the bodies loses its digits).
 #include <cmath>
 #include <string>
 #include <vector>
@@ -54,7 +54,7 @@ Scene plies(int dimension, double ratio, bool opened) {
     return scene;
 }
 
-// The status of the first step and how far its forces are out of balance; a refusal to condense is its status.
+// The status of the first step and its out-of-balance forces; a refusal to condense is its status.
 struct Found {
     std::int32_t status = DELAM_OK;
     double balance = 0.0, recoveries = 0.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scene files of examples/ at a coarse size: condensed and FETI against the direct reference, at states of their
-// marches.
+// analyses.
 #include <string>
 #include <vector>
 
@@ -15,17 +15,17 @@ struct Case {
     std::vector<std::size_t> steps;
     std::int64_t subdomains;  // 0: those of the library's choice
     double bound = 1e-8;
-    bool rounding = false;  // FETI may stop above its linear tolerance, and contacts near zero may be called either way
+    bool rounding = false;  // FETI may stop above its linear tolerance, and contacts near zero may be open or closed
 };
 
 const Case scenes[] = {
     {"mmb", {"geometry.divisions=200", "time.steps=40"}, {10, 24, 40}, 0},
     {"4enf", {"geometry.divisions=100", "time.steps=22"}, {5, 14, 22}, 6},
     // A strip of 200 mm by 0.265 mm in a beam that opens by centimetres: the residual of FETI stalls, and overlaps of
-    // 1e-11 of the opening are forces on springs of 1e13 N/m3 that the direct solution sees.
+    // 1e-11 of the opening are forces on springs of 1e13 N/m3 that the direct solution shows.
     {"dcb-double", {"geometry.divisions=100", "time.steps=20"}, {5, 12, 20}, 0, 1e-7, true},
     {"enf-3d", {"geometry.divisions=[34, 4]", "time.steps=10"}, {4, 10}, 0},
-    // Fibres float; control nodes have units of their own, which cost the motions in which they do half their digits
+    // Fibres float; control nodes have units of their own, so that the motions that involve them lose half their digits
     // once.
     {"fibres-30", {"mesh.fibres=6", "mesh.cells_around=16", "mesh.gap=0.3", "time.steps=10"}, {2, 5, 10}, 0, 2e-9},
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The energetic search where it may miss: several fronts, several interfaces, intact ones, space, floating and dead
-// loaded bodies, limits, other operators, other units. Rivals are whole displacement solves (energetic_scenes.hpp).
+// Weak points of the energetic search: several fronts, several interfaces, intact ones, space, floating bodies and dead
+// loads, limits, other operators, other units. Rivals are whole displacement solves (energetic_scenes.hpp).
 #include "energetic_scenes.hpp"
 #include "mmf.hpp"
 #include "small_march.hpp"
@@ -31,7 +31,7 @@ CASE_TEST(two_fronts_of_a_flexure) {
     cases::expect(dissipated.front() == 0.0 && dissipated.back() > 0.0, "a front moves");
 }
 
-// Two equal patches under a soft block: breaking one alone frees next to nothing.
+// Two equal patches under a soft block: breaking only one releases almost nothing.
 CASE_TEST(only_the_joint_advance_pays) {
     Block b;
     b.cells = 13;
@@ -66,7 +66,7 @@ CASE_TEST(two_interfaces) {
 
 // ---- nucleation ---------------------------------------------------------------------------------------------------
 
-// All of an intact interface lets go at w = sqrt(2 Gc (1/K + 1/k)), however many pairs it has.
+// The whole intact interface separates at w = sqrt(2 Gc (1/K + 1/k)), however many pairs it has.
 CASE_TEST(intact_interface_lets_go_at_once) {
     Block b;
     b.cells = loop == 0 ? 12 : 80;
@@ -151,7 +151,7 @@ CASE_TEST(straight_fronts_in_space) {
         const double t = k / 8.0;
         solver.step(t);
         double rival = INFINITY;
-        // A march may be ahead of a scan that has no history: only fronts that cost at least as much as was spent.
+        // An analysis may be ahead of a scan without history: only fronts that dissipate at least what was spent.
         for (std::size_t f = 0; f < energy.size(); ++f)
             if (f > 0 || k == 1 || solver.value("dissipated") == 0.0)
                 rival = std::min(rival, t * t * energy[f] + spent[f]);
@@ -163,9 +163,10 @@ CASE_TEST(straight_fronts_in_space) {
     cases::expect(solver.value("dissipated") > 0.0, "the front moves");
 }
 
-// ---- parts that come off ------------------------------------------------------------------------------------------
+// ---- parts that separate ------------------------------------------------------------------------------------------
 
-// A block that nothing holds sideways once it is off: breaking all is a candidate as it is where it is held.
+// A block that nothing holds sideways once it is off: breaking all pairs is a candidate, as it is where the block is
+// held.
 CASE_TEST(floating_block_comes_off) {
     Block b;
     b.held = false;
@@ -178,8 +179,8 @@ CASE_TEST(floating_block_comes_off) {
     cases::expect(dissipated.back() > 0.0, "the block comes off");
 }
 
-// Under a dead load there is no balance without the interface: such candidates are passed over, and what they might
-// have had is not claimed to be known.
+// Under a dead load there is no equilibrium without the interface: such candidates are skipped, and the library claims
+// no bound for them.
 CASE_TEST(dead_load) {
     Beam b;
     b.right = 0.0;

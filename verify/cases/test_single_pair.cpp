@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two rigidly moved blocks impose a uniform jump: the interface alone answers, and follows the bilinear law in mode I
+// Two rigidly moved blocks impose a uniform jump: only the interface responds, and follows the bilinear law in mode I
 // and mode II through loading, unloading and reloading, with the energies of its ledger.
 #include <algorithm>
 
@@ -17,7 +17,7 @@ struct Mode {
     double direction[2];  // of the upper block
     double stiffness, onset, toughness;
 };
-// The modes differ, so that a mixity mistaken for the other mode's shows.
+// The modes differ, so that a mixity mistaken for that of the other mode would show.
 constexpr LawData law{125e9, 80e9, 100.0, 160.0, 250.0, 480.0};
 constexpr Mode modes[] = {{"mode I", {0.0, 1.0}, 125e9, 100.0, 250.0}, {"mode II", {1.0, 0.0}, 80e9, 160.0, 480.0}};
 
@@ -42,8 +42,8 @@ double slides_stored(const Mode& m, double zeta) {
     return -m.toughness * d * zeta * (1.0 - zeta) / (m.onset + d * zeta);
 }
 
-// All nodes prescribed; the interface is 1 m long, so forces are tractions. The path goes through `turns`, fractions of
-// the final jump.
+// All nodes are prescribed; the interface is 1 m long, so forces are tractions. The path goes through `turns`,
+// fractions of the final jump.
 Scene imposed(const Mode& m, const std::vector<double>& turns) {
     Scene scene(2, {1.0}, {1}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
     scene.interface(0, 1);
@@ -116,9 +116,9 @@ CASE_TEST(bilinear_law) {
     cases::expect_near(solver.value("dissipated"), m.toughness, 1e-12, m.toughness, "all of the toughness is spent");
 }
 
-// Work is (lower + upper)/2 per step, an O(tau) estimate inside a step. With an imposed jump that differs from the
-// trapezoid of the reactions by k dw^2 |d zeta| / 4 at most, so the defect of the ledger shrinks with the square of the
-// step.
+// Work is (lower + upper)/2 per step, an O(tau) estimate inside a step. With an imposed jump this differs from the
+// trapezoidal rule for the reactions by at most k dw^2 |d zeta| / 4, so the defect of the ledger decreases with the
+// square of the step.
 double ledger_defect(const Mode& m, int steps, double& bound) {
     const Scene scene = imposed(m, {0.0, 1.2});
     Solver solver(scene, 0.0);
@@ -147,7 +147,7 @@ CASE_TEST(ledger_closes_in_the_limit) {
     cases::expect_below(fine, bound_fine, std::string(m.name) + ": defect at 480 steps");
 }
 
-// The pure law function alone, at the same points.
+// The law function alone, at the same points.
 CASE_TEST(law_function) {
     const Mode& m = modes[loop];
     const Scene scene = imposed(m, {0.0, 1.0});

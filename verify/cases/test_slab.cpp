@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A slab in space whose sides cannot move sideways is a plane-strain strip: one cell of hex8 across the width gives the
-// same march as quad4, pair for pair; mixed-mode flexure (contact behind the tip) and a double cantilever beam.
+// same analysis as quad4, pair for pair; mixed-mode flexure (contact behind the tip) and a double cantilever beam.
 #include <cmath>
 #include <vector>
 
@@ -75,8 +75,7 @@ CASE_TEST(a_slab_is_plane_strain) {
         slab.step(0.1 * k);
         flat.commit();
         slab.commit();
-        // The sideways jumps, which the device prescribes, keep no pair out of Newton's method (plain steps: more than
-        // a hundred).
+        // The prescribed sideways jumps exclude no pair from Newton's method (plain steps: more than a hundred).
         cases::expect_below(slab.value("am_iterations"), 10.0, "alternations of the slab");
         for (const char* key : {"reaction:load", "stored_bulk", "stored_interface", "dissipated"}) {
             const double scale = std::max(std::abs(flat.value(key)), 1e-3 * flat.value("work"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Save, load, go on: the same bits as without the interruption. Bytes that are damaged, cut or of another scene are
-// refused and leave the solver as it was. A step that is rolled back never was.
+// Save, load, continue: the same bits as without the interruption. Bytes that are damaged, truncated or from another
+// scene are refused and leave the solver unchanged. A step that is rolled back leaves no trace.
 #include "small_march.hpp"
 
 namespace {
@@ -18,7 +18,7 @@ CASE_TEST(resumed_march) {
     const auto at_half = cases::read_bits(whole);
     cases::walk(whole, half + 1, cases::small_steps);
 
-    // A scene made anew, as after a restart of the host.
+    // A new copy of the scene, as after a restart of the host.
     const Scene again = cases::small_enf();
     Solver resumed(again, 0.0);
     again.require(resumed.load(bytes), "delam_solver_load");
@@ -53,7 +53,7 @@ CASE_TEST(rollback_is_exact) {
     cases::expect_same(solver, cases::read_bits(solver), committed, "after rollback");
     cases::expect(solver.save() == bytes, "snapshot after rollback");
 
-    // A farther step, refused too, must not leave a trace in the next one.
+    // A further step, rolled back too, must leave no trace in the next one.
     solver.step(cases::small_time(half + 5));
     solver.rollback();
     solver.step(cases::small_time(half + 1));
@@ -73,7 +73,7 @@ CASE_TEST(equilibrate_moves_no_ledger) {
     cases::expect_same(solver, cases::read_bits(solver), committed, "after rollback");
 }
 
-// A two-element bar keeps the exhaustive loops short.
+// A bar of two elements keeps the exhaustive loops short.
 Scene tiny(double end) {
     Scene scene(2, {1.0}, {1}, {1.0, 1.0}, {1, 1}, DELAM_QUAD4);
     scene.interface(0, 1);
@@ -145,8 +145,8 @@ CASE_TEST(other_scene) {
     expect_refused(enf, bytes, "other mesh");
 }
 
-// Brittle, condensed, accelerated: fronts leap, so that the condensed operator chooses, releases and renews its zones.
-// What it remembers of that decides the last digits.
+// Brittle, condensed, accelerated: fronts jump, so that the condensed operator chooses, releases and renews its zones.
+// Its memory of them determines the last digits.
 Scene leaping_enf() {
     cases::Enf e;
     e.h = 1e-3;
@@ -188,7 +188,7 @@ CASE_TEST(resumed_leaps) {
     }
 }
 
-// Every step is taken twice, a far one and a displacement step in between: as if they had never been.
+// Every step is computed twice, with a far step and a displacement step in between, both rolled back.
 CASE_TEST(leaps_rolled_back) {
     const Scene scene = leaping_enf();
     Solver straight(scene, 0.0), wavering(scene, 0.0);
@@ -212,7 +212,7 @@ CASE_TEST(leaps_rolled_back) {
     cases::expect_same(wavering, cases::read_bits(wavering), cases::read_bits(straight), "in the end");
 }
 
-// A solver that went elsewhere before loads a state and goes on from there.
+// A solver with another history loads a state and continues from there.
 CASE_TEST(loaded_over_another_past) {
     const Scene scene = leaping_enf();
     Solver first(scene, 0.0), other(scene, 0.0);
@@ -227,7 +227,7 @@ CASE_TEST(loaded_over_another_past) {
     cases::expect(other.save() == first.save(), "the steps after it");
 }
 
-// Cancelled at any of its stages, a step leaves no trace.
+// A step cancelled at any of its stages leaves no trace.
 struct Countdown {
     int left;
 };
@@ -260,7 +260,7 @@ CASE_TEST(cancelled_leaps) {
     cases::expect(cancelled.save() == after, "snapshots differ");
 }
 
-// Two plies of hexahedra, unbonded at one end, which is peeled off by its corners, one pulled harder and aside: all
+// Two plies of hexahedra, unbonded at one end, which is peeled off by its corners, one pulled harder and sideways: all
 // three modes.
 struct Peel {
     const char* name;
@@ -330,7 +330,7 @@ CASE_TEST(resumed_peel) {
         bits.push_back(cases::read_bits(whole));
         dissipated.push_back(whole.value("dissipated"));
     }
-    // A scene made anew, as after a restart of the host.
+    // A new copy of the scene, as after a restart of the host.
     const Scene again = make_peel(p);
     for (const std::size_t from : {3U, 6U, 9U}) {
         cases::expect(dissipated[from] > 0.0 && dissipated.back() > dissipated[from],

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps in parts: jumps where they are, none where there are none, books that close over the parts, refusals that end,
+// Steps in parts: jumps where they are and nowhere else, energies that balance over the parts, refusals that terminate,
 // and calls that are cancelled at any place.
 #include <cstring>
 #include <numeric>
@@ -20,7 +20,7 @@ using reference::Solver;
 
 double size_of(const Solver& s) { return std::max(cases::scale(s), 1e-12); }
 
-// Steps of a march in parts: their sums are those of the whole.
+// Steps of an analysis in parts: their sums are those of the whole.
 void expect_books_close(const Solver& s, double energy_before, double dissipated_before, double work_before,
                         const std::string& where) {
     const double change = cases::stored(s) - energy_before + s.value("dissipated") - dissipated_before;
@@ -31,7 +31,7 @@ void expect_books_close(const Solver& s, double energy_before, double dissipated
     cases::expect(s.value("substeps") >= 1.0, where + "parts");
 }
 
-// Jumps of the pending step, in order, inside it, with books of their own.
+// Jumps of the pending step, in order, inside it, with their own energies.
 void expect_jumps(const Solver& s, double from, const std::string& where) {
     const double to = s.value("time");
     double released = 0.0, n = 0.0, last = from;
@@ -50,7 +50,7 @@ void expect_jumps(const Solver& s, double from, const std::string& where) {
     cases::expect_near(s.value("released"), released, 1e-12, size_of(s), where + "released");
 }
 
-// A block that lets go: at its two closed-form loads, to the tolerance, whatever the steps.
+// A block that separates: at its two closed-form loads, to the tolerance, whatever the steps.
 CASE_TEST(block_jumps_where_it_should) {
     Block b;
     b.cells = 3;
@@ -111,7 +111,7 @@ CASE_TEST(smooth_march_has_no_jump) {
     }
     cases::expect(spent > 0.0, "something is damaged");
     cases::expect(jumps(solver).empty(), "jumps of a ductile front: " + std::to_string(jumps(solver).size()));
-    // So is a stiff spring.
+    // Nor is that of a stiff spring.
     Block b;
     b.cells = 3;
     b.spring = 4e12;
@@ -133,7 +133,7 @@ CASE_TEST(smooth_march_has_no_jump) {
     cases::expect(jumps(spring).empty(), "jumps of a stable spring: " + std::to_string(jumps(spring).size()));
 }
 
-// Jumps of the flexure test: energy that they release, and books of a march with many of them.
+// Jumps of the flexure test: the energy that they release, and the balance of an analysis with many of them.
 CASE_TEST(jumps_of_a_flexure) {
     const bool energetic = loop == 0;
     reference::FlexureScene f = reference::make_flexure(reference::find_flexure("enf-brittle"));
@@ -151,7 +151,7 @@ CASE_TEST(jumps_of_a_flexure) {
         expect_jumps(solver, 2.0 * (k - 1) / steps, where);
         released += solver.value("released");
         parts += solver.value("substeps");
-        if (k == 1 || k == steps) {  // rolled back, it never was
+        if (k == 1 || k == steps) {  // rolled back, without a trace
             const auto bits = cases::read_bits(solver);
             const auto count = jumps(solver).size();
             solver.rollback();
@@ -163,11 +163,11 @@ CASE_TEST(jumps_of_a_flexure) {
     }
     cases::expect(!jumps(solver).empty(), "a jump");
     cases::expect(parts > steps, "steps were walked in parts");
-    // What was put in and is neither stored nor dissipated was released.
+    // The work that was neither stored nor dissipated was released.
     const double missing = solver.value("work") - cases::stored(solver) - solver.value("dissipated");
     cases::expect_near(missing, released, 2e-2, solver.value("work"), "work less stored and dissipated");
     if (!energetic) cases::expect(released > 0.1 * solver.value("dissipated"), "a local jump releases energy");
-    // Jumps survive saving, and a state that is set.
+    // Jumps survive saving, and setting a state.
     const auto before = jumps(solver);
     Solver again(f.scene, 0.0);
     f.scene.require(again.load(solver.save()), "delam_solver_load");
@@ -178,9 +178,9 @@ CASE_TEST(jumps_of_a_flexure) {
     cases::expect(jumps(again).size() == before.size(), "jumps of the march after a set state is committed");
 }
 
-// Open (DELAM_OPEN_TESTS=1 runs them): what is released is all that is missing. It is not where a step was replaced
-// after a return, whose jumps are not located (loop 0), nor where a local front hops by cells so regularly that the
-// hops count as growth (loop 1).
+// Known open problems (DELAM_OPEN_TESTS=1 runs them): the released energy should account for the whole defect. It does
+// not if a step was replaced after a return, because its jumps are not located (loop 0), nor if a local front jumps by
+// cells so regularly that the jumps count as growth (loop 1).
 CASE_TEST(open_all_that_is_missing_was_released) {
     reference::FlexureScene f = reference::make_flexure(reference::find_flexure("enf-brittle"));
     f.scene.text("backtracking", loop == 0 ? "on" : "off");
@@ -234,7 +234,7 @@ CASE_TEST(steps_that_do_not_converge_are_cut) {
     cases::expect(failed_adaptive == 0, "all parts converge");
 }
 
-// A step whose bounds are wide is cut until they are not.
+// A step whose bounds are wide is divided until they are not.
 CASE_TEST(wide_estimates_are_cut) {
     Beam b;
     b.press = 1e-3;

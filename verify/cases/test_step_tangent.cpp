@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The consistent tangent of a step is the derivative of the reactions that the step itself gives, damage included:
-// against central differences of whole steps whose end factors are changed. And what the condensed operator says is the
+// The consistent tangent of a step is the derivative of the step's own reactions, damage included: compared with
+// central differences of whole steps whose end factors are changed. And the energy of the condensed operator is the
 // energy that the solver reports.
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ struct Setting {
     const char* reduction;
     const char* rule;
     double gradient;
-    double asymmetry;  // smallest relative asymmetry that must show; 0: symmetric
+    double asymmetry;  // smallest relative asymmetry that must appear; 0: symmetric
 };
 
 constexpr Setting settings[] = {
@@ -127,19 +127,19 @@ void tangent_is_the_derivative(int loop) {
             return reactions;
         };
         solver.rollback();
-        // Compared in energies: entries times the factors of their row and column at the end.
+        // Compared as energies: entries times the factors of their row and column at the end.
         double size = 0.0;
         for (int p = 0; p < 3; ++p)
             size = std::max(size, std::abs(tangent[static_cast<std::size_t>(4 * p)]) * ends[p] * ends[p]);
         for (int q = 0; q < 3; ++q) {
-            const double e = 2e-7 * ends[q];  // small: no pair may start to soften within
+            const double e = 2e-7 * ends[q];  // small: no pair may start to soften within it
             const auto above = at(q, e), below = at(q, -e);
             for (int p = 0; p < 3; ++p) {
                 const auto i = static_cast<std::size_t>(3 * p + q);
                 const double difference =
                     (above[static_cast<std::size_t>(p)] - below[static_cast<std::size_t>(p)]) / (2.0 * e);
-                // Before the first load the mixity is that of the elastic solution, which moves along: the first step
-                // of a mixed law is not compared.
+                // Before the first load the mixity is that of the elastic solution, which changes too, so the first
+                // step of a mixed law is not compared.
                 if (k > 1)
                     cases::expect_near(
                         tangent[i] * ends[p] * ends[q], difference * ends[p] * ends[q], 2e-4, size,
@@ -149,7 +149,7 @@ void tangent_is_the_derivative(int loop) {
                                                     ends[p] * ends[q] / size);
             }
         }
-        // Back on the way: what was changed and rolled back leaves the planned value.
+        // Changed histories that were rolled back leave the planned value.
         for (int p = 0; p < 3; ++p)
             scene.require(delam_solver_set_history(solver.get(), p, 1, &time, &factors[static_cast<std::size_t>(p)]),
                           "delam_solver_set_history");
@@ -181,7 +181,7 @@ CASE_TEST(tangent_refused) {
     cases::expect(solver.save() == before, "the state has changed");
     for (const char* key : {"stored_bulk", "dissipated", "reaction:lift", "am_iterations", "contact_pairs"})
         cases::expect(solver.value(key) == values.at(key), std::string("the pending step has changed: ") + key);
-    // A step in parts has none: each part starts from the one before.
+    // A step in parts has no tangent, because each part starts from the one before.
     {
         Scene parts = strip(settings[0]);
         parts.number("mixity_step_tolerance", 1e-3);
@@ -198,7 +198,7 @@ CASE_TEST(tangent_refused) {
         }
         cases::expect(refused, "no step was walked in parts");
     }
-    // The next step does not notice that it was asked.
+    // Reading the tangent does not affect the next step.
     solver.commit();
     solver.step(0.2);
     solver.commit();
@@ -211,7 +211,7 @@ CASE_TEST(tangent_refused) {
     cases::expect(asked == other.save(), "the step after it differs");
 }
 
-// E = 1/2 x.S x - theta.L x + 1/2 theta.A theta at the jumps of a march, and its jumps from x.
+// E = 1/2 x.S x - theta.L x + 1/2 theta.A theta at the jumps of an analysis, and its jumps from x.
 void operator_is_the_energy(int loop) {
     const Scene scene = strip(settings[loop == 0 ? 0 : 5]);
     Solver solver(scene, 0.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The minimum-norm point against enumeration: cuts of random graphs and coverages with prices, where the dual bound is
-// exact.
+// The minimum-norm point against enumeration: cuts of random graphs and coverages with prices, for which the dual bound
+// is exact.
 #include <algorithm>
 #include <random>
 
@@ -58,8 +58,8 @@ CASE_TEST(cuts) {
     cases::expect_near(cut(found.best), found.value, 1e-14, 10.0, "value of the set");
 }
 
-// Less part * sqrt(|A|), whose marginals -part (sqrt(m+1) - sqrt(m)) grow from -part to 0: violations smaller than
-// `part`, and the bound corrected by them holds.
+// Minus part * sqrt(|A|), whose marginals -part (sqrt(m+1) - sqrt(m)) grow from -part to 0: violations smaller than
+// `part`, so that the corrected bound holds.
 CASE_TEST(correction_for_violations) {
     const Cut cut = make_cut(static_cast<unsigned>(loop));
     const double part = 0.3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mirror-symmetric scenes have mirror-symmetric answers, and answers do not depend on the units they are asked in.
+// Mirror-symmetric scenes have mirror-symmetric solutions, and solutions do not depend on the units.
 #include <algorithm>
 
 #include "api.hpp"
@@ -20,11 +20,11 @@ double largest(const std::vector<double>& values) {
 constexpr double length = 0.04;
 constexpr double arm = 2e-3;
 constexpr int columns = 40;
-// The stopping rule of the minimisation must not decide the comparison.
+// Tight enough that the stopping test of the minimisation does not affect the comparison.
 constexpr double damage_tolerance = 1e-11;
 constexpr double symmetric_to = 1e-8;
 
-// Two arms glued over their length but for pairs with low <= x <= high.
+// Two arms bonded over their length except for pairs with low <= x <= high.
 Scene arms(double low, double high) {
     Scene scene(2, {length}, {columns}, {arm, arm}, {2, 2}, DELAM_QUAD4);
     scene.interface(0, 1);
@@ -42,7 +42,7 @@ Scene arms(double low, double high) {
     return scene;
 }
 
-// A crack in the middle, opened at mid-span: left and right answer alike.
+// A crack in the middle, opened at mid-span: left and right respond alike.
 CASE_TEST(left_and_right) {
     Scene scene = arms(0.4 * length, 0.6 * length);
     const auto bottom = scene.find(0, {0.0, 0.0}, {length, 0.0});
@@ -74,7 +74,7 @@ CASE_TEST(left_and_right) {
     cases::expect(solver.value("dissipated") > 0.0, "the crack grows, or nothing was tested");
 }
 
-// A double cantilever opened by equal and opposite displacements: no slip, and the arms are each other's image.
+// A double cantilever opened by equal and opposite displacements: no slip, and the arms are mirror images.
 CASE_TEST(upper_and_lower) {
     Scene scene = arms(0.0, 0.3 * length);
     const auto right = scene.find(-1, {length, 0.0}, {length, 2 * arm});
@@ -105,7 +105,7 @@ CASE_TEST(upper_and_lower) {
     cases::expect(solver.value("dissipated") > 0.0, "the crack grows, or nothing was tested");
 }
 
-// Mixed-mode bending of a cantilever in units that make every length `a` and every force `b` times the old number.
+// Mixed-mode bending of a cantilever in units that multiply every length by `a` and every force by `b`.
 struct Record {
     std::vector<double> jump, traction, adhesion, displacement;
     double stored, dissipated, work, reaction;
@@ -167,7 +167,7 @@ CASE_TEST(change_of_units) {
     cases::expect(base.dissipated > 0.0, "the interface is damaged, or nothing was tested");
     const std::string where = std::string(s.name) + ": ";
     const double energy = s.force * s.length;
-    // Forces and energies of the plane are per unit thickness, a length that changes too.
+    // Forces and energies of the plane are per unit thickness, which is a length too.
     expect_scaled(other.adhesion, base.adhesion, 1.0, s.tolerance, where + "adhesion");
     expect_scaled(other.jump, base.jump, s.length, s.tolerance, where + "jump");
     expect_scaled(other.displacement, base.displacement, s.length, s.tolerance, where + "displacement");

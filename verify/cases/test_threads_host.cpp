@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A guest in the host's process: independent contexts in threads, cancel from anywhere, no output, no signal handlers,
-// no rand().
+// The library as a guest in the host's process: independent contexts in threads, cancel from anywhere, no output, no
+// signal handlers, no rand().
 #include <unistd.h>
 
 #include <atomic>
@@ -60,8 +60,8 @@ std::int32_t watch(const char* stage, std::int64_t, std::int64_t, void* user) {
     return w.stop_at >= 0 && w.calls >= w.stop_at ? 1 : 0;
 }
 
-// Cancelled at the first, second, ... call of the progress callback, the solver goes on as if the step had never been
-// asked for.
+// Cancelled at the first, second, ... call of the progress callback, the solver continues as if the step had never been
+// requested.
 CASE_TEST(cancel_through_progress) {
     const Scene scene = cases::small_enf();
     Solver solver(scene, 0.0);
@@ -94,8 +94,8 @@ CASE_TEST(cancel_through_progress) {
     solver.step(cases::small_time(few + 2));
 }
 
-// Large meshes are looked up from while they are assembled, every few hundred cells: what a cancel waits for does not
-// grow with the mesh.
+// The assembly of large meshes polls every few hundred cells: the time until a cancel takes effect does not grow with
+// the mesh.
 struct Assembly {
     std::int64_t looks = 0;
     static std::int32_t count(const char* stage, std::int64_t done, std::int64_t, void* user) {
@@ -139,7 +139,7 @@ struct Handshake {
     std::atomic<bool> cancelled{false};
 };
 
-// The callback lets the step go on only when the other thread has asked for its end.
+// The callback lets the step continue only after the other thread has made its cancel request.
 std::int32_t meet(const char*, std::int64_t, std::int64_t, void* user) {
     auto& h = *static_cast<Handshake*>(user);
     h.inside = true;
@@ -169,7 +169,7 @@ CASE_TEST(cancel_from_another_thread) {
     solver.step(cases::small_time(few + 1));  // the request was consumed
 }
 
-// Runs a scene and provokes errors with both streams in a file; returns what was written.
+// Runs a scene and provokes errors with both streams redirected to a file; returns what was written.
 std::string written_during(void (*work)()) {
     std::fflush(stdout);
     std::fflush(stderr);
@@ -225,7 +225,7 @@ CASE_TEST(nothing_is_printed) {
 
 void host_handler(int, siginfo_t*, void*) {}
 
-// glibc adds SA_RESTORER to whatever is set anew; it is no choice of the host.
+// glibc adds SA_RESTORER to every new handler; the host does not choose it.
 constexpr int flags_of_the_host = SA_SIGINFO | SA_RESTART | SA_NODEFER | SA_ONSTACK | static_cast<int>(SA_RESETHAND);
 
 bool same_handler(const struct sigaction& a, const struct sigaction& b) {
@@ -234,7 +234,7 @@ bool same_handler(const struct sigaction& a, const struct sigaction& b) {
     return (a.sa_flags & SA_SIGINFO) != 0 ? a.sa_sigaction == b.sa_sigaction : a.sa_handler == b.sa_handler;
 }
 
-// A host with handlers of its own for the signals that libraries like to take: they keep function, flags and mask.
+// A host with its own handlers for the signals that libraries tend to use: they keep function, flags and mask.
 CASE_TEST(signals_are_untouched) {
     constexpr int taken[] = {SIGABRT, SIGTERM, SIGINT, SIGSEGV, SIGFPE};
     struct sigaction original[NSIG] = {};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Two blocks whose meshes do not match, tied by projection, under a linear displacement on their outside: exact where
-// one mesh refines the other and is b; else an error that stays at the interface, and falls as b gets finer. Both
-// realisations find the same.
+// Two blocks with unmatched meshes, tied by projection, under a linear displacement on their outside: exact where one
+// mesh refines the other and is b; otherwise an error that stays at the interface and decreases as b gets finer. Both
+// realisations give the same result.
 #include <algorithm>
 #include <cmath>
 
@@ -95,7 +95,7 @@ CASE_TEST(patch) {
     const std::string where = std::to_string(d) + "D, " + reduction;
     cases::expect_below(stress_error(d, 2, 4, reduction), 1e-9, where + ", b refines a");
     cases::expect_below(stress_error(d, 3, 3, reduction), 1e-9, where + ", matching");
-    // Many nodes on faces of one body: rows of FETI that all hang together.
+    // Many nodes on faces of one body: rows of FETI that are all coupled.
     cases::expect_below(stress_error(d, 6, 12, reduction), 1e-9, where + ", 12 faces on 6");
     double before = 1.0;
     std::string table;

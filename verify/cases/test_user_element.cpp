@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sub-laminate as one element of a host: the host knows the displacements of its boundary, asks for forces and the
-// consistent tangent, and iterates with Newton's method on its own unknowns. Checked: it converges quadratically, and
-// to what the library finds when the rest of the structure is part of its own scene.
+// A sub-laminate as one element of a host: the host knows the displacements of its boundary, requests forces and the
+// consistent tangent, and iterates with Newton's method on its own unknowns. The test checks that it converges
+// quadratically, and to the library's result when the rest of the structure is part of the library's own scene.
 #include <array>
 #include <cmath>
 
@@ -13,7 +13,7 @@ namespace {
 using reference::Scene;
 using reference::Solver;
 
-// Two arms, glued behind a notch; the boundary: up and sideways at the tip of the upper arm, up at that of the lower
+// Two arms, bonded behind a notch; the boundary: up and sideways at the tip of the upper arm, up at that of the lower
 // one.
 constexpr std::size_t unknowns = 3;
 constexpr const char* names[unknowns] = {"up", "side", "low"};
@@ -21,16 +21,16 @@ constexpr const char* names[unknowns] = {"up", "side", "low"};
 struct Arms {
     Scene scene;
     std::vector<std::int64_t> upper, lower;  // nodes at the tips
-    double share;                            // of the machine that the specimen's width takes
+    double share;                            // fraction of the machine that acts on the specimen's width
 };
 
-// The machine that drives the element: a spring for each displacement, and how far it travels at time 1.
+// The machine that drives the element: a spring for each displacement, and its travel at time 1.
 constexpr double machine[unknowns] = {3e7, 5e8, 2e7};
 constexpr double travel[unknowns] = {1.5e-3, -4e-5, -1.2e-3};
 constexpr int steps = 40;
 
-// with_machine: its springs as pairs of the tips with two control nodes that travel; they only ever pull, as contact
-// wants it. In space the tips are the middle nodes of the ends, which stay in the plane of symmetry.
+// with_machine: its springs as pairs of the tips with two control nodes that travel; they only pull, as contact
+// requires. In space the tips are the middle nodes of the ends, which stay in the plane of symmetry.
 Arms arms(int d, bool with_machine) {
     const bool space = d == 3;
     const Scene layers = space ? Scene(3, {0.04, 0.004}, {20, 2}, {1e-3, 1e-3}, {1, 1}, DELAM_HEX8)
@@ -86,7 +86,7 @@ Arms arms(int d, bool with_machine) {
     scene.drive(with_machine ? std::vector{control + 1} : lower, across, history(2), {1.0});
     if (with_machine) {
         scene.law(1, {share * machine[0], share * machine[1], 1e30, 1e30, 2e30, 2e30});
-        scene.law(2, {share * machine[2], 1e-4, 1e30, 1e30, 2e30, 2e30});  // sideways as good as free
+        scene.law(2, {share * machine[2], 1e-4, 1e30, 1e30, 2e30, 2e30});  // practically free sideways
         scene.hold({control + 1}, along);
         if (space) {
             scene.hold({control}, {0.0, 1.0, 0.0});
@@ -96,7 +96,7 @@ Arms arms(int d, bool with_machine) {
     return {std::move(scene), upper, lower, share};
 }
 
-// Gauss, in place; small and plain, as a host has its own.
+// Gauss elimination in place; small and simple, as in a host.
 std::array<double, unknowns> solved(std::array<std::array<double, unknowns>, unknowns> a,
                                     std::array<double, unknowns> b) {
     for (std::size_t p = 0; p < unknowns; ++p) {
@@ -158,7 +158,7 @@ CASE_TEST(newton_of_a_host) {
             for (std::size_t p = 0; p < unknowns; ++p) u[p] -= change[p];
         }
         solver.commit();
-        // The last error is the square of the one before, times a constant that has no reason to be large.
+        // The last error is the square of the one before, times a constant of moderate size.
         const std::size_t n = history.size();
         if (n >= 3 && history[n - 2] < 1e-3 && history[n - 1] <= 100.0 * history[n - 2] * history[n - 2] + 1e-11)
             ++quadratic;

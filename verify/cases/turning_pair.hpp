@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One ductile interface between two rigidly moved blocks whose mode changes while it softens, and the exact answer to
-// what the slides' ledger
-// cannot close with frozen mixity.
+// One ductile interface between two rigidly moved blocks whose mode changes while it softens, and the exact defect that
+// the ledger of PANM 15 (2010) has with frozen mixity.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +13,7 @@ namespace cases {
 
 inline constexpr double turning_final = 1e-4;  // m, dc of the pure modes
 
-// Opening 1.05 dc t, slip 0.75 of it times (0.4 + 0.6 t). The slip is drawn by a polygon through 200 instants.
+// Opening 1.05 dc t, slip 0.75 of it times (0.4 + 0.6 t). The slip is a polygon through 200 instants.
 inline double turning_opening(double t) { return 1.05 * turning_final * t; }
 inline double turning_slip(double t) {
     constexpr int parts = 200;

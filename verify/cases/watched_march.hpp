@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A march under watch. What any method of minimisation must show in every step, computed outside the library: the end
-// state is a critical point, adhesion never grows, and the energy has not risen above that of the elastic answer from
-// which the step starts.
+// An analysis checked from outside the library in every step, for any method of minimisation: the end state is a
+// critical point, adhesion never grows, and the energy is not above that of the elastic answer from which the step
+// starts.
 #pragma once
 
 #include <algorithm>
@@ -85,7 +85,7 @@ struct Watch {
     std::string reaction;  // of which pattern
     double delta = 1e-5;
     double kkt = 1e-10;
-    bool fixed_point = true;  // ask for a damage defect <= delta
+    bool fixed_point = true;  // require a damage defect <= delta
     int kkt_every = 5;
 };
 
