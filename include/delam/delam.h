@@ -8,7 +8,7 @@
  *
  * Rules for every function
  *   status     0: done. > 0: an outcome; the object stays valid and usable. < 0: an error; the object is unchanged.
- *              delam_context_message() explains the last status other than 0, for the context of the object.
+ *              delam_context_message(), called with the object's context, explains the last status other than 0.
  *   units      Any consistent set of units will do; the examples use SI (m, N, Pa, J). In 2D, forces and energies are
  *              per unit thickness. Dimensions are products of L (length) and F (force): stress F/L2, interface
  *              stiffness F/L3, toughness F/L (J/m2).
@@ -17,9 +17,9 @@
  *              the function allows it; an array may be NULL when its count is 0.
  *   indices    Indices are int64_t. Index arrays that are passed in count from `index_base` (0 or 1); single indices
  *              and all outputs count from 0.
- *   handles    Handles are opaque. create writes *out, or NULL on error. destroy takes the address of the handle, sets
- *              the handle to NULL and accepts NULL. Objects may be destroyed in any order. A foreign or destroyed
- *              handle gives DELAM_ERROR_HANDLE, as far as the library can recognise it.
+ *   handles    Handles are opaque. A create function writes *out, or NULL on error. A destroy function takes the
+ *              address of the handle, sets the handle to NULL and accepts NULL. Objects may be destroyed in any order.
+ *              A foreign or destroyed handle gives DELAM_ERROR_HANDLE, as far as the library can recognise it.
  *   numbers    A number that is not finite is an error, and the message names it.
  *   threads    One thread at a time may use a context and the objects made with it. Different contexts are
  *              independent of each other. delam_context_cancel() alone may be called from any thread.
@@ -119,10 +119,10 @@ DELAM_API int32_t delam_blas_threads(void);
  * [null user; owns text until the callback returns; status -; thread call's; since 0.1] */
 typedef void (*delam_log_callback)(int32_t level, const char *text, void *user);
 /* Receives the progress of long calls, on the calling thread. stage: static text ("factor", "minimise", ...); done of
- * total (total 0: unknown). If it returns a value other than 0, the running call stops with DELAM_CANCELLED. Calls that
- * only read ignore the value, so that a host that has stopped an analysis can still read its results:
- * delam_mesh_find_patch, delam_problem_hash, _process_zone, _body_matrix, _constraints, _forces, _eigenstrain_energy,
- * delam_solver_value, _field, _average, _condensed.
+ * total: the progress within the stage (total 0: unknown). If the callback returns a value other than 0, the running
+ * call stops with DELAM_CANCELLED. Calls that only read ignore the value, so that a host that has stopped an analysis
+ * can still read its results: delam_mesh_find_patch, delam_problem_hash, _process_zone, _body_matrix, _constraints,
+ * _forces, _eigenstrain_energy, delam_solver_value, _field, _average, _condensed.
  * [null user; owns stage static; status cancelled; thread call's; since 0.1] */
 typedef int32_t (*delam_progress_callback)(const char *stage, int64_t done, int64_t total, void *user);
 
@@ -192,8 +192,8 @@ DELAM_API int32_t delam_mesh_create_layers(delam_context *context, int32_t dimen
                                            const int64_t *layer_divisions, int32_t cell_type, delam_mesh **out);
 
 /* Adds cells of one type, cell_type. connectivity: [cell_count][nodes of the type]; bodies: [cell_count] labels >= 0,
- * or NULL for body 0. DELAM_ERROR_MESH: a node belongs to two bodies, or a cell is inverted or degenerate.
- * DELAM_ERROR_STATE: the body already has an interface; add all of its cells first.
+ * or NULL: all cells belong to body 0. DELAM_ERROR_MESH: a node belongs to two bodies, or a cell is inverted or
+ * degenerate. DELAM_ERROR_STATE: the body already has an interface; add all of its cells first.
  * [null bodies; status cancelled, argument, mesh, state; since 0.1] */
 DELAM_API int32_t delam_mesh_add_cells(delam_mesh *mesh, int32_t cell_type, int64_t cell_count,
                                        const int64_t *connectivity, const int32_t *bodies, int32_t index_base);
@@ -202,10 +202,10 @@ DELAM_API int32_t delam_mesh_add_cells(delam_mesh *mesh, int32_t cell_type, int6
  * delam_mesh_add_cells (cell_type, connectivity: [cell_count][nodes of the type], bodies: [cell_count]), but bodies may
  * share nodes: the first body keeps the node, and every further body receives a copy at the same place. The copies are
  * appended to the mesh, one for each body and original node. This also holds over several calls, so that a body may
- * come in portions or in cells of several types. connectivity names nodes of the mesh before the call, originals or
- * copies. The number of nodes grows (delam_mesh_size); delam_mesh_node_origins returns the original of each node.
- * delam_mesh_add_all_interfaces then joins the bodies that share faces; it does not join bodies that share only a
- * corner, or in 3D only an edge. DELAM_ERROR_MESH: a cell is inverted or degenerate.
+ * come in portions or in cells of several types. connectivity refers to the nodes that the mesh has before the
+ * call, originals or copies. The number of nodes grows (delam_mesh_size); delam_mesh_node_origins returns the original
+ * of each node. delam_mesh_add_all_interfaces then joins the bodies that share faces; it does not join bodies that
+ * share only a corner, or in 3D only an edge. DELAM_ERROR_MESH: a cell is inverted or degenerate.
  * [null bodies; status cancelled, argument, mesh, state; since 0.1] */
 DELAM_API int32_t delam_mesh_add_conforming_cells(delam_mesh *mesh, int32_t cell_type, int64_t cell_count,
                                                   const int64_t *connectivity, const int32_t *bodies,
@@ -245,11 +245,11 @@ DELAM_API int32_t delam_mesh_add_all_interfaces(delam_mesh *mesh, double toleran
  * the node of b. Weights, faces and order of the pairs follow from b's faces as in delam_mesh_add_interface; so do the
  * normals, which point from a to b.
  * Take the body with the finer mesh as b. Linear displacements are continuous across a perfect bond either way, but a
- * receives the forces of a uniform traction through the N_i at b's nodes. They are exact if a's nodes are among b's
- * nodes (b refines a). Otherwise they leave an error in the cells at the interface, which falls with the square of the
- * ratio of the edge lengths. Largest error of a stress in a patch test, with 3 edges of a on 4, 7 and 13 edges of b:
- * 0.6, 0.18 and 0.05 % (quad4), 7.5, 2.3 and 0.6 % (hex8). With b coarser than a, nothing holds those nodes of a that
- * lie between nodes of b: 3 edges of a on 2 of b give 2.4 % (quad4) and 36 % (hex8).
+ * receives the forces of a uniform traction through the N_i at b's nodes. These forces are exact if a's nodes are among
+ * b's nodes (b refines a). Otherwise they leave an error in the cells at the interface, which falls with the square of
+ * the ratio of the edge lengths. Largest error of a stress in a patch test, with 3 edges of a on 4, 7 and 13 edges of
+ * b: 0.6, 0.18 and 0.05 % (quad4), 7.5, 2.3 and 0.6 % (hex8). With b coarser than a, nothing holds those nodes of a
+ * that lie between nodes of b: 3 edges of a on 2 of b give 2.4 % (quad4) and 36 % (hex8).
  * Choose gap as large as the chords of curved faces need and no larger: if both bodies rotate by an angle, the jump is
  * that angle times the distance between a node and its projection. Each face of b must lie on a completely or not at
  * all; a may extend beyond b, and faces of b may lie beside the rim of a. DELAM_ERROR_MESH, with the place: a face of b
@@ -362,9 +362,9 @@ DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, co
 
 /* Creates a traction-separation law of a kind. Y_c = k_c [u]_c^2 / 2 is the driving energy of component c (n or t),
  * Y = Y_n + Y_t the sum, and B = Y_t/Y the mode mixity. The adhesion zeta minimises zeta Y + g(B, zeta) over
- * 0 <= zeta <= old adhesion. The energy spent, g, is convex and decreases with zeta: g(B, 1) = 0, g(B, 0) = Gc(B), and
- * its slope at zeta = 1 is minus the onset Go(B). On first loading at fixed mixity the traction peaks at sqrt(2 k Go),
- * and the area under the traction-separation curve is Gc. kind:
+ * 0 <= zeta <= old adhesion. The dissipated energy g is convex and decreases with zeta: g(B, 1) = 0, g(B, 0) = Gc(B),
+ * and its slope at zeta = 1 is minus the onset Go(B). On first loading at fixed mixity the traction peaks at sqrt(2 k
+ * Go), and the area under the traction-separation curve is Gc. kind:
  *   piecewise-linear  the bilinear law: the traction falls linearly (Valoroso and Champaney 2006)
  *   exponential       the traction decays exponentially over (Gc/Go - 1)/2 times the jump at the onset; it never
  *                     reaches zero
@@ -537,8 +537,8 @@ DELAM_API int32_t delam_problem_set_stiffness(delam_problem *problem, int64_t co
  * as set with delam_problem_set_adhesion.
  * [status argument, problem; since 0.1] */
 DELAM_API int32_t delam_problem_set_law(delam_problem *problem, int64_t interface_index, const delam_law *law);
-/* Bonds an interface perfectly and permanently (zero compliance). Every interface needs a law, this function or
- * delam_problem_set_contact.
+/* Bonds an interface perfectly and permanently (zero compliance). Every interface needs one of three: a law, this
+ * function or delam_problem_set_contact.
  * [status argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_bonded(delam_problem *problem, int64_t interface_index);
 /* Makes an interface one of frictionless contact without adhesion: the faces may separate but not overlap, as in an
@@ -584,7 +584,7 @@ DELAM_API int32_t delam_problem_prescribe_mean(delam_problem *problem, int64_t c
  * given; patterns, prescribed: [pattern_count]; pattern_count 0: homogeneous. The reaction of the equation is the force
  * conjugate to its left-hand side, so that each coefficient times the reaction is a nodal force. Equations between up
  * to 32 displacements are eliminated exactly and cost no unknown, however many there are; longer ones stay in the dense
- * stage of the condensed operator. Where rigid lines rotate, write u_i = u_0 + w r_i with equations of three nodes
+ * stage of the condensed operator. For rigid lines that rotate, write u_i = u_0 + w r_i with equations of three nodes
  * each. delam_problem_check refuses an equation that others imply or contradict, and gives its number.
  * [unit coefficients 1 finite (not all 0), prescribed L finite; null none; status cancelled, argument, problem;
  * since 0.1] */
@@ -619,8 +619,8 @@ DELAM_API int32_t delam_problem_add_forces(delam_problem *problem, int64_t patte
  * [6] = xx, yy, zz, 2xy, 2yz, 2zx times the factor of the pattern, which must drive nothing else. Several eigenstrains
  * add up. The stress is C (eps - factor strain), and stored_bulk is the energy of that stress. In plane strain, strain
  * zz causes in-plane stress as well; in plane stress, zz, 2yz and 2zx are free and have no effect. reaction:NAME of the
- * pattern is dE/dfactor = - int strain : stress, and `work` includes what the change of the eigenstrain does on the
- * bodies.
+ * pattern is dE/dfactor = - int strain : stress, and `work` includes the work that the change of the eigenstrain does
+ * on the bodies.
  * [unit strain 1 finite; null none; status argument, problem; since 0.1] */
 DELAM_API int32_t delam_problem_add_eigenstrain(delam_problem *problem, int64_t pattern, int32_t body,
                                                 const double *strain);
@@ -703,7 +703,7 @@ DELAM_API const char *delam_problem_pattern_name(const delam_problem *problem, i
 
 /* Creates a solver with a copy of the problem: checks the problem, partitions and factorises the bodies. The initial
  * state (step 0) is the one at time `time`: the solver finds the displacements under the loads of that time, at the
- * initial adhesion. The load histories should be unloaded there. DELAM_NOT_CONVERGED: this displacement step reached a
+ * initial adhesion. The load histories should start unloaded. DELAM_NOT_CONVERGED: this displacement step reached a
  * limit; *out is valid all the same.
  * [unit time t finite; null none; owns out caller; status not_converged, cancelled, limit, argument, mesh, problem,
  * numerical; source src/reduction/README.md; since 0.1] */
@@ -712,10 +712,10 @@ DELAM_API int32_t delam_solver_create(const delam_problem *problem, double time,
  * [null solver, *solver; owns solver destroyed; status -; since 0.1] */
 DELAM_API void delam_solver_destroy(delam_solver **solver);
 
-/* Computes one load step to `time` (> the committed time): minimises the energy from the committed state on (option
- * minimisation). The option solution selects the concept: local, or energetic, which adds a search for states of lower
- * energy. The result is the pending step: read it, then commit it or roll it back; a rollback restores the state before
- * bit for bit.
+/* Computes one load step to `time` (> the committed time): minimises the energy, starting from the committed state
+ * (option minimisation). The option solution selects the concept: local, or energetic, which adds a search for states
+ * of lower energy. The result is the pending step: read it, then commit it or roll it back; a rollback restores the
+ * previous state bit for bit.
  * With option backtracking, the call may replace earlier steps (value revised_from; delam_solver_look selects one of
  * them). With jump_tolerance, step_control or mixity_step_tolerance, it divides the step into substeps; it does not
  * divide earlier steps that it replaces, and does not locate their jumps.
@@ -748,17 +748,17 @@ DELAM_API int32_t delam_solver_pending(const delam_solver *solver, int32_t *pend
 DELAM_API int32_t delam_solver_set_history(delam_solver *solver, int64_t pattern, int64_t count, const double *times,
                                            const double *values);
 /* Performs one displacement step alone: finds the displacements of least energy at `time` for a given adhesion, which
- * is held: [pairs of all interfaces, one after another]; NULL takes the committed adhesion. The result is pending like
- * a step, but does not enter the energy balance: the stored energies are those of the new state, whereas dissipated,
- * work and bounds do not change. After its commit, the solver no longer keeps the steps before it, so that backtracking
- * cannot return to them.
+ * is held fixed. adhesion: [pairs of all interfaces, one after another]; NULL takes the committed one. The result is
+ * pending like a step, but does not enter the energy balance: the stored energies are those of the new state, whereas
+ * dissipated, work and bounds do not change. After its commit, the solver no longer keeps the steps before it, so that
+ * backtracking cannot return to them.
  * [unit time t finite, adhesion 1 in [0, 1]; null adhesion; status not_converged, cancelled, limit, argument, problem,
  * state, numerical; source M. Hintermueller, K. Ito, K. Kunisch, SIAM J. Optim. 13 (2002) 865-888; since 0.1] */
 DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, const double *adhesion);
 
 /* Returns a scalar of the pending state, or of the committed state if none is pending, in *value. The keys are listed
- * by delam_solver_value_name. A unit is given where it is not 1. Sums run over the pairs; w is the weight of a pair, B
- * its mode mixity.
+ * by delam_solver_value_name. A unit is given where it is not 1. Sums run over the pairs; w is the weight of a
+ * pair. For B, zeta, Y, g and Gc see delam_law_create.
  *   step                   number of the step; the initial state is step 0
  *   time                   t: of the state
  *   stored_bulk, stored_interface, dissipated, stored_interface_slides, dissipated_slides, load_potential, work, lower,
@@ -781,7 +781,7 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *                          damaged. Above 0.1 with mixity_rule = frozen, the damage grew abruptly within the step; a
  *                          warning (level 1) reports it
  *   am_iterations, displacement_solves, contact_iterations, linear_iterations   of the step: alternate minimisation
- *                          steps, displacement solves, active-set steps and Krylov iterations, the latter two summed
+ *                          steps, displacement solves, active-set steps and Krylov iterations, the last two summed
  *                          over the displacement solves
  *   newton_solves, debond_moves   of the step, in accelerated minimisation of a condensed scene: dense solves within
  *                          the process zone, and unstable pairs that were moved directly to their debonded branch
@@ -848,12 +848,12 @@ DELAM_API int32_t delam_solver_value_count(const delam_solver *solver, int64_t *
  * [null result; owns result the solver; status argument; since 0.1] */
 DELAM_API const char *delam_solver_value_name(const delam_solver *solver, int64_t index);
 
-/* Records a value of the committed state now and of every later step at its delam_solver_commit, e.g. a load curve. The
- * record follows backtracking: it holds the steps as replaced. A committed delam_solver_equilibrate replaces the entry
- * of its step. key: as in delam_solver_value, except those that recover the displacements (rotation_max, the kkt_
- * values) and those that count over the life of the solver (bulk_factorisations, field_recoveries). A second request
- * for the same key has no effect. delam_solver_save includes the record; delam_solver_load replaces it by that of the
- * bytes, so that keys which must be recorded are to be requested after it. DELAM_ERROR_STATE: a step is pending.
+/* Records a value of the committed state now and of every later step at its delam_solver_commit, e.g. a load curve.
+ * After backtracking, the record holds the values of the replacing steps. A committed delam_solver_equilibrate replaces
+ * the entry of its step. key: as in delam_solver_value, except those that recover the displacements (rotation_max, the
+ * kkt_ values) and those that count over the life of the solver (bulk_factorisations, field_recoveries). A second
+ * request for the same key has no effect. delam_solver_save includes the record; delam_solver_load replaces the record
+ * by that of the bytes; request the keys that you need after it. DELAM_ERROR_STATE: a step is pending.
  * DELAM_ERROR_PROBLEM: a host law failed while the values of a front were computed; the key is not recorded.
  * [null none; status argument, problem, state; since 0.1] */
 DELAM_API int32_t delam_solver_record(delam_solver *solver, const char *key);
@@ -915,10 +915,11 @@ DELAM_API int32_t delam_solver_front_count(const delam_solver *solver, int64_t i
  *   lengths     [points]      L; 2D: length of the crack that ends here; 3D: length of front that the point represents
  *   rates       [points][3]   F/L, energy release rates in modes I, II (shear along the direction) and III (along the
  *                             front). J = - int t . d[u]/dx dx over the interface, from the open crack to beyond the
- *                             process zone, plus the energy stored in the interface at that end (Rice 1968); the total
- *                             is int Y dzeta/dx dx. On a stiff interface with a sharp front this is the virtual crack
- *                             closure technique, 1/2 traction times the opening behind the front. It equals Gc where a
- *                             front grows steadily. The end of the path and closed contact have no influence
+ *                             process zone, plus the energy stored in the interface at the end of that path (Rice
+ *                             1968); the total is int Y dzeta/dx dx. On a stiff interface with a sharp front this is
+ *                             the virtual crack closure technique, 1/2 traction times the opening behind the front. It
+ *                             equals Gc where a front grows steadily. The choice of that end and closed contact have no
+ *                             influence
  *   zone_lengths, zone_pairs  [points]  extent of the process zone along the direction, and pairs in it: pairs that
  *                             have lost 1e-3 of their adhesion and still have to spend 1e-3 of their toughness, at the
  *                             mixity of their jump. Below about 3 pairs, the traction in the zone depends on the mesh,
@@ -939,23 +940,24 @@ DELAM_API int32_t delam_solver_front(const delam_solver *solver, int64_t interfa
 
 /* Returns the tangent of the load patterns at fixed adhesion and contact set, in the pending state, or in the committed
  * state if none is pending: matrix [pattern_count][pattern_count], d2 E / d factor_p d factor_q, symmetric. Row p is
- * the change of reaction:p (for a force pattern: of minus its displacement). If one pattern drives each component of
- * the control nodes of a periodic cell, the matrix is the homogenised stiffness times the volume. Costs one
+ * the change of reaction:p (for a force pattern: of minus its displacement). If each component of the control nodes
+ * of a periodic cell has a pattern of its own, the matrix is the homogenised stiffness times the volume. Costs one
  * displacement solve per pattern; the state does not change. DELAM_ERROR_STATE: a force pattern acts along a motion
  * that nothing holds.
  * [unit matrix of factors; null none; status cancelled, argument, state, numerical; source none; since 0.1] */
 DELAM_API int32_t delam_solver_tangent(delam_solver *solver, int64_t capacity, double *matrix);
 
-/* Returns the consistent tangent of the pending step: the change of reaction:p at its end with the factor of pattern q
- * at its end, starting from the committed state, damage included. matrix: [pattern_count][pattern_count], row p, column
- * q; symmetric unless mixity_rule = converged. With this tangent, a structure with its interfaces can be one element of
- * a host that iterates: one pattern for each displacement of its boundary, and the reactions as the element's forces.
- * The tangent is the derivative of delam_solver_advance as long as the contact set does not change, no pair reaches the
- * end of a branch of its law, and no jump happens; past a limit point it may be indefinite. In the very first loaded
- * step, the mixity (that of the elastic solution with mixity_rule = frozen) counts as fixed. Costs one displacement
- * solve per pattern and one per damaging pair (mixity_rule = variational: per component of such a pair); the state does
- * not change. DELAM_ERROR_STATE: no step is pending, backtracking has replaced it, or it has substeps (value substeps).
- * DELAM_ERROR_NUMERICAL: the tangent is singular, so that a jump is about to happen.
+/* Returns the consistent tangent of the pending step, damage included: the derivative of reaction:p at the end of the
+ * step with respect to the factor of pattern q there, from the committed state on. matrix:
+ * [pattern_count][pattern_count], row p, column q; symmetric unless mixity_rule = converged. With this tangent, a
+ * structure with its interfaces can be one element of a host that iterates: one pattern for each displacement of its
+ * boundary, and the reactions as the element's forces. The tangent is the derivative of delam_solver_advance as long as
+ * the contact set does not change, no pair reaches the end of a branch of its law, and no jump happens; past a limit
+ * point it may be indefinite. In the very first loaded step, the mixity (that of the elastic solution with mixity_rule
+ * = frozen) counts as fixed. Costs one displacement solve per pattern and one per damaging pair (mixity_rule =
+ * variational: per component of such a pair); the state does not change. DELAM_ERROR_STATE: no step is pending,
+ * backtracking has replaced it, or it has substeps (value substeps). DELAM_ERROR_NUMERICAL: the tangent is singular, so
+ * that a jump is about to happen.
  * [unit matrix of factors; null none; status cancelled, argument, state, numerical; source J. Simo, R. Taylor, Comput.
  * Methods Appl. Mech. Eng. 48 (1985) 101-118; since 0.1] */
 DELAM_API int32_t delam_solver_step_tangent(delam_solver *solver, int64_t capacity, double *matrix);
@@ -1002,7 +1004,7 @@ DELAM_API int32_t delam_solver_plan_item(const delam_solver *solver, int64_t ind
  * [null result; owns result until the next call with this solver; status argument; since 0.1] */
 DELAM_API const char *delam_solver_option(const delam_solver *solver, const char *key);
 /* Returns what the energetic search of the last step compared, one line for each front and each new crack: the states,
- * why it stopped, and the lowest energy. "" if nothing was searched. Never NULL.
+ * why the search stopped, and the lowest energy. "" if nothing was searched. Never NULL.
  * [owns result until the next call with this solver; status -; since 0.1] */
 DELAM_API const char *delam_solver_searched(const delam_solver *solver);
 
