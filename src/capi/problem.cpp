@@ -278,6 +278,23 @@ int32_t delam_option_info(int64_t index, const char** key, const char** type, co
     return DELAM_OK;
 }
 
+int32_t delam_option_alias(int64_t index, const char** alias) {
+    if (index < 0 || index >= delam_option_count() || alias == nullptr) return DELAM_ERROR_ARGUMENT;
+    *alias = option_table()[static_cast<std::size_t>(index)].alias;
+    return DELAM_OK;
+}
+
+int32_t delam_option_bounds(int64_t index, double* lower, double* upper, int32_t* lower_open, int32_t* upper_open) {
+    if (index < 0 || index >= delam_option_count()) return DELAM_ERROR_ARGUMENT;
+    const Option& option = option_table()[static_cast<std::size_t>(index)];
+    if (!option.words.empty()) return DELAM_ERROR_ARGUMENT;
+    if (lower != nullptr) *lower = option.lower.number;
+    if (upper != nullptr) *upper = option.upper.number;
+    if (lower_open != nullptr) *lower_open = option.lower.included ? 0 : 1;
+    if (upper_open != nullptr) *upper_open = option.upper.included ? 0 : 1;
+    return DELAM_OK;
+}
+
 int32_t delam_problem_check(delam_problem* problem) {
     return guard_build(problem, [&] { validate(*problem->core); });
 }

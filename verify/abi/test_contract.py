@@ -233,6 +233,14 @@ def saved_file(s):
     return [s.solver, words(STATE_FILE)]
 
 
+def number_option(_):
+    texts = [c_void_p() for _ in range(6)]
+    index = 0
+    while call("option_info", index, *texts) == OK and ctypes.string_at(texts[1].value) == b"text":
+        index += 1
+    return [index, real(0), real(0), short(0), short(0)]
+
+
 def plan_item(s):
     return [s.solver, 0] + [c_void_p() for _ in range(3)] + [real(0), real(0), c_void_p()]
 
@@ -300,6 +308,8 @@ CALLS = {
     "problem_set_number": (bare, lambda s: [s.problem, words("damage_tolerance"), 1e-6]),
     "problem_set_text": (bare, lambda s: [s.problem, words("solution"), words("local")]),
     "option_info": (bare, lambda s: [0] + [c_void_p() for _ in range(6)]),
+    "option_alias": (bare, lambda s: [0, c_void_p()]),
+    "option_bounds": (bare, number_option),
     "problem_check": (full, lambda s: [s.problem]),
     "problem_hash": (full, lambda s: [s.problem, room(c_uint8, 17)]),
     "problem_dofs": (full, lambda s: [s.problem, whole(0), whole(0)]),

@@ -114,7 +114,12 @@ CASE_TEST(defaults_are_those_listed) {
 CASE_TEST(ranges_are_kept) {
     const Scene scene = pair_of_cells();
     const std::string fresh = hash_of(scene);
+    std::int64_t index = 0;
     for (const Listed& option : listed()) {
+        double lower = 0.0, upper = 0.0;
+        std::int32_t lower_open = -1, upper_open = -1;
+        const std::int32_t bounded = delam_option_bounds(index++, &lower, &upper, &lower_open, &upper_open);
+        cases::expect(bounded == (option.type == "text" ? DELAM_ERROR_ARGUMENT : DELAM_OK), option.key + ": bounds");
         if (option.type == "text") {
             for (const std::string& bad : {std::string("nonsense"), std::string(), option.range})
                 cases::expect(set(scene, option, bad) == DELAM_ERROR_ARGUMENT, option.key + " takes '" + bad + "'");
@@ -122,6 +127,9 @@ CASE_TEST(ranges_are_kept) {
             continue;
         }
         const Range range(option.range);
+        cases::expect(lower == range.lower && upper == range.upper && lower_open == (range.with_lower ? 0 : 1) &&
+                          upper_open == (range.with_upper ? 0 : 1),
+                      option.key + ": its bounds are not those of " + option.range);
         std::vector<double> bad{range.lower - 1.0, 2.0 * range.upper, std::numeric_limits<double>::quiet_NaN(),
                                 std::numeric_limits<double>::infinity()};
         if (!range.with_lower) bad.push_back(range.lower);
@@ -136,6 +144,31 @@ CASE_TEST(ranges_are_kept) {
         if (range.with_upper) scene.require(set(scene, option, range.upper), option.key.c_str());
         scene.require(set_initial(scene, option), option.key.c_str());
     }
+}
+
+CASE_TEST(aliases_are_taken) {
+    const Scene scene = pair_of_cells();
+    const std::vector<Listed> all = listed();
+    int aliases = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const char* alias = nullptr;
+        scene.require(delam_option_alias(static_cast<std::int64_t>(i), &alias), "delam_option_alias");
+        if (*alias == '\0') continue;
+        ++aliases;
+        Listed renamed = all[i];
+        renamed.key = alias;
+        if (renamed.type == "text")
+            scene.require(set(scene, renamed, words_of(renamed.range).back()), alias);
+        else
+            scene.require(set(scene, renamed, 0.5 * (number_of(renamed.initial) + Range(renamed.range).upper)), alias);
+        const Solver solver(scene, 0.0);
+        const char* by_alias = delam_solver_option(solver.get(), alias);
+        cases::expect(by_alias != nullptr && by_alias != renamed.initial, std::string(alias) + ": it sets nothing");
+        const std::string value = by_alias;  // the next call takes the text back
+        cases::expect(value == delam_solver_option(solver.get(), all[i].key.c_str()),
+                      std::string(alias) + " is not " + all[i].key);
+    }
+    cases::expect(aliases > 0, "no option has an alias");
 }
 
 // Each value of an option gives another scene: all hashes differ. Other words for one value give the same scene.
@@ -188,6 +221,7 @@ int main() {
     TCase* one = tcase_create("options");
     tcase_add_test(one, defaults_are_those_listed);
     tcase_add_test(one, ranges_are_kept);
+    tcase_add_test(one, aliases_are_taken);
     tcase_add_test(one, hash_changes_with_every_option);
     suite_add_tcase(suite, one);
     return cases::run_suite(suite);

@@ -8,8 +8,12 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <set>
+#include <span>
+#include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <unistd.h>
 
@@ -179,10 +183,27 @@ const char* const law_keys[] = {"normal_stiffness", "tangential_stiffness", "nor
                                 "criterion"};
 const char* const law_kinds[] = {"piecewise-linear", "exponential", "trapezoidal", "tabulated", "griffith", "host"};
 const char* const criteria[] = {"valoroso-champaney", "power", "benzeggagh-kenane"};
-const char* const option_texts[] = {"auto",     "off",       "on",          "local",       "energetic",   "fixed",
-                                    "adaptive", "alternate", "accelerated", "condensed",   "feti",        "always",
-                                    "frozen",   "converged", "variational", "orthonormal", "redundant",   "none",
-                                    "lumped",   "dirichlet", "series",      "stiffness",   "multiplicity"};
+// Every word that some text option may be.
+std::span<const char* const> option_texts() {
+    static const std::set<std::string> texts = [] {
+        std::set<std::string> words;
+        for (std::int64_t i = 0; i < delam_option_count(); ++i) {
+            const char *type = "", *range = "";
+            delam_option_info(i, nullptr, &type, nullptr, nullptr, &range, nullptr);
+            if (std::string(type) != "text") continue;
+            std::istringstream list{std::string(range)};
+            for (std::string word; list >> word;)
+                if (word != "|") words.insert(word);
+        }
+        return words;
+    }();
+    static const std::vector<const char*> pointers = [] {
+        std::vector<const char*> list;
+        for (const std::string& word : texts) list.push_back(word.c_str());
+        return list;
+    }();
+    return pointers;
+}
 
 const char* option_key(Input& in) {
     const char* key = nullptr;
@@ -981,7 +1002,7 @@ const Call calls[] = {
     {"delam_problem_set_text", Subject::problem, may::argument,
      [](const Asked& a) {
          const char* key = option_key(a.in);
-         return delam_problem_set_text(a.problem, key, a.in.word(option_texts));
+         return delam_problem_set_text(a.problem, key, a.in.word(option_texts()));
      }},
     {"delam_problem_check", Subject::problem, may::cancelled | may::mesh | may::problem,
      [](const Asked& a) { return watched(a.world, a.in, [&] { return delam_problem_check(a.problem); }); }},

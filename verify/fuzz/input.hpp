@@ -7,6 +7,7 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -122,13 +123,12 @@ public:
         return out;
     }
     // One of the words, rarely another text or NULL.
-    template <std::size_t N>
-    const char* word(const char* const (&words)[N]) {
+    const char* word(std::span<const char* const> words) {
         const std::uint8_t which = byte();
         if (which == 255) return nullptr;
         if (which == 254) return "";
         if (which == 253) return "no such word | at all: \xff\x01 %s %n 0123456789012345678901234567890123456789";
-        return words[which % N];
+        return words[which % words.size()];
     }
 
 private:

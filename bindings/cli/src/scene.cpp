@@ -192,31 +192,45 @@ void read_time(const Table& root, Scene& scene) {
         if (!(scene.times[i] > scene.times[i - 1])) table.fail("steps", "so many that instants coincide");
 }
 
+// An option as the library lists it.
+struct KnownOption {
+    std::string key, alias, type, range;
+};
+
+std::vector<KnownOption> known_options() {
+    std::vector<KnownOption> known;
+    for (std::int64_t i = 0; i < delam_option_count(); ++i) {
+        const char *key = "", *alias = "", *type = "", *range = "";
+        delam_option_info(i, &key, &type, nullptr, nullptr, &range, nullptr);
+        delam_option_alias(i, &alias);
+        known.push_back({key, alias, type, range});
+    }
+    return known;
+}
+
+// The scene keeps the key, whichever of key and alias the file has.
 void read_options(const Table& root, Scene& scene) {
     if (!root.has("solver")) return;
     const Table table = root.table("solver");
-    std::vector<std::string> known;
-    std::vector<std::string> types;
-    std::vector<std::string> ranges;
-    for (std::int64_t i = 0; i < delam_option_count(); ++i) {
-        const char* key = nullptr;
-        const char* type = nullptr;
-        const char* range = nullptr;
-        delam_option_info(i, &key, &type, nullptr, nullptr, &range, nullptr);
-        known.emplace_back(key);
-        ranges.emplace_back(range);
-        types.emplace_back(type);
-    }
-    table.only(known);
-    for (std::size_t i = 0; i < known.size(); ++i) {
-        if (!table.has(known[i])) continue;
-        SolverOption option{known[i], 0.0, table.place(known[i])};
-        if (types[i] == "text") {
-            option.value = table.word(known[i], ranges[i]);
-        } else if (types[i] == "integer") {
-            option.value = static_cast<double>(table.whole(known[i], ranges[i]));
+    const std::vector<KnownOption> known = known_options();
+    std::vector<std::string> names;
+    for (const KnownOption& option : known) names.push_back(option.key);
+    for (const KnownOption& option : known)
+        if (!option.alias.empty()) names.push_back(option.alias);
+    table.only(names);
+    for (const KnownOption& row : known) {
+        const bool aliased = !row.alias.empty() && table.has(row.alias);
+        if (aliased && table.has(row.key))
+            table.fail(row.alias, fmt::format("means the same as {}: give one", row.key));
+        const std::string& name = aliased ? row.alias : row.key;
+        if (!table.has(name)) continue;
+        SolverOption option{row.key, 0.0, table.place(name)};
+        if (row.type == "text") {
+            option.value = table.word(name, row.range);
+        } else if (row.type == "integer") {
+            option.value = static_cast<double>(table.whole(name, row.range));
         } else {
-            option.value = table.number(known[i], any_number);
+            option.value = table.number(name, any_number);
         }
         scene.options.push_back(std::move(option));
     }

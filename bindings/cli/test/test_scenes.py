@@ -81,6 +81,9 @@ refuse(SCENE + "[solver]\nsubdomains = 2.5\n", r"solver\.subdomains", "2.5", "0 
 refuse(changed("end = 2.0\nsteps = 20", "instants = [0, 1, 1]"), r"time\.instants", "strictly increasing")
 refuse(SCENE + "[solver]\ndamage_tolerence = 1e-5\n", r"solver\.damage_tolerence", "did you mean 'damage_tolerance'")
 refuse(SCENE + "[solver]\ndamage_tolerance = -1.0\n", r"solver\.damage_tolerance")
+refuse(SCENE + "[solver]\nmultipliers = \"redundant\"\ngluing = \"redundant\"\n", r"solver\.multipliers",
+       "means the same as gluing")
+refuse(SCENE + "[solver]\ninstability_size = -1.0\n", r"solver\.instability_size", "0 < value < 1e9")
 refuse(SCENE + "[solver]\npreconditioner = 3\n", r"solver\.preconditioner", "text")
 refuse(SCENE + '[output]\nfields = ["strss"]\n', r"output\.fields", "did you mean 'stress'")
 refuse(SCENE + '[output]\ncolumns = ["frnt"]\n', r"output\.columns", "front")

@@ -34,6 +34,8 @@ like(changed('title = "small ENF"', 'title = "ENF, coarse"'), "title=ENF, coarse
 like(changed('title = "small ENF"', 'title = "3 mm"'), 'title="3 mm"')
 like(changed("steps = 20", "steps = 5\n[solver]\nminimisation = \"alternate\"\nminimisation_limit = 50"),
      "time.steps=7", "solver.minimisation=alternate", "solver.minimisation_limit=50", "time.steps=5")
+like(changed("steps = 20", "steps = 20\n[solver]\nminimisation = \"alternate\"\ngluing = \"redundant\""),
+     "solver.minimisation=staggered", "solver.multipliers=redundant")
 like(changed("steps = 20", "steps = 20\n[output]\nsnapshots = [0.5, 1.0]"), "output.snapshots=[0.5, 1.0]")
 
 refuse("geometry.h=0.0007", r"geometry\.h", "evenly", "h = 0.00075 divides all")

@@ -664,6 +664,22 @@ module delam_raw
       type(c_ptr), intent(inout), optional :: meaning
       integer(c_int32_t) :: status
     end function delam_option_info
+    function delam_option_alias(index, alias) bind(c, name="delam_option_alias") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      integer(c_int64_t), value :: index
+      type(c_ptr), intent(inout) :: alias
+      integer(c_int32_t) :: status
+    end function delam_option_alias
+    function delam_option_bounds(index, lower, upper, lower_open, upper_open) bind(c, &
+        name="delam_option_bounds") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      integer(c_int64_t), value :: index
+      real(c_double), intent(inout), optional :: lower
+      real(c_double), intent(inout), optional :: upper
+      integer(c_int32_t), intent(inout), optional :: lower_open
+      integer(c_int32_t), intent(inout), optional :: upper_open
+      integer(c_int32_t) :: status
+    end function delam_option_bounds
     function delam_problem_check(problem) bind(c, name="delam_problem_check") result(status)
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
       type(c_ptr), value :: problem

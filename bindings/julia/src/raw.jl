@@ -376,6 +376,15 @@ function delam_option_info(index, key, type, unit, initial, range, meaning)
         initial::Ptr{Cstring}, range::Ptr{Cstring}, meaning::Ptr{Cstring})::Int32
 end
 
+function delam_option_alias(index, alias)
+    @ccall libdelam.delam_option_alias(index::Int64, alias::Ptr{Cstring})::Int32
+end
+
+function delam_option_bounds(index, lower, upper, lower_open, upper_open)
+    @ccall libdelam.delam_option_bounds(index::Int64, lower::Ptr{Cdouble}, upper::Ptr{Cdouble},
+        lower_open::Ptr{Int32}, upper_open::Ptr{Int32})::Int32
+end
+
 function delam_problem_check(problem)
     @ccall libdelam.delam_problem_check(problem::Ptr{delam_problem})::Int32
 end
@@ -604,7 +613,7 @@ const FUNCTIONS = (
     :delam_problem_set_adhesion, :delam_problem_add_pattern, :delam_problem_prescribe_nodes,
     :delam_problem_prescribe_mean, :delam_problem_add_equation, :delam_problem_add_periodic, :delam_problem_add_forces,
     :delam_problem_add_eigenstrain, :delam_problem_set_number, :delam_problem_set_text, :delam_option_count,
-    :delam_option_info, :delam_problem_check, :delam_problem_hash, :delam_problem_dofs, :delam_problem_process_zone,
+    :delam_option_info, :delam_option_alias, :delam_option_bounds, :delam_problem_check, :delam_problem_hash, :delam_problem_dofs, :delam_problem_process_zone,
     :delam_problem_body_matrix, :delam_problem_constraints, :delam_problem_forces, :delam_problem_eigenstrain_energy,
     :delam_problem_factors, :delam_problem_pattern_count, :delam_problem_pattern_name, :delam_solver_create,
     :delam_solver_destroy, :delam_solver_advance, :delam_solver_commit, :delam_solver_rollback, :delam_solver_pending,

@@ -28,6 +28,16 @@ class Options(unittest.TestCase):
         self.assertIn("minimisation_limit = 100  (1 <= value", options.describe())
         self.assertEqual(options.info("solution").type, "text")
 
+    def test_alias(self):
+        options = self.problem.options
+        options["multipliers"] = "redundant"
+        self.assertEqual((options["gluing"], options["multipliers"]), ("redundant", "redundant"))
+        self.assertNotIn("multipliers", dict(options))
+        self.assertEqual(delam.Solver(self.problem).option("multipliers"), "redundant")
+        del options["multipliers"]
+        self.assertEqual(options["gluing"], "orthonormal")
+        self.assertIn("multipliers", options.info("multipliers").meaning)
+
     def test_mistakes(self):
         options = self.problem.options
         for change, kind, words in (

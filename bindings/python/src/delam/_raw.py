@@ -213,6 +213,10 @@ FUNCTIONS = {
     "delam_option_info": (c_int32, (
         ("index", c_int64), ("key", POINTER(c_char_p)), ("type", POINTER(c_char_p)), ("unit", POINTER(c_char_p)),
         ("initial", POINTER(c_char_p)), ("range", POINTER(c_char_p)), ("meaning", POINTER(c_char_p)))),
+    "delam_option_alias": (c_int32, (("index", c_int64), ("alias", POINTER(c_char_p)))),
+    "delam_option_bounds": (c_int32, (
+        ("index", c_int64), ("lower", POINTER(c_double)), ("upper", POINTER(c_double)),
+        ("lower_open", POINTER(c_int32)), ("upper_open", POINTER(c_int32)))),
     "delam_problem_check": (c_int32, (("problem", POINTER(delam_problem)),)),
     "delam_problem_hash": (c_int32, (("problem", POINTER(delam_problem)), ("out", POINTER(c_char)))),
     "delam_problem_dofs": (c_int32, (

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Options by key, as a mapping that knows what there is."""
 import collections.abc
+import ctypes
 import difflib
 import functools
 
@@ -20,6 +21,26 @@ def known():
     return options()
 
 
+@functools.cache
+def aliases():
+    """Second keys that the library takes: {alias: key}."""
+    found = {}
+    for index, key in enumerate(known()):
+        alias = ctypes.c_char_p()
+        library.delam_option_alias(index, ctypes.byref(alias))
+        if alias.value:
+            found[alias.value.decode()] = key
+    return found
+
+
+def key_of(key):
+    """The key that a key or alias stands for."""
+    key = aliases().get(key, key)
+    if key not in known():
+        raise unknown(key, [*known(), *aliases()], "option")
+    return key
+
+
 def initial_values():
     return {key: _value(parameter, parameter.initial) for key, parameter in known().items()}
 
@@ -36,7 +57,7 @@ def _value(parameter, words):
 
 class Options(collections.abc.MutableMapping):
     """problem.options["solution"] = "energetic"; del gives an option its initial value back. Iterates over all options
-    there are; describe() says what they mean."""
+    there are; describe() says what they mean. An alias works as the key does."""
 
     def __init__(self, problem, values):
         self._call = problem._call
@@ -44,13 +65,10 @@ class Options(collections.abc.MutableMapping):
         self._values = values
 
     def __getitem__(self, key):
-        if key not in self._known:
-            raise unknown(key, self._known, "option")
-        return self._values[key]
+        return self._values[key_of(key)]
 
     def __setitem__(self, key, value):
-        if key not in self._known:
-            raise unknown(key, self._known, "option")
+        key = key_of(key)
         parameter = self._known[key]
         if parameter.type == "text":
             self._call(library.delam_problem_set_text, key.encode(), text(key, value))
@@ -60,8 +78,7 @@ class Options(collections.abc.MutableMapping):
         self._values[key] = _value(parameter, value)
 
     def __delitem__(self, key):
-        if key not in self._known:
-            raise unknown(key, self._known, "option")
+        key = key_of(key)
         self[key] = _value(self._known[key], self._known[key].initial)
 
     def __iter__(self):
@@ -74,9 +91,7 @@ class Options(collections.abc.MutableMapping):
         return f"Options({self._values})"
 
     def info(self, key):
-        if key not in self._known:
-            raise unknown(key, self._known, "option")
-        return self._known[key]
+        return self._known[key_of(key)]
 
     def describe(self):
         """A line for each option: value, range, meaning."""
