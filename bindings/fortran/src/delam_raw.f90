@@ -667,7 +667,7 @@ module delam_raw
     function delam_option_alias(index, alias) bind(c, name="delam_option_alias") result(status)
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
       integer(c_int64_t), value :: index
-      type(c_ptr), intent(inout) :: alias
+      type(c_ptr), intent(inout), optional :: alias
       integer(c_int32_t) :: status
     end function delam_option_alias
     function delam_option_bounds(index, lower, upper, lower_open, upper_open) bind(c, &
