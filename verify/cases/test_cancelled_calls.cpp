@@ -14,15 +14,15 @@ using cases::expect;
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-// Counts looks, and asks for the end at one of them, by its result or by delam_context_cancel.
+// Counts polls, and cancels at one of them, by its result or by delam_context_cancel.
 struct Watch {
     delam_context* context = nullptr;
-    std::int64_t looks = 0, stop_at = 0;
+    std::int64_t polls = 0, stop_at = 0;
     bool by_request = false, nameless = false;
-    static std::int32_t look(const char* stage, std::int64_t, std::int64_t, void* user) {
+    static std::int32_t poll(const char* stage, std::int64_t, std::int64_t, void* user) {
         auto& w = *static_cast<Watch*>(user);
         w.nameless = w.nameless || stage == nullptr || *stage == '\0';
-        if (++w.looks != w.stop_at) return 0;
+        if (++w.polls != w.stop_at) return 0;
         if (!w.by_request) return 1;
         delam_context_cancel(w.context);
         return 0;
@@ -108,7 +108,7 @@ public:
     explicit Host(Watch& watch) : watch_(watch) {
         expect(delam_context_create(&h.context) == DELAM_OK, "a context");
         watch.context = h.context;
-        expect(delam_context_set_progress(h.context, Watch::look, &watch) == DELAM_OK, "a callback");
+        expect(delam_context_set_progress(h.context, Watch::poll, &watch) == DELAM_OK, "a callback");
     }
     void require(std::int32_t status, const char* name) const {
         expect(status == DELAM_OK,
@@ -124,10 +124,10 @@ public:
     void read(const char* name, std::int64_t passes, const std::function<std::string()>& print,
               const std::function<std::int32_t()>& call) {
         watch_.by_request = false;
-        watch_.looks = 0;
+        watch_.polls = 0;
         watch_.stop_at = 1;
         require(call(), name);
-        expect(watch_.looks >= 1, std::string(name) + " does not look up");
+        expect(watch_.polls >= 1, std::string(name) + " does not poll");
         if (again) again();
         stopped(name, passes, print, call, true);
     }
@@ -138,24 +138,24 @@ public:
         const std::string before = print();
         std::int64_t stopped = 0;
         for (std::int64_t stop = 1;; stop = stop < 4 ? stop + 1 : stop + stop / 2) {
-            watch_.looks = 0;
+            watch_.polls = 0;
             watch_.stop_at = stop;
             watch_.by_request = reads || !watch_.by_request;
             const std::int32_t status = call();
             watch_.stop_at = 0;
-            if (watch_.looks < stop) {
+            if (watch_.polls < stop) {
                 require(status, name);
                 break;
             }
             ++stopped;
-            const std::string where = std::string(name) + " stopped at look " + std::to_string(stop);
+            const std::string where = std::string(name) + " stopped at poll " + std::to_string(stop);
             expect(status == DELAM_CANCELLED,
                    where + ": " + delam_status_name(status) + ": " + delam_context_message(h.context));
             expect(print() == before, where + ": something has changed");
         }
         const std::string count =
-            std::string(name) + ": " + std::to_string(watch_.looks) + " looks, " + std::to_string(passes) + " passes";
-        expect(stopped > 0 && watch_.looks >= passes / 256 && !watch_.nameless, count);
+            std::string(name) + ": " + std::to_string(watch_.polls) + " polls, " + std::to_string(passes) + " passes";
+        expect(stopped > 0 && watch_.polls >= passes / 256 && !watch_.nameless, count);
     }
     Handles h;
 
@@ -457,7 +457,7 @@ CASE_TEST(waiting_request) {
 
 int main() {
     Suite* suite = suite_create("cancelled calls");
-    TCase* tests = tcase_create("looks");
+    TCase* tests = tcase_create("polls");
     tcase_add_loop_test(tests, calls_that_build, 0, 2);
     tcase_add_loop_test(tests, calls_that_read, 0, 3);
     tcase_add_test(tests, waiting_request);

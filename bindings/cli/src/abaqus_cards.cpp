@@ -21,7 +21,7 @@ namespace cli::abaqus {
 
 namespace {
 
-// Materials, loads, steps and requests for output, which the scene file defines instead. A *STEP is ignored to its end.
+// Materials, loads, steps and output requests, which the scene file defines instead. A *STEP is ignored up to its end.
 const std::set<std::string> passed_over{"AMPLITUDE",
                                         "BOUNDARY",
                                         "CLOAD",
@@ -152,7 +152,7 @@ private:
         open_ = part.get();
     }
 
-    // The part's nodes are moved by the first data line and turned by the second: two points of the axis, degrees.
+    // The first data line moves the part's nodes and the second rotates them: two points of the axis, degrees.
     void begin_instance(const InpCard& card) {
         require_outside(card);
         card.only({"NAME", "PART"});
@@ -168,7 +168,7 @@ private:
         const Part* part = from->second.get();
         instance.name = name;
         instance.order = model_.instances.size();
-        // What the part says of itself is said of the instance now.
+        // What the part defines now belongs to the instance.
         const auto renew = [&](Entry& entry) {
             if (entry.scope == part) entry.scope = &instance;
         };
@@ -234,7 +234,7 @@ private:
             set_note(
                 fmt::format("{}: formulation \"{}\" unless the scene says otherwise", type.name, type.formulation));
         for (std::size_t i = 0; i < card.lines.size(); ++i) {
-            // A line that ends with a comma goes on in the next.
+            // A line that ends with a comma continues on the next.
             std::vector<std::string> fields = card.lines[i].fields;
             const Place place = card.lines[i].place;
             while (card.lines[i].continues && fields.size() < per_element + 1 && i + 1 < card.lines.size()) {

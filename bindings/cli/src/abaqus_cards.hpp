@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the cards of an Abaqus input file to its model.
+// Builds the model from the cards of an Abaqus input file.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace cli::abaqus {
 
-// model: empty; it must stay where it is, parts refer to it. Throws SceneFailure with file and line.
+// model: empty; it must not be moved, because parts refer to it. Throws SceneFailure with file and line.
 void take_cards(const std::vector<InpCard>& cards, const std::string& path, Model& model);
 
 }  // namespace cli::abaqus

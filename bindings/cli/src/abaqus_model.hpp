@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an Abaqus input file says about its mesh, as it is written: parts and instances with their nodes,
-// elements, sets and surfaces, and what the entries of sets and surfaces mean.
+// The mesh data of an Abaqus input file in their original form: parts and instances with their nodes, elements, sets
+// and surfaces, and the meaning of the entries of sets and surfaces.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ struct Element {
 
 struct Part;
 
-// An entry of a set as it is written: a number, the name of a set, or either with the instance before it.
+// An entry of a set in its original form: a number, the name of a set, or either after the name of an instance.
 struct Entry {
     const Part* scope;
     std::string text;
@@ -41,7 +41,7 @@ struct Entry {
 };
 
 struct Set {
-    std::string name;  // as spelt first
+    std::string name;  // in its first spelling
     std::vector<Entry> entries;
     std::vector<Entry> element_sets;  // of node sets: all nodes of their elements
     Place place;
@@ -60,7 +60,7 @@ struct Surface {
     Place place;
 };
 
-// A part, an instance of one, or what stands outside of both.
+// A part, an instance of one, or the objects outside of both.
 struct Part {
     std::string name;
     std::vector<Node> nodes;
@@ -71,8 +71,8 @@ struct Part {
     std::map<std::string, Set> element_sets;
     std::map<std::string, Surface> surfaces;
     std::vector<Entry> sections;  // their element sets
-    std::size_t order = 0;        // among what the mesh is made of
-    std::int64_t first_node = 0;  // of the mesh
+    std::size_t order = 0;        // position among the parts of the mesh
+    std::int64_t first_node = 0;  // number in the mesh
 };
 
 struct ElementAt {
@@ -83,7 +83,7 @@ struct ElementAt {
     }
 };
 
-// All that a file says about its mesh.
+// Everything that a file says about its mesh.
 struct Model {
     Place file;
     Part root;
@@ -91,20 +91,20 @@ struct Model {
     std::vector<std::unique_ptr<Part>> instances;
     std::vector<std::string> notes;
 
-    // What the mesh is made of.
+    // The parts and instances that make up the mesh.
     [[nodiscard]] std::vector<const Part*> scopes() const;
     [[nodiscard]] const Part* instance_named(const std::string& name, const Place& place) const;
-    // Splits "instance.rest" off.
+    // Splits off the instance of "instance.rest".
     [[nodiscard]] Entry resolved_scope(const Entry& entry) const;
     // The elements of an entry: a number or the name of a set.
     void collect_elements(const Entry& raw, std::set<ElementAt>& out, int depth = 0) const;
-    // Nodes by their numbers in the mesh; Part::first_node must be there.
+    // Nodes by their numbers in the mesh; requires Part::first_node.
     void collect_nodes(const Entry& raw, std::set<std::int64_t>& out, int depth = 0) const;
     void collect_set(const Set& set, std::set<std::int64_t>& out, int depth = 0) const;
 };
 
 std::int64_t node_number(const Part& scope, std::int64_t id, const Place& place);
-// The name that something of a part or an instance has in the scene.
+// The name in the scene of an object of a part or an instance.
 std::string full_name(const Part& scope, const std::string& name);
 
 }  // namespace cli::abaqus

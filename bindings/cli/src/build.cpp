@@ -16,15 +16,14 @@ namespace cli {
 
 namespace {
 
-// Inside, or on an end that the interface itself ends at: an end within the interface is a tip, and its pair stays
-// bonded.
+// Inside, or on an end shared with the interface: an end within the interface is a crack tip, whose pair stays bonded.
 bool inside(double x, double lower, double upper, double length, double slack) {
     const bool from = lower <= slack ? x >= lower - slack : x > lower + slack;
     const bool to = upper >= length - slack ? x <= upper + slack : x < upper - slack;
     return from && to;
 }
 
-// Whether anything adheres.
+// Whether any pair adheres.
 bool set_adhesion(const Model& model, const Scene& scene, std::int64_t index, const InterfaceData& data) {
     const delam_context* context = model.context.get();
     std::int64_t pairs = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a scene to the library's objects.
+// Builds the library's objects from a scene.
 #pragma once
 
 #include <vector>
@@ -9,22 +9,22 @@
 
 namespace cli {
 
-// Order matters: the context outlives what was made with it.
+// The order matters: the context must outlive the objects made with it.
 struct Model {
     Context context;
     Mesh mesh;
     Problem problem;
-    std::vector<InterfaceData> interfaces;  // as the mesh has them, in its order
-    std::vector<bool> adheres;              // per interface: some pair does at the start
-    std::vector<Place> constraint_places;   // of each constraint of the problem: what asked for it
+    std::vector<InterfaceData> interfaces;  // in the order of the mesh's interfaces
+    std::vector<bool> adheres;              // per interface: whether any pair adheres at the start
+    std::vector<Place> constraint_places;   // for each constraint of the problem: its place in the scene
 };
 
-// Whatever the problem has gained of constraints is due to `place`.
+// Attributes the constraints added to the problem since the last call to `place`.
 void note_constraints(Model& model, const Place& place);
 Context new_context();
-// The problem is complete and checked. Errors name the place in the scene.
+// Returns a complete and checked problem. Errors name the place in the scene.
 Model build(Context context, const Scene& scene);
-// Factors; the state is the initial one. converged: whether its displacement did not meet a limit.
+// Factors the operator; the state is the initial one. converged: whether its displacement step converged.
 Solver new_solver(const Model& model, const Scene& scene, bool& converged);
 
 }  // namespace cli

@@ -13,7 +13,7 @@ namespace cli {
 
 namespace {
 
-// One linear equation under way: sum of coefficients . u = right side.
+// A linear equation under construction: sum of coefficients . u = right side.
 struct Equation {
     std::vector<std::int64_t> nodes;
     std::vector<double> coefficients;  // [nodes][dimension]
@@ -62,8 +62,8 @@ void couple(const Model& model, const Scene& scene, const CouplingData& data) {
         }
 }
 
-// Dual vectors g_k of the periods within the axes they lie along: g_k . p_l = 1 for k = l, else 0. Rows of the inverse
-// of the matrix whose columns are the periods, by cofactors: there are at most three.
+// Dual vectors g_k of the periods in the space of their axes: g_k . p_l = 1 for k = l, else 0. They are the rows of the
+// inverse of the matrix whose columns are the periods (at most three), computed by cofactors.
 struct Dual {
     std::vector<std::vector<double>> vectors;
     double measure = 0;  // |det periods|
@@ -126,7 +126,7 @@ Extent extent_of(const Nodes& nodes, std::size_t axis, std::size_t dimension) {
     return out;
 }
 
-// Rigid motions of the cell: its translation is held at the node that is nearest to the lower corner.
+// Rigid motions of the cell: the node nearest to the lower corner is fixed.
 std::int64_t corner_node(const Nodes& nodes, std::size_t dimension) {
     std::vector<double> corner(dimension);
     for (std::size_t a = 0; a < dimension; ++a) corner[a] = extent_of(nodes, a, dimension).lower;
@@ -146,9 +146,9 @@ std::vector<double> unit(std::size_t dimension, std::size_t axis) {
     return out;
 }
 
-// The average displacement gradient is H = sum_k u_k (x) g_k with the control nodes' displacements u_k. Strain
-// components (H_ii; H_ij + H_ji) are prescribed by equations; stresses s are dead forces F_k = V s g_k; the
-// antisymmetric part is held.
+// The average displacement gradient is H = sum_k u_k (x) g_k with the control nodes' displacements u_k. Equations
+// prescribe strain components (H_ii; H_ij + H_ji); stresses s are dead forces F_k = V s g_k; the antisymmetric part is
+// fixed.
 void add_cell(const Model& model, const Scene& scene, const CellData& cell) {
     const delam_context* context = model.context.get();
     const std::size_t dimension = cell.periods.front().size(), n = cell.periods.size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a body is made of, from the scene into the problem.
+// Sets the materials of the bodies in the problem.
 #pragma once
 
 #include "delam/delam.h"
@@ -10,7 +10,7 @@ namespace cli {
 // made_of_it: the layer or body, with its axes and formulation.
 void set_material(const delam_context* owner, delam_problem* problem, std::int32_t body, const Material& material,
                   const Layer& made_of_it);
-// The axes that the mesh has for each cell of the body.
+// The axes that the mesh gives for each cell of the body.
 void set_cell_axes(const delam_context* owner, delam_problem* problem, std::int32_t body, const MeshData& mesh,
                    const Place& place);
 

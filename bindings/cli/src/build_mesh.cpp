@@ -48,13 +48,13 @@ delam_mesh* append_controls(Model& model, const Scene& scene) {
     return handle;
 }
 
-// Contact alone, between what lies on a plane and the control node that carries the plane.
+// Contact alone, between the nodes on a plane and the control node that carries the plane.
 void add_obstacles(Model& model, const Scene& scene) {
     const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
     for (const ObstacleData& data : scene.obstacles) {
         const Selected at = select(model.context.get(), model.mesh.get(), scene, data.where, true);
         if (at.weights.empty()) throw SceneFailure(data.place, "a patch, or a set of faces, is needed");
-        // Into the body: against the outward normal.
+        // Into the body, against the outward normal.
         std::vector<std::int64_t> nodes;
         std::vector<double> normals;
         const auto* patch = std::get_if<Patch>(&data.where.shape);
@@ -118,7 +118,7 @@ void push_interface(Model& model, const Scene& scene, InterfaceData data, std::s
     model.interfaces.push_back(std::move(data));
 }
 
-// Those between two bodies by name.
+// Interfaces between two bodies given by name.
 void add_named_interfaces(Model& model, const Scene& scene) {
     for (const InterfaceData& data : scene.interfaces) {
         if (data.a.empty() || is_pattern(data.a) || is_pattern(data.b)) continue;
@@ -138,7 +138,7 @@ void add_named_interfaces(Model& model, const Scene& scene) {
     }
 }
 
-// How two bodies that touch hold together: the one entry whose names fit, else the one for all.
+// The law of two bodies in contact: the one entry whose names match, else the entry for all.
 const InterfaceData* entry_for(const Scene& scene, const std::string& a, const std::string& b) {
     const InterfaceData* found = nullptr;
     for (const InterfaceData& data : scene.interfaces) {
@@ -155,10 +155,10 @@ const InterfaceData* entry_for(const Scene& scene, const std::string& a, const s
     return found;
 }
 
-// Those of bodies that touch and have none yet. Every one needs an entry: a forgotten one would come apart unnoticed.
+// Interfaces between touching bodies that have none yet. Each needs an entry: a forgotten one would separate unnoticed.
 void add_other_interfaces(Model& model, const Scene& scene) {
     std::int64_t added = 0;
-    // They are found in one go.
+    // One call finds all of them.
     const InterfaceData* first = nullptr;
     for (const InterfaceData& data : scene.interfaces) {
         if (!data.a.empty() && !is_pattern(data.a + data.b)) continue;
@@ -213,7 +213,7 @@ void build_from(Model& model, const Scene& scene) {
     add_other_interfaces(model, scene);
 }
 
-// Which of an interface's pairs a region holds.
+// The pairs of an interface that lie in a region.
 class RegionPairs {
 public:
     RegionPairs(const Model& model, const Scene& scene, std::int64_t index, const Place& place)
@@ -233,7 +233,7 @@ public:
         origins_.resize(static_cast<std::size_t>(nodes));
         faces_.resize(static_cast<std::size_t>(faces * per_face));
         per_face_ = static_cast<std::size_t>(per_face);
-        // Face b's nodes are there whatever the interface: face a's may be points within faces.
+        // Face b's nodes always exist; face a's nodes may be points within faces.
         call(context, delam_mesh_interface_pairs(mesh, index, nullptr, node_b_.data(), nullptr, nullptr), place);
         call(context, delam_mesh_interface_faces(mesh, index, faces_.data()), place);
         call(context, delam_mesh_nodes(mesh, nodes * scene.geometry.dimension, coordinates_.data()), place);
@@ -250,7 +250,7 @@ public:
                 if (std::binary_search(set.begin(), set.end(), origins_[static_cast<std::size_t>(node_b_[i])]))
                     where[i] = Where::edge;
         }
-        // A pair on the edge is the region's only where no face leads out of it.
+        // A pair on the edge belongs to the region only if no face leads out of it.
         std::vector<bool> tip(node_b_.size(), false);
         for (std::size_t f = 0; f < faces_.size(); f += per_face_) {
             const auto begin = faces_.begin() + static_cast<std::ptrdiff_t>(f);
@@ -308,7 +308,7 @@ bool set_mesh_adhesion(const Model& model, const Scene& scene, std::int64_t inde
     std::vector<double> initial(static_cast<std::size_t>(count), 1.0);
     for (const Region& region : data.regions) {
         const std::vector<std::int64_t> chosen = pairs.in(region);
-        // One of an entry for several interfaces may well be on some of them alone.
+        // A region for several interfaces may lie on only some of them.
         if (chosen.empty() && (data.a.empty() || is_pattern(data.a + data.b))) continue;
         if (chosen.empty())
             throw SceneFailure(region.place,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the library's statuses to the program's failures.
+// Turns the library's statuses into the program's failures.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ inline Exit exit_code(std::int32_t status) {
     }
 }
 
-// Throws for every status but DELAM_OK. The message of the library goes behind the place in the scene.
+// Throws for every status but DELAM_OK. The library's message follows the place in the scene.
 inline void call(const delam_context* context, std::int32_t status, const Place& place) {
     if (status == DELAM_OK) return;
     if (status == DELAM_CANCELLED) throw Failure(exit_interrupted, "interrupted");
@@ -32,7 +32,7 @@ inline void call(const delam_context* context, std::int32_t status, const Place&
     throw Failure(code, code == exit_scene ? text : text + " (" + delam_status_name(status) + ")");
 }
 
-// For calls that can only fail by a defect or for want of memory once the scene is accepted.
+// For calls that, once the scene is accepted, can only fail by a defect or for lack of memory.
 inline void call(const delam_context* context, std::int32_t status, const std::string& what) {
     if (status == DELAM_OK) return;
     if (status == DELAM_CANCELLED) throw Failure(exit_interrupted, "interrupted");

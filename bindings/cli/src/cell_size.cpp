@@ -13,7 +13,7 @@ namespace cli {
 
 namespace {
 
-// Largest size that divides both, by Euclid; remainders below a millionth are rounding of the decimals.
+// Largest size that divides both (Euclid's algorithm); remainders below a millionth are rounding of the decimals.
 double common_size(double a, double b, double slack) {
     while (b > slack) {
         const double rest = std::abs(a - b * std::round(a / b));
@@ -35,13 +35,13 @@ std::string suggested_size(const std::vector<double>& lengths, double h) {
     if (lengths.empty() || !(*least > 0) || !std::isfinite(*largest) || !(h > 0)) return "";
     double common = lengths.front();
     for (const double length : lengths) common = common_size(common, length, 1e-6 * *least);
-    // Every size that divides all is `common` over a whole number: look at those from half of h to twice h.
+    // The sizes that divide all lengths are `common` over whole numbers; considers those from h/2 to 2 h.
     const double middle = std::max(1.0, std::round(common / h));
     if (!(middle < 1e4)) return "";
     std::string best;
     double best_cost = std::numeric_limits<double>::infinity();
     for (double k = std::max(1.0, std::floor(middle / 2)); k <= 2 * middle; k += 1) {
-        // Few digits first, then nearness to what was asked for.
+        // Prefers few digits, then closeness to the requested size.
         for (int digits = 1; digits <= 9; ++digits) {
             const std::string text = fmt::format("{:.{}g}", common / k, digits);
             const double value = number_in(text);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which edge of a cell divides several lengths at once.
+// Finds an edge length of cells that divides several lengths.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace cli {
 
-// A readable number near h that divides all lengths evenly; "" when there is none worth naming.
+// A readable number near h that divides all lengths evenly; "" if there is none worth suggesting.
 std::string suggested_size(const std::vector<double>& lengths, double h);
 bool divides(double h, double length);
 

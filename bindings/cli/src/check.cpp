@@ -87,7 +87,7 @@ int check(const std::string& scene_file, const std::vector<std::string>& setting
     say("\n{}", delam_solver_plan(solver.get()));
     for (const std::string& text : notes_of(scene)) say("note: {}\n", text);
     for (const std::string& text : resolution_warnings(model, solver.get())) complain("warning: {}\n", text);
-    // Not beside the output, where it is lost when that goes to a file.
+    // Not on standard output, where it is lost when that goes to a file.
     for (const std::string& text : warnings_of(model, scene)) complain("warning: {}\n", text);
     if (!converged) complain("warning: the displacement of the initial state did not converge\n");
     return exit_done;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What can end the program early, each with the exit code that is documented in --help and the README.
+// The reasons for which the program ends early, with the exit codes documented in --help and the README.
 #pragma once
 
 #include <stdexcept>
@@ -25,14 +25,14 @@ private:
     Exit code_;
 };
 
-// A file that cannot be written or read back; `name` is the file, `reason` what the system said.
+// A file that cannot be written or read back; `name` is the file, `reason` the system's message.
 class OutputFailure : public Failure {
 public:
     OutputFailure(const std::string& name, const std::string& reason)
         : Failure(exit_output, "cannot write " + name + ": " + reason) {}
 };
 
-// Where in the scene something stands: "scene.toml:14: materials[0].young".
+// A place in the scene: "scene.toml:14: materials[0].young".
 struct Place {
     std::string file;
     std::string path;

@@ -36,13 +36,14 @@ double estimate_tolerance(const Scene& scene) {
 std::vector<std::int64_t> violated_steps(std::string_view history, double eta) {
     std::vector<std::int64_t> out;
     std::vector<std::map<std::string, double>> rows = rows_of(history);
-    // Row 0 is the initial state: no step led there.
+    // Row 0 is the initial state, which is not the result of a step.
     for (std::size_t i = 1; i < rows.size(); ++i) {
         std::map<std::string, double>& of = rows[i];
-        // The potential of dead loads is part of the stored energy; without them there is no such column, and it is 0.
+        // The potential of dead loads is part of the stored energy; without dead loads there is no such column, and it
+        // is 0.
         const double stored = of["stored_bulk"] + of["stored_interface"] + of["load_potential"];
         const double slack = eta * std::max(std::abs(stored), std::abs(of["work"]));
-        // Negated, so that a value that is no number counts as violated.
+        // Negated, so that NaN counts as violated.
         if (!(of["lower"] - of["increment_lower"] <= slack && of["increment"] - of["upper"] <= slack))
             out.push_back(static_cast<std::int64_t>(of["step"]));
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two-sided energy estimate, judged from the rows of history.csv: so a resumed run judges the steps before it too.
+// Checks the two-sided energy estimate in the rows of history.csv, so that a resumed run includes the steps before it.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace cli {
 double estimate_tolerance(const Scene& scene);
 // Steps in which lower - increment_lower or increment - upper exceeds eta * max(|stored energy|, |work|).
 std::vector<std::int64_t> violated_steps(std::string_view history, double eta);
-// The closing line, with its end of line; "" when the estimate is met in every step.
+// The closing line, with its end of line; "" if the estimate holds in every step.
 std::string estimate_line(const std::vector<std::int64_t>& steps, double eta);
 
 }  // namespace cli

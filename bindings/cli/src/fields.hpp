@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// fields.h5 and fields.xdmf: the fields of the chosen steps. While the march runs each step is a small file of its own;
-// they are put together once, when a result is published, so the cost stays linear in the number of steps.
+// fields.h5 and fields.xdmf: the fields of the chosen steps. During the analysis each step is a separate small file.
+// When the result is published they are combined once, so the cost stays linear in the number of steps.
 #pragma once
 
 #include <set>
@@ -14,16 +14,16 @@ namespace cli {
 
 class Fields {
 public:
-    // folder: where the step files go.
+    // folder: for the step files.
     Fields(std::string folder, const Scene& scene);
 
-    // Steps every n-th, the first, the last and those nearest to the snapshot instants.
+    // Every n-th step, the first, the last and those nearest to the snapshot instants.
     [[nodiscard]] bool chosen(std::size_t step) const { return chosen_.contains(step); }
     void write_step(const Model& model, delam_solver* solver, const Scene& scene, std::size_t step);
-    // Step files so far to the disk, before a state that counts on them is written.
+    // Flushes the step files to disk, before a state that relies on them is written.
     void synchronise_steps();
-    // Puts steps 0 .. last together as folder/fields.h5 and folder/fields.xdmf.
-    // Largest rotation of a cell in them, rad (0 where no step has displacements).
+    // Combines steps 0 .. last into folder/fields.h5 and folder/fields.xdmf.
+    // Largest rotation of a cell in these steps, rad (0 if no step has displacements).
     double assemble(const Model& model, const Scene& scene, std::size_t last, const std::string& problem_hash,
                     const Concept& named) const;
     void remove_steps() const;

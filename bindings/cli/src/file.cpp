@@ -17,7 +17,7 @@ namespace {
 
 std::string system_text(int code) { return std::strerror(code); }
 
-// Closes on every way out; close() itself may report a write that failed late.
+// Closes the file on every path; close() itself may report a late write error.
 class Descriptor {
 public:
     Descriptor(const std::string& path, int flags)
@@ -109,7 +109,7 @@ void synchronise(const std::string& path) {
     const int status = ::fsync(descriptor);
     const int code = errno;
     ::close(descriptor);
-    // Folders of some file systems cannot be synchronised; that is no error of the data.
+    // Some file systems cannot synchronise folders; that is no error of the data.
     if (status != 0 && code != EINVAL) throw OutputFailure(path, system_text(code));
 }
 

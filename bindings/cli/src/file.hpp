@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files whose every write is checked: a full disk is an error that names the file, never a truncated result.
+// Files with every write checked: a full disk is an error that names the file, never a truncated result.
 #pragma once
 
 #include <cstdint>
@@ -8,25 +8,25 @@
 
 namespace cli {
 
-// All bytes; throws Failure(exit_scene) naming the file when it cannot be read.
+// Reads all bytes; throws Failure(exit_scene) naming the file if it cannot be read.
 std::string read_bytes(const std::string& path);
 
-// Written beside as PATH.new, synchronised and renamed: PATH is either the old or the new content.
+// Writes PATH.new, synchronises and renames it: PATH has either the old or the new content.
 void write_atomic(const std::string& path, std::string_view bytes);
 
 void rename_file(const std::string& from, const std::string& to);
-// Missing is fine.
+// A missing file is no error.
 void remove_file(const std::string& path);
-// Reserves room beside `path` and frees it again: tells a full disk before a library that cannot recover from one meets
-// it.
+// Reserves space beside `path` and frees it again, to detect a full disk before calling a library that cannot recover
+// from one.
 void require_room(const std::string& path, std::int64_t bytes);
-// To the disk, folder entries of `folder` included.
+// Flushes to disk, including the entries of `folder`.
 void synchronise(const std::string& path);
 
 // An append-only file.
 class Appender {
 public:
-    // Keeps the first `length` bytes of what is there (0: starts anew).
+    // Keeps the first `length` bytes of the existing file (0: starts anew).
     Appender(std::string path, std::int64_t length);
     ~Appender();
     Appender(const Appender&) = delete;

@@ -46,7 +46,7 @@ Packing arrange(const FibreCell& cell) {
     }
 }
 
-// The fibres and those of their periodic images that reach into the cell.
+// The fibres and their periodic images that reach into the cell.
 std::vector<Disc> discs_of(const Packing& packing) {
     std::vector<Disc> discs;
     for (std::size_t i = 0; i < packing.centres.size(); ++i)
@@ -61,8 +61,8 @@ std::vector<Disc> discs_of(const Packing& packing) {
     return discs;
 }
 
-// The rectangle cut by the circles: what belongs to a disc is a piece of its fibre, the rest matrix; discs lose what is
-// outside.
+// The rectangle cut by the circles: parts inside a disc belong to its fibre, the rest to the matrix; parts of discs
+// outside the rectangle are removed.
 void draw(const Packing& packing, const std::vector<Disc>& discs) {
     const gmsh::vectorpair rectangle{{2, occ::addRectangle(0, 0, 0, packing.width, packing.height)}};
     gmsh::vectorpair tools;

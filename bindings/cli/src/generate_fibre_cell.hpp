@@ -11,7 +11,7 @@
 namespace cli {
 
 struct FibreCell {
-    std::int64_t fibres = 1;             // random arrangement alone: a square one has 1, a hexagonal one 2
+    std::int64_t fibres = 1;             // only for random; square has 1, hexagonal 2
     double fraction = 0.5;               // area of fibres over that of the cell
     double radius = 1.0;                 // L; the size of the cell follows
     std::string arrangement = "random";  // square (one fibre in the middle) or hexagonal
@@ -25,9 +25,9 @@ struct FibreCell {
     Place place;                     // of the table, for messages
 };
 
-// Origin in a corner of the cell; bodies matrix, fibre-1, fibre-2, ..; a fibre that the border cuts goes on at the
-// opposite side and is one body. Opposite borders have the same nodes, periods moved. Node sets left, right, bottom,
-// top, corners, origin. Sides of quadratic cells lie on the circles. Throws SceneFailure.
+// Origin in a corner of the cell; bodies matrix, fibre-1, fibre-2, ..; a fibre cut by the border continues on the
+// opposite side and is one body. Opposite borders have the same nodes, shifted by the period. Node sets left, right,
+// bottom, top, corners, origin. Sides of quadratic cells lie on the circles. Throws SceneFailure.
 MeshData generate_fibre_cell(const FibreCell& cell);
 
 }  // namespace cli

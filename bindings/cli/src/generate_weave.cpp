@@ -24,9 +24,10 @@ namespace occ = gmsh::model::occ;
 using std::numbers::pi;
 
 constexpr std::size_t yarns = 4;
-constexpr int sections = 16;  // that a yarn's surface passes through; the spline between them is off by 1e-5 spacings
+// Sections through which a yarn's surface is interpolated; the error of the spline is 1e-5 spacings.
+constexpr int sections = 16;
 
-// Half of a yarn's section: t(d) over the distance d from the centre line, lengths in spacings.
+// Half the thickness of a yarn's section, t(d), over the distance d from the centre line; lengths in spacings.
 class Section {
 public:
     explicit Section(const WeaveCell& cell)
@@ -68,7 +69,7 @@ public:
         return curves;
     }
 
-    // Onto the outline, from next to it: radially for an ellipse, along z for a lens.
+    // Projects onto the outline from nearby: radially for an ellipse, along z for a lens.
     void project(double& across, double& up) const {
         if (lens_) {
             up = up < 0 ? -profile(across) : profile(across);
@@ -86,7 +87,7 @@ private:
     double radius_;
 };
 
-// z = A sin(pi s) and, in the plane between, where it is and how steep.
+// z = A sin(pi s), and the position and slope in the plane.
 struct Yarn {
     bool warp;
     double across;     // of the centre line: y of a warp, x of a weft
@@ -96,15 +97,15 @@ struct Yarn {
     [[nodiscard]] double slope(double along) const { return amplitude * pi * std::cos(pi * along); }
 };
 
-// At every crossing one is up where the other is down.
+// At every crossing one yarn is up and the other down.
 std::array<Yarn, yarns> weave(double amplitude) {
     return {{{true, 0.5, amplitude}, {true, 1.5, -amplitude}, {false, 0.5, -amplitude}, {false, 1.5, amplitude}}};
 }
 
 constexpr std::array<const char*, yarns> yarn_names{"warp-1", "warp-2", "weft-1", "weft-2"};
 
-// Crossing yarns are A (cos pi d + cos pi e) - t(d) - t(e) apart at the distances d and e from their centre lines. That
-// is the gap at least if A cos pi d - t(d) is half of it for every d up to the half width.
+// At the distances d and e from their centre lines, crossing yarns are A (cos pi d + cos pi e) - t(d) - t(e) apart.
+// That is at least the gap if A cos pi d - t(d) is half of it for every d up to the half width.
 double amplitude_of(const Section& section, double gap) {
     double amplitude = 0;
     constexpr int samples = 4000;
@@ -183,7 +184,7 @@ void mesh_volumes(double h) {
     gmsh::model::mesh::generate(3);
 }
 
-// Axis 1 along the centre line, axis 2 in the plane of the fabric so that the third points up.
+// Axis 1 along the centre line, axis 2 in the plane of the fabric so that the third axis points up.
 void orient(MeshData& mesh, const std::array<Yarn, yarns>& all) {
     for (const CellBlock& block : mesh.blocks) {
         const CellShape& shape = shape_of(block.type);
@@ -208,7 +209,7 @@ void orient(MeshData& mesh, const std::array<Yarn, yarns>& all) {
     }
 }
 
-// Middles of sides between a yarn and matrix, onto the yarn's surface within the section they are in.
+// Moves middle nodes of sides between a yarn and matrix onto the yarn's surface, within their section.
 std::int64_t bend_sides(MeshData& mesh, const Section& section, const std::array<Yarn, yarns>& all, double middle_z) {
     std::vector<const Yarn*> by_label;
     for (const std::string& name : mesh.body_names) {

@@ -15,7 +15,7 @@ namespace cli {
 
 namespace {
 
-// Bounding boxes of OpenCASCADE are larger than what is in them by its tolerance.
+// Bounding boxes of OpenCASCADE exceed their contents by its tolerance.
 constexpr double slack = 1e-5;
 
 struct Box {
@@ -171,7 +171,7 @@ void require_sound_cells(const MeshData& mesh, double flattest, const Place& pla
     const auto dimension = static_cast<std::size_t>(mesh.dimension);
     for (const CellBlock& block : mesh.blocks) {
         const CellShape& shape = shape_of(block.type);
-        // Area of an equilateral triangle, volume of a regular tetrahedron with edge 1; a square.
+        // Area of an equilateral triangle, volume of a regular tetrahedron with edge 1, area of a square.
         const double regular = shape.corners == 3    ? std::numbers::sqrt3 / 4
                                : mesh.dimension == 3 ? 1.0 / (6.0 * std::numbers::sqrt2)
                                                      : 1.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the generators of periodic cells share: the model in Gmsh of a cell [0, size] in each direction, drawn in a unit
-// of length in which its parts are about 1 (OpenCASCADE compares lengths with 1e-7), and what comes out of it.
+// Common code of the generators of periodic cells: the Gmsh model of a cell [0, size] in each direction, in a unit of
+// length in which its parts are about 1 (OpenCASCADE compares lengths with 1e-7), and the resulting mesh.
 #pragma once
 
 #include <array>
@@ -18,11 +18,11 @@ public:
     // lower: the corner of the cell, 0 along periodic axes.
     GeneratorModel(int dimension, const std::array<double, 3>& lower, const std::array<double, 3>& upper);
 
-    // The mesh of the upper border along an axis is to be that of the lower one, moved. For all entities of one
-    // dimension less than the cell. Throws std::string where they do not correspond.
+    // Makes the mesh of the upper border along an axis a copy of that of the lower one, for all entities of one
+    // dimension less than the cell. Throws std::string if they do not correspond.
     void tie_borders(int axis) const;
 
-    // Curves and points that bound nothing would be meshed too.
+    // Removes curves and points that bound nothing, which would otherwise be meshed.
     void drop_loose_parts() const;
 
     void name_body(const std::vector<int>& entities, const std::string& name) const;
@@ -30,10 +30,10 @@ public:
     // the smallest coordinates.
     void name_borders() const;
 
-    // Labels as in `names`, which has all bodies.
+    // Labels as in `names`, which contains all bodies.
     static void order_bodies(MeshData& mesh, const std::vector<std::string>& names);
 
-    // What bodies measure, by label, curved sides included.
+    // Area or volume of the bodies, by label, including curved sides.
     static std::vector<double> measures(const MeshData& mesh);
 
 private:
@@ -44,8 +44,8 @@ private:
     std::array<double, 3> upper_;
 };
 
-// Refuses cells that are inverted, or flat: beside a regular one with edges as long as the longest, their measure is
-// below `flattest`. Names where the cell is. place: of the parameter to change.
+// Refuses cells that are inverted or flat: relative to a regular cell whose edges are as long as the longest, their
+// measure is below `flattest`. The message gives the position of the cell. place: of the parameter to change.
 void require_sound_cells(const MeshData& mesh, double flattest, const Place& place);
 
 // The place of a key of the table.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// libgmsh without its habits: it reads no user's options, prints nothing, and its errors become those of the scene.
+// libgmsh for use inside a program: it reads no user options, prints nothing, and its errors become errors of the
+// scene.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +29,7 @@ public:
     GmshSession& operator=(const GmshSession&) = delete;
 };
 
-// Runs `work` in a session of its own. subject: what an error of Gmsh's is about.
+// Runs `work` in a separate session. subject: what an error of Gmsh concerns.
 template <class Work>
 auto with_gmsh(const Place& place, const std::string& subject, Work&& work) {
     const auto failure = [&](std::string text) {

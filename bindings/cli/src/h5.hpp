@@ -24,7 +24,7 @@ public:
     Id(const Id&) = delete;
     Id& operator=(const Id&) = delete;
     [[nodiscard]] hid_t get() const { return id_; }
-    // A file writes what it still holds when it is closed, which can fail.
+    // Closing a file writes its buffered data, which can fail.
     void close(const std::string& what) {
         const hid_t id = id_;
         id_ = -1;
@@ -68,7 +68,7 @@ void write(hid_t parent, const std::string& name, const std::vector<T>& values, 
     const hsize_t shape[2] = {values.size() / (columns > 0 ? columns : 1), columns};
     const Space space(H5Screate_simple(columns > 0 ? 2 : 1, shape, nullptr), name);
     const Properties properties(H5Pcreate(H5P_DATASET_CREATE), name);
-    // Padding and constant parts vanish in the filter; below a page it does not pay.
+    // Padding and constant parts compress well; below the size of a page compression does not pay.
     if (values.size() > 512) {
         require(H5Pset_chunk(properties.get(), columns > 0 ? 2 : 1, shape), name);
         require(H5Pset_shuffle(properties.get()), name);

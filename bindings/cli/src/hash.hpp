@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FNV-1a, 64 bits, as 16 hexadecimal digits: to tell scenes apart, not to resist an attack.
+// FNV-1a, 64 bits, as 16 hexadecimal digits: distinguishes scenes, but does not resist an attack.
 #pragma once
 
 #include <cstdint>

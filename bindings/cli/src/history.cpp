@@ -13,18 +13,18 @@ namespace cli {
 
 namespace {
 
-// Counted, so written without exponent or fraction; still exact as a double.
+// Counts, written without exponent or fraction; still exact as doubles.
 constexpr const char* counts[] = {"step",          "am_iterations", "linear_iterations",   "contact_iterations",
                                   "contact_pairs", "backtracks",    "displacement_solves", "revisions",
                                   "jumps",         "revised_from",  "search_candidates",   "substeps",
                                   "refused_steps"};
 
-// Columns that are there when the library has the value.
+// Columns that exist if the library has the value.
 constexpr const char* where_known[] = {"revisions",   "search_candidates", "search_margin", "search_gap",
                                        "jumps",       "released",          "defect",        "defect_slides",
                                        "mixity_error"};
 
-// Of scenes in which something may break.
+// For scenes in which an interface may break.
 constexpr const char* of_cracks[] = {"crack_length", "energy_release_rate", "front_mixity", "process_zone_pairs"};
 
 }  // namespace
@@ -80,7 +80,7 @@ History::History(const Model& model, const delam_solver* solver, const Scene& sc
         const auto same_key = [&key](const Column& column) { return column.key == key; };
         if (std::none_of(columns_.begin(), columns_.end(), same_key)) add(key, key);
     }
-    // Words behind the numbers: a row that is copied elsewhere still says which solution it belongs to.
+    // Words after the numbers: a row that is copied elsewhere still states its solution concept.
     for (const auto& [key, value] : concept_of(solver))
         if (key == "solution" || key == "mixity_rule") add(key, "", value);
 }
@@ -111,7 +111,7 @@ std::string History::row(delam_solver* solver) const {
             out += text;
             continue;
         }
-        const double number = value(solver, key) + 0.0;  // no -0
+        const double number = value(solver, key) + 0.0;  // turns -0 into 0
         const bool counted = std::find(std::begin(counts), std::end(counts), key) != std::end(counts);
         out += counted ? fmt::format("{:.0f}", number) : fmt::format("{:.17g}", number);
     }

@@ -13,14 +13,14 @@ namespace cli {
 
 class History {
 public:
-    // Throws SceneFailure when [output] columns names a value that the solver does not have.
+    // Throws SceneFailure if [output] columns names a value that the solver does not have.
     History(const Model& model, const delam_solver* solver, const Scene& scene);
 
     [[nodiscard]] std::string header() const;
-    // Of the committed state, or of the step that is looked at. Numbers keep 17 significant digits: reading them back
-    // gives the same bits.
+    // Row of the committed state, or of the earlier step being read. Numbers have 17 significant digits, so that
+    // reading them back gives the same bits.
     [[nodiscard]] std::string row(delam_solver* solver) const;
-    // Value of the solver for people's lines: the factor of the first pattern.
+    // A value for messages: the factor of the first pattern.
     [[nodiscard]] double load(delam_solver* solver) const;
     [[nodiscard]] double value(delam_solver* solver, const std::string& key) const;
 
@@ -31,7 +31,7 @@ private:
     struct Column {
         std::string title;
         std::string key;   // of the solver's value; "": none
-        std::string text;  // what stands there without a key
+        std::string text;  // the text of the column if it has no key
     };
     void add(const std::string& title, const std::string& key, const std::string& text = "");
 

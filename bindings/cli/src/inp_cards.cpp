@@ -30,7 +30,7 @@ std::string unquoted(const std::string& text) {
     return text.size() >= 2 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
 }
 
-// Fields between commas outside quotes; the last is left out when it is empty.
+// Fields between commas outside quotes; an empty last field is dropped.
 std::vector<std::string> split(const std::string& line) {
     std::vector<std::string> out;
     std::string field;
@@ -113,7 +113,7 @@ public:
     }
 
 private:
-    // The lines of the file stand where the card stood; its name is relative to the file that asks for it.
+    // The lines of the included file replace the card; its name is relative to the including file.
     void include(const InpCard& card, const std::string& path, std::size_t depth) {
         card.only({"INPUT"});
         if (depth == deepest_include)

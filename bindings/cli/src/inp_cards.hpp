@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An Abaqus input file as cards: keyword lines with their data lines, includes taken in.
+// An Abaqus input file as cards: keyword lines with their data lines, with includes expanded.
 #pragma once
 
 #include <optional>
@@ -24,15 +24,15 @@ struct InpCard {
     Place place;
 
     [[nodiscard]] bool has(const std::string& name) const;
-    // "" when it is missing.
+    // "" if it is missing.
     [[nodiscard]] std::string parameter(const std::string& name) const;
     [[nodiscard]] std::string required(const std::string& name) const;
     // Refuses any parameter that is not listed.
     void only(const std::vector<std::string>& names) const;
 };
 
-// "**" begins a comment; keywords and parameters are in any case; a keyword line that ends with a comma goes on in the
-// next. files: the bytes of all files read, one after another. Throws SceneFailure with file and line.
+// "**" begins a comment; keywords and parameters are case-insensitive; a keyword line that ends with a comma continues
+// on the next. files: the bytes of all files read, one after another. Throws SceneFailure with file and line.
 std::vector<InpCard> read_cards(const std::string& path, const Place& place, std::string& bytes);
 
 std::string upper(std::string text);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ctrl-C and SIGTERM: the running call is asked to stop; a second one ends the program at once.
+// Ctrl-C and SIGTERM cancel the running call; a second signal ends the program at once.
 #pragma once
 
 #include "delam/delam.h"
@@ -8,7 +8,8 @@ namespace cli {
 
 class Interrupt {
 public:
-    // Also ignores SIGPIPE and SIGXFSZ, so that a closed pipe or a file-size limit is an error code and not the end.
+    // Also ignores SIGPIPE and SIGXFSZ, so that a closed pipe or a file-size limit gives an error code instead of
+    // killing the program.
     explicit Interrupt(delam_context* context);
     ~Interrupt();
     Interrupt(const Interrupt&) = delete;

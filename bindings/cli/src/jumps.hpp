@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// jumps.csv: the jumps that were located, a row each.
+// jumps.csv: the located jumps, one row each.
 #pragma once
 
 #include <string>

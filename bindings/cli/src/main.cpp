@@ -44,7 +44,7 @@ int guarded(int argc, char** argv) {
     std::string folder;
     bool resume = false;
     std::vector<std::string> settings;
-    // One word each, so that the scene file may stand behind it.
+    // One value each, so that the scene file may follow.
     const auto with_settings = [&settings](CLI::App* command) {
         command
             ->add_option("--set", settings,
@@ -90,11 +90,12 @@ int reported(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    // HDF5 would print its own stack, and after a full disk try to write once more at exit; both are ours to handle.
+    // HDF5 would print its error stack and, after a full disk, try to write again at exit; the program handles both
+    // itself.
     H5dont_atexit();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     int code = reported(argc, argv);
-    // A full disk behind the standard output shows here at the latest; a worse code stands.
+    // A full disk behind standard output shows here at the latest; a worse exit code is kept.
     errno = 0;
     const bool flushed = std::fflush(stdout) == 0;
     const int reason = errno;

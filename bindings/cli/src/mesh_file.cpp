@@ -42,7 +42,7 @@ void drop_orphans(MeshData& mesh) {
                 if (node >= 0) renumber(node);
 }
 
-// Twice the area of the polygon of the corners, positive when they run counter-clockwise.
+// Twice the area of the polygon of the corners, positive if they run counter-clockwise.
 double twice_area(const MeshData& mesh, const std::int64_t* cell, std::size_t corners) {
     double sum = 0;
     for (std::size_t i = 0; i < corners; ++i) {
@@ -53,7 +53,7 @@ double twice_area(const MeshData& mesh, const std::int64_t* cell, std::size_t co
     return sum;
 }
 
-// A surface of Gmsh runs round as its boundary loop does, so each cell is looked at by itself.
+// A surface of Gmsh has the orientation of its boundary loop, so each cell is checked separately.
 void turn_clockwise_cells(MeshData& mesh) {
     std::int64_t turned = 0;
     for (CellBlock& block : mesh.blocks) {

@@ -11,7 +11,7 @@ namespace cli {
 
 namespace {
 
-// Every match of `pattern` replaced by what `with` makes of it.
+// Replaces every match of `pattern` by the result of `with`.
 template <class With>
 std::string replaced(const std::string& text, const std::regex& pattern, With with) {
     std::string out;
@@ -32,7 +32,7 @@ std::string named(const std::string& message, const Scene& scene, const Model& m
         return index < scene.layers.size() ? fmt::format("\"{}\"", scene.layers[index].name) : number;
     };
     const std::string noun = scene.mesh ? "body" : "layer", nouns = scene.mesh ? "bodies" : "layers";
-    // "bodies 0 and 1", "bodies 0, 1, 2", "body 3"; not within a name that somebody has given.
+    // "bodies 0 and 1", "bodies 0, 1, 2", "body 3"; but not within a name given by the user.
     std::string out = replaced(message, std::regex(R"(\bbodies (\d+(?:(?:, | and )\d+)*))"), [&](const std::smatch& m) {
         return nouns + " " +
                replaced(m[1].str(), std::regex(R"(\d+)"), [&](const std::smatch& n) { return body(n.str()); });

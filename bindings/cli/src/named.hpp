@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The library speaks of labels and numbers, a scene of names and places.
+// The library uses labels and numbers, a scene names and places.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace cli {
 
-// `message` with the names of bodies and control nodes, and the places of constraints, in the place of their numbers.
+// `message` with the numbers of bodies and control nodes replaced by names, and those of constraints by places.
 std::string named(const std::string& message, const Scene& scene, const Model& model);
 
 }  // namespace cli

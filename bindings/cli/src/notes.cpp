@@ -98,7 +98,7 @@ std::vector<std::string> notes_of(const Scene& scene) {
     const bool simplices = geometry.cell_type == DELAM_TRI3 || geometry.cell_type == DELAM_TET4;
     for (const Layer& layer : scene.layers) {
         const Material& material = scene.materials[layer.material];
-        // Plane stress is free to change its thickness, so nothing locks.
+        // In plane stress the thickness can change freely, so nothing locks.
         const auto* isotropic = std::get_if<Isotropic>(&material.elastic);
         if (isotropic != nullptr && isotropic->poisson > 0.49 && material.formulation != "mean-dilatation" &&
             geometry.plane != "plane-stress")

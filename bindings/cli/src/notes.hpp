@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes that are allowed but rarely meant.
+// Warnings about scenes that are allowed but rarely intended.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace cli {
 
-// Regions and patches beyond what they are on, interfaces where nothing adheres, loads at the start.
+// Regions and patches that extend beyond their interface or face, interfaces without adhesion, loads at the start.
 std::vector<std::string> warnings_of(const Model& model, const Scene& scene);
-// Meshes whose cells are known to be too stiff for what they model.
+// Meshes whose cells are known to be too stiff for the model.
 std::vector<std::string> notes_of(const Scene& scene);
 
 }  // namespace cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The number that a text begins with, in the form of C whatever the locale is; 0 where there is none.
+// The number at the start of a text, in C format whatever the locale is; 0 if there is none.
 #pragma once
 
 #include <algorithm>

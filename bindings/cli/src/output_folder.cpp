@@ -28,12 +28,12 @@ OutputFolder::OutputFolder(const std::string& path) : path_(path), running_(path
         const bool busy = errno == EWOULDBLOCK;
         ::close(lock_);
         if (busy) throw OutputFailure(path_, "another run is writing there");
-        lock_ = -1;  // a file system without locks
+        lock_ = -1;  // the file system has no locks
     }
     try {
         fs::create_directories(running_, code);
         if (code) throw OutputFailure(running_, code.message());
-        // Now rather than after an hour of work.
+        // Fails now rather than after an hour of work.
         Appender(running_ + "/probe.new", 0).append("writable?\n");
         remove_file(running_ + "/probe.new");
     } catch (...) {
@@ -44,7 +44,7 @@ OutputFolder::OutputFolder(const std::string& path) : path_(path), running_(path
 
 OutputFolder::~OutputFolder() {
     std::error_code code;
-    fs::remove(running_, code);  // only when it is empty
+    fs::remove(running_, code);  // only if it is empty
     if (lock_ >= 0) ::close(lock_);
 }
 
@@ -55,8 +55,8 @@ void OutputFolder::begin() {
 }
 
 void OutputFolder::publish() {
-    // A run may go on after this, so it keeps its own history and state. The copies are complete before anything old
-    // goes away.
+    // A run may continue after this, so it keeps its own history and state. The copies are complete before any old file
+    // is removed.
     for (const char* name : {"history.csv", "state.bin"}) {
         const std::string from = running_ + "/" + name;
         write_atomic(running_ + "/published_" + name, read_bytes(from));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The output folder DIR and, in it, the folder `running` where everything is written until it is whole.
+// The output folder DIR and, in it, the folder `running`, which holds all files until the result is complete.
 //
-// DIR/result.json is removed before the first file of a new result is moved in and comes back last: a folder with
+// DIR/result.json is removed before the first file of a new result is moved in, and written last: a folder with
 // result.json holds one result and never a mixture.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace cli {
 
 class OutputFolder {
 public:
-    // Creates what is missing; refuses a folder that another run is writing to.
+    // Creates missing folders; refuses a folder to which another run is writing.
     explicit OutputFolder(const std::string& path);
     ~OutputFolder();
     OutputFolder(const OutputFolder&) = delete;
@@ -20,14 +20,14 @@ public:
     [[nodiscard]] const std::string& path() const { return path_; }
     // Folder for the files of the run.
     [[nodiscard]] const std::string& running() const { return running_; }
-    // An empty `running`.
+    // Empties `running`.
     void begin();
-    // Moves fields.h5, fields.xdmf, result.json and, where there is one, jumps.csv, and copies of history.csv and
-    // state.bin, from `running` to DIR.
+    // Moves fields.h5, fields.xdmf, result.json and jumps.csv (if it exists), and copies of history.csv and state.bin,
+    // from `running` to DIR.
     void publish();
     // Removes `running`.
     void end();
-    // "complete", "incomplete" or "" when DIR holds no result; content_hash is the scene's that made it.
+    // "complete", "incomplete", or "" if DIR holds no result; content_hash is that of the scene of the result.
     [[nodiscard]] std::string status(std::string& content_hash, bool& all_converged) const;
 
 private:

@@ -15,17 +15,17 @@ namespace {
 
 using Point = std::array<double, 2>;
 
-// Equal discs jam without order at 0.84 (O'Hern, Silbert, Liu, Nagel, Phys. Rev. E 68, 2003). With half a gap around
-// each, they have to stay below.
+// Random equal discs jam at 0.84 (O'Hern, Silbert, Liu, Nagel, Phys. Rev. E 68, 2003). With half a gap around each,
+// they must stay below.
 constexpr double densest = 0.82;
 constexpr std::int64_t most_discs = 2000;
 constexpr int attempts = 40;
 constexpr int sweeps = 4000;
 constexpr int drops = 2000;
-// Discs are pushed to this part beyond the distance they need, so that finitely many pushes reach it.
+// Discs are pushed this fraction beyond the required distance, so that finitely many pushes reach it.
 constexpr double margin = 1e-3;
 
-// The mapping to doubles is left to the library by the standard's distributions; the generator itself is not.
+// The standard leaves the mapping to doubles in its distributions to the implementation, but not the generator itself.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -41,7 +41,7 @@ double wrapped(double x, double period) {
     return inside < period ? inside : 0.0;
 }
 
-// The shortest of the differences between periodic images.
+// The shortest difference between periodic images.
 double nearest(double difference, double period) { return difference - period * std::round(difference / period); }
 
 // Not std::hypot, whose last bits differ between machines.
@@ -57,7 +57,7 @@ public:
         return d[0] * d[0] + d[1] * d[1] >= distance_ * distance_;
     }
 
-    // No circle within edge_gap of touching an edge or passing through a corner.
+    // No circle comes within edge_gap of touching an edge or passing through a corner.
     [[nodiscard]] bool clear_of_edges(const Point& p) const {
         for (std::size_t axis = 0; axis < 2; ++axis)
             if (grazes(std::abs(nearest(p[axis], size_[axis])))) return false;
@@ -78,7 +78,7 @@ public:
         return {x, random() * size_[1]};
     }
 
-    // Both discs of an overlapping pair move half of what is missing, along the line between them.
+    // Both discs of an overlapping pair move by half of the missing distance, along the line between them.
     void separate(Point& a, Point& b, Random& random) const {
         Point d = between(a, b);
         double length = length_of(d);
@@ -94,7 +94,8 @@ public:
         }
     }
 
-    // A circle that grazes an edge or a corner moves straight to or from it, to the nearer end of what is forbidden.
+    // A circle that grazes an edge or a corner moves straight towards or away from it, to the nearer end of the
+    // forbidden range.
     void clear_edges(Point& p) const {
         for (std::size_t axis = 0; axis < 2; ++axis) {
             const double d = nearest(p[axis], size_[axis]);
@@ -141,7 +142,7 @@ std::vector<Point> drop(const Cell& cell, std::int64_t count, Random& random) {
     return centres;
 }
 
-// Gauss-Seidel on the overlaps; what is locked between edges and neighbours is shaken loose now and then.
+// Gauss-Seidel iteration over the overlaps; now and then random shifts free discs locked between edges and neighbours.
 bool push_apart(const Cell& cell, std::vector<Point>& centres, Random& random) {
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         if (cell.sound(centres)) return true;

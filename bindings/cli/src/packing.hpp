@@ -25,9 +25,10 @@ struct Packing {
     std::vector<std::array<double, 2>> centres;  // inside the rectangle
 };
 
-// Discs are dropped one by one where there is room (random sequential adsorption); what finds none is put anywhere,
-// and overlaps are pushed apart until there are none. The same request gives the same packing on every machine that
-// computes in IEEE doubles. Throws std::domain_error: what cannot be packed, in one line that names the key.
+// Discs are placed one by one where there is room (random sequential adsorption). Those without room are placed
+// anywhere, and overlaps are pushed apart until there are none. The same request gives the same packing on every
+// machine that computes in IEEE doubles. Throws std::domain_error with a one-line message that names the key if packing
+// fails.
 Packing pack_discs(const PackingRequest& request);
 
 // One disc in the middle of a rectangle.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opposite borders of a generated cell that spans [0, period] along the axis of each of its periods.
+// Opposite borders of a generated cell, which spans [0, period] along the axis of each of its periods.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace cli {
 
-// Points by place. Two points are the same within the tolerance; different ones must be further apart than twice that.
+// Points by position. Points within the tolerance are the same; different ones must be at least twice as far apart.
 class PointTable {
 public:
     explicit PointTable(double tolerance) : tolerance_(tolerance) {}
@@ -32,8 +32,8 @@ private:
     std::unordered_map<std::uint64_t, std::vector<Entry>> entries_;
 };
 
-// Nodes of a border that agree to rounding or to 1e-6 of the largest period with those opposite are put exactly there:
-// afterwards borders are exact and x + period is the partner of x. A node without partner is refused with its place.
+// Moves nodes of a border that agree with those opposite to rounding or to 1e-6 of the largest period exactly there.
+// Then x + period is exactly the partner of x. Refuses a node without a partner and gives its position.
 void align_borders(MeshData& mesh, const Place& place);
 
 }  // namespace cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a person sees while it runs: one line that is rewritten on a terminal, plain lines elsewhere.
+// Progress for people: one line that is rewritten on a terminal, plain lines elsewhere.
 #pragma once
 
 #include <chrono>
@@ -10,13 +10,13 @@ namespace cli {
 
 class Progress {
 public:
-    // first: steps that are done already.
+    // first: number of steps already done.
     Progress(std::int64_t total, std::int64_t first);
 
     void step(std::int64_t step, double time, double load, std::int64_t iterations, bool converged);
-    // From inside the library; no more than ten times a second, on a terminal only.
+    // Called from inside the library; prints at most ten times a second, and only on a terminal.
     void stage(const char* name, std::int64_t done, std::int64_t total);
-    // A line of its own, above the bar.
+    // Prints a separate line above the bar.
     void note(const std::string& text);
     void finish();
 

@@ -14,9 +14,9 @@ namespace cli {
 
 namespace {
 
-constexpr double least_jacobian = 0.2;  // of that of the cell with straight sides
+constexpr double least_jacobian = 0.2;  // relative to the cell with straight sides
 
-// Parts of the way from halfway between the ends to the interface, tried in turn.
+// Fractions of the way from the straight midpoint to the interface, tried in turn.
 constexpr std::array<double, 4> parts{1.0, 0.5, 0.25, 0.0};
 
 struct Edge {
@@ -109,7 +109,7 @@ private:
         block.connectivity = std::move(connectivity);
     }
 
-    // With all sides straight every cell is as sound as the linear one was, so this ends.
+    // With all sides straight every cell is as good as the linear one was, so this terminates.
     void straighten() {
         PointTable places(1e-9 * extent());
         for (std::size_t e = 0; e < edges_.size(); ++e)
@@ -146,7 +146,7 @@ private:
         return at;
     }
 
-    // Together with the edge's periodic images; those around the corner of the cell are reached one period after the
+    // Together with the edge's periodic images; those around the corner of the cell are reached through two periods.
     // other.
     void bend_less(std::size_t e, std::size_t part, const PointTable& places) {
         if (edges_[e].part >= part) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From cells with straight sides to quadratic ones whose sides follow the interfaces.
+// Turns cells with straight sides into quadratic ones whose sides follow the interfaces.
 #pragma once
 
 #include <functional>
@@ -8,13 +8,14 @@
 
 namespace cli {
 
-// Moves the middle of an edge that lies between bodies onto their interface. bodies: labels, ascending, at least two;
-// middle: [dimension], halfway on entry.
+// Moves the midpoint of an edge that lies between bodies onto their interface. bodies: labels, ascending, at least two;
+// middle: [dimension], the straight midpoint on entry.
 using Bend = std::function<void(const std::vector<std::int32_t>& bodies, double* middle)>;
 
-// tri3, quad4 and tet4 become tri6, quad8 and tet10; sets of faces get their middle nodes, as do the node sets of the
-// same name. Where bent sides would squeeze a cell (its smallest Jacobian below a fifth of that with straight sides),
-// they are bent half, a quarter or not at all, and so are their periodic images. Returns how many sides that are.
+// tri3, quad4 and tet4 become tri6, quad8 and tet10; face sets and the node sets of the same name receive the middle
+// nodes. Where curved sides would distort a cell (its smallest Jacobian below a fifth of that with straight sides),
+// they are curved by a half, a quarter or not at all, and so are their periodic images. Returns the number of these
+// sides.
 std::int64_t make_quadratic(MeshData& mesh, const Bend& bend);
 
 }  // namespace cli

@@ -22,7 +22,7 @@ namespace cli::abaqus {
 
 namespace {
 
-// From the model to the mesh of the scene.
+// Converts the model to the mesh of the scene.
 class MeshMaker {
 public:
     explicit MeshMaker(Model& model) : model_(model) { mesh_.notes = model.notes; }
@@ -87,7 +87,7 @@ private:
         }
     }
 
-    // The name that a set has in the scene, as it was spelt first.
+    // The name of a set in the scene, in its first spelling.
     std::string body_name(const Entry& raw) const {
         const Entry entry = model_.resolved_scope(raw);
         const auto set = entry.scope->element_sets.find(upper(entry.text));

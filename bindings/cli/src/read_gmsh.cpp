@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* entity_names[] = {"point", "curve", "surface", "volume"};
 
-// Which node of Gmsh's is each of ours; empty: the same order.
+// The number of each node in Gmsh; empty: the same order.
 struct CellFrom {
     std::int32_t type;
     std::vector<std::size_t> order;
@@ -53,7 +53,7 @@ std::optional<CellFrom> cell_from(int gmsh_type) {
     }
 }
 
-// What is no mesh would be read, and run, as a script of Gmsh's.
+// Gmsh would read, and run, a file that is no mesh as a script.
 void require_mesh_format(const std::string& path, const std::string& bytes, const Place& place) {
     std::istringstream lines(bytes.substr(0, 4096));
     std::string line;
@@ -87,7 +87,7 @@ public:
 private:
     [[noreturn]] void fail(const std::string& text) const { throw SceneFailure(place_, subject_ + ": " + text); }
 
-    // That of the elements, not of the entities: a mesh of a surface may come with its volume.
+    // The dimension of the elements, not of the entities: a mesh of a surface may contain its volume.
     void find_dimension() {
         std::vector<int> types;
         std::vector<std::vector<std::size_t>> tags;
@@ -143,7 +143,7 @@ private:
         return static_cast<std::int32_t>(names.size() - 1);
     }
 
-    // The body of an entity of the highest dimension; "": none.
+    // The body to which an entity of the highest dimension belongs; "": none.
     std::string body_of(int entity, bool grouped) const {
         if (!grouped) return fmt::format("{}-{}", entity_names[mesh_.dimension], entity);
         std::vector<int> groups;

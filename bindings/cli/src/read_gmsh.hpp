@@ -6,10 +6,11 @@
 
 namespace cli {
 
-// Physical groups of the highest dimension are the bodies; where there are none, every entity is one, "surface-1" or
-// "volume-1". Groups below are node sets, those of one dimension less face sets too. Nothing is printed.
+// Physical groups of the highest dimension are the bodies; if there are none, every entity is one, "surface-1" or
+// "volume-1". Groups of lower dimension are node sets, and those of one dimension less are face sets too. Prints
+// nothing.
 MeshFile read_gmsh(const std::string& path, const Place& place);
-// The same of the model that Gmsh holds, in a session of the caller's. subject: what messages begin with.
+// The same for the model in the caller's Gmsh session. subject: the start of messages.
 MeshData read_gmsh_model(const std::string& subject, const Place& place);
 
 }  // namespace cli

@@ -30,7 +30,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
-// toml++ gives no double for whole numbers that none holds exactly, beyond 2^53: the nearest then.
+// toml++ gives no double for integers beyond 2^53 that no double represents exactly; this returns the nearest.
 double number_of(const toml::node& node) {
     if (const auto* whole = node.as_integer()) return static_cast<double>(whole->get());
     return node.value_or(std::numeric_limits<double>::quiet_NaN());
@@ -38,7 +38,7 @@ double number_of(const toml::node& node) {
 
 std::string shown(const toml::node& node) {
     if (const auto* whole = node.as_integer()) return fmt::format("{}", whole->get());
-    // 6.0 must not be shown as 6 where a whole number is asked for.
+    // 6.0 must not be shown as 6 where an integer is required.
     if (const auto value = node.value<double>();
         value && node.is_floating_point() && *value == std::floor(*value) && std::abs(*value) < 1e15)
         return fmt::format("{:.1f}", *value);
@@ -54,7 +54,7 @@ std::string joined(const std::string& path, std::string_view key) {
     return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
 }
 
-// Where a node stands: in the file, or in a setting of the command line.
+// The place of a value: in the file, or in a setting of the command line.
 Place place_of(const toml::node& node, const std::string& file, const std::string& path) {
     const toml::source_path_ptr& source = node.source().path;
     if (source != nullptr && *source == setting_source) return {*source, path, 0};
@@ -69,7 +69,7 @@ double checked_number(const toml::node& node, const Place& where, const Range& r
     return value;
 }
 
-// range: words for people.
+// range: in words.
 std::int64_t checked_whole(const toml::node& node, const Place& where, const std::string& range) {
     if (!node.is_integer())
         throw SceneFailure(where, fmt::format("{}{}: a whole number{} is expected: {}", shown(node),
@@ -85,7 +85,7 @@ std::int64_t checked_whole(const toml::node& node, const Place& where, std::int6
     return value;
 }
 
-// words: what is allowed, for people; "" where anything is.
+// words: what is allowed; "" if anything is.
 std::string checked_word(const toml::node& node, const Place& where, const std::string& words) {
     if (!node.is_string())
         throw SceneFailure(

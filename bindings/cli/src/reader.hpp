@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Strict reading of one TOML table: every key is typed, ranged and known, or the error says where and what is allowed.
+// Strict reading of one TOML table: every key has a type and a range and is known, or the error states where it is and
+// what is allowed.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,7 @@
 
 namespace cli {
 
-// An open or closed interval with the words a person reads.
+// An open or closed interval, with its description in words.
 struct Range {
     double lower;
     double upper;
@@ -49,10 +50,10 @@ public:
     [[nodiscard]] double number(std::string_view key, const Range& range, double otherwise) const;
     [[nodiscard]] std::int64_t whole(std::string_view key, std::int64_t least) const;
     [[nodiscard]] std::int64_t whole(std::string_view key, std::int64_t least, std::int64_t otherwise) const;
-    // Of any size; range: words for the error that it is no whole number.
+    // Of any size; range: words for the error that it is no integer.
     [[nodiscard]] std::int64_t whole(std::string_view key, const std::string& range) const;
     [[nodiscard]] bool flag(std::string_view key, bool otherwise) const;
-    // words: what is allowed, for people; only the type is checked.
+    // words: what is allowed; only the type is checked.
     [[nodiscard]] std::string word(std::string_view key, const std::string& words) const;
     [[nodiscard]] std::string text(std::string_view key) const;
     [[nodiscard]] std::string text(std::string_view key, const std::string& otherwise) const;
@@ -66,7 +67,7 @@ public:
     [[nodiscard]] std::vector<std::int64_t> wholes(std::string_view key, std::int64_t least, std::size_t count) const;
     [[nodiscard]] std::vector<std::string> texts(std::string_view key) const;
     [[nodiscard]] Table table(std::string_view key) const;
-    // Empty when the key is missing.
+    // Empty if the key is missing.
     [[nodiscard]] std::vector<Table> tables(std::string_view key) const;
     // Keys in the order of the table.
     [[nodiscard]] std::vector<std::string> keys() const;

@@ -17,7 +17,7 @@ constexpr double resolving_pairs = 3.0;
 constexpr double small_rotation = 0.1;
 
 struct Prediction {
-    double length = 0;  // 0: nothing that softens
+    double length = 0;  // 0: nothing softens
     double spacing = 0;
 };
 

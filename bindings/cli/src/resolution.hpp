@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the pairs of an interface resolve the process zones of its cracks: before a march as a prediction, after it
-// from its rows.
+// Whether the pairs of an interface resolve the process zones of its cracks: predicted before an analysis, checked
+// after it in its rows.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace cli {
 
 // One line for each interface with a softening law: predicted process zone and the pairs in it.
 std::vector<std::string> process_zones(const Model& model);
-// Interfaces where these are fewer than 3, with the spacing that would do. None for energetic solutions.
+// Interfaces with fewer than 3 pairs, with the required spacing. None for energetic solutions.
 std::vector<std::string> resolution_warnings(const Model& model, const delam_solver* solver);
 // Steps in which a crack grew with fewer than 3 pairs in its process zone, before and after. None for energetic
 // solutions and for scenes whose laws do not soften. history: history.csv.

@@ -23,8 +23,8 @@ Json options(const delam_solver* solver) {
     return out;
 }
 
-// Of a periodic cell: its volume, and d2 E / d factor2 over it at the last state, at held adhesion and contact. Of
-// patterns that each drive one strain by coefficient 1 these are the moduli.
+// For a periodic cell: its volume, and d2 E / d factor2 divided by it at the last state, at fixed adhesion and contact.
+// If each pattern drives one strain with coefficient 1, these are the moduli.
 Json cell_of(const Model& model, delam_solver* solver, const Scene& scene, bool complete) {
     if (!scene.cell) return nullptr;
     const double volume = cell_volume(model, scene);
@@ -33,7 +33,7 @@ Json cell_of(const Model& model, delam_solver* solver, const Scene& scene, bool 
     const std::size_t n = scene.patterns.size();
     std::vector<double> matrix(n * n);
     Json rows = nullptr;
-    // Where a stress acts on what nothing holds any more there is none; and no march is lost for want of it.
+    // If a stress acts on a part that nothing holds any more, there is no tangent; a result must not be lost for that.
     if (complete && delam_solver_tangent(solver, static_cast<std::int64_t>(matrix.size()), matrix.data()) == DELAM_OK) {
         rows = Json::array();
         for (std::size_t p = 0; p < n; ++p) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// result.json: where a result comes from and how far it went.
+// result.json: the origin of a result and its progress.
 #pragma once
 
 #include <cstdint>

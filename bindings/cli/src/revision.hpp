@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps that backtracking took back and computed anew.
+// Steps that backtracking replaced.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace cli {
 
-// First step whose row no longer holds after the step that was just committed; `step` itself when none was revised.
+// The first step whose row is invalid after the step just committed; `step` itself if no step was revised.
 std::int64_t revised_from(const Model& model, delam_solver* solver, std::int64_t step);
 
-// While it lives, values and fields of the solver are those of an earlier step that it keeps.
+// While it lives, the solver's values and fields are those of an earlier step that it keeps.
 class Look {
 public:
     Look(const Model& model, delam_solver* solver, std::int64_t step);

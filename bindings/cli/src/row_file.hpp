@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A table on the disk that grows by rows and whose last rows can be replaced: a march with backtracking revises steps
-// that were written long ago. Growing appends; replacing writes the whole file beside and renames it, so at any time
-// the file is a whole table, the old one or the new one.
+// A table on disk that grows by rows and whose last rows can be replaced: an analysis with backtracking revises steps
+// that were written long ago. Growing appends; replacing writes a new file and renames it. At any time the file is a
+// complete table, the old one or the new one.
 #pragma once
 
 #include <cstddef>
@@ -16,15 +16,15 @@ namespace cli {
 
 class RowFile {
 public:
-    // A new file with nothing but its header, one line with its end.
+    // Creates a file with only its header, one line with its end.
     RowFile(std::string path, std::string_view header);
-    // Goes on after the first `rows` rows of what is there; what follows is cut off. Throws Failure(exit_scene) when
-    // there are fewer whole ones.
+    // Continues after the first `rows` rows of the file and removes the rest. Throws Failure(exit_scene) if there are
+    // fewer complete rows.
     RowFile(std::string path, std::size_t rows);
 
     // row: one line with its end.
     void append(std::string_view row);
-    // Rows first, first + 1, ... become these; first <= rows().
+    // Replaces rows first, first + 1, ... by these; first <= rows().
     void replace_from(std::size_t first, const std::vector<std::string>& rows);
     [[nodiscard]] std::size_t rows() const { return ends_.size() - 1; }
     // Header and rows.

@@ -9,7 +9,7 @@
 
 namespace cli {
 
-// Row 0 is the initial state. Words count as 0.
+// Row 0 is the initial state. Texts count as 0.
 std::vector<std::map<std::string, double>> rows_of(std::string_view history);
 
 }  // namespace cli

@@ -41,7 +41,7 @@ extern "C" void on_log(std::int32_t level, const char* text, void* user) {
     if (level <= 1) static_cast<Progress*>(user)->note(fmt::format("{}: {}", level == 0 ? "error" : "warning", text));
 }
 
-// One run: the march and the files that follow it.
+// One run: the analysis and its files.
 class Run {
 public:
     Run(const Scene& scene, const Model& model, Solver solver, bool converged, OutputFolder& folder)
@@ -74,11 +74,11 @@ public:
              delam_solver_load(solver_.get(), static_cast<std::int64_t>(state.bytes.size()),
                                reinterpret_cast<const std::uint8_t*>(state.bytes.data())),
              running_state_);
-        // Rows of steps after the state was saved are computed again, and with them the earlier ones that they revise.
+        // Rows of steps after the saved state are computed again, and with them the earlier ones that they revise.
         rows_.emplace(running_history_, static_cast<std::size_t>(state.step) + 1);
     }
 
-    // Returns the exit code of the march; outcome.reason says why it stopped early.
+    // Returns the exit code of the analysis; outcome.reason is the reason why it stopped early.
     Exit march(Progress& progress, Outcome& outcome) {
         const auto total = static_cast<std::int64_t>(scene_.step_count());
         while (state_.step < total) {
@@ -123,7 +123,7 @@ public:
     }
 
     [[nodiscard]] const State& state() const { return state_; }
-    // What a later --resume starts from.
+    // The starting point of a later --resume.
     [[nodiscard]] std::int64_t saved_step() const { return saved_step_; }
 
 private:
@@ -132,8 +132,8 @@ private:
         return exit_interrupted;
     }
 
-    // Fields, then the row: a step whose row is there is whole. Steps that this one revised are written once more; true
-    // when there were any.
+    // Writes the fields, then the row: a step with a row is complete. Rewrites steps that this one revised; true if
+    // there were any.
     bool record() {
         const std::int64_t first = state_.step > 0 ? revised_from(model_, solver_.get(), state_.step) : state_.step;
         std::vector<std::string> rows;
@@ -149,7 +149,7 @@ private:
         return rows.size() > 1;
     }
 
-    // Writes the fields, returns the row.
+    // Writes the fields and returns the row.
     std::string step_row(std::int64_t step) {
         const auto number = static_cast<std::size_t>(step);
         if (fields_.chosen(number)) fields_.write_step(model_, solver_.get(), scene_, number);
@@ -184,7 +184,7 @@ private:
     std::chrono::steady_clock::time_point saved_;
 };
 
-// The state to go on from, if there is one; refuses that of another scene.
+// The state from which to continue, if there is one; refuses that of another scene.
 std::optional<State> find_state(const OutputFolder& folder, const Scene& scene, const Model& model) {
     const std::string path = folder.running() + "/state.bin";
     if (!std::filesystem::exists(path)) return std::nullopt;
@@ -196,7 +196,7 @@ std::optional<State> find_state(const OutputFolder& folder, const Scene& scene, 
     return state;
 }
 
-// A word as one would type it in a shell.
+// A word in shell syntax.
 std::string shell_word(const std::string& word) {
     const auto plain = [](unsigned char c) {
         return std::isalnum(c) != 0 || std::string_view("_-+=.,:/@%").find(static_cast<char>(c)) != std::string::npos;
@@ -207,7 +207,7 @@ std::string shell_word(const std::string& word) {
     return out + "'";
 }
 
-// The command that computes this result.
+// The command that reproduces this result.
 std::string command_again(const Scene& scene, const std::string& folder_path) {
     std::string out = fmt::format("delam run {} --out {}", shell_word(scene.file), shell_word(folder_path));
     for (const std::string& setting : scene.settings) out += " --set " + shell_word(setting);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lines for people. A stream that cannot take them must not stop a march, so these never throw: the stream keeps the
-// error, and main() turns it into an exit code.
+// Lines for people. These functions never throw, because a failing stream must not stop an analysis: the stream keeps
+// the error, and main() turns it into an exit code.
 #pragma once
 
 #include <cstdint>

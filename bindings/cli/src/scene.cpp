@@ -20,7 +20,7 @@ namespace cli {
 
 namespace {
 
-// What geometry.h has to divide: the lengths, and the thicknesses of layers without divisions of their own.
+// The lengths that geometry.h must divide, including the thicknesses of layers without divisions of their own.
 std::vector<double> divided_lengths(const Table& root) {
     const Table geometry = root.table("geometry");
     std::vector<double> out{geometry.number("length", positive)};
@@ -30,9 +30,9 @@ std::vector<double> divided_lengths(const Table& root) {
     return out;
 }
 
-// Number of cells of size h in a length, which must be a whole number of them.
+// Number of cells of size h in a length, which must be a multiple of h.
 std::int64_t cells_of_size(const Table& root, const Table& table, std::string_view key, double length, double h) {
-    constexpr double most = 2147483648.0;  // what the library takes
+    constexpr double most = 2147483648.0;  // the library's limit
     const double cells = std::round(length / h);
     if (!(cells <= most))
         table.fail(key, fmt::format("h = {} makes {:.6g} cells of {}: at most {:.0f}", h, cells, length, most));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene as the file says it (schema 1, see SCENE.md), checked as far as that goes without a mesh. Every part keeps
+// A scene as written in the file (schema 1, see SCENE.md), checked as far as possible without a mesh. Every part keeps
 // its place in the file, so that later errors can name it.
 #pragma once
 
@@ -29,7 +29,7 @@ struct Layer {
     Place place;
 };
 
-// Of the block of layers; of a mesh `dimension`, `plane` and `smallest_edge` alone.
+// For the block of layers; a mesh has only `dimension`, `plane` and `smallest_edge`.
 struct Geometry {
     std::int32_t dimension = 2;
     std::int32_t cell_type = 0;
@@ -57,15 +57,15 @@ struct Material {
 struct LawData {
     std::string name;
     std::string kind;
-    std::vector<std::pair<std::string, std::string>> texts;  // set first: they decide which parameters there are
+    std::vector<std::pair<std::string, std::string>> texts;  // set first: they decide which parameters exist
     std::vector<std::pair<std::string, double>> parameters;
     std::vector<double> table_xi, table_s;  // softening of a tabulated law
-    std::map<std::string, Place> places;    // of each key that is there
+    std::map<std::string, Place> places;    // of each given key
     Place place;
 };
 
-// Adhesion of the pairs of an interface inside a box, in-plane between layers, in space in a mesh, or of a set of nodes
-// of the mesh. Ends inside the interface are open: the pair there keeps its bond.
+// Adhesion of the pairs of an interface inside a box (in-plane between layers, in space in a mesh) or of a set of nodes
+// of the mesh. Ends inside the interface are open: the pair there stays bonded.
 struct Region {
     std::array<double, 3> lower{};
     std::array<double, 3> upper{};
@@ -77,7 +77,7 @@ struct Region {
 struct InterfaceData {
     std::size_t lower = 0;  // layers, or bodies of a mesh (a, b)
     std::size_t upper = 0;
-    std::string a, b;  // of a mesh: names of bodies, with * for any characters; empty: all that touch
+    std::string a, b;  // in a mesh: names of bodies, with * for any characters; empty: all that touch
     bool projected = false;
     double gap = 0;
     double tolerance = 0;
@@ -101,7 +101,7 @@ struct Patch {
     std::vector<double> upper;
     std::vector<double> normal;
 };
-// A set of nodes or faces of a mesh; without a name all of the body's nodes.
+// A set of nodes or faces of a mesh; without a name: all of the body's nodes.
 struct NamedSet {
     std::string name;
 };
@@ -128,11 +128,11 @@ struct Prescription {
     Selection where;
     std::vector<std::vector<double>> directions;
     std::vector<Term> terms;
-    bool mean = false;  // of a set of faces: the mean over them alone
+    bool mean = false;  // of a set of faces: only the mean over them
     Place place;
 };
 
-// A node without cells that carries displacements or forces of others.
+// A node without cells to which the displacements or forces of others refer.
 struct ControlData {
     std::string name;
     std::vector<double> at;
@@ -159,7 +159,7 @@ struct CouplingData {
     Place place;
 };
 
-// A rigid plane that a control node carries; what lies on it can leave it.
+// A rigid plane carried by a control node; nodes on it can separate from it.
 struct ObstacleData {
     Selection where;  // patch or set
     std::string name;
@@ -167,7 +167,7 @@ struct ObstacleData {
     Place place;
 };
 
-// A periodic cell: which components of average strain (shears doubled) or stress follow which patterns.
+// A periodic cell: the components of average strain (shears doubled) or stress that follow patterns.
 struct CellComponent {
     std::size_t i = 0, j = 0;
     bool stress = false;
@@ -176,7 +176,7 @@ struct CellComponent {
 };
 struct CellData {
     std::vector<std::vector<double>> periods;
-    std::vector<std::size_t> axes;      // that the periods lie along, as many
+    std::vector<std::size_t> axes;      // along which the periods lie; one per period
     std::vector<std::size_t> controls;  // of each period
     std::vector<CellComponent> components;
     double tolerance = 0;
@@ -188,12 +188,12 @@ enum class ForceKind { total, traction, pressure };
 struct DeadForce {
     Selection where;
     ForceKind kind = ForceKind::total;
-    std::vector<double> force;  // of a pressure its one value
+    std::vector<double> force;  // a pressure has one value
     std::size_t pattern = 0;
     Place place;
 };
 
-// [[thermal]] and [[eigenstrains]]: what the factor of the pattern makes of a body, in its material's axes.
+// [[thermal]] and [[eigenstrains]]: the strain per unit factor of the pattern in a body, in its material's axes.
 struct EigenstrainData {
     std::int32_t body = -1;
     std::array<double, 6> strain{};
@@ -224,7 +224,7 @@ struct Output {
     Place place;
 };
 
-// For labels only: the program does not convert.
+// For labels only: the program does not convert units.
 struct Units {
     std::string length;
     std::string force;
@@ -235,7 +235,7 @@ struct Scene {
     std::string file;
     std::string title;
     std::string file_hash;              // of the bytes
-    std::string content_hash;           // of the content, settings included: comments, order and layout do not matter
+    std::string content_hash;           // of the content with the settings; comments, order and layout do not matter
     std::vector<std::string> settings;  // KEY=VALUE of the command line
     Geometry geometry;
     std::shared_ptr<const MeshData> mesh;  // null: a block of layers
@@ -263,7 +263,7 @@ struct Scene {
 // settings: KEY=VALUE, applied in turn (setting.hpp). Throws SceneFailure with file, line, key, value and allowed
 // range.
 Scene read_scene(const std::string& file, const std::vector<std::string>& settings);
-// Per pattern: whether it drives forces, of [[forces]] or as a stress of the cell.
+// Per pattern: whether it drives forces, from [[forces]] or as a stress of the cell.
 std::vector<bool> force_patterns(const Scene& scene);
 
 }  // namespace cli

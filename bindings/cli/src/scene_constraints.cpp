@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// [[controls]], [[equations]], [[couplings]], [[obstacles]] and [cell]: what ties displacements to one another.
+// [[controls]], [[equations]], [[couplings]], [[obstacles]] and [cell]: constraints between displacements.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace cli {
 
 namespace {
 
-// Where control nodes lie has no meaning for the solution; pictures should not grow by them.
+// The position of control nodes does not affect the solution, and must not enlarge pictures.
 std::vector<double> lower_corner(const Scene& scene) {
     const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
     std::vector<double> corner(dimension, 0.0);
@@ -45,7 +45,7 @@ EquationTerm read_left(const Table& table, const Scene& scene) {
     if (directions.size() != 1)
         table.fail("component", fmt::format("has {} entries: 1 is expected", directions.size()));
     term.direction = directions.front();
-    // Directions are of length 1 here as everywhere in a scene.
+    // As everywhere in a scene, directions have length 1.
     double square = 0;
     for (const double d : term.direction) square += d * d;
     for (double& d : term.direction) d /= std::sqrt(square);
@@ -53,7 +53,7 @@ EquationTerm read_left(const Table& table, const Scene& scene) {
     return term;
 }
 
-// No pattern: held at zero.
+// No pattern: fixed at zero.
 std::vector<Term> read_right(const Table& table, const Scene& scene) {
     if (table.has("pattern") || table.has("terms") || table.has("coefficient")) return read_terms(table, scene);
     return {};
@@ -82,7 +82,7 @@ CellComponent read_component(const Table& table, const Scene& scene, bool stress
     return out;
 }
 
-// Axes that the periods lie along; as many as periods, or the cell's section across them has no meaning.
+// Axes along which the periods lie. There must be as many as periods, because otherwise the cell has no cross section.
 std::vector<std::size_t> axes_of(const Table& table, const std::vector<std::vector<double>>& periods) {
     std::vector<std::size_t> axes;
     for (std::size_t a = 0; a < periods.front().size(); ++a)
@@ -102,7 +102,7 @@ CellData read_cell(const Table& table, const Scene& scene) {
     cell.place = table.place();
     cell.periods = read_periods(table, scene);
     cell.axes = axes_of(table, cell.periods);
-    // read_controls put theirs behind all others.
+    // read_controls puts these after all others.
     const auto own = scene.controls.size() - cell.periods.size();
     for (std::size_t k = 0; k < cell.periods.size(); ++k) cell.controls.push_back(own + k);
     cell.tolerance = table.number("tolerance", pairing_tolerance, 0.0);

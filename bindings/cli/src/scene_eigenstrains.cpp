@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// [[thermal]]: a change of temperature acts through the expansions of the materials. [[eigenstrains]]: any other strain
-// that is prescribed.
+// [[thermal]]: a change of temperature acts through the expansions of the materials. [[eigenstrains]]: any other
+// prescribed strain.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -16,7 +16,7 @@ namespace {
 
 std::string key_of_places(const Scene& scene) { return scene.mesh ? "bodies" : "layers"; }
 
-// Indices of the layers that `layers` names, or of the bodies that `bodies` does; all without it.
+// Indices of the layers named by `layers`, or of the bodies named by `bodies`; all if neither is given.
 std::vector<std::size_t> read_places(const Table& table, const Scene& scene) {
     std::vector<std::size_t> places(scene.layers.size());
     std::iota(places.begin(), places.end(), std::size_t{0});

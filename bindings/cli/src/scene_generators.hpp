@@ -7,7 +7,7 @@
 
 namespace cli {
 
-// Reads the keys of the generator, refuses others but `plane`, and makes the mesh.
+// Reads the keys of the generator, refuses all others except `plane`, and generates the mesh.
 MeshData read_generator(const Table& table);
 
 }  // namespace cli

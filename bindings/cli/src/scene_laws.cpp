@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Interface laws. Kinds and keys are those that the library lists; what they must satisfy together it checks itself.
+// Interface laws. The library lists the kinds and keys, and checks the conditions on their combination itself.
 #include <algorithm>
 #include <string>
 #include <string_view>

@@ -23,7 +23,7 @@ Places places_of(const Scene& scene, const Places& places) {
 
 }  // namespace
 
-// Keys that say where something acts, common to supports, loads, forces and constraints.
+// Keys for the place of an action, common to supports, loads, forces and constraints.
 std::vector<std::string> with_selection(const Scene& scene, std::vector<std::string> keys, const Places& places) {
     const std::string body = scene.mesh ? "body" : "layer";
     for (const std::string& place : places_of(scene, places))
@@ -119,7 +119,7 @@ std::vector<double> read_direction(const Table& table, const Geometry& geometry)
 
 }  // namespace
 
-// Either `direction` or components by letter under `key`.
+// Either `direction`, or components by letter under `key`.
 std::vector<std::vector<double>> read_directions(const Table& table, std::string_view key, const Geometry& geometry) {
     if (table.has("direction") == table.has(key))
         table.fail("direction", fmt::format("give either direction = [..] or {} = [\"x\", ..]", key));
@@ -155,7 +155,7 @@ std::vector<Term> read_terms(const Table& table, const Scene& scene) {
 
 namespace {
 
-// Of a set of faces a mean may be prescribed, as of a patch.
+// As for a patch, the mean over a set of faces may be prescribed.
 std::vector<std::string> with_mean(const Scene& scene, std::vector<std::string> keys) {
     if (scene.mesh) keys.emplace_back("mean");
     return keys;
@@ -167,7 +167,7 @@ bool read_mean(const Table& table) {
     return mean;
 }
 
-// A total force, or one per area.
+// A total force, or a force per area.
 void read_force(const Table& table, const Scene& scene, DeadForce& force) {
     const auto dimension = static_cast<std::size_t>(scene.geometry.dimension);
     const int kinds = int{table.has("force")} + int{table.has("traction")} + int{table.has("pressure")};

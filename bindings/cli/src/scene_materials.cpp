@@ -72,8 +72,8 @@ void read_materials(const Table& root, Scene& scene) {
     }
 }
 
-// The stack stands along y in 2D, along z in 3D; angle 0 has the material's axis 1 along x. In 2D the axis then turns
-// out of the plane.
+// The stack direction is y in 2D and z in 3D; angle 0 has the material's axis 1 along x. In 2D the axis then turns out
+// of the plane.
 std::optional<std::array<double, 6>> read_axes(const Table& table, std::int32_t dimension) {
     if (table.has("angle") && table.has("axes")) table.fail("axes", "give either angle or axes");
     if (table.has("axes")) {
@@ -85,7 +85,7 @@ std::optional<std::array<double, 6>> read_axes(const Table& table, std::int32_t 
         return std::array<double, 6>{rows[0][0], rows[0][1], rows[0][2], rows[1][0], rows[1][1], rows[1][2]};
     }
     if (!table.has("angle")) return std::nullopt;
-    // Quarter turns are exact.
+    // Multiples of 90 degrees are exact.
     const double angle = std::remainder(table.number("angle", any_number), 360.0);
     const double quarter = std::remainder(angle, 90.0), radian = quarter * std::acos(-1.0) / 180.0;
     double c = std::cos(radian), s = std::sin(radian);

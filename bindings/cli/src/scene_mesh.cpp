@@ -18,7 +18,7 @@ namespace cli {
 
 namespace {
 
-// From corner to corner along the sides of cells.
+// The shortest edge, from corner to corner along the sides of cells.
 double shortest_edge(const MeshData& mesh) {
     const auto dimension = static_cast<std::size_t>(mesh.dimension);
     double least = std::numeric_limits<double>::infinity();
@@ -114,7 +114,7 @@ void read_mesh_table(const Table& root, Scene& scene) {
         table.fail("plane", "is for plane meshes only");
     geometry.smallest_edge = shortest_edge(mesh);
     if (!(geometry.smallest_edge > 0)) table.fail("file", "a cell has an edge of no length");
-    // What a generator makes follows from its keys.
+    // A generated mesh follows from the keys of its generator.
     if (!file.hash.empty()) scene.content_hash = hash_text(scene.content_hash + file.hash);
     scene.mesh = std::make_shared<const MeshData>(std::move(mesh));
 }
@@ -124,7 +124,7 @@ void read_bodies(const Table& root, Scene& scene) {
     const std::vector<Table> materials = root.tables("materials");
     const auto& names = scene.mesh->body_names;
     std::vector<const Table*> chosen(names.size(), nullptr);
-    // A name that is spelt out goes before one with *.
+    // A full name has priority over one with *.
     for (const bool spelt : {true, false})
         for (const Table& table : tables) {
             const std::string name = table.text("name");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parts of read_scene(); each fills its own part of the scene and may look at those read before it.
+// The parts of read_scene(); each fills its own part of the scene and may use those read before it.
 #pragma once
 
 #include "reader.hpp"
@@ -10,11 +10,11 @@ namespace cli {
 void read_materials(const Table& root, Scene& scene);
 // Material axes by `angle` or `axes` of a layer.
 std::optional<std::array<double, 6>> read_axes(const Table& table, std::int32_t dimension);
-// [mesh], [[bodies]] and the [[interfaces]] of a mesh. The mesh's hash joins that of the scene's content.
+// [mesh], [[bodies]] and the [[interfaces]] of a mesh. The mesh's hash becomes part of that of the scene's content.
 void read_mesh_table(const Table& root, Scene& scene);
 void read_bodies(const Table& root, Scene& scene);
 void read_mesh_interfaces(const Table& root, Scene& scene);
-// The name of a set of the mesh, which must be there.
+// The name of a set of the mesh, which must exist.
 std::string set_name(const Table& table, std::string_view key, const Scene& scene);
 std::string read_formulation(const Table& table);
 void read_laws(const Table& root, Scene& scene);
@@ -22,14 +22,14 @@ void read_patterns(const Table& root, Scene& scene);
 void read_supports_and_loads(const Table& root, Scene& scene);
 void read_forces(const Table& root, Scene& scene);
 void read_eigenstrains(const Table& root, Scene& scene);
-// [[controls]], before anything that may name one; the periods of a [cell] have control nodes of their own.
+// [[controls]], read before anything that may name one; the periods of a [cell] have their own control nodes.
 void read_controls(const Table& root, Scene& scene);
 // [[equations]], [[couplings]], [[obstacles]] and [cell].
 void read_constraints(const Table& root, Scene& scene);
 
-// Where something acts, and along which components: common to supports, loads, forces and constraints
-// (scene_loads.cpp). places: which of point, box, patch, set, body (alone) and control are meant; those that a scene of
-// layers has not are left out.
+// The place of an action and its components: common to supports, loads, forces and constraints (scene_loads.cpp).
+// places: which of point, box, patch, set, body (alone) and control are allowed; those that a scene of layers does not
+// have are skipped.
 using Places = std::vector<std::string>;
 extern const Places any_place;
 std::vector<std::string> with_selection(const Scene& scene, std::vector<std::string> keys,
@@ -38,8 +38,8 @@ Selection read_selection(const Table& table, const Scene& scene, const Places& p
 std::vector<std::vector<double>> read_directions(const Table& table, std::string_view key, const Geometry& geometry);
 std::vector<Term> read_terms(const Table& table, const Scene& scene);
 
-// Index of the named entry (anything with .name), or an error at `key` that suggests near names. what: "layer", "law",
-// ...
+// Index of the named entry (anything with .name), or an error at `key` that suggests similar names. what: "layer",
+// "law", ...
 template <class Entry>
 std::size_t find_named(const Table& table, std::string_view key, const std::string& name,
                        const std::vector<Entry>& entries, const std::string& what) {

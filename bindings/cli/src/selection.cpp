@@ -91,7 +91,7 @@ Selected select_box(const delam_context* context, const delam_mesh* mesh, const 
     call(context,
          delam_mesh_find_nodes(mesh, selection.body, lower.data(), upper.data(), count, out.nodes.data(), &count),
          selection.place);
-    // Control nodes and tied nodes may lie there too.
+    // Control nodes and tied nodes may have the same position.
     const std::vector<std::int32_t> bodies = all_nodes(context, mesh, selection.place).bodies;
     out.nodes.erase(std::remove_if(out.nodes.begin(), out.nodes.end(),
                                    [&](std::int64_t node) { return bodies[static_cast<std::size_t>(node)] < 0; }),
@@ -131,7 +131,7 @@ Selected select_patch(const delam_context* context, const delam_mesh* mesh, cons
     return out;
 }
 
-// All nodes of the set, those that were doubled with each of their copies; of a body alone, if one is named.
+// All nodes of the set, including all copies of doubled ones; only those of a body, if one is named.
 Selected select_set(const delam_context* context, const delam_mesh* mesh, const Scene& scene,
                     const Selection& selection, const std::string& name) {
     const Nodes nodes = all_nodes(context, mesh, selection.place);
@@ -156,7 +156,7 @@ Selected select_set(const delam_context* context, const delam_mesh* mesh, const 
 
 }  // namespace
 
-// Those of a mesh that was read follow its own nodes, before all copies; those of layers come last.
+// Control nodes follow the nodes of a mesh file, before all copies; with layers they come last.
 std::int64_t control_node(const delam_context* context, const delam_mesh* mesh, const Scene& scene, std::size_t index,
                           const Place& place) {
     if (scene.mesh)

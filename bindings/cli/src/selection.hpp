@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a place in the scene to nodes of the mesh.
+// Finds the nodes of the mesh for a place in the scene.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@ struct Selected {
     std::vector<double> normals;  // of faces: [nodes][dimension] integrals of shape function times outward normal
 };
 
-// Throws SceneFailure when nothing is there: of a point it names the nearest node.
-// faces: of a set its faces with their weights are asked for, not its nodes.
+// Throws SceneFailure if nothing is there; for a point the message names the nearest node.
+// faces: use the faces of a set with their weights, not its nodes.
 Selected select(const delam_context* context, const delam_mesh* mesh, const Scene& scene, const Selection& selection,
                 bool faces = false);
 
-// Node of a control node.
+// The mesh node of a control node.
 std::int64_t control_node(const delam_context* context, const delam_mesh* mesh, const Scene& scene, std::size_t index,
                           const Place& place);
 

@@ -61,7 +61,7 @@ std::size_t corner_count(std::size_t dimension, std::size_t nodes) {
     return nodes == 3 || nodes == 6 ? 3 : 4;
 }
 
-// Sides of cells by their corners, of those faces or between those nodes.
+// Sides of cells by their corners, of the given faces or between the given nodes.
 std::map<Key, std::vector<Face>> sides_in(const MeshArrays& mesh, const std::set<Key>& wanted,
                                           const std::vector<bool>& in) {
     std::map<Key, std::vector<Face>> out;
@@ -140,7 +140,7 @@ struct Point3 {
     double x, y, weight;
 };
 
-// Three points a direction, exact to degree 5; on triangles Strang's six points, degree 4.
+// Three points per direction, exact to degree 5; on triangles Strang's six points, degree 4.
 std::vector<Point3> points_of(std::size_t dimension, std::size_t nodes) {
     static const double g = std::sqrt(0.6);
     const std::array<std::pair<double, double>, 3> line{{{-g, 5.0 / 9}, {0, 8.0 / 9}, {g, 5.0 / 9}}};
@@ -161,7 +161,7 @@ std::vector<Point3> points_of(std::size_t dimension, std::size_t nodes) {
     return out;
 }
 
-// Adds the face's integrals to those of its nodes: weight, then the normal's components.
+// Adds the face's integrals to those of its nodes: weight, then components of the normal.
 void integrate(const MeshArrays& mesh, const Face& face, std::map<std::int64_t, std::array<double, 4>>& out) {
     const std::size_t n = face.nodes.size();
     for (const Point3& point : points_of(mesh.dimension, n)) {
@@ -176,7 +176,8 @@ void integrate(const MeshArrays& mesh, const Face& face, std::map<std::int64_t, 
                 t[a] += shape.by_xi[i] * x;
                 s[a] += shape.by_eta[i] * x;
             }
-        // Cells run counter-clockwise: out of a plane one is right of its side; the sides of solid ones turn inwards.
+        // Plane cells run counter-clockwise, so the outward normal is to the right of a side; the sides of solid cells
+        // face inwards.
         const std::array<double, 3> normal =
             mesh.dimension == 2 ? std::array<double, 3>{t[1], -t[0], 0}
                                 : std::array<double, 3>{s[1] * t[2] - s[2] * t[1], s[2] * t[0] - s[0] * t[2],
@@ -218,7 +219,7 @@ Selected select_faces(const delam_context* context, const delam_mesh* mesh_handl
             if (selection.body < 0 || face.body == selection.body) own.push_back(&face);
         ++found;
         if (own.size() == 1) integrate(mesh, *own.front(), sums);
-        // Between nodes of a set there are sides within a body too; those are not meant.
+        // The nodes of a set may also span sides inside a body; these are ignored.
         if (own.size() < 2 || wanted.empty()) continue;
         throw SceneFailure(selection.place,
                            own[0]->body == own[1]->body

@@ -63,7 +63,7 @@ std::string shown(std::span<const PathStep> steps) {
     return out;
 }
 
-// A table with the one key `value`; its nodes know where they come from.
+// A table with the one key `value`; its nodes record their origin.
 std::optional<toml::table> parsed(const std::string& value) {
     try {
         toml::table table = toml::parse("value = " + value, setting_source);
@@ -94,7 +94,7 @@ std::string checked_value(const std::string& path, const std::string& value) {
                            value.empty() ? "there is no value" : quoted(value) + " is no value"));
 }
 
-// What a step of the path leads to from `parent`: nullptr where a table lacks the key.
+// The target of a step of the path from `parent`: nullptr if a table lacks the key.
 toml::node* entry(toml::node& parent, std::span<const PathStep> steps, std::size_t depth, const std::string& path) {
     const auto fail_here = [&](const std::string& text) { fail(path, shown(steps.first(depth)) + text); };
     if (const auto* key = std::get_if<std::string>(&steps[depth])) {
@@ -120,7 +120,7 @@ void apply_setting(toml::table& root, const std::string& setting) {
     const std::vector<PathStep> steps = parsed_path(path);
     std::string value = checked_value(path, setting.substr(equals + 1));
 
-    // Down the path as far as the scene goes; the last step, or the first that is missing, takes the value.
+    // Follows the path as far as the scene goes; the last step, or the first missing one, receives the value.
     toml::node* parent = &root;
     std::size_t depth = 0;
     for (toml::node* next = nullptr; (next = entry(*parent, steps, depth, path)) != nullptr; ++depth) {
@@ -133,7 +133,7 @@ void apply_setting(toml::table& root, const std::string& setting) {
         value = fmt::format("{{ {} = {} }}", *key, value);
     }
     toml::table holder = *parsed(value);
-    // Moved, not copied: a copy forgets where it comes from.
+    // Moved, because a copy loses its origin.
     holder.get("value")->visit([&](auto& node) {
         if (const auto* key = std::get_if<std::string>(&steps[depth])) {
             parent->as_table()->insert_or_assign(*key, std::move(node));

@@ -28,7 +28,8 @@ Field fetch(const Model& model, delam_solver* solver, const std::string& key, st
     return out;
 }
 
-// ParaView knows vectors of 3 and symmetric tensors of 6 (xx, yy, zz, xy, yz, zx); in 2D the rest is zero.
+// ParaView knows vectors of 3 and symmetric tensors of 6 (xx, yy, zz, xy, yz, zx); in 2D the remaining components are
+// zero.
 Field padded(const Field& field, std::size_t columns) {
     Field out{std::vector<double>(field.rows * columns, 0.0), field.rows, columns};
     for (std::size_t i = 0; i < field.rows; ++i)
@@ -41,7 +42,7 @@ bool wants(const Scene& scene, const std::string& name) {
     return std::find(scene.output.fields.begin(), scene.output.fields.end(), name) != scene.output.fields.end();
 }
 
-// The crack fronts of an interface; none: nothing is written.
+// The crack fronts of an interface; writes nothing if there are none.
 void write_front(const Model& model, const delam_solver* solver, hid_t group, std::int64_t index) {
     std::int64_t fronts = 0;
     std::int64_t count = 0;
@@ -80,7 +81,7 @@ void write_interface(const Model& model, delam_solver* solver, const Scene& scen
         if (wants(scene, name)) h5::write(group.get(), name, padded(fetch(model, solver, name, index), 3).values, 3);
     if (wants(scene, "front")) write_front(model, solver, group.get(), index);
     if (displacement.rows == 0) return;
-    // Mean of the two faces, so that the block can be warped together with the bodies.
+    // Mean of the two faces, so that the block can be warped with the bodies.
     std::int64_t pairs = 0;
     const std::string what = "pairs of an interface";
     call(model.context.get(),
@@ -115,7 +116,7 @@ std::string step_bytes(const Model& model, delam_solver* solver, const Scene& sc
         if (wants(scene, "stress"))
             h5::write(group.get(), "stress", padded(fetch(model, solver, "stress", -1), 6).values, 6);
         if (wants(scene, "rotation")) {
-            // In the plane it is about z.
+            // In the plane the rotation is about z.
             Field rotation = fetch(model, solver, "rotation", -1);
             if (rotation.columns == 1) {
                 Field about_z{std::vector<double>(rotation.rows * 3, 0.0), rotation.rows, 3};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The fields of one step as the bytes of a small HDF5 file (group "step"). The file is made in memory, so that only
-// checked writes of our own touch the disk while the march runs.
+// this program's own checked writes touch the disk during the analysis.
 #pragma once
 
 #include <string>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one way in which toml++ is included, so that all files agree on its configuration. Its assertions hold for no
-// text that is not TOML, such as "[^"; behind them stand the errors that say so. Where NDEBUG is set it would even have
-// the compiler build on them.
+// The only include of toml++, so that all files agree on its configuration. Its assertions fail for texts that are not
+// TOML, such as "[^", for which later code reports an error. With NDEBUG it would even let the compiler rely on them.
 #pragma once
 
 #pragma push_macro("NDEBUG")

@@ -5,7 +5,7 @@
 
 namespace cli {
 
-// Whether a name fits a pattern in which * stands for any characters, also none.
+// Whether a name matches a pattern in which * stands for any characters or none.
 inline bool fits(std::string_view pattern, std::string_view name) {
     const std::size_t star = pattern.find('*');
     if (star == std::string_view::npos) return pattern == name;

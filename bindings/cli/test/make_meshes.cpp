@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes small meshes through Gmsh's library for test_meshes.py: make_meshes DIR. Two blocks on each other, "lower" and
-// "upper", 4 x 1 x 1 and in the plane 4 x 1, of every cell type that the program reads, in every format.
+// Writes small meshes through Gmsh's library for test_meshes.py: make_meshes DIR. Two blocks on top of each other,
+// "lower" and "upper", 4 x 1 x 1 and in the plane 4 x 1, of every cell type that the program reads, in every format.
 #include <cstdio>
 #include <string>
 
@@ -23,7 +23,7 @@ void build(int dimension, bool recombined, int order, bool whole) {
         }
     }
     if (dimension == 2) {
-        // Points 1 2, 3 4, 5 6 from the bottom up; the upper surface is walked round clockwise.
+        // Points 1 2, 3 4, 5 6 from the bottom up; the upper surface has clockwise orientation.
         const int a[][2] = {{1, 2}, {2, 4}, {4, 3}, {3, 1}, {4, 6}, {6, 5}, {5, 3}};
         for (int i = 0; i < 7; ++i) gmsh::model::geo::addLine(a[i][0], a[i][1], i + 1);
         gmsh::model::geo::addCurveLoop({1, 2, 3, 4}, 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Generated cells: the bodies measure what they should, opposite borders have the same nodes, the library takes the
-// cells, and every fibre or yarn is closed in by interface.
+// Generated cells: the bodies have the right measure, opposite borders have the same nodes, the library accepts the
+// cells, and interfaces enclose every fibre or yarn completely.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -38,7 +38,7 @@ std::vector<double> place(const MeshData& mesh, std::int64_t node) {
     return at;
 }
 
-// Largest distance between x + period and the node opposite, each taken once, in the order of their places.
+// Largest distance between x + period and the opposite node, each used once, in the order of their positions.
 bool periodic(const MeshData& mesh, const char* lower, const char* upper, std::size_t which) {
     std::set<std::vector<double>> moved;
     std::set<std::vector<double>> opposite;
@@ -80,7 +80,7 @@ std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::vector<std::int
     return shared;
 }
 
-// To the library as it is: nodes doubled, and one interface of each fibre or yarn, that with the matrix.
+// Passes the mesh to the library: nodes are doubled, and each fibre or yarn has one interface, with the matrix.
 void hand_over(const MeshData& mesh, const std::string& what) {
     delam_context* context = nullptr;
     delam_mesh* handle = nullptr;
@@ -102,7 +102,7 @@ void hand_over(const MeshData& mesh, const std::string& what) {
     delam_context_destroy(&context);
 }
 
-// With opposite borders put together, two sides meet at every corner of an interface.
+// With opposite borders identified, two sides meet at every corner of an interface.
 bool closed_circles(const MeshData& mesh) {
     const auto fold = [&](std::int64_t node) {
         std::vector<double> at = place(mesh, node);
@@ -113,7 +113,7 @@ bool closed_circles(const MeshData& mesh) {
     for (const auto& [bodies, list] : interfaces(mesh)) {
         std::map<std::vector<double>, int> ends;
         for (const auto& side : list) {
-            // Corners are the two that are furthest apart.
+            // Corners are the two points that are furthest apart.
             std::vector<std::int64_t> corners(side.begin(), side.begin() + 2);
             double longest = -1;
             for (std::size_t i = 0; i < side.size(); ++i)
@@ -148,7 +148,7 @@ void fibre_cell(cli::FibreCell cell, const std::string& what) {
     }
     const double circle = pi * cell.radius * cell.radius;
     const bool quadratic = cell.cell == DELAM_TRI6 || cell.cell == DELAM_QUAD8;
-    const double error = quadratic ? 3e-3 : 4e-2;  // where fibres nearly touch, sides are not bent
+    const double error = quadratic ? 3e-3 : 4e-2;  // where fibres nearly touch, sides stay straight
     std::printf("      %s: %zu nodes, fibres %.6f..%.6f of a circle\n", what.c_str(), mesh.nodes.size() / 2,
                 smallest / circle, largest / circle);
     for (const std::string& note : mesh.notes) std::printf("      %s\n", note.c_str());
@@ -205,7 +205,7 @@ void weave(cli::WeaveCell cell, const std::string& what) {
     expect(mesh.body_names == std::vector<std::string>{"matrix", "warp-1", "warp-2", "weft-1", "weft-2"} &&
                std::abs(all / box - 1) < 1e-9,
            what + ": the block has its volume");
-    // The tips of ellipses are sharper than cells are small.
+    // The tips of ellipses are sharper than the cells.
     expect(error < (cell.section == "lens" ? 5e-3 : 0.15), what + ": each yarn has its volume");
     bool borders = periodic(mesh, "left", "right", 0) && periodic(mesh, "front", "back", 1);
     if (cell.stacked) borders = borders && periodic(mesh, "bottom", "top", 2);
@@ -237,7 +237,7 @@ void weave(cli::WeaveCell cell, const std::string& what) {
     }
     expect(index == mesh.orientation.size() && off < 1e-9, what + ": yarn axes follow the centre lines");
 
-    // Every body but the matrix touches the matrix alone.
+    // Every body except the matrix touches only the matrix.
     const auto shared = interfaces(mesh);
     expect(shared.size() == 4, what + ": yarns do not touch each other");
     hand_over(mesh, what);
@@ -249,7 +249,7 @@ double modulus(const MeshData& mesh, double matrix, double inclusion) {
     const auto count = static_cast<std::int64_t>(mesh.nodes.size() / d);
     const auto periods = static_cast<std::int64_t>(mesh.periods.size());
     std::vector<double> nodes = mesh.nodes;
-    double height = 0;  // of a weave that is not stacked
+    double height = 0;  // for a weave that is not stacked
     for (std::size_t i = d - 1; i < mesh.nodes.size(); i += d) height = std::max(height, 2 * mesh.nodes[i]);
     double volume = mesh.periods.size() < d ? height : 1.0;
     std::vector<double> flat;
@@ -310,8 +310,8 @@ double modulus(const MeshData& mesh, double matrix, double inclusion) {
 constexpr double uniaxial_strain = 0.7 / (1.3 * 0.4);
 constexpr double free_surfaces = 1 / (1 - 0.3 * 0.3);
 
-// A cell of one material strains uniformly, whatever its mesh; stiff inclusions lie between the bounds of
-// Reuss and Voigt.
+// A cell of one material strains uniformly, whatever its mesh; with stiff inclusions the modulus lies between the
+// bounds of Reuss and Voigt.
 void homogenised(const MeshData& mesh, double exact_factor, const std::string& what) {
     constexpr double matrix = 3;
     constexpr double stiff = 70;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random packings of discs: as dense as asked for, no overlaps across the borders either, repeatable.
+// Random packings of discs: they reach the requested density, do not overlap, even across the borders, and are
+// repeatable.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -19,7 +20,7 @@ void expect(bool condition, const std::string& what) {
     if (!condition) ++failures;
 }
 
-// Of all pairs and periodic images.
+// Over all pairs and periodic images.
 double smallest_gap(const cli::Packing& packing) {
     double smallest = 1e300;
     for (std::size_t i = 0; i < packing.centres.size(); ++i)
@@ -34,7 +35,7 @@ double smallest_gap(const cli::Packing& packing) {
     return smallest;
 }
 
-// From a circle to touching an edge or passing through a corner.
+// Distance of a circle from touching an edge or passing through a corner.
 double smallest_edge_gap(const cli::Packing& packing) {
     double smallest = 1e300;
     for (const auto& [x, y] : packing.centres) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows of a history are appended, replaced from any one on, and taken up again; what is on the disk is a whole table
-// at any time.
+// Rows of a history are appended, replaced from any row on, and continued; at any time the file on disk is a complete
+// table.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>

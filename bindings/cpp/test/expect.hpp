@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests share: contracts that are counted, and the status of an error.
+// Shared by the tests: counted contracts, and the status of an error.
 #ifndef DELAM_CPP_TEST_EXPECT_HPP
 #define DELAM_CPP_TEST_EXPECT_HPP
 
@@ -19,7 +19,7 @@ inline void expect(bool holds, const char* what) {
     std::printf("does not hold: %s\n", what);
 }
 
-// The status that a call throws; DELAM_OK when it throws nothing.
+// The status that a call throws; DELAM_OK if it throws nothing.
 template <class Call>
 std::int32_t status_of(Call&& call, std::string* message = nullptr) {
     try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contracts of delam.hpp; ends with a count, and with 1 where one is broken.
+// The contracts of delam.hpp; prints their number, and ends with 1 if one is broken.
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -68,7 +68,7 @@ delam::Law make_law(const delam::Context& context, bool by_host, const bool* fai
     return law;
 }
 
-// A double cantilever beam; everything but the solver ends here.
+// A double cantilever beam; everything except the solver is destroyed here.
 delam::Solver make_solver(const delam::Context& context, bool by_host, const bool* failing = nullptr) {
     auto mesh = delam::Mesh::layers(context, {30e-3}, {60}, {1e-3, 1e-3}, {2, 2}, DELAM_QUAD4);
     mesh.add_interface(0, 1);
@@ -119,7 +119,7 @@ void test_descriptions() {
     expect(found && delam::law_parameters("no-such-law").empty(), "parameters are described");
 }
 
-// Two squares beside each other with an interface of two pairs, and two nodes without cells.
+// Two squares side by side with an interface of two pairs, and two nodes without cells.
 delam::Mesh make_squares(const delam::Context& context) {
     delam::Mesh mesh(context, 2, {0., 0., 1., 0., 0., 1., 1., 1., 1., 0., 2., 0., 1., 1., 2., 1., 9., 9., 9., 8.});
     mesh.add_cells(DELAM_QUAD4, {0, 1, 3, 2, 4, 5, 7, 6}, {0, 1});
@@ -152,7 +152,7 @@ void test_mesh() {
     expect(mesh.add_obstacle({0, 1}, {0.0, 1.0, 0.0, 1.0}, 9) == 1, "an obstacle");
     expect(mesh.interface_size(1).body_a == -1 && mesh.interface_pairs(1).nodes_b == Indices{0, 1}, "its pairs");
 
-    // One cell below two, whose middle node at the bottom lies on the first one's edge.
+    // One cell below two, whose common node at the bottom lies on the edge of the first.
     delam::Mesh stack(context, 2, {0., 0., 2., 0., 0., 1., 2., 1., 0., 1., 1., 1., 2., 1., 0., 2., 1., 2., 2., 2.});
     stack.add_cells(DELAM_QUAD4, {0, 1, 3, 2, 4, 5, 8, 7, 5, 6, 9, 8}, {0, 1, 1});
     expect(stack.add_projected_interface(0, 1) == 0, "a projected interface");
@@ -316,7 +316,7 @@ void test_callbacks() {
     solver.rollback();
     context.cancel();
     expect(solver.advance(0.5) == delam::Outcome::cancelled, "a request for the next call");
-    // From inside, nothing is switched off or asked; the step is none the worse, and so is the next.
+    // From inside, nothing can be switched off or read; the step is not affected, and neither is the next.
     int refused = 0;
     const auto meddle = [&](const std::function<void()>& action) {
         refused += status_of(action) == DELAM_ERROR_STATE ? 1 : 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What an embedding host does with delam.hpp: bodies of its own as sparse matrices, pairs that it knows, histories told
-// on the way, tangents, the condensed operator, states as files.
+// What an embedding host does with delam.hpp: its own bodies as sparse matrices, its own pairs, histories changed
+// during the analysis, tangents, the condensed operator, states as files.
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -67,7 +67,7 @@ Indices nodes_of(const delam::Mesh& mesh, std::int32_t body) {
     return nodes;
 }
 
-// Its nodes and pairs, its bodies without cells.
+// Its nodes and pairs; its bodies have no cells.
 delam::Mesh without_cells(const delam::Context& context, const delam::Mesh& own, bool faces) {
     delam::Mesh mesh(context, 2, own.nodes());
     mesh.add_host_body(0, nodes_of(own, 0));
@@ -106,7 +106,7 @@ void expect_same(const std::vector<Numbers>& rows, const std::vector<Numbers>& e
     }
 }
 
-// Rows from the last to the first, and the places of the displacements.
+// Rows from the last to the first, and the rows of the displacements.
 struct Turned {
     delam::Matrix matrix;
     Indices dofs;
@@ -159,7 +159,7 @@ void test_host_bodies() {
         load(context, mesh, problem);
         expect_same(march(problem), expected, "the bodies handed over");
     }
-    // Without faces the march is the same; there are no fronts.
+    // Without faces the analysis is the same, but there are no fronts.
     const auto bare = without_cells(context, own_mesh, false);
     delam::Problem problem(context, bare);
     for (const std::int32_t body : {0, 1}) problem.set_stiffness(nodes_of(bare, body), own.body_matrix(body));
@@ -167,7 +167,7 @@ void test_host_bodies() {
     expect_same(march(problem), expected, "without faces");
     expect(delam::Solver(problem, 0.0).fronts(0).lengths.empty(), "no fronts without faces");
 
-    // One square on the host's own springs, which leave nothing free.
+    // One square on the host's own springs, which leave no motion free.
     delam::Mesh square(context, 2, {0., 0., 1., 0., 0., 1., 1., 1.});
     square.add_cells(DELAM_QUAD4, {0, 1, 3, 2});
     delam::Problem column(context, square);
@@ -244,7 +244,7 @@ void test_step_tangent() {
         const auto held = solver.tangent();
         solver.rollback();
         expect(!solver.pending() && tangent.size() == 4, "none is pending");
-        // Compared in energies. The first step's mixity is that of the elastic solution, which moves along.
+        // Compared as energies. The first step's mixity is that of the elastic solution, which changes too.
         const double size = std::max(tangent[0] * ends[0] * ends[0], tangent[3] * ends[1] * ends[1]);
         for (std::size_t q = 0; q < 2; ++q) {
             const double change = 2e-6 * ends[q];

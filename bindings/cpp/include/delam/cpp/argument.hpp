@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What members take: arrays and texts of the caller, not copied. Hosts include delam/delam.hpp.
+// Argument types for arrays and texts of the caller, which are not copied. Hosts include delam/delam.hpp.
 #ifndef DELAM_CPP_ARGUMENT_HPP
 #define DELAM_CPP_ARGUMENT_HPP
 
@@ -12,7 +12,7 @@
 
 namespace delam {
 
-// Read-only contiguous values that live elsewhere, as an argument.
+// Read-only contiguous values owned by the caller.
 template <class T>
 class View {
 public:
@@ -33,7 +33,7 @@ private:
     std::size_t size_ = 0;
 };
 
-// A zero-terminated text that lives elsewhere, as an argument.
+// A zero-terminated text owned by the caller.
 class Text {
 public:
     Text(const char* text) noexcept : text_(text) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The library about itself: version, options, parameters of laws. Hosts include delam/delam.hpp.
+// Information about the library: version, options, parameters of laws. Hosts include delam/delam.hpp.
 #ifndef DELAM_CPP_DESCRIPTION_HPP
 #define DELAM_CPP_DESCRIPTION_HPP
 
@@ -17,7 +17,7 @@ namespace delam {
 
 inline std::string version() { return delam_version(); }
 inline std::string commit() { return delam_commit(); }
-// Threads of the linear algebra of this process; 0: it does not say.
+// Threads of the linear algebra of this process; 0: unknown.
 inline std::int32_t blas_threads() { return delam_blas_threads(); }
 
 // An option of problems, or a parameter of a law.
@@ -46,7 +46,7 @@ inline std::vector<Description> options() {
         return delam_option_info(i, &t[0], &t[1], &t[2], &t[3], &t[4], &t[5]);
     });
 }
-// All criteria taken together; none for an unknown kind.
+// For all criteria together; empty for an unknown kind.
 inline std::vector<Description> law_parameters(Text kind) {
     return detail::describe(
         delam_law_parameter_count(kind.get()), [kind](std::int64_t i, std::array<const char*, 6>& t) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The laws of interfaces, the host's own too. Hosts include delam/delam.hpp.
+// Interface laws, including those of the host. Hosts include delam/delam.hpp.
 #ifndef DELAM_CPP_LAW_HPP
 #define DELAM_CPP_LAW_HPP
 
@@ -24,7 +24,7 @@ struct AdhesionValue {
 struct DissipationValue {
     double dissipated, slope, mixity_slope;
 };
-// The two functions of a host's law (delam_law_create_host). To fail, throw.
+// The two functions of a host law (delam_law_create_host). They report failure by an exception.
 using AdhesionCallback = std::function<AdhesionValue(double mixity, double driving)>;
 using DissipationCallback = std::function<DissipationValue(double mixity, double adhesion)>;
 
@@ -52,7 +52,7 @@ public:
         handle_.reset(made);
         shared_->check(status);
     }
-    // By the host's functions; name stands for them in messages and in the hash of a problem.
+    // A law computed by the host's functions; name identifies them in messages and in the hash of a problem.
     Law(const Context& context, Text name, AdhesionCallback adhesion, DissipationCallback dissipation)
         : shared_(context.shared()),
           host_(std::make_shared<detail::HostLaw>(detail::HostLaw{std::move(adhesion), std::move(dissipation)})) {

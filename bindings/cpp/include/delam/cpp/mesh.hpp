@@ -79,7 +79,7 @@ public:
 
     delam_mesh* get() const noexcept { return handle_.get(); }
 
-    // bodies: a label for each cell; none: all 0.
+    // bodies: a label for each cell; empty: all 0.
     void add_cells(std::int32_t cell_type, View<std::int64_t> connectivity, View<std::int32_t> bodies = {}) {
         const auto count = cells_in(cell_type, connectivity, bodies);
         shared_->check(delam_mesh_add_cells(get(), cell_type, count, connectivity.data(),
@@ -105,7 +105,7 @@ public:
         shared_->check(delam_mesh_add_projected_interface(get(), body_a, body_b, gap, &made));
         return made;
     }
-    // weights: none for the nodal ones.
+    // weights: empty for the nodal ones.
     std::int64_t add_obstacle(View<std::int64_t> nodes, View<double> normals, std::int64_t control_node,
                               View<double> weights = {}) {
         detail::require(normals.size() == nodes.size() * detail::length(dimension()), "normals: not one for each node");
@@ -115,7 +115,7 @@ public:
                                                weights.size() == 0 ? nullptr : weights.data(), control_node, 0, &made));
         return made;
     }
-    // A body without cells, whose stiffness Problem::set_stiffness takes.
+    // A body without cells, whose stiffness is given by Problem::set_stiffness.
     void add_host_body(std::int32_t body, View<std::int64_t> nodes) {
         shared_->check(delam_mesh_add_host_body(get(), body, nodes.count(), nodes.data(), 0));
     }
@@ -210,7 +210,7 @@ public:
         shared_->check(delam_mesh_interface_faces(get(), interface_index, faces.data()));
         return faces;
     }
-    // body -1: of all, here and below.
+    // body -1: of all bodies, here and below.
     std::vector<std::int64_t> find_nodes(std::int32_t body, View<double> lower, View<double> upper) const {
         const auto space = detail::length(dimension());
         detail::require(lower.size() == space && upper.size() == space,
@@ -238,7 +238,7 @@ public:
 
 private:
     explicit Mesh(std::shared_ptr<detail::Shared> shared) : shared_(std::move(shared)) {}
-    // Unknown cell types are left to the library, which names them.
+    // The library reports unknown cell types by name.
     static std::int64_t cells_in(std::int32_t cell_type, View<std::int64_t> connectivity, View<std::int32_t> bodies) {
         const std::size_t nodes = detail::nodes_of(cell_type);
         if (nodes == 0) return 0;

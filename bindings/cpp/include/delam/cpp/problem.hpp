@@ -48,7 +48,7 @@ public:
     delam_problem* get() const noexcept { return handle_.get(); }
 
     void set_plane(Text assumption) { shared_->check(delam_problem_set_plane(get(), assumption.get())); }
-    // body -1: of all, here and below.
+    // body -1: for all bodies, here and below.
     void set_elastic(std::int32_t body, double young, double poisson) {
         shared_->check(delam_problem_set_elastic(get(), body, young, poisson));
     }
@@ -67,9 +67,9 @@ public:
     void set_formulation(std::int32_t body, Text formulation) {
         shared_->check(delam_problem_set_formulation(get(), body, formulation.get()));
     }
-    // The stiffness of whole bodies as the host has assembled it. nodes: all of theirs, in the order of the rows unless
-    // dofs [nodes][dimension] has the row of each displacement; kernel: [motions][rows] without energy, empty where
-    // there are none; without it the library finds them.
+    // The stiffness of whole bodies as assembled by the host. nodes: all of their nodes, in the order of the rows,
+    // unless dofs [nodes][dimension] gives the row of each displacement; kernel: [motions][rows] without energy, empty
+    // if there are none; without it the library finds them.
     void set_stiffness(View<std::int64_t> nodes, View<std::int64_t> row_starts, View<std::int64_t> columns,
                        View<double> values, View<std::int64_t> dofs = {},
                        std::optional<View<double>> kernel = std::nullopt) {
@@ -110,7 +110,7 @@ public:
         shared_->check(delam_problem_add_pattern(get(), name.get(), times.count(), times.data(), values.data(), &made));
         return made;
     }
-    // coefficients: [nodes][patterns]; without patterns: held at zero.
+    // coefficients: [nodes][patterns]; without patterns: fixed at zero.
     void prescribe_nodes(View<std::int64_t> nodes, View<double> direction, View<std::int64_t> patterns = {},
                          View<double> coefficients = {}) {
         in_space(direction.size(), 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the objects stand on: handles, their context, what callbacks threw. Hosts include delam/delam.hpp.
+// Data that the objects share: handles, their context, exceptions of callbacks. Hosts include delam/delam.hpp.
 #ifndef DELAM_CPP_SHARED_HPP
 #define DELAM_CPP_SHARED_HPP
 
@@ -18,7 +18,7 @@
 namespace delam {
 
 using LogCallback = std::function<void(std::int32_t level, std::string_view text)>;
-// false: stop, the call ends with DELAM_CANCELLED, unless it only reads.
+// false: stop, and the call ends with DELAM_CANCELLED unless it only reads.
 using ProgressCallback = std::function<bool(std::string_view stage, std::int64_t done, std::int64_t total)>;
 
 namespace detail {
@@ -30,16 +30,16 @@ struct Destroy {
 template <class T, void (*destroy)(T**)>
 using Handle = std::unique_ptr<T, Destroy<T, destroy>>;
 
-// What a callback threw, until the call that runs it is back: callbacks run on the calling thread.
+// The exception of a callback, until the call that runs it returns: callbacks run on the calling thread.
 inline thread_local std::exception_ptr thrown;
 
-// What all objects of a context share.
+// Shared by all objects of a context.
 struct Shared {
     Handle<delam_context, delam_context_destroy> handle;
     LogCallback log;
     ProgressCallback progress;
 
-    // What was thrown has precedence over the status that it led to.
+    // The exception has precedence over the status that it caused.
     std::int32_t settle(std::int32_t status) const {
         if (thrown) std::rethrow_exception(std::exchange(thrown, nullptr));
         if (status < 0) fail(status);

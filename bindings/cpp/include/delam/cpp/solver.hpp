@@ -38,7 +38,7 @@ struct Condensed {
     std::vector<double> stiffness;  // S [unknowns][unknowns]
     std::vector<double> load;       // L [patterns][unknowns]
     std::vector<double> constant;   // A [patterns][patterns]
-    Matrix jump;                    // N, a row for each component of each pair
+    Matrix jump;                    // N, one row for each component of each pair
     std::vector<double> offset;     // O [rows of N][patterns]
 };
 struct Fronts {
@@ -69,13 +69,13 @@ public:
     }
 
     delam_solver* get() const noexcept { return handle_.get(); }
-    // Of the displacement at the initial time: done or not_converged.
+    // Outcome of the displacement step at the initial time: done or not_converged.
     Outcome initial() const noexcept { return initial_; }
 
     [[nodiscard]] Outcome advance(double time) {
         return static_cast<Outcome>(shared_->settle(delam_solver_advance(get(), time)));
     }
-    // adhesion: of all pairs; none: the committed one.
+    // adhesion: of all pairs; empty: the committed one.
     [[nodiscard]] Outcome equilibrate(double time, View<double> adhesion = {}) {
         detail::require(adhesion.size() == 0 || adhesion.count() == shape("adhesion", -1).rows,
                         "adhesion: not one for each pair of all interfaces");
@@ -84,13 +84,13 @@ public:
     }
     void commit() { shared_->check(delam_solver_commit(get())); }
     void rollback() { shared_->check(delam_solver_rollback(get())); }
-    // A step is there to be committed or rolled back.
+    // Whether a step is pending, to be committed or rolled back.
     bool pending() const {
         std::int32_t pending = 0;
         shared_->check(delam_solver_pending(get(), &pending));
         return pending != 0;
     }
-    // Another history of a pattern from the committed time on.
+    // Changes the history of a pattern from the committed time on.
     void set_history(std::int64_t pattern, View<double> times, View<double> values) {
         detail::require(times.size() == values.size(), "times and values: unequal sizes");
         shared_->check(delam_solver_set_history(get(), pattern, times.count(), times.data(), values.data()));
@@ -108,33 +108,33 @@ public:
         for (std::int64_t i = 0; i < count; ++i) names.push_back(detail::copy(delam_solver_value_name(get(), i)));
         return names;
     }
-    // This value of the committed state and, with each commit() from now on, of every further step.
+    // Records this value for the committed state and, with each later commit(), for every further step.
     void record(Text key) { shared_->check(delam_solver_record(get(), key.get())); }
-    // Steps that are recorded: from the first to the committed one.
+    // Range of the recorded steps: from the first to the committed one.
     RecordedSteps recorded_steps() const {
         RecordedSteps steps{};
         shared_->check(delam_solver_recorded_size(get(), &steps.first, &steps.count));
         return steps;
     }
-    // A recorded value step by step; NaN before it was asked for.
+    // A recorded value for each step; NaN for steps before it was requested.
     std::vector<double> recorded(Text key) const {
         std::vector<double> values(detail::length(recorded_steps().count));
         const auto capacity = static_cast<std::int64_t>(values.size());
         shared_->check(delam_solver_recorded(get(), key.get(), capacity, values.data()));
         return values;
     }
-    // part: an interface, for the fields of pairs; -1 otherwise, and for all interfaces.
+    // part: an interface, for the fields of pairs; -1 for other fields, and for all interfaces.
     Field field(Text key, std::int64_t part = -1) {
         Field field = shape(key, part);
         field.values.resize(detail::length(field.rows * field.columns));
         shared_->check(delam_solver_field(get(), key.get(), part, field.rows * field.columns, field.values.data()));
         return field;
     }
-    // Into the caller's buffer.
+    // Writes to the caller's buffer.
     void field(Text key, std::int64_t part, double* values, std::size_t size) {
         shared_->check(delam_solver_field(get(), key.get(), part, static_cast<std::int64_t>(size), values));
     }
-    // Rows and columns alone.
+    // Only the numbers of rows and columns.
     Field shape(Text key, std::int64_t part = -1) const {
         Field field{};
         shared_->check(delam_solver_field_shape(get(), key.get(), part, &field.rows, &field.columns));
@@ -167,7 +167,7 @@ public:
                                           fronts.zone_pairs.data()));
         return fronts;
     }
-    // [patterns][patterns]: at the adhesion and contact held; of the pending step, damage included.
+    // [patterns][patterns]: at fixed adhesion and contact; for a pending step, damage included.
     std::vector<double> tangent() { return tangent_by(delam_solver_tangent); }
     std::vector<double> step_tangent() { return tangent_by(delam_solver_step_tangent); }
     Condensed condensed() const {
@@ -209,7 +209,7 @@ public:
     // "" for an unknown key.
     std::string option(Text key) const { return detail::copy(delam_solver_option(get(), key.get())); }
     std::string searched() const { return delam_solver_searched(get()); }
-    // -1: back to the pending state, else the committed one.
+    // -1: back to the pending state, or the committed one if none is pending.
     void look(std::int64_t step) { shared_->check(delam_solver_look(get(), step)); }
     std::vector<Jump> jumps() const {
         std::int64_t count = 0;
@@ -232,7 +232,7 @@ public:
         return bytes;
     }
     void load(View<std::uint8_t> bytes) { shared_->check(delam_solver_load(get(), bytes.count(), bytes.data())); }
-    // The same bytes as a file.
+    // The same bytes in a file.
     void save(const std::filesystem::path& path) const { shared_->check(delam_solver_save_file(get(), path.c_str())); }
     void load(const std::filesystem::path& path) { shared_->check(delam_solver_load_file(get(), path.c_str())); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a call ends with: errors are thrown, outcomes returned. Hosts include delam/delam.hpp.
+// Results of a call: errors are thrown, outcomes returned. Hosts include delam/delam.hpp.
 #ifndef DELAM_CPP_STATUS_HPP
 #define DELAM_CPP_STATUS_HPP
 
