@@ -2,19 +2,19 @@
 !
 ! libdelam for Fortran 2008 (with TS 29113, now in Fortran 2018): derived types over the interfaces of delam_raw.
 !
-! What every procedure here keeps to
-!   status, message  optional. With `status` the caller decides what to do about an error (< 0) or an outcome (> 0), and
-!                    `message` says it in words (blank: done; cut off or padded like errmsg, context%message() has it
-!                    whole). Without `status` anything but DELAM_OK ends the program by error stop, after the message
-!                    went to the error unit.
-!   arrays           as in delam.h with the axes reversed: C's [n][3] is (3,n). Contiguous ones are handed over where
-!                    they are; the compiler copies others. Array results are allocated here and filled by the library.
+! Rules for every procedure
+!   status, message  optional. With `status` the caller handles an error (< 0) or an outcome (> 0), and `message` describes
+!                    it (blank: done; truncated or padded like errmsg; context%message() has the full text). Without
+!                    `status` anything but DELAM_OK writes the message to the error unit and ends the program by
+!                    error stop.
+!   arrays           as in delam.h with the axes reversed: C's [n][3] is (3,n). Contiguous ones are passed without a
+!                    copy; the compiler copies others. Array results are allocated here and filled by the library.
 !   indices          from 1, outputs too (0: none). Numbers that are not indices are as in C: labels of bodies (layers
-!                    have 0, 1, ...; where `body` is absent all are meant) and load steps (the initial state is step 0).
-!                    Where a message of the library names a single index it counts from 0.
-!   objects          are made by create, destroyed when they leave their scope or by destroy. An assignment makes a
-!                    second name of the same object, which lives until the last one is gone; so does the context,
-!                    and a law by Fortran procedures as long as a problem or solver uses it. (GNU Fortran 12 copies
+!                    have 0, 1, ...; an absent `body` means all) and load steps (the initial state is step 0).
+!                    A single index in a message of the library counts from 0.
+!   objects          are made by create, and destroyed by destroy or when they leave their scope. Assignment makes a second
+!                    name for the same object, which lives until its last name is gone; the context lives as long,
+!                    and a law by Fortran procedures lives as long as a problem or solver uses it. (GNU Fortran 12 copies
 !                    objects wrongly when a derived type that contains them is assigned as a whole: assign them singly.)
 module delam
   use delam_raw

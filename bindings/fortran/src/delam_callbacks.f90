@@ -1,24 +1,24 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-! What a host extends: its observer, its law.
+! Types that a host extends: its observer, its law.
 module delam_callbacks
   use delam_kinds, only: delam_real, delam_index
   implicit none
   private
   public :: delam_observer, delam_host_law, delam_adhesion, delam_dissipation
 
-  ! Extend it to hear what the library says, and to stop it. Either procedure may be left as it is.
+  ! Extend it to receive log lines and progress, and to cancel. Either procedure may keep its default.
   type :: delam_observer
   contains
     procedure :: log => ignore_line
     procedure :: progress => ignore_progress
   end type delam_observer
 
-  ! Extend it to give an interface law by Fortran procedures; the components of the extension are its parameters.
+  ! Extend it to define an interface law by Fortran procedures; the components of the extension are its parameters.
   type, abstract :: delam_host_law
   contains
     ! Adhesion on a first loading: the minimiser of adhesion*driving + g(mixity, adhesion) in [0,1], and its slope.
     procedure(delam_adhesion), deferred :: adhesion
-    ! Energy g spent at an adhesion, with its slopes in the adhesion and in the mixity.
+    ! Energy g dissipated down to an adhesion, with its slopes in the adhesion and in the mixity.
     procedure(delam_dissipation), deferred :: dissipation
   end type delam_host_law
 
@@ -47,7 +47,7 @@ contains
     character(*), intent(in) :: text
   end subroutine ignore_line
 
-  ! `total` 0: not known. `cancel`, .false. before, ends the call with DELAM_CANCELLED, unless it only reads.
+  ! `total` 0: unknown. `cancel`, initially .false., ends the call with DELAM_CANCELLED unless it only reads.
   subroutine ignore_progress(self, stage, done, total, cancel)
     class(delam_observer), intent(inout) :: self
     character(*), intent(in) :: stage

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-! The context: what the library says and how far it is.
+! The context: messages, log, progress.
 module delam_contexts
   use, intrinsic :: iso_c_binding, only: c_ptr, c_int32_t, c_int64_t, c_null_ptr, c_null_funptr, c_associated, &
                                          c_loc, c_funloc, c_f_pointer
@@ -57,14 +57,14 @@ contains
     end if
   end subroutine context_create
 
-  ! Text of the last status that was not DELAM_OK.
+  ! Message of the last status that was not DELAM_OK.
   function context_message(self) result(text)
     class(delam_context), intent(in) :: self
     character(:), allocatable :: text
     text = delam_text(delam_context_message(self%handle()))
   end function context_message
 
-  ! `observer` is not copied: it stays the caller's, and must live as long as it is asked.
+  ! `observer` is not copied: the caller owns it, and it must live as long as the context may call it.
   subroutine context_observe(self, observer, status, message)
     class(delam_context), intent(inout) :: self
     class(delam_observer), intent(in), target :: observer
@@ -96,7 +96,7 @@ contains
     call settle(code, self, status, message)
   end subroutine context_unobserve
 
-  ! From any thread.
+  ! May be called from any thread.
   subroutine context_cancel(self, status, message)
     class(delam_context), intent(in) :: self
     integer, intent(out), optional :: status

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-! The library about itself: version, options of problems, parameters of laws.
+! Information about the library: version, options of problems, parameters of laws.
 module delam_descriptions
   use, intrinsic :: iso_c_binding, only: c_ptr, c_int64_t, c_null_ptr
   use delam_raw
@@ -15,7 +15,7 @@ contains
     text = delam_text(delam_version())
   end function delam_version_text
 
-  ! An option of problems, counted from 1 to delam_option_count(); '' where there is none of that number.
+  ! An option of problems, counted from 1 to delam_option_count(); '' if there is none with that number.
   subroutine delam_describe_option(index, key, type, unit, initial, range, meaning)
     integer, intent(in) :: index
     character(:), allocatable, intent(out), optional :: key, type, unit, initial, range, meaning
@@ -31,7 +31,7 @@ contains
     if (present(meaning)) meaning = delam_text(texts(6))
   end subroutine delam_describe_option
 
-  ! Number of the parameters of a kind of law, all its criteria taken together.
+  ! Number of the parameters of a kind of law, with all its criteria.
   function delam_parameter_count(kind) result(count)
     character(*), intent(in) :: kind
     integer :: count

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-! The laws of interfaces, those by Fortran procedures too.
+! Interface laws, including those by Fortran procedures.
 module delam_laws
   use, intrinsic :: iso_c_binding, only: c_ptr, c_int32_t, c_int64_t, c_double, c_associated, c_loc, c_funloc, &
                                          c_f_pointer
@@ -60,7 +60,7 @@ contains
     call settle(code, context, status, message)
   end subroutine law_create
 
-  ! `law` is copied. name stands for it in messages and in the hash of a problem.
+  ! `law` is copied. name identifies it in messages and in the hash of a problem.
   subroutine law_create_host(self, context, name, law, status, message)
     class(delam_law), intent(inout) :: self
     type(delam_context), intent(in) :: context

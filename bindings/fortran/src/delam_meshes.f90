@@ -147,7 +147,7 @@ contains
                                                 connectivity, bodies, 1_c_int32_t), self, status, message)
   end subroutine mesh_add_conforming_cells
 
-  ! Unknown cell types are left to the library, which names them.
+  ! The library reports unknown cell types by name.
   pure function fits(cell_type, connectivity, bodies)
     integer, intent(in) :: cell_type
     integer(delam_index), intent(in) :: connectivity(:,:)
@@ -237,7 +237,7 @@ contains
     call settle(code, self, status, message)
   end subroutine mesh_add_obstacle
 
-  ! A body without cells, whose stiffness the problem's set_stiffness takes.
+  ! A body without cells, whose stiffness is given by the problem's set_stiffness.
   subroutine mesh_add_host_body(self, body, nodes, status, message)
     class(delam_mesh), intent(in) :: self
     integer, intent(in) :: body
@@ -248,7 +248,7 @@ contains
                                          1_c_int32_t), self, status, message)
   end subroutine mesh_add_host_body
 
-  ! Pairs that the host knows. normals: (dimension, pairs), from a to b; faces as pair indices: (nodes per face, faces).
+  ! Pairs given by the host. normals: (dimension, pairs), from a to b; faces as pair indices: (nodes per face, faces).
   subroutine mesh_add_pairs(self, body_a, body_b, nodes_a, nodes_b, normals, weights, faces, interface, status, message)
     class(delam_mesh), intent(in) :: self
     integer, intent(in) :: body_a, body_b
@@ -279,7 +279,7 @@ contains
     call settle(code, self, status, message)
   end subroutine mesh_add_pairs
 
-  ! 0 where the mesh does not exist.
+  ! 0 if the mesh does not exist.
   function dimension_of(self) result(dimension)
     class(delam_mesh), intent(in) :: self
     integer(c_int32_t) :: dimension
@@ -311,7 +311,7 @@ contains
     call settle(code, self, status, message)
   end function mesh_nodes
 
-  ! Label of the body of each node; -1 for a node of none.
+  ! Label of the body of each node; -1 for a node of no body.
   function mesh_node_bodies(self, status, message) result(bodies)
     class(delam_mesh), intent(in) :: self
     integer, intent(out), optional :: status
@@ -407,7 +407,7 @@ contains
     character(*), intent(out), optional :: message
     integer(c_int64_t) :: count
     integer(c_int32_t) :: code, dimension
-    ! What is not allocated is absent to the library. (GNU Fortran 12 does not pass on absent allocatable dummies.)
+    ! An unallocated argument is absent for the library. (GNU Fortran 12 does not pass on absent allocatable dummies.)
     integer(delam_index), allocatable :: a(:), b(:)
     real(delam_real), allocatable :: w(:), f(:,:,:)
     count = 0

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-! Who owns a handle. Only delam_object is for hosts.
+! Ownership of handles. Only delam_object is for hosts.
 module delam_objects
   use, intrinsic :: iso_c_binding, only: c_ptr, c_int64_t, c_null_ptr
   use delam_raw
@@ -8,7 +8,7 @@ module delam_objects
   private
   public :: delam_object, shared, shared_of, adopt, keep, keep_all, next_owner
 
-  ! What the names of one object have in common: the handle, and what must outlive it.
+  ! Shared by all names of an object: the handle, and the data that must outlive it.
   type :: keeper
     type(shared), pointer :: it => null()
   end type keeper
@@ -64,7 +64,7 @@ contains
     deallocate(was)
   end subroutine release
 
-  ! `self` gives up what it has and takes a new handle, whose context is kept alive.
+  ! `self` releases its handle and takes a new one, whose context is kept alive.
   subroutine adopt(self, made, kind, context)
     class(delam_object), intent(inout) :: self
     type(shared), pointer, intent(in) :: made, context
@@ -134,7 +134,7 @@ contains
     exists = associated(self%it)
   end function object_exists
 
-  ! Gives up this name of the object before it leaves its scope.
+  ! Releases this name of the object before it leaves its scope.
   subroutine object_destroy(self)
     class(delam_object), intent(inout) :: self
     call release(self%it)

@@ -142,7 +142,7 @@ contains
                 message)
   end subroutine problem_set_formulation
 
-  ! The stiffness of whole bodies as the host has assembled it; by rows, as body_matrix gives it. nodes: all of theirs;
+  ! The stiffness of whole bodies as assembled by the host; by rows, as in body_matrix. nodes: all of their nodes;
   ! dofs: (dimension, nodes), the row of each displacement, absent: one after another; kernel: (rows, motions) without
   ! energy, absent: the library finds them.
   subroutine problem_set_stiffness(self, nodes, row_starts, columns, values, dofs, kernel, status, message)
@@ -240,7 +240,7 @@ contains
     call settle(code, self, status, message)
   end subroutine problem_add_pattern
 
-  ! direction . u = coefficient * factor of the pattern; held at zero without a pattern. coefficient: 1 where absent.
+  ! direction . u = coefficient * factor of the pattern; fixed at zero without a pattern. coefficient: 1 if absent.
   subroutine problem_prescribe_nodes(self, nodes, direction, pattern, coefficient, status, message)
     class(delam_problem), intent(in) :: self
     integer(delam_index), intent(in), contiguous :: nodes(:)
@@ -320,7 +320,7 @@ contains
                                            message)
   end subroutine problem_add_equation
 
-  ! A problem that does not exist is left to the library.
+  ! The library reports a problem that does not exist.
   function in_space(self, components)
     class(delam_problem), intent(in) :: self
     integer, intent(in) :: components

@@ -109,7 +109,7 @@ contains
     call settle(delam_solver_rollback(self%handle()), self, status, message)
   end subroutine solver_rollback
 
-  ! Is there a step to be committed or rolled back?
+  ! Whether a step is pending, to be committed or rolled back.
   function solver_pending(self, status, message) result(pending)
     class(delam_solver), intent(in) :: self
     integer, intent(out), optional :: status
@@ -122,7 +122,7 @@ contains
     call settle(code, self, status, message)
   end function solver_pending
 
-  ! Another history of a pattern from the committed time on: the line from there through (times, values).
+  ! Changes the history of a pattern from the committed time on: the line from there through (times, values).
   subroutine solver_set_history(self, pattern, times, values, status, message)
     class(delam_solver), intent(in) :: self
     integer(delam_index), intent(in) :: pattern
@@ -190,7 +190,7 @@ contains
     name = delam_text(delam_solver_value_name(self%handle(), index - 1_c_int64_t))
   end function solver_value_name
 
-  ! This value of the committed state and, with each commit from now on, of every further step.
+  ! Records this value for the committed state and, with each later commit, for every further step.
   subroutine solver_record(self, key, status, message)
     class(delam_solver), intent(in) :: self
     character(*), intent(in) :: key
@@ -199,7 +199,7 @@ contains
     call settle(delam_solver_record(self%handle(), zero_ended(key)), self, status, message)
   end subroutine solver_record
 
-  ! Steps that are recorded: `count` of them from `first` to the committed one.
+  ! The recorded steps: `count` of them, from `first` to the committed one.
   subroutine solver_recorded_steps(self, first, count, status, message)
     class(delam_solver), intent(in) :: self
     integer(delam_index), intent(out) :: first, count
@@ -212,7 +212,7 @@ contains
     call settle(code, self, status, message)
   end subroutine solver_recorded_steps
 
-  ! A recorded value step by step; NaN before it was asked for.
+  ! A recorded value for each step; NaN for steps before it was requested.
   function solver_recorded(self, key, status, message) result(values)
     class(delam_solver), intent(in) :: self
     character(*), intent(in) :: key
@@ -268,7 +268,7 @@ contains
     call settle(code, self, status, message)
   end function solver_field
 
-  ! As field, into an array of the caller.
+  ! As field, but writes to an array of the caller.
   subroutine solver_fill_field(self, key, values, part, status, message)
     class(delam_solver), intent(in) :: self
     character(*), intent(in) :: key
@@ -337,7 +337,7 @@ contains
     call settle(code, self, status, message)
   end subroutine solver_front
 
-  ! At the adhesion and contact held: (patterns, patterns), symmetric.
+  ! At fixed adhesion and contact: (patterns, patterns), symmetric.
   function solver_tangent(self, status, message) result(matrix)
     class(delam_solver), intent(in) :: self
     integer, intent(out), optional :: status
@@ -397,7 +397,7 @@ contains
     call settle(code, self, status, message)
   end subroutine solver_condensed
 
-  ! 0 where the solver does not exist.
+  ! 0 if the solver does not exist.
   function patterns_of(self) result(patterns)
     class(delam_solver), intent(in) :: self
     integer(c_int64_t) :: patterns
@@ -459,7 +459,7 @@ contains
     text = delam_text(delam_solver_searched(self%handle()))
   end function solver_searched
 
-  ! -1: back to the pending state, else the committed one.
+  ! -1: back to the pending state, or the committed one if none is pending.
   subroutine solver_look(self, step, status, message)
     class(delam_solver), intent(in) :: self
     integer, intent(in) :: step
@@ -503,7 +503,7 @@ contains
     call settle(code, self, status, message)
   end subroutine solver_jump
 
-  ! The committed state; load of a solver of the same scene takes it up again.
+  ! The committed state; load of a solver of the same scene continues from it.
   function solver_save(self, status, message) result(bytes)
     class(delam_solver), intent(in) :: self
     integer, intent(out), optional :: status
@@ -526,7 +526,7 @@ contains
     call settle(delam_solver_load(self%handle(), size(bytes, kind=c_int64_t), bytes), self, status, message)
   end subroutine solver_load
 
-  ! The same bytes as a file. Blanks at the end of the path do not count, as in open.
+  ! The same bytes in a file. Trailing blanks of the path are ignored, as in open.
   subroutine solver_save_file(self, path, status, message)
     class(delam_solver), intent(in) :: self
     character(*), intent(in) :: path

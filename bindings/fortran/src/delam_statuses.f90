@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-! Statuses: to the caller that asks for them, else the end of the program.
+! Statuses: returned to the caller that asks for them; otherwise they end the program.
 module delam_statuses
   use, intrinsic :: iso_c_binding, only: c_int32_t
   use, intrinsic :: iso_fortran_env, only: error_unit
@@ -12,7 +12,7 @@ module delam_statuses
 
 contains
 
-  ! Hands status and message to the caller, or ends the program where it did not ask for the status.
+  ! Returns status and message to the caller, or ends the program if it did not ask for the status.
   subroutine settle(code, object, status, message)
     integer(c_int32_t), intent(in) :: code
     class(delam_object), intent(in) :: object
@@ -32,7 +32,7 @@ contains
     call conclude(code, text, status, message)
   end subroutine settle
 
-  ! As settle, for what is refused before the library is asked.
+  ! As settle, for errors found before the library is called.
   subroutine refuse(text, status, message)
     character(*), intent(in) :: text
     integer, intent(out), optional :: status

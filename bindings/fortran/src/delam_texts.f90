@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-! Texts of C, and for C.
+! Conversion of texts from and to C.
 module delam_texts
   use, intrinsic :: iso_c_binding, only: c_ptr, c_char, c_size_t, c_null_char, c_associated, c_f_pointer
   implicit none
@@ -16,7 +16,7 @@ module delam_texts
 
 contains
 
-  ! A text of the library; '' where there is none.
+  ! A text of the library; '' if there is none.
   function delam_text(address) result(text)
     type(c_ptr), intent(in) :: address
     character(:), allocatable :: text

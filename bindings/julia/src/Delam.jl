@@ -5,7 +5,7 @@ Delamination of layered and fibrous composites by energy minimisation: libdelam 
     mesh = Mesh(lengths=0.12, divisions=240, thickness=[3e-3, 3e-3], layer_divisions=[6, 6])
     law = Law("piecewise-linear"; normal_stiffness=125e9, ...)
     problem = Problem(mesh)               # then materials, laws, supports, loads, options
-    solver = Solver(problem)              # load steps and what can be read of them
+    solver = Solver(problem)              # load steps and their results
 
 Arrays have one column for each node, pair or cell, as the library has its rows: nothing is transposed. Nodes, cells,
 pairs, interfaces and patterns count from 1, bodies are labels. In the library's own messages single indices count from

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What arguments become on their way in. Arrays of the right type are passed as they are.
+# Conversion of arguments. Arrays of the right type are passed without a copy.
 
 floats(values::AbstractArray) = convert(Array{Float64}, values)
 floats(value::Real) = [Float64(value)]
@@ -16,7 +16,7 @@ function expect(name, values, expected...)
     return values
 end
 
-"`count` numbers from that many, or from one for all."
+"`count` numbers, from that many or from one for all."
 spread(name, value::Real, count) = fill(Float64(value), count)
 spread(name, values, count) = expect(name, floats(values), count)
 
@@ -42,5 +42,5 @@ from_zero(index::Integer) = Int64(index) - 1
 body_label(::Nothing) = Int32(-1)
 body_label(body::Integer) = Int32(body)
 
-"Indices that the library gave, from 1."
+"Indices returned by the library, from 1."
 from_one!(indices) = (indices .+= 1; indices)

@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# One way into the library: contexts, the call with its checks, callbacks, Ctrl-C, and the end of objects.
+# Every call of the library: contexts, the call with its checks, callbacks, Ctrl-C, and the destruction of objects.
 #
 # A context and the objects made with it belong to one thread at a time: each has a lock that every call holds.
 #
-# Nothing may be thrown through C. What a callback throws is kept, the library is asked to stop, and it is thrown again
-# once the call is over. Ctrl-C is held back during a call (`disable_sigint`) and let in where it can be caught: inside
-# the progress callback, which then cancels by what it returns, and at the call's end. Calls that read do not heed what it
-# returns: they come to their end, and what was kept is thrown then.
+# No exception may pass through C. An exception of a callback is kept, the library is told to stop, and the exception is
+# thrown again when the call has ended. Ctrl-C is held back during a call (`disable_sigint`) and let in where it can be
+# caught: inside the progress callback, which then cancels by its result, and at the call's end. Calls that read ignore
+# that result: they run to their end, and the exception is thrown then.
 
 """
     Context(; progress=nothing)
 
-What objects are made with. Each makes its own unless `context` is given; a solver has that of its problem.
+Objects are made with a context. Each makes its own unless `context` is given; a solver has that of its problem.
 `progress(stage, done, total)` is called inside long work, on the calling thread; what it returns cancels if it is
 `true`, what it throws is thrown by the call.
 """
@@ -58,7 +58,7 @@ function on_log(level::Int32, text::Cstring, user::Ptr{Cvoid})::Cvoid
         context = unsafe_pointer_to_objref(user)::Context
         push!(context.lines, (level, unsafe_string(text)))
     catch
-        # A line that finds no room is lost.
+        # A line that does not fit is lost.
     end
     return
 end
@@ -71,7 +71,7 @@ function on_progress(stage::Cstring, done::Int64, total::Int64, user::Ptr{Cvoid}
     context.exception === nothing || return Int32(1)
     try
         stop = reenable_sigint() do
-            # A Ctrl-C that has come meanwhile is thrown here.
+            # A pending Ctrl-C is thrown here.
             context.progress === nothing ? false : context.progress(unsafe_string(stage), done, total)
         end
         return Int32(stop === true)
@@ -81,7 +81,7 @@ function on_progress(stage::Cstring, done::Int64, total::Int64, user::Ptr{Cvoid}
     end
 end
 
-"From a law's callback: the exception is thrown when the call of the library is over."
+"Called in a law's callback: the exception is thrown when the call of the library has ended."
 function keep_exception(exception)
     context = task_local_storage(:delam_at_work)::Context
     if context.exception === nothing
@@ -160,7 +160,7 @@ function report(context)
     return
 end
 
-"Runs `body(handle)`, a call of the library that gives text; `nothing` where it gives none."
+"Runs `body(handle)`, a call of the library that returns text; `nothing` if it returns none."
 function ask_text(body, object)
     context = context_of(object)
     lock(context.lock)
@@ -193,7 +193,7 @@ end
     cancel(object)
 
 Asks a call that runs with this object or context in another thread to stop at its next check: it throws `Cancelled`.
-If none is running, the request waits for the next step, or for a solver that is made or loaded.
+If none is running, the request waits for the next step, or for the creation or loading of a solver.
 """
 function cancel(object)
     context = context_of(object)
@@ -201,7 +201,7 @@ function cancel(object)
     return
 end
 
-# ---- the end of objects
+# ---- destruction of objects
 
 destroy(out::Ref{Ptr{Raw.delam_context}}) = Raw.delam_context_destroy(out)
 destroy(out::Ref{Ptr{Raw.delam_mesh}}) = Raw.delam_mesh_destroy(out)
@@ -209,7 +209,7 @@ destroy(out::Ref{Ptr{Raw.delam_law}}) = Raw.delam_law_destroy(out)
 destroy(out::Ref{Ptr{Raw.delam_problem}}) = Raw.delam_problem_destroy(out)
 destroy(out::Ref{Ptr{Raw.delam_solver}}) = Raw.delam_solver_destroy(out)
 
-"The finalizer. It runs anywhere and must not wait: while the context is at work the object is left for another time."
+"The finalizer. It runs anywhere and must not wait: while a call of the context runs, destruction is postponed."
 function release(object)
     guard = context_of(object).lock
     if islocked(guard) || !trylock(guard)
@@ -226,5 +226,5 @@ function release(object)
     return
 end
 
-"Frees what the library holds for this object; it cannot be used any more. Garbage collection does the same."
+"Frees the library's data of this object, which cannot be used any more. Garbage collection does the same."
 Base.close(object::Object) = finalize(object)

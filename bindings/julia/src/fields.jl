@@ -9,7 +9,7 @@ end
 """
     field(solver, key[, interface])
 
-A field of the pending state, else of the committed one: a column each, or a vector where a column is one number.
+A field of the pending state, or of the committed one if none is pending: one column per entry, or a vector of numbers.
 
 Over nodes: displacement. Cells: stress, rotation. Pairs of an interface, or of all one after another: jump, traction,
 adhesion, mixity, contact. Constraints: reaction.
@@ -51,7 +51,7 @@ function fronts(solver::Solver, interface)
         zone_lengths=zone_lengths, zone_pairs=zone_pairs)
 end
 
-"(patterns, patterns): change of reactions with factors at the adhesion and contact held; symmetric."
+"(patterns, patterns): change of reactions with factors at fixed adhesion and contact; symmetric."
 function tangent(solver::Solver)
     count = length(patterns(solver.problem))
     out = zeros(count, count)
@@ -64,6 +64,6 @@ function step_tangent(solver::Solver)
     count = length(patterns(solver.problem))
     out = zeros(count, count)
     ask(handle -> Raw.delam_solver_step_tangent(handle, length(out), out), solver)
-    # Row p, column q in C: symmetric but with mixity_rule = converged.
+    # Row p, column q in C: symmetric except with mixity_rule = converged.
     return permutedims(out)
 end

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
-"What these say takes a recovery of all displacements; a history has them only when they are asked for."
+"These values require the recovery of all displacements; a history has them only on request."
 const COSTLY = ("rotation_max", "kkt_gap", "kkt_pressure", "kkt_complementarity", "kkt_equilibrium")
 
 """
@@ -56,7 +56,7 @@ Base.show(io::IO, history::History) =
 """
     history(solver, times; values=nothing)
 
-Marches, and gives the `History` of all steps with the present state as its first row.
+Runs the analysis and returns the `History` of all steps, with the present state as its first row.
 """
 function history(solver::Solver, times; values=nothing)
     rows = History(solver; values=values)
@@ -64,7 +64,7 @@ function history(solver::Solver, times; values=nothing)
     return rows
 end
 
-"Every digit of it, to a stream or a file. `titles`: instead of the names."
+"Writes all digits to a stream or a file. `titles`: used instead of the names."
 function write_csv(io::IO, history::History; titles=history.names)
     println(io, join(titles, ","))
     for values in history.rows

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
-"An interface of a mesh; stands for its number wherever one is asked for. Its jump is u_b - u_a, its normals point from
+"An interface of a mesh; may be used wherever a number is expected. Its jump is u_b - u_a, its normals point from
 a to b."
 struct Interface
     mesh::Mesh
@@ -22,15 +22,15 @@ function add_interface!(mesh::Mesh, body_a, body_b; tolerance=0.0)
     end
 end
 
-"An interface between every two bodies that share faces and have none yet; the new ones."
+"Adds an interface between every two bodies that share faces and have none yet; returns the new ones."
 function add_all_interfaces!(mesh::Mesh; tolerance=0.0)
     before, count = interface_count(mesh), Ref(Int64(0))
     ask(handle -> Raw.delam_mesh_add_all_interfaces(handle, tolerance, count), mesh)
     return [Interface(mesh, before + i) for i in 1:count[]]
 end
 
-"Of two bodies whose meshes do not match; b should be the finer one. `gap`: distance of the faces, 0: 1e-6 of the
-shortest edge."
+"An interface of two bodies whose meshes do not match; b should be the finer one. `gap`: distance of the faces, 0: 1e-6
+of the shortest edge."
 function add_projected_interface!(mesh::Mesh, body_a, body_b; gap=0.0)
     new_interface(mesh) do handle, out
         Raw.delam_mesh_add_projected_interface(handle, body_a, body_b, gap, out)
@@ -124,7 +124,7 @@ function frames(interface::Interface)
     return out
 end
 
-"(dimension, pairs): where the nodes of body b are."
+"(dimension, pairs): positions of the nodes of body b."
 places(interface::Interface) = nodes(interface.mesh)[:, nodes_b(interface)]
 
 "(nodes of a face, faces), as numbers of pairs."

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
-"What the library calls for a law of the host; kept by all that took the law."
+"The functions of a host law; kept by all objects that use the law."
 struct HostFunctions
     adhesion::Any
     dissipation::Any
@@ -85,7 +85,7 @@ function on_dissipation(mixity::Cdouble, adhesion::Cdouble, dissipated::Ptr{Cdou
     end
 end
 
-"Numbers, texts and the table `softening=(xi, s)`. Texts first: a criterion sets its exponents to initial values."
+"Sets numbers, texts and the table `softening=(xi, s)`. Set texts first: a criterion resets its exponents."
 function set!(law::Law; values...)
     for (key, value) in sort(collect(pairs(values)); by=entry -> !(last(entry) isa AbstractString))
         if value isa AbstractString

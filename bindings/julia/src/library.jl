@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Finds and loads libdelam, in this order:
 #
-# 1. the environment variable DELAM_LIBRARY, a file or a folder; when it is set nothing else is tried
-# 2. where the loader looks: LD_LIBRARY_PATH, ldconfig
+# 1. the environment variable DELAM_LIBRARY, a file or a folder; if it is set, nothing else is tried
+# 2. the loader's paths: LD_LIBRARY_PATH, ldconfig
 # 3. pkg-config's libdir of delam
 #
-# The raw layer calls the library by its SONAME. What has been loaded under a full path answers to that name.
+# The raw layer calls the library by its SONAME. A library loaded by its full path is found under that name.
 
 const VARIABLE = "DELAM_LIBRARY"
 const loaded_from = Ref("")
@@ -58,8 +58,8 @@ library_version() = unsafe_string(Raw.delam_version())
 "Commit that it was built from, or \"unknown\"."
 library_commit() = unsafe_string(Raw.delam_commit())
 
-"Threads that the BLAS of this process uses; 0: it does not say. Not those of Julia's own."
+"Threads that the BLAS of this process uses; 0: unknown. Not those of Julia's own."
 blas_threads() = Int(Raw.delam_blas_threads())
 
-"File that it was loaded from, as the loader was asked for it."
+"File that it was loaded from, as passed to the loader."
 library_location() = loaded_from[]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What the library assembled, for hosts that check or reuse it.
+# The matrices and vectors that the library assembled, for hosts that check or reuse them.
 
 """
 A matrix by rows: the entries of row i are `row_starts[i]:row_starts[i+1]-1` of `columns` and `values`. `Matrix(m)` is

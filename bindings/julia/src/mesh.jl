@@ -73,7 +73,7 @@ end
 """
     add_host_body!(mesh, body, nodes)
 
-A body without cells, of nodes that belong to none, whose stiffness the host gives (`set_stiffness!`).
+A body without cells, of nodes that belong to no body yet; its stiffness is given by `set_stiffness!`.
 """
 function add_host_body!(mesh::Mesh, body, nodes)
     own = indices(nodes)
@@ -81,7 +81,7 @@ function add_host_body!(mesh::Mesh, body, nodes)
     return mesh
 end
 
-# ---- what is there
+# ---- queries
 
 function mesh_size(mesh::Mesh)
     d, counts = Ref(Int32(0)), [Ref(Int64(0)) for _ in 1:4]
@@ -119,7 +119,7 @@ function node_bodies(mesh::Mesh)
     return out
 end
 
-"The node that each was doubled from (conforming cells), itself otherwise."
+"The original of each doubled node (conforming cells); otherwise the node itself."
 function node_origins(mesh::Mesh)
     out = Vector{Int64}(undef, node_count(mesh))
     ask(handle -> Raw.delam_mesh_node_origins(handle, length(out), out), mesh)
@@ -158,7 +158,7 @@ function cells(mesh::Mesh)
     return (types=types, bodies=bodies, offsets=from_one!(offsets), connectivity=from_one!(connectivity))
 end
 
-"Nodes of a body (`nothing`: of all) inside the closed box `lower` .. `upper`, ascending; without `upper`, at a place."
+"Nodes of a body (`nothing`: of all) inside the closed box `lower` .. `upper`, ascending; without `upper`, at a point."
 function find_nodes(mesh::Mesh, lower, upper=lower; body=nothing)
     d = dimension(mesh)
     low, high = expect("lower", floats(lower), d), expect("upper", floats(upper), d)
@@ -169,7 +169,7 @@ function find_nodes(mesh::Mesh, lower, upper=lower; body=nothing)
     return from_one!(out)
 end
 
-"The one node of a body at a place."
+"The one node of a body at a point."
 function find_node(mesh::Mesh, place; body=nothing)
     found = find_nodes(mesh, place; body=body)
     length(found) == 1 ||

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
-"What the library says of a parameter of a law or of an option. `initial` is \"\" where it must be given."
+"Description of a parameter of a law or of an option. `initial` is \"\" if it must be given."
 struct Parameter
     key::String
     type::String
@@ -17,7 +17,7 @@ text_or_throw(status, texts) =
 """
     parameters(kind)
 
-What a kind of law takes: `Dict` by key.
+Parameters of a kind of law: `Dict` by key.
 """
 function parameters(kind)
     count = Raw.delam_law_parameter_count(kind)

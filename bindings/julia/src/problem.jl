@@ -3,7 +3,7 @@
 """
     Problem(mesh; plane=nothing, progress=nothing, context)
 
-The scene: a mesh, as it is now, with materials, laws, supports, loads and options.
+The scene: a copy of a mesh with materials, laws, supports, loads and options.
 
 Bodies are chosen by label, `nothing` means all. Directions are vectors or axes ("x", "-y"). What drives a prescription
 comes last: load patterns, each `pattern` or `pattern => coefficient`, none for a support. `problem[key] = value` sets
@@ -28,7 +28,7 @@ function Problem(mesh::Mesh; plane=nothing, progress=nothing, context=Context(pr
     return problem
 end
 
-"A load pattern of a problem; stands for its number wherever one is asked for."
+"A load pattern of a problem; may be used wherever a number is expected."
 struct Pattern
     name::String
     number::Int64
@@ -95,7 +95,7 @@ end
 
 # ---- interfaces
 
-"The law's parameters are taken as they are now. The adhesion is as it was: 1, or what set_adhesion! has set."
+"Copies the law's present parameters. The adhesion does not change: 1, or the value of set_adhesion!."
 function set_law!(problem::Problem, interface, law::Law)
     if law.host !== nothing
         push!(problem.kept, law.host)
@@ -105,13 +105,13 @@ function set_law!(problem::Problem, interface, law::Law)
     return problem
 end
 
-"Glued perfectly and for ever."
+"Perfectly and permanently bonded."
 function set_bonded!(problem::Problem, interface)
     ask(handle -> Raw.delam_problem_set_bonded(handle, from_zero(interface)), problem)
     return problem
 end
 
-"Faces that may part but not overlap, without adhesion."
+"Faces without adhesion that may separate but not overlap."
 function set_contact!(problem::Problem, interface)
     ask(handle -> Raw.delam_problem_set_contact(handle, from_zero(interface)), problem)
     return problem
@@ -159,7 +159,7 @@ function driven(drive, count)
     return numbers, coefficients
 end
 
-"direction . u of each node; held at zero without a drive. A coefficient is a number for all nodes or one each."
+"Prescribes direction . u of each node; fixed at zero without a drive. A coefficient is for all nodes, or one per node."
 function prescribe!(problem::Problem, nodes, direction, drive...)
     held = indices(nodes)
     axis = along("direction", direction, dimension(problem.mesh))
@@ -171,7 +171,7 @@ function prescribe!(problem::Problem, nodes, direction, drive...)
     return problem
 end
 
-"The weighted mean of direction . u over nodes; with the weights of `find_patch` a support spread over a patch."
+"Prescribes the weighted mean of direction . u over nodes; with the weights of `find_patch`, a support over a patch."
 function prescribe_mean!(problem::Problem, nodes, weights, direction, drive...)
     held = indices(nodes)
     shares = expect("weights", floats(weights), length(held))
@@ -225,7 +225,7 @@ function add_eigenstrain!(problem::Problem, pattern, strain; body=nothing)
     return problem
 end
 
-# ---- questions
+# ---- queries
 
 "`ProblemError` names what is missing or contradictory."
 function check(problem::Problem)
@@ -247,7 +247,7 @@ function dofs(problem::Problem)
     return primal[], dual[]
 end
 
-"Expected length of the process zone, 0 where there is none, and the mean distance of pairs."
+"Expected length of the process zone, 0 if there is none, and the mean distance of pairs."
 function process_zone(problem::Problem, interface)
     length_, spacing = Ref(0.0), Ref(0.0)
     ask(handle -> Raw.delam_problem_process_zone(handle, from_zero(interface), length_, spacing), problem)

@@ -25,7 +25,7 @@ struct Profile
     lines::Vector{Vector{Int64}}
 end
 
-"Places along a line: x where it is straight along x, else the length from its first pair."
+"Positions along a line: x if it is straight along x, else the length from its first pair."
 function along_line(profile::Profile, line)
     x, y = profile.places[1, line], profile.places[2, line]
     maximum(y) - minimum(y) <= 1e-9 * (maximum(x) - minimum(x)) && return x

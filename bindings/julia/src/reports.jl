@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What a solver says of itself: its plan, its options, its searches, its jumps.
+# Reports of a solver: its plan, its options, its searches, its jumps.
 
-"What the scene needs and what was left out, in words."
+"The parts of the method that the scene needs and those left out, as text."
 plan(solver::Solver) = ask_text(handle -> Raw.delam_solver_plan(handle), solver)
 
 "The same as data: subject, decision, reason, cost, saving, unit."
@@ -17,22 +17,22 @@ function plan_item(solver, index)
     ask(solver) do handle
         Raw.delam_solver_plan_item(handle, index, subject, decision, reason, cost, saving, unit)
     end
-    # The texts are the solver's.
+    # The solver owns the texts.
     return GC.@preserve solver (subject=unsafe_string(subject[]), decision=unsafe_string(decision[]),
         reason=unsafe_string(reason[]), cost=cost[], saving=saving[], unit=unsafe_string(unit[]))
 end
 
-"Value of an option as text, as the solver took it."
+"Value of an option as text, as copied by the solver."
 function option(solver::Solver, key)
     value = ask_text(handle -> Raw.delam_solver_option(handle, key), solver)
     value === nothing && throw(KeyError(key))
     return value
 end
 
-"What the energetic search of the last step looked at."
+"What the energetic search of the last step compared."
 searched(solver::Solver) = ask_text(handle -> Raw.delam_solver_searched(handle), solver)
 
-"Jumps that were located (option jump_tolerance), in the order of time. `first_pair`, `last_pair`: 0 for none."
+"Located jumps (option jump_tolerance), in the order of time. `first_pair`, `last_pair`: 0 for none."
 function jumps(solver::Solver)
     count = Ref(Int64(0))
     ask(handle -> Raw.delam_solver_jump_count(handle, count), solver)

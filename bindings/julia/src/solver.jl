@@ -81,7 +81,7 @@ function commit!(solver::Solver)
     return solver
 end
 
-"The state before the pending step, bit for bit."
+"Restores the state before the pending step, bit for bit."
 function rollback!(solver::Solver)
     ask(handle -> Raw.delam_solver_rollback(handle), solver)
     return solver

@@ -4,7 +4,7 @@
     mesh = delam.Mesh.layers(0.12, 240, [3e-3, 3e-3], [6, 6])      bodies and their interfaces
     law = delam.Law("piecewise-linear", normal_stiffness=125e9, ...)
     problem = delam.Problem(mesh)                                  materials, laws, supports, loads, options
-    solver = delam.Solver(problem)                                 load steps and what can be read of them
+    solver = delam.Solver(problem)                                 load steps and their results
 
 Arrays are numpy's, indices start at 0, units are whatever is consistent. Errors are exceptions under DelamError.
 Warnings and notes of the library go to the logger "delam". delam.plot draws (matplotlib), delam.meshes reads and writes
@@ -40,13 +40,13 @@ def library_commit():
 
 
 def library_location():
-    """File it was loaded from, as the loader was asked for it."""
+    """File it was loaded from, as passed to the loader."""
     return _library.location
 
 
 def blas_threads():
-    """Threads of the linear algebra of this process, 0: it does not say. Equal digits from run to run need an equal
-    number. Those of the library's own are option threads."""
+    """Threads of the linear algebra of this process, 0: unknown. Equal digits from run to run need an equal number.
+    Option threads sets the library's own threads."""
     return _library.library.delam_blas_threads()
 
 

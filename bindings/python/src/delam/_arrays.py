@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The one gate that arrays pass on their way in, and the pointers of those on their way out."""
+"""Checks and converts all input arrays, and gives the pointers of output arrays."""
 import ctypes
 
 import numpy as np
@@ -28,7 +28,7 @@ def _fits(have, size):
 
 
 def ndim(value):
-    """Dimensions of what may not even be an array; then -1, and the gate will tell."""
+    """Dimensions of a value; -1 if it is no array, which gate() then reports."""
     try:
         return np.ndim(value)
     except (ValueError, TypeError):
@@ -36,7 +36,7 @@ def ndim(value):
 
 
 def listed(value):
-    """A single number as a list of it."""
+    """A single number as a list with one entry."""
     return [value] if ndim(value) == 0 else value
 
 
@@ -99,7 +99,7 @@ def indices(name, value, shape=(None,), size=None):
 
 
 def spread(name, value, count):
-    """[count] numbers from that many or from one for all."""
+    """[count] numbers, from that many or from one for all."""
     if ndim(value) == 0:
         return np.full(count, floats(name, [value], (1,))[0])
     return floats(name, value, (count,))

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One way into the library: contexts, the call with its checks, callbacks, Ctrl-C, and the end of objects.
+"""Every call of the library: contexts, the call with its checks, callbacks, Ctrl-C, and the destruction of objects.
 
 A mesh, a law and a problem have a context each; solvers share that of their problem. A context belongs to one thread at
-a time, so each has a lock that every call holds: objects may be used from any thread, and those of distinct problems
-run side by side (ctypes gives the interpreter free during a call).
+a time, so each has a lock that every call holds: objects may be used from any thread, and those of different problems
+run in parallel (ctypes releases the interpreter lock during a call).
 
-Python code called from inside (laws, progress) must not let an exception into C. What it raises is kept, the library is
-asked to stop, and the exception is raised again once the call is over. So is Ctrl-C: during long calls of the main
-thread a handler of our own keeps what the present SIGINT handler raises. Leaving it to the interpreter would lose it,
+Python code called from inside (laws, progress) must not let an exception into C. An exception is kept, the library is
+told to stop, and the exception is raised again when the call has ended. So is Ctrl-C: during long calls of the main
+thread a separate handler keeps the exception that the present SIGINT handler raises. Leaving it to the interpreter
+would lose it,
 because a signal that arrives in C becomes an exception at the first instruction of the next callback, before any try
 block.
 """
@@ -28,7 +29,7 @@ _thread = threading.local()
 
 
 class Call:
-    """What a call in progress has to remember, on its thread."""
+    """Data of a running call, on its thread."""
 
     __slots__ = ("context", "exception", "lines", "outer")
 
@@ -40,14 +41,14 @@ class Call:
 
 
 def keep_exception(exception):
-    """From a callback: the exception is raised when the call of the library is over."""
+    """Called in a callback: keeps the exception until the call of the library has ended."""
     call = _thread.call
     if call.exception is None:
         call.exception = exception
 
 
 def stopped():
-    """From a callback: Ctrl-C, or an exception before, has ended this call."""
+    """Called in a callback: whether Ctrl-C or an earlier exception has ended this call."""
     return _thread.call.exception is not None
 
 
@@ -62,7 +63,7 @@ def _on_progress(stage, done, total, _):
         keep_exception(exception)
     if call.exception is None:
         return 0
-    # Calls that read heed requests, not answers.
+    # Calls that read obey requests, not the callback's answer.
     library.delam_context_cancel(call.context.handle)
     return 1
 
@@ -76,7 +77,7 @@ _NO_PROGRESS = _raw.delam_progress_callback()
 
 
 class Interrupt:
-    """Holds SIGINT back while the library works in the main thread."""
+    """Holds SIGINT back while the library runs in the main thread."""
 
     __slots__ = ("call", "previous", "over")
 
@@ -126,7 +127,7 @@ class Context:
             raise error_of(status, "no context: out of memory")
         self.handle = handle
         self.progress = None  # called with (stage, done, total) inside long work; a true result cancels
-        self.hosted = False  # some law of the objects is computed by Python
+        self.hosted = False  # a law of the objects is computed by Python
         self._lock = threading.Lock()
         self._owner = None
         self._doomed = collections.deque()
@@ -134,17 +135,17 @@ class Context:
         weakref.finalize(self, _destroy, library.delam_context_destroy, handle)
 
     def cancel(self):
-        """Ask the running call to stop at its next check; from any thread."""
+        """Asks the running call to stop at its next check. May be called from any thread."""
         library.delam_context_cancel(self.handle)
 
     def call(self, function, *arguments, other=None, whole=False, long=False, outcomes=()):
-        """Calls a function of the library and raises what went wrong.
+        """Calls a function of the library and raises its errors.
 
         other     a further context that is used
         whole     Ctrl-C waits for the end of the function, which may be Python's own
-        long      so it does, but asks the library to stop; progress is told, whose true result
-                  does not stop what only reads
-        outcomes  statuses > 0 that are given back instead of being raised
+        long      the same, but asks the library to stop; calls progress, whose true result
+                  does not stop a call that only reads
+        outcomes  statuses > 0 that are returned instead of being raised
         Returns (status, message).
         """
         call = Call(self)
@@ -191,8 +192,8 @@ class Context:
         return status, message
 
     def _locked(self, call, other, function, *arguments):
-        """Calls while this context, and another if there is one, belong to this thread. `with` and a lock are one step
-        for Ctrl-C, so none stays locked."""
+        """Calls while this thread holds this context, and another if there is one. Ctrl-C cannot come between `with` and
+        the lock, so none stays locked."""
         if other is not None and other is not self:
             first, second = sorted((self, other), key=id)
             first._refuse_reentry()
@@ -226,7 +227,8 @@ class Context:
             raise StateError("the library was called from inside a callback, with an object that is at work")
 
     def end(self, destroy, handle, keep):
-        """Destroys a handle, now or when the call that holds the context is over. `keep`: what must live until then."""
+        """Destroys a handle, now or when the call that holds the context has ended. `keep`: objects that must live
+        until then."""
         self._doomed.append((destroy, handle, keep))
         self._bury()
 
@@ -246,11 +248,11 @@ def _destroy(destroy, handle):
 
 
 class Object:
-    """Something of the library: a handle with an end. Usable as a context manager."""
+    """An object of the library: a handle that must be closed. Usable as a context manager."""
 
     def _make(self, context, kind, destroy, function, *arguments, keep=(), **how):
-        """Calls a function that makes a handle, its last argument, and owns that. `keep`: what the library refers to as
-        long as the handle lives; `how`: as for Context.call, whose result this is."""
+        """Calls a function that makes a handle, its last argument, and takes ownership of it. `keep`: objects that the
+        library uses as long as the handle lives; `how`: as for Context.call. Returns the result of that call."""
         handle = ctypes.POINTER(kind)()
         try:
             outcome = context.call(function, *arguments, ctypes.byref(handle), **how)
@@ -274,8 +276,7 @@ class Object:
         return not self._finalizer.alive
 
     def close(self):
-        """Frees what the library holds for this object; it cannot be used any more. Garbage collection does the
-        same."""
+        """Frees the library's data of this object, which cannot be used any more. Garbage collection does the same."""
         self._finalizer()
 
     def __enter__(self):
@@ -285,8 +286,8 @@ class Object:
         self.close()
 
     def cancel(self):
-        """Ask a call that runs with this object in another thread to stop at its next check: it raises Cancelled. If none
-        is running, the request waits for the next step, or for a solver that is made or loaded."""
+        """Asks a call that runs with this object in another thread to stop at its next check; it raises Cancelled. If none
+        is running, the request waits for the next step, or for the creation or loading of a solver."""
         self.context.cancel()
 
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Finds and loads libdelam. In this order:
 
-1. the environment variable DELAM_LIBRARY, a file or a folder; when it is set nothing else is tried
+1. the environment variable DELAM_LIBRARY, a file or a folder; if it is set, nothing else is tried
 2. next to this package (delam/libdelam.so.N, delam/lib/libdelam.so.N)
-3. where the loader looks: LD_LIBRARY_PATH, ldconfig
+3. the loader's paths: LD_LIBRARY_PATH, ldconfig
 4. pkg-config's libdir of delam
 """
 import ctypes
@@ -36,7 +36,7 @@ def _pkg_config():
 
 
 def _candidates():
-    """Names to try, each with the words for where it comes from."""
+    """Names to try, each with a description of its origin."""
     package = pathlib.Path(__file__).resolve().parent
     for path in (package / SONAME, package / "lib" / SONAME):
         if path.exists():
@@ -51,7 +51,7 @@ def _candidates():
 
 
 def load():
-    """The library with typed functions, and its place; ImportError says what was tried."""
+    """The library with typed functions, and its path; ImportError lists what was tried."""
     tried = []
     if os.environ.get(VARIABLE):
         candidates = [(_from_variable(os.environ[VARIABLE]), VARIABLE)]

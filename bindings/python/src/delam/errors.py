@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Exceptions and warnings.
 
-Errors of the library (status < 0) leave the object as it was. Outcomes (status > 0) leave it valid:
+Errors of the library (status < 0) leave the object unchanged. Outcomes (status > 0) leave it valid:
 
-NotConverged   a limit was met, or forces do not balance; the step is pending all the same. A warning unless
-               the solver was told otherwise: Solver(..., not_converged="warn" | "raise" | "ignore").
+NotConverged   an iteration limit was reached, or forces do not balance; the step is pending all the same. A
+               warning, unless set otherwise: Solver(..., not_converged="warn" | "raise" | "ignore").
 Cancelled      stopped on request; the state before the call is restored. Always raised.
 LimitReached   no equilibrium: a dead load acts on a part that nothing holds any more. No step is pending. Always
                raised.
@@ -35,7 +35,7 @@ class ArgumentError(DelamError, ValueError):
 
 
 class HandleError(DelamError, ValueError):
-    """An object that was closed, or none of this library."""
+    """An object that was closed, or is not of this library."""
 
     status = _raw.DELAM_ERROR_HANDLE
 
@@ -91,7 +91,8 @@ class Outcome(DelamError):
 
 
 class NotConverged(Outcome):
-    """A limit was met, or forces do not balance; the best state found is pending: read, commit or roll it back."""
+    """An iteration limit was reached, or forces do not balance; the best state found is pending: read, commit or roll
+    it back."""
 
     status = _raw.DELAM_NOT_CONVERGED
 
@@ -109,7 +110,7 @@ class LimitReached(Outcome):
 
 
 class NotConvergedWarning(RuntimeWarning):
-    """As NotConverged, where the solver was told to go on."""
+    """The warning in place of NotConverged, if the solver is to continue."""
 
 
 _KINDS = {kind.status: kind for kind in (ArgumentError, HandleError, MeshError, ProblemError, StateError, OutOfMemory,

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rows of values over the steps, and the bar that shows how far a march is."""
+"""Rows of values over the steps, and the progress bar of an analysis."""
 import sys
 
 import numpy as np
 
 
 class History:
-    """Values of a solver over its steps, a numpy array by name: history["reaction:load"]. The first row is the state at
-    which it was made; record() appends the present one. Where a step has replaced earlier ones (option backtracking)
+    """Values of a solver over its steps, as numpy arrays by name: history["reaction:load"]. The first row is the state at
+    the time of construction; record() appends the present one. If a step has replaced earlier ones (option backtracking),
     their rows are read again."""
 
     def __init__(self, solver, values=None):
@@ -58,7 +58,7 @@ class History:
         return dict(zip(self.names, self._rows[index]))
 
     def write_csv(self, file, titles=None):
-        """Every digit of it, to an open text file or a path. titles: instead of the names."""
+        """Writes all digits to an open text file or a path. titles: used instead of the names."""
         if not hasattr(file, "write"):
             with open(file, "w", encoding="utf-8") as opened:
                 self.write_csv(opened, titles)
@@ -69,7 +69,7 @@ class History:
 
 
 def steps_of(times, progress):
-    """The times, behind a bar on standard error if one is wanted: tqdm's where it is installed, else a counter."""
+    """The times, with a progress bar on standard error if requested: tqdm's if it is installed, else a counter."""
     if not progress:
         return times
     try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How an interface holds together."""
+"""Interface laws."""
 import ctypes
 from typing import NamedTuple
 
@@ -15,7 +15,7 @@ KINDS = ("piecewise-linear", "exponential", "trapezoidal", "tabulated", "griffit
 
 
 class Parameter(NamedTuple):
-    """What the library says of a parameter or an option. initial is "" where it must be given."""
+    """Description of a parameter or an option. initial is "" if it must be given."""
 
     key: str
     type: str
@@ -48,14 +48,14 @@ class Law(Object):
 
     @classmethod
     def host(cls, name, adhesion, dissipation, **parameters):
-        """A law computed by Python functions, which must always give the same answers:
+        """A law computed by Python functions, which must always return the same results for the same arguments:
 
             adhesion(mixity, driving) -> (adhesion, slope)
             dissipation(mixity, adhesion) -> (dissipated, slope, mixity_slope)
 
         adhesion: the minimiser of adhesion * driving + dissipated over [0, 1] and its derivative by the driving energy;
         dissipation: the energy g(B, zeta) and its derivatives by adhesion and mixity. They must not call the library.
-        An exception in one ends the call of the library and is raised from it. `name` stands for them in
+        An exception in one ends the call of the library and is raised by that call. `name` identifies them in
         Problem.hash."""
         law = cls.__new__(cls)
         on_adhesion, on_dissipation = _adhesion_callback(adhesion), _dissipation_callback(dissipation)
@@ -76,7 +76,7 @@ class Law(Object):
 
     @staticmethod
     def parameters(kind):
-        """What a kind takes: {key: Parameter}."""
+        """Parameters of a kind: {key: Parameter}."""
         key = text("kind", kind)
         count = library.delam_law_parameter_count(key)
         if count == 0:
@@ -85,8 +85,8 @@ class Law(Object):
         return {item.key: item for item in items}
 
     def set(self, **parameters):
-        """Numbers, texts and the table softening=(xi, s). Texts first: a criterion sets its exponents to their initial
-        values."""
+        """Sets numbers, texts and the table softening=(xi, s). Set texts first: a criterion resets its exponents to their
+        initial values."""
         for key, value in sorted(parameters.items(), key=lambda item: not isinstance(item[1], str)):
             if isinstance(value, str):
                 self._call(library.delam_law_set_text, key.encode(), text(key, value))

@@ -45,7 +45,7 @@ class Cells(NamedTuple):
         return self.connectivity[self.offsets[rows][:, None] + np.arange(size)]
 
     def names(self):
-        """The types that occur."""
+        """The cell types of the mesh."""
         return [_CELL_NAMES[number] for number in sorted(set(self.types.tolist()))]
 
 
@@ -66,8 +66,8 @@ def interface_index(value, mesh):
 
 
 class Interface:
-    """An interface of a mesh; stands for its index wherever one is asked for. Its jump is u_b - u_a, its normals point
-    from a to b."""
+    """An interface of a mesh; may be used wherever an index is expected. Its jump is u_b - u_a, its normals point from a
+    to b."""
 
     def __init__(self, mesh, index):
         self.mesh = mesh
@@ -126,7 +126,7 @@ class Interface:
 
     @property
     def places(self):
-        """[pairs][dimension]: where the nodes of body b are."""
+        """[pairs][dimension]: positions of the nodes of body b."""
         return self.mesh.nodes[self.nodes_b]
 
     @property
@@ -145,8 +145,8 @@ class Mesh(Object):
         mesh.add_cells("quad4", connectivity, bodies)
         interface = mesh.add_interface(0, 1)
 
-    Indices are 0-based throughout. Nodes without cells are control nodes, or those of bodies of which the host gives
-    the stiffness (add_host_body)."""
+    Indices are 0-based throughout. Nodes without cells are control nodes, or nodes of bodies whose stiffness the
+    host provides (add_host_body)."""
 
     def __init__(self, nodes):
         nodes = floats("nodes", nodes, (None, (2, 3)))
@@ -154,8 +154,8 @@ class Mesh(Object):
 
     @classmethod
     def layers(cls, lengths, divisions, thickness, layer_divisions, cells="quad4"):
-        """Block of layers stacked along the last axis (y in 2D, z in 3D), each a body of its own, body 0 at the bottom;
-        no interface is made yet. lengths, divisions: along the other axes, a number in 2D or two in 3D; thickness,
+        """Block of layers stacked along the last axis (y in 2D, z in 3D), each a separate body, body 0 at the bottom;
+        without interfaces. lengths, divisions: along the other axes, a number in 2D or two in 3D; thickness,
         layer_divisions: of each layer."""
         lengths = floats("lengths", listed(lengths), ((1, 2),))
         divisions = indices("divisions", divisions, (lengths.size,))
@@ -209,7 +209,7 @@ class Mesh(Object):
         self._add_cells(library.delam_mesh_add_cells, cells, connectivity, bodies)
 
     def add_conforming_cells(self, cells, connectivity, bodies=0):
-        """As add_cells, of a mesh whose bodies share nodes: those are doubled (node_origins tells from what)."""
+        """As add_cells, of a mesh whose bodies share nodes: those are doubled (node_origins has the originals)."""
         self._add_cells(library.delam_mesh_add_conforming_cells, cells, connectivity, bodies)
 
     def _add_interface(self, function, body_a, body_b, distance):
@@ -223,19 +223,19 @@ class Mesh(Object):
         return self._add_interface(library.delam_mesh_add_interface, body_a, body_b, number("tolerance", tolerance))
 
     def add_all_interfaces(self, tolerance=0.0):
-        """An interface between every two bodies that share faces and have none yet; the new ones."""
+        """Adds an interface between every two bodies that share faces and have none yet; returns the new ones."""
         before, count = self.interface_count, ctypes.c_int64()
         self._call(library.delam_mesh_add_all_interfaces, number("tolerance", tolerance), count, long=True)
         return [Interface(self, before + i) for i in range(count.value)]
 
     def add_projected_interface(self, body_a, body_b, gap=0.0):
-        """Of two bodies whose meshes do not match; b should be the finer one. gap: distance of the faces, 0: 1e-6 of
-        the shortest edge."""
+        """An interface of two bodies whose meshes do not match; b should be the finer one. gap: distance of the faces,
+        0: 1e-6 of the shortest edge."""
         return self._add_interface(library.delam_mesh_add_projected_interface, body_a, body_b, number("gap", gap))
 
     def add_obstacle(self, nodes, normals, control_node, weights=None):
         """A rigid obstacle that moves with its control node, a node without cells. normals: from the obstacle into the
-        body, one each or one for all."""
+        body, one per pair or one for all."""
         nodes = indices("nodes", nodes, size=self.node_count)
         normals = self._normals(normals, nodes.size)
         if weights is not None:
@@ -246,18 +246,18 @@ class Mesh(Object):
         return Interface(self, index.value)
 
     def add_host_body(self, body, nodes):
-        """A body without cells, whose stiffness Problem.set_stiffness takes. nodes: of no body yet, indices or a
-        mask."""
+        """A body without cells, whose stiffness is given by Problem.set_stiffness. nodes: indices or a mask, of nodes that
+        belong to no body yet."""
         nodes = indices("nodes", nodes, size=self.node_count)
         self._call(library.delam_mesh_add_host_body, integer("body", body, 32), nodes.size, pointer(nodes), 0,
                    long=True)
 
     def add_pairs(self, body_a, body_b, nodes_a, nodes_b, normals, weights, faces=None):
-        """An interface of pairs that the host knows, in the order given; their nodes may lie apart.
+        """An interface of pairs given by the host, in the given order; the nodes of a pair may lie apart.
 
-        normals: from a to b, one each or one for all; weights: length (2D) or area (3D) that a pair stands for,
-        likewise; faces: [faces][nodes of a face] as indices of pairs. Fronts, the gradient term and the neighbours that
-        an energetic search advances to are known from faces alone."""
+        normals: from a to b, one per pair or one for all; weights: length (2D) or area (3D) of a pair, likewise; faces:
+        [faces][nodes of a face] as indices of pairs. Fronts, the gradient term and the neighbours to which an energetic
+        search advances require faces."""
         nodes_a = indices("nodes_a", nodes_a)
         nodes_b = indices("nodes_b", nodes_b, (nodes_a.size,))
         normals = self._normals(normals, nodes_a.size)
@@ -270,7 +270,7 @@ class Mesh(Object):
         return Interface(self, index.value)
 
     def _normals(self, normals, count):
-        """One each, or one for all."""
+        """One per pair, or one for all."""
         if ndim(normals) == 1 or isinstance(normals, str):
             normals = np.tile(axis("normals", normals, self.dimension), (count, 1))
         return floats("normals", normals, (count, self.dimension))
@@ -279,7 +279,7 @@ class Mesh(Object):
     def interfaces(self):
         return [Interface(self, i) for i in range(self.interface_count)]
 
-    # ---- what is there
+    # ---- queries
 
     def _size(self):
         dimension = ctypes.c_int32()
@@ -317,14 +317,14 @@ class Mesh(Object):
 
     @property
     def node_bodies(self):
-        """Body of each node, -1 for one of none."""
+        """Body of each node, -1 for nodes of no body."""
         out = np.empty(self.node_count, np.int32)
         self._call(library.delam_mesh_node_bodies, out.size, pointer(out))
         return out
 
     @property
     def node_origins(self):
-        """The node that each was doubled from (add_conforming_cells), itself otherwise."""
+        """The original of each doubled node (add_conforming_cells); otherwise the node itself."""
         out = np.empty(self.node_count, np.int64)
         self._call(library.delam_mesh_node_origins, out.size, pointer(out))
         return out
@@ -350,7 +350,7 @@ class Mesh(Object):
         return cells
 
     def find_nodes(self, lower, upper=None, body=None):
-        """Nodes of a body (None: of all) inside the closed box lower..upper, ascending; without upper, at a place."""
+        """Nodes of a body (None: of all) inside the closed box lower..upper, ascending; without upper, at a point."""
         dimension = self.dimension
         lower = floats("lower", lower, (dimension,))
         upper = lower if upper is None else floats("upper", upper, (dimension,))
@@ -362,7 +362,7 @@ class Mesh(Object):
         return nodes
 
     def find_node(self, place, body=None):
-        """The one node of a body at a place."""
+        """The one node of a body at a point."""
         place = floats("place", place, (self.dimension,))
         nodes = self.find_nodes(place, body=body)
         if nodes.size != 1:

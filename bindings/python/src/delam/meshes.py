@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Meshes through meshio: Gmsh, Abaqus, VTK, MED and what else it reads and writes. Its node orders are VTK's, and so
-are ours."""
+"""Meshes through meshio: Gmsh, Abaqus, VTK, MED and its other formats. Its node orders are VTK's, and so are
+those of this package."""
 import os
 
 import numpy as np
@@ -26,13 +26,13 @@ def _meshio():
 
 def read(source, bodies=None, interfaces=True):
     """The cells of highest dimension of a meshio.Mesh or of a file; those of lower dimension (edges, faces of solids)
-    are left out. Cells in the plane make a mesh in 2D: their z must be one and the same.
+    are left out. Plane cells make a mesh in 2D; all must have the same z.
 
-    bodies      name of the cell data with a label for each cell; None: the first of `LABELS` that is there, else one
+    bodies      name of the cell data with a label for each cell; None: the first of `LABELS` that exists, else one
                 body
     interfaces  pair the faces that bodies share (they may share nodes, these are doubled)
 
-    Nodes keep their indices. body_names of the mesh has {label: name} where the file names its groups."""
+    Nodes keep their indices. body_names of the mesh has {label: name} if the file names its groups."""
     if isinstance(source, (str, os.PathLike)):
         source = _meshio().read(source)
     kinds = [NAMES.get(block.type) for block in source.cells]
@@ -74,7 +74,7 @@ def read(source, bodies=None, interfaces=True):
 
 
 def _fills(kind, solid):
-    """Does a cell that is not known take part in a body, which is then incomplete?"""
+    """Whether an unknown cell type belongs to a body, which is then incomplete."""
     volumes = ("tetra", "hexahedron", "wedge", "pyramid")
     surfaces = ("triangle", "quad")
     return kind.startswith(volumes if solid else volumes + surfaces)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Options by key, as a mapping that knows what there is."""
+"""Options by key, as a mapping that describes its entries."""
 import collections.abc
 import ctypes
 import difflib
@@ -11,7 +11,7 @@ from .law import described
 
 
 def options():
-    """What the library knows: {key: Parameter}."""
+    """All options of the library: {key: Parameter}."""
     items = (described(library.delam_option_info, i) for i in range(library.delam_option_count()))
     return {item.key: item for item in items}
 
@@ -23,7 +23,7 @@ def known():
 
 @functools.cache
 def aliases():
-    """Second keys that the library takes: {alias: key}."""
+    """Alternative keys: {alias: key}."""
     found = {}
     for index, key in enumerate(known()):
         alias = ctypes.c_char_p()
@@ -34,7 +34,7 @@ def aliases():
 
 
 def key_of(key):
-    """The key that a key or alias stands for."""
+    """The key for a key or an alias."""
     key = aliases().get(key, key)
     if key not in known():
         raise unknown(key, [*known(), *aliases()], "option")
@@ -56,8 +56,8 @@ def _value(parameter, words):
 
 
 class Options(collections.abc.MutableMapping):
-    """problem.options["solution"] = "energetic"; del gives an option its initial value back. Iterates over all options
-    there are; describe() says what they mean. An alias works as the key does."""
+    """problem.options["solution"] = "energetic"; del resets an option to its initial value. Iterates over all options;
+    describe() explains them. An alias works like its key."""
 
     def __init__(self, problem, values):
         self._call = problem._call

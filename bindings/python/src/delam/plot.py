@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures with matplotlib: histories, what lies on an interface, and bodies as they are deformed. Each function draws
-into `ax`, or into new axes, and returns them."""
+"""Plots with matplotlib: histories, fields on an interface, and deformed bodies. Each function draws into `ax`, or into
+new axes, and returns them."""
 import numpy as np
 
 from .mesh import CELLS
@@ -31,7 +31,7 @@ def _adhesion_colours():
 
 
 def history(history, y, x="time", ax=None, **style):
-    """Values over one another: y is a name or several. `history`: a History, or any mapping of arrays."""
+    """Plots values against each other: y is one name or several. `history`: a History, or any mapping of arrays."""
     ax = _axes(ax)
     names = [y] if isinstance(y, str) else list(y)
     for name in names:
@@ -57,7 +57,7 @@ def interface(solver, field="adhesion", interface=0, component=0, ax=None, **sty
     ax = _axes(ax)
     for line in _chains(faces[:, :2], len(values)):
         along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(places[line], axis=0), axis=1))])
-        # Straight along x: the coordinate itself is what one looks for.
+        # Straight along x: use the coordinate itself.
         if np.ptp(places[line, 1]) <= 1e-9 * np.ptp(places[line, 0]):
             along = places[line, 0]
         ax.plot(along, values[line], **style)
@@ -105,7 +105,7 @@ def _faces(view, values, field, ax, style):
 
 
 def bodies(solver, scale=1.0, ax=None):
-    """Plane bodies as they are deformed, displacements times `scale`, and the adhesion of interfaces in colour."""
+    """Deformed plane bodies, displacements times `scale`, with the adhesion of interfaces in colour."""
     from matplotlib.collections import LineCollection, PolyCollection
     mesh = solver.problem.mesh
     if solver.problem.dimension != 2:

@@ -35,8 +35,8 @@ class Sparse(NamedTuple):
 
 
 def _rows_of(matrix):
-    """row_starts, columns and values of a Sparse or of what has SciPy's names for them. Compressed columns are as good,
-    the stiffness is symmetric."""
+    """row_starts, columns and values of a Sparse or of a class with SciPy's attribute names. Compressed columns work too,
+    because the stiffness is symmetric."""
     if isinstance(matrix, Sparse):
         return matrix.row_starts, matrix.columns, matrix.values
     if getattr(matrix, "format", "csr") not in ("csr", "csc") and hasattr(matrix, "tocsr"):
@@ -49,14 +49,14 @@ def _rows_of(matrix):
 
 
 class Pattern:
-    """A load pattern of a problem; stands for its index wherever one is asked for."""
+    """A load pattern of a problem; may be used wherever an index is expected."""
 
     def __init__(self, name, index, problem):
         self.name = name
         self.index = index
         self.problem = None if problem is None else weakref.ref(problem)
 
-    def __reduce__(self):  # elsewhere it stands for its index alone
+    def __reduce__(self):  # pickled as its index
         return Pattern, (self.name, self.index, None)
 
     def __index__(self):
@@ -78,14 +78,14 @@ def pattern_index(which, problem, names):
 
 
 class Problem(Object):
-    """Takes the mesh as it is now.
+    """Takes a copy of the mesh.
 
-    Bodies are chosen by label, None means all. `drive` says what load patterns prescribe: a pattern (itself, its name
-    or index), a mapping {pattern: coefficient, or one each}, or None for zero. Directions are vectors or axes ("x",
+    Bodies are chosen by label, None means all. `drive` is the prescribed value: a pattern (itself, its name or
+    index), a mapping {pattern: coefficient, or one per node}, or None for zero. Directions are vectors or axes ("x",
     "-y").
 
     progress: a function (stage, done, total) called inside long work, on the calling thread; a true result cancels,
-    except what only reads, as fields."""
+    except in calls that only read, such as fields."""
 
     def __init__(self, mesh, plane=None, progress=None):
         if not isinstance(mesh, Mesh):
@@ -107,7 +107,7 @@ class Problem(Object):
 
     @property
     def options(self):
-        """Options by key, a mapping; solvers take them as they are then."""
+        """Options by key, a mapping; a solver copies them when it is made."""
         return Options(self, self._values)
 
     @property
@@ -160,11 +160,11 @@ class Problem(Object):
         self._call(library.delam_problem_set_formulation, body_label(body), text("formulation", formulation))
 
     def set_stiffness(self, nodes, matrix, dofs=None, kernel=None):
-        """The stiffness of whole bodies as the host has assembled it, in the place of cells and material.
+        """The stiffness of whole bodies as assembled by the host, in place of cells and material.
 
         nodes   all nodes of one or several bodies, indices or a mask
-        matrix  a Sparse (body_matrix gives one) or a matrix of scipy.sparse, both triangles; entries that come twice
-                add up
+        matrix  a Sparse (body_matrix gives one) or a matrix of scipy.sparse, both triangles; duplicate entries
+                are summed
         dofs    [nodes][dimension] row of each displacement; None: dimension * i + component of nodes[i]
         kernel  [motions][rows] without energy; None: the library finds them, []: there are none"""
         nodes = indices("nodes", nodes, size=self._node_count)
@@ -188,11 +188,11 @@ class Problem(Object):
     # ---- interfaces
 
     def set_law(self, interface, law):
-        """The law's parameters are taken as they are now. The adhesion is as it was: 1, or what set_adhesion has set."""
+        """Copies the law's present parameters. The adhesion does not change: 1, or the value of set_adhesion."""
         if not isinstance(law, Law):
             raise ArgumentError(f"law = {law!r}, expected a Law")
         hosted = self.context.hosted
-        # Before the call, which may be interrupted when it is done.
+        # Before the call, which may be interrupted after it has finished.
         if law._callbacks:
             self._keep.append(law._callbacks)
             self.context.hosted = True
@@ -204,11 +204,11 @@ class Problem(Object):
             raise
 
     def set_bonded(self, interface):
-        """Glued perfectly and for ever."""
+        """Perfectly and permanently bonded."""
         self._call(library.delam_problem_set_bonded, interface_index(interface, self.mesh))
 
     def set_contact(self, interface):
-        """Faces that may part but not overlap, without adhesion."""
+        """Faces without adhesion that may separate but not overlap."""
         self._call(library.delam_problem_set_contact, interface_index(interface, self.mesh))
 
     def set_adhesion(self, interface, pairs, adhesion=0.0):
@@ -258,7 +258,7 @@ class Problem(Object):
         return patterns, coefficients
 
     def prescribe(self, nodes, direction, drive=None):
-        """direction . u of each node; held at zero without drive."""
+        """Prescribes direction . u of each node; fixed at zero without drive."""
         nodes = indices("nodes", nodes, size=self._node_count)
         along = axis("direction", direction, self.dimension)
         patterns, coefficients = self._driven(drive, nodes.size)
@@ -266,8 +266,8 @@ class Problem(Object):
                    pointer(patterns), pointer(coefficients), 0, long=True)
 
     def prescribe_mean(self, nodes, weights, direction, drive=None):
-        """The weighted mean of direction . u over nodes; with the weights of Mesh.find_patch a support spread over a
-        patch."""
+        """Prescribes the weighted mean of direction . u over nodes; with the weights of Mesh.find_patch, a support spread
+        over a patch."""
         nodes = indices("nodes", nodes)
         weights = floats("weights", weights, (nodes.size,))
         along = axis("direction", direction, self.dimension)
@@ -305,7 +305,7 @@ class Problem(Object):
         strain = floats("strain", strain, (6,))
         self._call(library.delam_problem_add_eigenstrain, self.pattern(pattern), body_label(body), pointer(strain))
 
-    # ---- questions
+    # ---- queries
 
     def check(self):
         """ProblemError names what is missing or contradictory."""
@@ -326,7 +326,7 @@ class Problem(Object):
         return primal.value, dual.value
 
     def process_zone(self, interface):
-        """Expected length of the process zone, 0 where there is none, and the mean distance of pairs."""
+        """Expected length of the process zone, 0 if there is none, and the mean distance of pairs."""
         length, spacing = ctypes.c_double(), ctypes.c_double()
         self._call(library.delam_problem_process_zone, interface_index(interface, self.mesh), length, spacing, long=True)
         return length.value, spacing.value

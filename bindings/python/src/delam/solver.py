@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Load steps: the march of the interfaces' adhesion, and what can be read of its states."""
+"""Load steps, and the results of their states."""
 import collections.abc
 import contextlib
 import ctypes
@@ -19,7 +19,7 @@ from .mesh import body_label, interface_index
 from .options import unknown
 from .problem import Problem, Sparse, pattern_index
 
-# What these say takes a recovery of all displacements; a history has them only when they are asked for.
+# These values require the recovery of all displacements; a history has them only on request.
 COSTLY = frozenset(("rotation_max", "kkt_gap", "kkt_pressure", "kkt_complementarity", "kkt_equilibrium"))
 
 
@@ -34,7 +34,7 @@ class Average(NamedTuple):
 class Condensed(NamedTuple):
     """All bodies condensed onto the interfaces, and the loads with them: at the factors theta the energy of bodies and
     dead forces is 1/2 x.S x - theta.L x + 1/2 theta.A theta, and the local jumps of all pairs, component by component,
-    are N x + O theta. What the interfaces store comes on top."""
+    are N x + O theta. The energy stored in the interfaces is not included."""
 
     stiffness: np.ndarray  # S [unknowns][unknowns], symmetric
     load: np.ndarray  # L [patterns][unknowns]
@@ -49,14 +49,14 @@ class Fronts(NamedTuple):
     starts: np.ndarray  # [fronts + 1]
     closed: np.ndarray  # [fronts] of bool: a loop
     places: np.ndarray  # [points][dimension]
-    directions: np.ndarray  # [points][dimension], along the interface into what adheres
-    lengths: np.ndarray  # [points], 2D: of the crack, 3D: of front that a point stands for
+    directions: np.ndarray  # [points][dimension], along the interface, into the adhering part
+    lengths: np.ndarray  # [points], 2D: length of the crack, 3D: length of front that belongs to a point
     rates: np.ndarray  # [points][3], energy release rates in modes I, II, III
     zone_lengths: np.ndarray  # [points], of the process zone
     zone_pairs: np.ndarray  # [points]
 
     def lines(self):
-        """Places of each front."""
+        """Positions of each front."""
         return [self.places[begin:end] for begin, end in zip(self.starts[:-1], self.starts[1:])]
 
 
@@ -76,7 +76,7 @@ class Jump(NamedTuple):
 
 
 class PlanItem(NamedTuple):
-    """What the scene needs or what was left out, and why."""
+    """A part of the method that the scene needs or that was left out, and why."""
 
     subject: str
     decision: str
@@ -98,7 +98,7 @@ def _encoded(path):
 
 
 class Values(collections.abc.Mapping):
-    """Scalars of the pending state, else of the committed one, by name; read when they are asked for."""
+    """Scalars of the pending state, or of the committed one if none is pending, by name; computed on access."""
 
     def __init__(self, solver, keys):
         self._solver = solver
@@ -126,14 +126,14 @@ class Values(collections.abc.Mapping):
 
 
 class Solver(Object):
-    """The state of a problem, which is taken as it is now, from time `time` on.
+    """The state of a problem from time `time` on. Takes a copy of the problem.
 
-        solver.advance(0.05)        # pending: can be read, then
+        solver.advance(0.05)        # pending: results can be read
         solver.commit()             # kept, or solver.rollback()
 
-    not_converged: what a step that met an iteration limit does: "warn" (NotConvergedWarning, the step is pending),
+    not_converged: the effect of a step that reaches an iteration limit: "warn" (NotConvergedWarning, the step is pending),
     "raise" (NotConverged, pending too) or "ignore". An interrupted call (Ctrl-C, or an exception from a callback)
-    leaves the state that was there before."""
+    restores the state before it."""
 
     def __init__(self, problem, time=0.0, not_converged="warn"):
         if not_converged not in ("warn", "raise", "ignore"):
@@ -145,7 +145,7 @@ class Solver(Object):
                              library.delam_solver_create, problem._handle, number("time", time),
                              keep=problem._keep, long=True, outcomes=(_raw.DELAM_NOT_CONVERGED,))
         self.problem = problem
-        self._patterns = problem.patterns  # of then: the solver goes on when the problem is closed
+        self._patterns = problem.patterns  # at creation: the solver stays usable when the problem is closed
         count = ctypes.c_int64()
         self._call(library.delam_solver_value_count, count)
         names = (self.context.text(library.delam_solver_value_name, self._pointer, i) for i in range(count.value))
@@ -157,7 +157,7 @@ class Solver(Object):
 
     @property
     def _pattern_count(self):
-        """Of the solver: its problem may have got more since."""
+        """Number at the solver's creation; its problem may have more by now."""
         return sum(name.startswith("load:") for name in self._keys)
 
     def _outcome(self, outcome, level):
@@ -182,13 +182,13 @@ class Solver(Object):
 
     @property
     def pending(self):
-        """A step is there to be committed or rolled back."""
+        """Whether a step is pending, to be committed or rolled back."""
         out = ctypes.c_int32()
         self._call(library.delam_solver_pending, out)
         return bool(out.value)
 
     def _whole(self, function, *arguments, long=True):
-        """Calls a function that changes the state: Ctrl-C comes after it."""
+        """Calls a function that changes the state; Ctrl-C is raised after it."""
         return self.context.call(function, self._handle, *arguments, whole=True, long=long,
                                  outcomes=(_raw.DELAM_NOT_CONVERGED,))
 
@@ -197,7 +197,7 @@ class Solver(Object):
         try:
             outcome = self._whole(function, *arguments)
         except BaseException:
-            # The step was done when the interruption was seen.
+            # The step had finished when the interruption was noticed.
             if self.pending and not already:
                 self.rollback()
             raise
@@ -208,8 +208,8 @@ class Solver(Object):
         self._step(library.delam_solver_advance, number("time", time))
 
     def equilibrate(self, time, adhesion=None):
-        """Displacements of least energy at `time` with the given adhesion held, of all pairs, interface after
-        interface; None: the committed one. Pending like a step."""
+        """Displacements of least energy at `time` with fixed adhesion of all pairs, given interface after interface; None:
+        the committed one. Pending like a step."""
         if adhesion is not None:
             adhesion = floats("adhesion", adhesion, (self._shape("adhesion", -1)[0],))
         self._step(library.delam_solver_equilibrate, number("time", time), pointer(adhesion))
@@ -218,23 +218,23 @@ class Solver(Object):
         self._whole(library.delam_solver_commit, long=False)
 
     def rollback(self):
-        """The state before the pending step, bit for bit."""
+        """Restores the state before the pending step, bit for bit."""
         self._whole(library.delam_solver_rollback, long=False)
 
     def set_history(self, pattern, times, values):
-        """Another history of a load pattern from the committed time on: straight from the factor there to values[0] at
-        times[0], on through the points, constant beyond the last. It is saved with the state."""
+        """Changes the history of a load pattern from the committed time on: linear from the factor there to values[0] at
+        times[0] and through the further points, constant after the last. It is saved with the state."""
         times = floats("times", listed(times), (None,))
         values = floats("values", listed(values), (times.size,))
-        self._call(library.delam_solver_set_history, pattern_index(pattern, self.problem, self._patterns), times.size, pointer(times),
-                   pointer(values))
+        self._call(library.delam_solver_set_history, pattern_index(pattern, self.problem, self._patterns), times.size,
+        pointer(times), pointer(values))
 
     def march(self, times, values=None, progress=False):
         """Advances and commits, time after time; yields a dict of values after each step.
 
-        values: names, None for all but the costly ones. progress: a bar (tqdm's where it is installed) on standard
+        values: names, None for all but the costly ones. progress: a bar (tqdm's if it is installed) on standard
         error. A step that raises is rolled back. With option backtracking a step may replace earlier ones: value
-        revised_from is the first of those, look() reads them; history() does that by itself."""
+        revised_from is the first of those, look() reads them; history() does so by itself."""
         names = self._names(values)
         for time in steps_of(times, progress):
             try:
@@ -247,15 +247,15 @@ class Solver(Object):
             yield {name: self.values[name] for name in names}
 
     def history(self, times, values=None, progress=False):
-        """Marches, and gives the History of all steps with the present state as its first row."""
+        """Runs the analysis and returns the History of all steps, with the present state as its first row."""
         history = History(self, values)
         for _ in self.march(times, (), progress):
             history.record()
         return history
 
     def record(self, *names):
-        """These values of the committed state and, with each commit from now on, of every further step, with what
-        returns replace; part of what save() saves. All but the costly ones and the counts of the solver's life."""
+        """Records these values for the committed state and, with each later commit, for every further step, including steps
+        that returns replace; save() saves them. Any values but the costly ones and the counts over the solver's life."""
         for name in names:
             if name not in self._keys:
                 raise unknown(name, self._keys, "value")
@@ -264,13 +264,13 @@ class Solver(Object):
 
     @property
     def recorded_steps(self):
-        """range of the steps that are recorded, up to the committed one."""
+        """range of the recorded steps, up to the committed one."""
         first, count = ctypes.c_int64(), ctypes.c_int64()
         self._call(library.delam_solver_recorded_size, first, count)
         return range(first.value, first.value + count.value)
 
     def recorded(self, name):
-        """A recorded value step by step, an array; NaN before it was asked for."""
+        """A recorded value for each step, an array; NaN for steps before record()."""
         out = np.empty(len(self.recorded_steps))
         self._call(library.delam_solver_recorded, text("name", name), out.size, pointer(out))
         return out
@@ -285,11 +285,11 @@ class Solver(Object):
 
     @property
     def time(self):
-        """Of the pending state, else of the committed one."""
+        """Time of the pending state, or of the committed one if none is pending."""
         return self.values["time"]
 
     def look(self, step):
-        """Values and fields then speak of an earlier step (option backtracking); -1: of the present one again."""
+        """Makes values and fields those of an earlier step (option backtracking); -1: of the present one again."""
         self._call(library.delam_solver_look, integer("step", step))
 
     @contextlib.contextmanager
@@ -304,7 +304,7 @@ class Solver(Object):
     # ---- the committed state, as bytes or as a file
 
     def save(self, path=None):
-        """The committed state: bytes, or a file of them at `path`, which is put in its place when it is complete and on
+        """Returns the committed state as bytes, or writes them to a file, which replaces `path` when it is complete and on
         disk."""
         if path is not None:
             self._call(library.delam_solver_save_file, _encoded(path))
@@ -316,8 +316,8 @@ class Solver(Object):
         return out.tobytes()
 
     def load(self, state):
-        """Goes on from a state of the same scene and options: saved bytes, or the path (str, os.PathLike) of a file of
-        them. A pending step is dropped."""
+        """Continues from a state of the same scene and options: saved bytes, or the path (str, os.PathLike) of a file with
+        them. Discards a pending step."""
         if isinstance(state, (str, os.PathLike)):
             self._whole(library.delam_solver_load_file, _encoded(state))
             return
@@ -335,8 +335,8 @@ class Solver(Object):
         return rows.value, columns.value
 
     def field(self, name, interface=None):
-        """A field of the pending state, else of the committed one: [rows][columns], or [rows] where there is one
-        column.
+        """A field of the pending state, or of the committed one if none is pending: [rows][columns], or [rows] if there is
+        one column.
 
         Over nodes: displacement. Cells: stress, rotation. Pairs of an interface, None for all one after another: jump,
         traction, adhesion, mixity, contact. Constraints: reaction."""
@@ -364,7 +364,7 @@ class Solver(Object):
         return out._replace(closed=out.closed.astype(bool))
 
     def tangent(self):
-        """[patterns][patterns]: change of reactions with factors at the adhesion and contact held; symmetric."""
+        """[patterns][patterns]: change of reactions with factors at fixed adhesion and contact; symmetric."""
         out = np.empty((self._pattern_count,) * 2)
         self._call(library.delam_solver_tangent, out.size, pointer(out), long=True)
         return out
@@ -376,8 +376,8 @@ class Solver(Object):
         return out
 
     def condensed(self):
-        """The operator that the steps work with, for hosts that condense: a Condensed. StateError: the solver works by
-        FETI, which has none."""
+        """The operator of the steps, for hosts that condense: a Condensed. StateError: the solver uses FETI, which has
+        none."""
         unknowns, entries = ctypes.c_int64(), ctypes.c_int64()
         self._call(library.delam_solver_condensed_size, unknowns, entries)
         pairs, dimension = self._shape("jump", -1)
@@ -390,11 +390,11 @@ class Solver(Object):
                    *(pointer(array) for array in jump[1:]), pointer(out.offset), long=True)
         return out
 
-    # ---- what was done
+    # ---- reports
 
     @property
     def plan(self):
-        """What the scene needs and what was left out, in words."""
+        """The parts of the method that the scene needs and those left out, as text."""
         return self.context.text(library.delam_solver_plan, self._handle)
 
     @property
@@ -411,7 +411,7 @@ class Solver(Object):
         return items
 
     def option(self, key):
-        """Value of an option as text, as the solver took it."""
+        """Value of an option as text, as copied by the solver."""
         value = self.context.text(library.delam_solver_option, self._handle, text("key", key))
         if value is None:
             raise unknown(key, tuple(self.problem.options), "option")
@@ -419,12 +419,12 @@ class Solver(Object):
 
     @property
     def searched(self):
-        """What the energetic search of the last step looked at."""
+        """What the energetic search of the last step compared."""
         return self.context.text(library.delam_solver_searched, self._handle)
 
     @property
     def jumps(self):
-        """Jumps that were located (option jump_tolerance), in the order of time."""
+        """Located jumps (option jump_tolerance), in the order of time."""
         count = ctypes.c_int64()
         self._call(library.delam_solver_jump_count, count)
         jumps = []
