@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace delam {
 
@@ -155,11 +156,6 @@ void contract(const Products<nodes, dim>& product, const double* elasticity, dou
     each_pair<nodes, dim>(product, block, k);
 }
 
-// Functions of the projected dilatation: constants for cells whose displacements are linear along their sides and for
-// quadratic simplices, linear functions of x for the other quadratic cells.
-template <std::size_t nodes, std::size_t dim>
-constexpr std::size_t function_count = dim == 2 ? (nodes >= 8 ? 3 : 1) : (nodes == 20 ? 4 : 1);
-
 // H_m,ai = int p_m dN_a/dx_i dx and the Cholesky factor of M_mn = int p_m p_n dx, in V = L^-1 H:  int (P dN_a/dx_i)(P
 // dN_b/dx_j) = V^T V. p = 1, (x - x_0)/s with the centre x_0 and the size s of the cell.
 template <std::size_t nodes, std::size_t dim, std::size_t functions>
@@ -231,10 +227,10 @@ struct Projection {
 // div u - div u) I. With the products T of the gradients, R = T - V^T V of what the projection leaves out of them, c =
 // C I and its trace,
 //   K_ai,bm = D : T  - 1/3 (c_ij R_aj,bm + R_ai,bl c_lm) + 1/9 (I:C:I) R_ai,bm.
-template <std::size_t nodes, std::size_t dim>
+template <std::size_t nodes, std::size_t dim, std::size_t functions>
 void mean_dilatation(CellType type, const double* x, const double* elasticity, const Dilatation& dilatation,
                      double* k) {
-    constexpr std::size_t size = nodes * dim, functions = function_count<nodes, dim>;
+    constexpr std::size_t size = nodes * dim;
     Products<nodes, dim> product{};
     gradient_products<nodes, dim, 0>(type, x, product);
     contract<nodes, dim>(product, elasticity, k);
@@ -260,11 +256,6 @@ void mean_dilatation(CellType type, const double* x, const double* elasticity, c
                     k[(b * dim + m) * size + a * dim + i] = entry;
                 }
         }
-}
-
-template <std::size_t nodes, std::size_t dim>
-double projected_dilatation(CellType type, const double* x, const double* u) {
-    return Projection<nodes, dim, function_count<nodes, dim>>(type, x).at_centre(u);
 }
 
 template <std::size_t nodes, std::size_t dim>
@@ -328,6 +319,32 @@ void incompatible(CellType type, const double* x, const double* elasticity, doub
     condense<(nodes + dim) * dim, dim * dim>(full, k);
 }
 
+// What the kernels above need of a row of cell_rows, known at compile time.
+template <std::size_t place>
+struct Sizes {
+    static constexpr const CellRow& row = cell_rows[place];
+    static constexpr std::size_t nodes = static_cast<std::size_t>(row.topology.nodes);
+    static constexpr std::size_t dim = static_cast<std::size_t>(row.topology.dimension);
+    static constexpr bool modes = !row.simplex() && row.linear();  // incompatible modes
+    // The dilatation is constant already.
+    static constexpr bool one_strain = row.simplex() && row.linear();
+    // The projected dilatation is a constant in linear cells and quadratic simplices, a linear function of x in the
+    // other quadratic cells.
+    static constexpr std::size_t functions = row.simplex() || row.linear() ? 1 : dim + 1;
+};
+
+template <class Visit, std::size_t... places>
+void visit_row(CellType type, Visit& visit, std::index_sequence<places...>) {
+    const CellRow* row = &cell_row(type);
+    ((row == &cell_rows[places] ? visit(Sizes<places>{}) : void()), ...);
+}
+
+// visit(Sizes) of the row of a type: each kernel is compiled for every row.
+template <class Visit>
+void with_sizes(CellType type, Visit&& visit) {
+    visit_row(type, visit, std::make_index_sequence<cell_rows.size()>{});
+}
+
 }  // namespace
 
 void element_stiffness(CellType type, std::span<const double> coordinates, std::span<const double> elasticity,
@@ -335,27 +352,12 @@ void element_stiffness(CellType type, std::span<const double> coordinates, std::
     const double* x = coordinates.data();
     const double* d = elasticity.data();
     double* k = matrix.data();
-    const bool modes = formulation == Formulation::incompatible;
-    switch (type) {
-        case CellType::tri3:
-            return standard<3, 2>(type, x, d, k);
-        case CellType::quad4:
-            return modes ? incompatible<4, 2>(type, x, d, k) : standard<4, 2>(type, x, d, k);
-        case CellType::tet4:
-            return standard<4, 3>(type, x, d, k);
-        case CellType::hex8:
-            return modes ? incompatible<8, 3>(type, x, d, k) : standard<8, 3>(type, x, d, k);
-        case CellType::tri6:
-            return standard<6, 2>(type, x, d, k);
-        case CellType::quad8:
-            return standard<8, 2>(type, x, d, k);
-        case CellType::quad9:
-            return standard<9, 2>(type, x, d, k);
-        case CellType::tet10:
-            return standard<10, 3>(type, x, d, k);
-        case CellType::hex20:
-            return standard<20, 3>(type, x, d, k);
-    }
+    with_sizes(type, [&](auto sizes) {
+        using Cell = decltype(sizes);
+        if constexpr (Cell::modes)
+            if (formulation == Formulation::incompatible) return incompatible<Cell::nodes, Cell::dim>(type, x, d, k);
+        standard<Cell::nodes, Cell::dim>(type, x, d, k);
+    });
 }
 
 void mean_dilatation_stiffness(CellType type, std::span<const double> coordinates, std::span<const double> elasticity,
@@ -363,81 +365,33 @@ void mean_dilatation_stiffness(CellType type, std::span<const double> coordinate
     const double* x = coordinates.data();
     const double* d = elasticity.data();
     double* k = matrix.data();
-    switch (type) {
-        case CellType::tri3:
-        case CellType::tet4:
-            return element_stiffness(type, coordinates, elasticity, Formulation::standard, matrix);
-        case CellType::quad4:
-            return mean_dilatation<4, 2>(type, x, d, dilatation, k);
-        case CellType::hex8:
-            return mean_dilatation<8, 3>(type, x, d, dilatation, k);
-        case CellType::tri6:
-            return mean_dilatation<6, 2>(type, x, d, dilatation, k);
-        case CellType::quad8:
-            return mean_dilatation<8, 2>(type, x, d, dilatation, k);
-        case CellType::quad9:
-            return mean_dilatation<9, 2>(type, x, d, dilatation, k);
-        case CellType::tet10:
-            return mean_dilatation<10, 3>(type, x, d, dilatation, k);
-        case CellType::hex20:
-            return mean_dilatation<20, 3>(type, x, d, dilatation, k);
-    }
+    with_sizes(type, [&](auto sizes) {
+        using Cell = decltype(sizes);
+        if constexpr (Cell::one_strain)
+            standard<Cell::nodes, Cell::dim>(type, x, d, k);
+        else
+            mean_dilatation<Cell::nodes, Cell::dim, Cell::functions>(type, x, d, dilatation, k);
+    });
 }
 
 double dilatation_correction(CellType type, std::span<const double> coordinates, std::span<const double> displacement) {
-    const double* x = coordinates.data();
-    const double* u = displacement.data();
-    const auto projected = [&]() -> double {
-        switch (type) {
-            case CellType::tri3:
-                return projected_dilatation<3, 2>(type, x, u);
-            case CellType::tet4:
-                return projected_dilatation<4, 3>(type, x, u);
-            case CellType::quad4:
-                return projected_dilatation<4, 2>(type, x, u);
-            case CellType::hex8:
-                return projected_dilatation<8, 3>(type, x, u);
-            case CellType::tri6:
-                return projected_dilatation<6, 2>(type, x, u);
-            case CellType::quad8:
-                return projected_dilatation<8, 2>(type, x, u);
-            case CellType::quad9:
-                return projected_dilatation<9, 2>(type, x, u);
-            case CellType::tet10:
-                return projected_dilatation<10, 3>(type, x, u);
-            case CellType::hex20:
-                return projected_dilatation<20, 3>(type, x, u);
-        }
-        return 0.0;
-    };
+    double projected = 0.0;
+    with_sizes(type, [&](auto sizes) {
+        using Cell = decltype(sizes);
+        const Projection<Cell::nodes, Cell::dim, Cell::functions> projection(type, coordinates.data());
+        projected = projection.at_centre(displacement.data());
+    });
     const std::vector<double> strain = centre_strain(type, coordinates, displacement);
-    return projected() - strain[0] - strain[1] - (strain.size() == 6 ? strain[2] : 0.0);
+    return projected - strain[0] - strain[1] - (strain.size() == 6 ? strain[2] : 0.0);
 }
 
 double integrate_gradients(CellType type, std::span<const double> coordinates, std::span<double> integral) {
-    const double* x = coordinates.data();
-    double* g = integral.data();
-    switch (type) {
-        case CellType::tri3:
-            return gradient_integrals<3, 2>(type, x, g);
-        case CellType::quad4:
-            return gradient_integrals<4, 2>(type, x, g);
-        case CellType::tet4:
-            return gradient_integrals<4, 3>(type, x, g);
-        case CellType::hex8:
-            return gradient_integrals<8, 3>(type, x, g);
-        case CellType::tri6:
-            return gradient_integrals<6, 2>(type, x, g);
-        case CellType::quad8:
-            return gradient_integrals<8, 2>(type, x, g);
-        case CellType::quad9:
-            return gradient_integrals<9, 2>(type, x, g);
-        case CellType::tet10:
-            return gradient_integrals<10, 3>(type, x, g);
-        case CellType::hex20:
-            return gradient_integrals<20, 3>(type, x, g);
-    }
-    return 0.0;
+    double volume = 0.0;
+    with_sizes(type, [&](auto sizes) {
+        using Cell = decltype(sizes);
+        volume = gradient_integrals<Cell::nodes, Cell::dim>(type, coordinates.data(), integral.data());
+    });
+    return volume;
 }
 
 // eps_ij = (u_i,j + u_j,i)/2, the shear components doubled.

@@ -19,15 +19,15 @@ const char* name_of(Formulation formulation) {
 
 void require_formulation(const Mesh& mesh, std::int32_t body, Formulation formulation, std::int32_t status) {
     if (formulation == Formulation::standard) return;
+    const auto has_modes = [](const CellRow& row) { return !row.simplex() && row.linear(); };
+    const auto has_one_strain = [](const CellRow& row) { return row.simplex() && row.linear(); };
     const bool modes = formulation == Formulation::incompatible;
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
         if (mesh.cell_body(c) != body) continue;
-        const CellType type = mesh.cell_type(c);
-        const bool has_modes = type == CellType::quad4 || type == CellType::hex8;
-        const bool has_one_strain = type == CellType::tri3 || type == CellType::tet4;
-        if (modes ? has_modes : !has_one_strain) continue;
+        const CellRow& row = cell_row(mesh.cell_type(c));
+        if (modes ? has_modes(row) : !has_one_strain(row)) continue;
         fail(status, "formulation '", name_of(formulation), "' of body ", mesh.body_label(body), ": cell ", c, " is a ",
-             topology(type).name,
+             row.topology.name,
              modes
                  ? ", it is for quad4 and hex8 only"
                  : ", whose dilatation is constant already: it locks all the same; use quadratic cells, quad4 or hex8");

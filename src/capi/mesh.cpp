@@ -20,15 +20,13 @@ std::span<const T> view(const T* data, std::int64_t count) {
 }
 
 CellType require_cell_type(std::int32_t type, std::int32_t dimension) {
-    if (type < DELAM_TRI3 || type > DELAM_HEX20) {
-        fail(DELAM_ERROR_ARGUMENT, "cell_type = ", type, " is outside ", DELAM_TRI3, " .. ", DELAM_HEX20);
-    }
-    const auto cell = static_cast<CellType>(type);
-    if (topology(cell).dimension != dimension) {
-        fail(DELAM_ERROR_ARGUMENT, "cell_type = ", type, " is a cell of dimension ", topology(cell).dimension,
+    const CellRow* row = find_cell_row(type);
+    if (row == nullptr) fail(DELAM_ERROR_ARGUMENT, "cell_type = ", type, " is outside 1 .. ", cell_rows.size());
+    if (row->topology.dimension != dimension) {
+        fail(DELAM_ERROR_ARGUMENT, "cell_type = ", type, " is a cell of dimension ", row->topology.dimension,
              ", the mesh has dimension ", dimension);
     }
-    return cell;
+    return row->type;
 }
 
 void require_dimension(std::int32_t dimension) {

@@ -24,11 +24,7 @@ class Chart {
 public:
     Chart(const Mesh& mesh, const BoundaryFace& face) : face_(face), edge_(mesh.dimension() == 2) {
         for (const std::int64_t node : face.all()) node_.push_back(position(mesh, node));
-        if (edge_) return;
-        type_ = face.nodes == 3   ? CellType::tri3
-                : face.nodes == 4 ? CellType::quad4
-                : face.nodes == 6 ? CellType::tri6
-                                  : CellType::quad8;
+        if (!edge_) type_ = face_row(mesh.dimension(), node_.size()).surface;
     }
 
     bool edge() const { return edge_; }

@@ -61,22 +61,6 @@ std::array<std::int64_t, most_face_nodes> face_nodes(const Mesh& mesh, std::int6
     return nodes;
 }
 
-std::span<const FacePiece> face_pieces(int dimension, std::size_t face_nodes) {
-    static constexpr FacePiece edge2[] = {{2, {0, 1}}};
-    static constexpr FacePiece edge3[] = {{2, {0, 2}}, {2, {2, 1}}};
-    static constexpr FacePiece triangle3[] = {{3, {0, 1, 2}}};
-    static constexpr FacePiece triangle6[] = {{3, {0, 3, 5}}, {3, {3, 1, 4}}, {3, {5, 4, 2}}, {3, {3, 4, 5}}};
-    static constexpr FacePiece square4[] = {{4, {0, 1, 2, 3}}};
-    static constexpr FacePiece square8[] = {
-        {3, {0, 4, 7}}, {3, {4, 1, 5}}, {3, {5, 2, 6}}, {3, {6, 3, 7}}, {4, {4, 5, 6, 7}}};
-    if (dimension == 2) return face_nodes == 2 ? std::span<const FacePiece>(edge2) : edge3;
-    if (face_nodes == 3) return triangle3;
-    if (face_nodes == 4) return square4;
-    return face_nodes == 6 ? std::span<const FacePiece>(triangle6) : square8;
-}
-
-// In the plane, int n ds = the chord turned, whatever the edge does in between. In space, the half cross product of
-// the diagonals of a quadrilateral holds for a warped one too: it depends on the boundary alone.
 std::array<double, 3> area_vector(const Mesh& mesh, std::span<const std::int64_t> nodes) {
     if (mesh.dimension() == 2) {
         const auto p = mesh.node(nodes[0]);

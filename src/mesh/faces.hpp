@@ -28,14 +28,6 @@ FaceTable match_faces(const Mesh& mesh, std::span<const std::int64_t> cells);
 // Mesh nodes of a local face in the order of its topology; the first topology(type).face_nodes entries are used.
 std::array<std::int64_t, most_face_nodes> face_nodes(const Mesh& mesh, std::int64_t cell, int face);
 
-// A face of quadratic cells as linear pieces between its nodes: an edge as two chords; a triangle as four triangles; a
-// quadrilateral as a triangle at each corner and the quadrilateral of its mid-side nodes. A linear face is one piece.
-struct FacePiece {
-    int nodes;
-    std::array<int, 4> node;  // positions in the list of the face's nodes, outward in order; the first `nodes` are used
-};
-std::span<const FacePiece> face_pieces(int dimension, std::size_t face_nodes);
-
 // Outward area vector of a face: its length (2D) or area (3D) times the mean unit normal; of a curved one in 3D, that
 // of its linear pieces. Third component 0 in 2D.
 std::array<double, 3> area_vector(const Mesh& mesh, std::span<const std::int64_t> nodes);

@@ -85,12 +85,8 @@ std::int64_t Mesh::add_pairs(std::int32_t label_a, std::int32_t label_b, std::sp
 
     made.nodes_per_face = dimension_;
     if (!face.empty()) {
-        const bool known =
-            dimension_ == 2 ? nodes_per_face == 2 || nodes_per_face == 3
-                            : nodes_per_face == 3 || nodes_per_face == 4 || nodes_per_face == 6 || nodes_per_face == 8;
-        if (!known)
-            fail(DELAM_ERROR_ARGUMENT, "nodes_per_face = ", nodes_per_face, ": must be ",
-                 dimension_ == 2 ? "2 or 3" : "3, 4, 6 or 8");
+        if (find_face_row(dimension_, nodes_per_face) == nullptr)
+            fail(DELAM_ERROR_ARGUMENT, "nodes_per_face = ", nodes_per_face, ": must be ", face_sizes(dimension_));
         made.nodes_per_face = nodes_per_face;
         const auto per_face = static_cast<std::size_t>(nodes_per_face);
         for (std::size_t i = 0; i < face.size(); ++i) {

@@ -7,6 +7,7 @@
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
 #include "mesh/shape.hpp"
@@ -35,12 +36,65 @@ void make_room(std::vector<T>& v, std::size_t more) {
     if (v.capacity() - v.size() < more) v.reserve(std::max(v.size() + more, v.capacity() + v.capacity() / 2));
 }
 
+// Refuses a cell that is inverted or degenerate. The Jacobian of a sound cell is comparable with the
+// product of its extents; 1e-14 of the largest extent's power leaves room for very flat cells and is far above
+// rounding.
+void check_jacobian(CellType type, int dimension, std::span<const double> coordinates, std::size_t number,
+                    std::int32_t label) {
+    double extent = 0.0;
+    for (std::size_t k = 0; k < coordinates.size(); ++k)
+        extent = std::max(extent, std::abs(coordinates[k] - coordinates[k % index(dimension)]));
+    const double jacobian = smallest_jacobian(type, coordinates);
+    if (!(jacobian > 1e-14 * std::pow(extent, dimension)))
+        fail(DELAM_ERROR_MESH, "cell ", number, " (body ", label, "): smallest Jacobian ", jacobian,
+             jacobian > 0.0 ? " is nothing beside its size: degenerate" : " <= 0: inverted or degenerate");
+}
+
+void insert_label(std::vector<std::int32_t>& labels, std::int32_t label) {
+    if (!labels.empty() && labels.back() == label) return;
+    const auto place = std::lower_bound(labels.begin(), labels.end(), label);
+    if (place == labels.end() || *place != label) labels.insert(place, label);
+}
+
 }  // namespace
+
+std::vector<std::int32_t> Mesh::joined_labels() const {
+    std::vector<std::int32_t> joined;
+    for (const InterfaceGeometry& i : interfaces_)
+        for (const std::int32_t body : {i.body_a, i.body_b})
+            if (body >= 0) joined.push_back(body_label(body));
+    std::sort(joined.begin(), joined.end());
+    return joined;
+}
+
+void Mesh::check_label(std::int32_t label, std::span<const std::int32_t> joined, std::size_t number) const {
+    if (label < 0) fail(DELAM_ERROR_ARGUMENT, "cell ", number, ": body ", label, ": must be >= 0");
+    if (std::binary_search(host_labels_.begin(), host_labels_.end(), label))
+        fail(DELAM_ERROR_MESH, "cell ", number, ": body ", label, " was made without cells (delam_mesh_add_host_body)");
+    if (std::binary_search(joined.begin(), joined.end(), label))
+        fail(DELAM_ERROR_STATE, "cell ", number, ": body ", label,
+             " has an interface already; add all its cells before");
+}
+
+void Mesh::take_node(std::int64_t node, std::int32_t label, std::size_t number, std::vector<std::int64_t>& taken) {
+    if (node < 0 || node >= node_count())
+        fail(DELAM_ERROR_ARGUMENT, "cell ", number, " (body ", label, "): node ", node, ": must be in 0..",
+             node_count() - 1);
+    std::int32_t& owner = node_label_[index(node)];
+    if (owner == reserved)
+        fail(DELAM_ERROR_MESH, "cell ", number, " (body ", label, "): node ", node,
+             " is tied to an interface or the control node of an obstacle: it can have no cells");
+    if (owner >= 0 && owner != label)
+        fail(DELAM_ERROR_MESH, "node ", node, " belongs to bodies ", owner, " and ", label,
+             "; each body needs nodes of its own");
+    if (owner < 0) taken.push_back(node);
+    owner = label;
+}
 
 void Mesh::add_cells(CellType type, std::span<const std::int64_t> connectivity, std::span<const std::int32_t> labels) {
     const CellTopology& shape = topology(type);
-    const std::size_t per_cell = at(shape.nodes);
-    const std::size_t dim = at(dimension_);
+    const std::size_t per_cell = index(shape.nodes);
+    const std::size_t dim = index(dimension_);
     if (shape.dimension != dimension_)
         fail(DELAM_ERROR_ARGUMENT, shape.dimension, "D cells in a ", dimension_, "D mesh");
     if (connectivity.size() % per_cell != 0)
@@ -49,12 +103,7 @@ void Mesh::add_cells(CellType type, std::span<const std::int64_t> connectivity, 
     if (!labels.empty() && labels.size() != count)
         fail(DELAM_ERROR_ARGUMENT, labels.size(), " body labels for ", count, " cells");
 
-    std::vector<std::int32_t> joined;  // labels of bodies that an interface holds already, ascending
-    for (const InterfaceGeometry& i : interfaces_)
-        for (const std::int32_t body : {i.body_a, i.body_b})
-            if (body >= 0) joined.push_back(body_label(body));
-    std::sort(joined.begin(), joined.end());
-
+    const std::vector<std::int32_t> joined = joined_labels();
     std::vector<std::int64_t> taken;  // nodes that had no body before, given back on error
     std::vector<std::int32_t> new_labels = labels_;
     std::vector<double> coordinates(per_cell * dim);
@@ -62,44 +111,15 @@ void Mesh::add_cells(CellType type, std::span<const std::int64_t> connectivity, 
     const auto check_cell = [&](std::size_t c) {
         poll_cancel("mesh");
         const std::size_t number = cell_type_.size() + c;
-        const std::int32_t label = label_of(c);
-        if (label < 0) fail(DELAM_ERROR_ARGUMENT, "cell ", number, ": body ", label, ": must be >= 0");
-        if (std::binary_search(host_labels_.begin(), host_labels_.end(), label))
-            fail(DELAM_ERROR_MESH, "cell ", number, ": body ", label,
-                 " was made without cells (delam_mesh_add_host_body)");
-        if (std::binary_search(joined.begin(), joined.end(), label))
-            fail(DELAM_ERROR_STATE, "cell ", number, ": body ", label,
-                 " has an interface already; add all its cells before");
+        check_label(label_of(c), joined, number);
         for (std::size_t k = 0; k < per_cell; ++k) {
             const std::int64_t node = connectivity[c * per_cell + k];
-            if (node < 0 || node >= node_count())
-                fail(DELAM_ERROR_ARGUMENT, "cell ", number, " (body ", label, "): node ", node, ": must be in 0..",
-                     node_count() - 1);
-            std::int32_t& owner = node_label_[at(node)];
-            if (owner == reserved)
-                fail(DELAM_ERROR_MESH, "cell ", number, " (body ", label, "): node ", node,
-                     " is tied to an interface or the control node of an obstacle: it can have no cells");
-            if (owner >= 0 && owner != label)
-                fail(DELAM_ERROR_MESH, "node ", node, " belongs to bodies ", owner, " and ", label,
-                     "; each body needs nodes of its own");
-            if (owner < 0) taken.push_back(node);
-            owner = label;
+            take_node(node, label_of(c), number, taken);
             std::copy_n(nodes_.begin() + node * dimension_, dim,
                         coordinates.begin() + static_cast<std::ptrdiff_t>(k * dim));
         }
-        // The Jacobian of a sound cell is comparable with the product of its extents; beside their largest power, 1e-14
-        // leaves room for very flat cells and is still far above rounding.
-        double extent = 0.0;
-        for (std::size_t k = 0; k < per_cell * dim; ++k)
-            extent = std::max(extent, std::abs(coordinates[k] - coordinates[k % dim]));
-        const double jacobian = smallest_jacobian(type, coordinates);
-        if (!(jacobian > 1e-14 * std::pow(extent, dimension_)))
-            fail(DELAM_ERROR_MESH, "cell ", number, " (body ", label, "): smallest Jacobian ", jacobian,
-                 jacobian > 0.0 ? " is nothing beside its size: degenerate" : " <= 0: inverted or degenerate");
-        if (new_labels.empty() || new_labels.back() != label) {
-            const auto place = std::lower_bound(new_labels.begin(), new_labels.end(), label);
-            if (place == new_labels.end() || *place != label) new_labels.insert(place, label);
-        }
+        check_jacobian(type, dimension_, coordinates, number, label_of(c));
+        insert_label(new_labels, label_of(c));
     };
     try {
         for (std::size_t c = 0; c < count; ++c) check_cell(c);
@@ -108,7 +128,7 @@ void Mesh::add_cells(CellType type, std::span<const std::int64_t> connectivity, 
         make_room(cell_offset_, count);
         make_room(connectivity_, connectivity.size());
     } catch (...) {
-        for (const std::int64_t node : taken) node_label_[at(node)] = -1;
+        for (const std::int64_t node : taken) node_label_[index(node)] = -1;
         throw;
     }
 

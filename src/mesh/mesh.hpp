@@ -8,39 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/cell_type.hpp"
 #include "mesh/interface_geometry.hpp"
 
 namespace delam {
-
-// Values of DELAM_TRI3 ...
-enum class CellType : std::int32_t {
-    tri3 = 1,
-    quad4 = 2,
-    tet4 = 3,
-    hex8 = 4,
-    tri6 = 5,
-    quad8 = 6,
-    quad9 = 7,
-    tet10 = 8,
-    hex20 = 9
-};
-inline constexpr std::size_t most_cell_nodes = 20;
-inline constexpr std::size_t most_face_nodes = 8;
-
-// Nodes of a cell: its corners, then those midway between two corners. Its faces (edges in 2D) as lists of local
-// nodes: corners, outward when walked in order, then the mid-side nodes, the k-th between corners k and k+1.
-struct CellTopology {
-    const char* name;
-    int dimension;
-    int nodes;
-    int corners;
-    int faces;
-    int face_nodes;
-    int face_corners;
-    std::array<std::array<int, most_face_nodes>, 6> face;  // first face_nodes entries are used
-    std::array<std::array<int, 2>, 12> middle;             // node corners+k sits between corners middle[k]
-};
-const CellTopology& topology(CellType type);
 
 // A node without cells whose displacement is a combination of others': sum of weight u_node, weights summing to 1.
 struct NodeTie {
@@ -124,8 +95,16 @@ private:
     std::pair<std::int32_t, std::int32_t> require_unjoined(std::int32_t label_a, std::int32_t label_b) const;
     // Error(DELAM_ERROR_MESH) where a body has no faces.
     void require_cells(std::int32_t body) const;
+    // Labels of the bodies that have an interface, ascending.
+    std::vector<std::int32_t> joined_labels() const;
+    // For cell `number`: refuses a label that takes no more cells, and a node that the label cannot have; take_node
+    // lists in `taken` the nodes that had no body.
+    void check_label(std::int32_t label, std::span<const std::int32_t> joined, std::size_t number) const;
+    void take_node(std::int64_t node, std::int32_t label, std::size_t number, std::vector<std::int64_t>& taken);
     // Room for a label in labels_: indices of bodies above it move up by one.
     void rename_bodies(const std::vector<std::int32_t>& new_labels);
+    // Tied nodes with their places, and the interface that pairs them; unchanged when memory ends.
+    void append_tied(std::vector<NodeTie> ties, std::span<const double> places, InterfaceGeometry interface);
     std::int64_t node_for(std::int64_t node, std::int32_t label, std::vector<std::int64_t>& taken);
 
     int dimension_;

@@ -168,7 +168,7 @@ public:
     // space, so that on a flat face with straight, evenly divided sides the integrals of its shape functions, of degree
     // 3 at most, are exact; on a curved one they sum to the area of the triangles.
     void add_quadratic_face(std::span<const std::int64_t> nodes, std::span<double> weight) const {
-        const CellType type = nodes.size() == 6 ? CellType::tri6 : CellType::quad8;
+        const CellType type = face_row(3, nodes.size()).surface;
         const auto place = reference_nodes(type);
         const auto add = [&](const std::array<int, 3>& local, double factor) {
             const auto at_share = [&](const std::array<double, 3>& share) {

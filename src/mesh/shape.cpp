@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/error.hpp"
+
 namespace delam {
 
 namespace {
@@ -17,19 +19,14 @@ constexpr ReferencePoint triangle_centre = {1.0 / 3.0, 1.0 / 3.0, 0};
 constexpr ReferencePoint tetrahedron_centre = {0.25, 0.25, 0.25};
 constexpr ReferencePoint cube_centre = {0, 0, 0};
 
-constexpr int types = 9;
-constexpr CellType all_types[types] = {CellType::tri3,  CellType::quad4, CellType::tet4,
-                                       CellType::hex8,  CellType::tri6,  CellType::quad8,
-                                       CellType::quad9, CellType::tet10, CellType::hex20};
-std::size_t place(CellType type) { return static_cast<std::size_t>(type) - 1; }
-
-bool simplex(CellType type) {
-    return type == CellType::tri3 || type == CellType::tet4 || type == CellType::tri6 || type == CellType::tet10;
+const ReferencePoint* corners_of(const CellRow& row) {
+    if (row.simplex()) return simplex_corner;
+    return row.topology.dimension == 2 ? square_corner : cube_corner;
 }
 
-std::vector<ReferencePoint> node_list(CellType type) {
-    const CellTopology& shape = topology(type);
-    const ReferencePoint* corner = simplex(type) ? simplex_corner : shape.dimension == 2 ? square_corner : cube_corner;
+std::vector<ReferencePoint> node_list(const CellRow& row) {
+    const CellTopology& shape = row.topology;
+    const ReferencePoint* corner = corners_of(row);
     std::vector<ReferencePoint> nodes(corner, corner + shape.corners);
     for (std::size_t k = 0; nodes.size() < static_cast<std::size_t>(shape.nodes); ++k) {
         const ReferencePoint& p = corner[shape.middle[k][0]];
@@ -61,34 +58,29 @@ Quadrature gauss_product(int dimension, int order) {
 // 55, 1986, lists such rules), where the familiar four points would unbalance curved cells. On quad8, quad9 and hex20
 // the degree in one variable is up to 4 and 5: three points in each direction; two would also leave motions without
 // energy.
-Quadrature rule_of(CellType type) {
+Quadrature rule_of(const CellRow& row) {
+    const int dimension = row.topology.dimension;
     const double s = 1.0 / 6.0;
     const double t = 1.0 / 3.0;
-    switch (type) {
-        case CellType::tri3:
-            return {{triangle_centre}, {0.5}, {}};
-        case CellType::tet4:
+    switch (row.rule) {
+        case Rule::centroid:
+            if (dimension == 2) return {{triangle_centre}, {0.5}, {}};
             return {{tetrahedron_centre}, {s}, {}};
-        case CellType::tri6:
+        case Rule::triangle3:
             return {{{s, s, 0}, {4 * s, s, 0}, {s, 4 * s, 0}}, {s, s, s}, {}};
-        case CellType::tet10: {
+        case Rule::tetrahedron8: {
             const double vertex = s / 40.0;
             const double face = 9.0 * s / 40.0;
             return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {t, t, t}, {0, t, t}, {t, 0, t}, {t, t, 0}},
                     {vertex, vertex, vertex, vertex, face, face, face, face},
                     {}};
         }
-        case CellType::quad4:
-            return gauss_product(2, 2);
-        case CellType::quad8:
-        case CellType::quad9:
-            return gauss_product(2, 3);
-        case CellType::hex8:
-            return gauss_product(3, 2);
-        case CellType::hex20:
-            break;
+        case Rule::gauss2:
+            return gauss_product(dimension, 2);
+        case Rule::gauss3:
+            return gauss_product(dimension, 3);
     }
-    return gauss_product(3, 3);
+    fail(DELAM_ERROR_INTERNAL, "cell type ", row.topology.name, " has no quadrature rule");
 }
 
 // All that is known of a type before any cell: computed once.
@@ -102,17 +94,18 @@ struct Reference {
 const Reference& reference(CellType type) {
     static const std::vector<Reference> list = [] {
         std::vector<Reference> made;
-        for (const CellType t : all_types) {
-            Reference r{node_list(t), rule_of(t), {}, reference_gradient(t, centre(t))};
-            for (const ReferencePoint& p : r.rule.points) r.rule.gradients.push_back(reference_gradient(t, p));
+        for (const CellRow& row : cell_rows) {
+            Reference r{node_list(row), rule_of(row), {}, reference_gradient(row.type, centre(row.type))};
+            for (const ReferencePoint& p : r.rule.points) r.rule.gradients.push_back(reference_gradient(row.type, p));
             r.checked = r.rule.gradients;
-            if (t != CellType::tri3 && t != CellType::tet4)
-                for (const ReferencePoint& p : r.nodes) r.checked.push_back(reference_gradient(t, p));
+            const bool constant = row.simplex() && row.linear();
+            for (std::size_t a = 0; !constant && a < r.nodes.size(); ++a)
+                r.checked.push_back(reference_gradient(row.type, r.nodes[a]));
             made.push_back(std::move(r));
         }
         return made;
     }();
-    return list[place(type)];
+    return list[static_cast<std::size_t>(&cell_row(type) - cell_rows.data())];
 }
 
 // A shape function with its gradient.
@@ -146,9 +139,10 @@ Shape simplex_shape(const CellTopology& cell, std::size_t node, const ReferenceP
 }
 
 // Product of a factor for each direction; the serendipity corners carry one more factor (sum_i xi_i c_i - d + 1).
-Shape box_shape(CellType type, const CellTopology& cell, const ReferencePoint& c, const ReferencePoint& at) {
-    const auto dim = static_cast<std::size_t>(cell.dimension);
-    const double share = cell.dimension == 2 ? 0.25 : 0.125;
+Shape box_shape(const CellRow& row, const ReferencePoint& c, const ReferencePoint& at) {
+    const auto dim = static_cast<std::size_t>(row.topology.dimension);
+    const bool lagrange = row.interpolation == Interpolation::quadratic;
+    const double share = dim == 2 ? 0.25 : 0.125;
     std::array<double, 3> f{1, 1, 1};
     std::array<double, 3> df{0, 0, 0};
     double scale = 1.0;
@@ -156,7 +150,7 @@ Shape box_shape(CellType type, const CellTopology& cell, const ReferencePoint& c
     for (std::size_t i = 0; i < dim; ++i) {
         const bool middle = c[i] == 0.0;
         corner = corner && !middle;
-        if (type == CellType::quad9) {  // Lagrange polynomials in each direction
+        if (lagrange) {  // Lagrange polynomials in each direction
             f[i] = middle ? 1.0 - at[i] * at[i] : 0.5 * at[i] * (at[i] + c[i]);
             df[i] = middle ? -2.0 * at[i] : at[i] + 0.5 * c[i];
         } else {
@@ -164,10 +158,10 @@ Shape box_shape(CellType type, const CellTopology& cell, const ReferencePoint& c
             df[i] = middle ? -2.0 * at[i] : c[i];
         }
     }
-    if (type != CellType::quad9) scale = corner ? share : 2.0 * share;
+    if (!lagrange) scale = corner ? share : 2.0 * share;
     Shape n{scale * f[0] * f[1] * f[2],
             {scale * df[0] * f[1] * f[2], scale * f[0] * df[1] * f[2], scale * f[0] * f[1] * df[2]}};
-    if (corner && (type == CellType::quad8 || type == CellType::hex20)) {
+    if (corner && row.interpolation == Interpolation::serendipity) {
         double more = 1.0 - static_cast<double>(dim);
         for (std::size_t i = 0; i < dim; ++i) more += c[i] * at[i];
         for (std::size_t i = 0; i < dim; ++i) n.gradient[i] = n.gradient[i] * more + n.value * c[i];
@@ -176,16 +170,16 @@ Shape box_shape(CellType type, const CellTopology& cell, const ReferencePoint& c
     return n;
 }
 
-Shape shape(CellType type, std::size_t node, const ReferencePoint& at) {
-    const CellTopology& cell = topology(type);
-    if (simplex(type)) return simplex_shape(cell, node, at);
+Shape shape(const CellRow& row, std::size_t node, const ReferencePoint& at) {
+    const CellTopology& cell = row.topology;
+    if (row.simplex()) return simplex_shape(cell, node, at);
     const auto corners = static_cast<std::size_t>(cell.corners);
-    const ReferencePoint* corner = cell.dimension == 2 ? square_corner : cube_corner;
-    if (node < corners) return box_shape(type, cell, corner[node], at);
+    const ReferencePoint* corner = corners_of(row);
+    if (node < corners) return box_shape(row, corner[node], at);
     ReferencePoint c;
     for (std::size_t i = 0; i < 3; ++i)
         c[i] = 0.5 * (corner[cell.middle[node - corners][0]][i] + corner[cell.middle[node - corners][1]][i]);
-    return box_shape(type, cell, c, at);
+    return box_shape(row, c, at);
 }
 
 using Matrix3 = std::array<double, 9>;  // row-major, the leading dimension x dimension block in use, stride 3
@@ -229,22 +223,24 @@ const Quadrature& quadrature(CellType type) { return reference(type).rule; }
 std::span<const ReferencePoint> reference_nodes(CellType type) { return reference(type).nodes; }
 
 const ReferencePoint& centre(CellType type) {
-    if (!simplex(type)) return cube_centre;
-    return topology(type).dimension == 2 ? triangle_centre : tetrahedron_centre;
+    const CellRow& row = cell_row(type);
+    if (!row.simplex()) return cube_centre;
+    return row.topology.dimension == 2 ? triangle_centre : tetrahedron_centre;
 }
 
 ShapeValues shape_values(CellType type, const ReferencePoint& at) {
     ShapeValues n{};
-    for (std::size_t a = 0; a < static_cast<std::size_t>(topology(type).nodes); ++a) n[a] = shape(type, a, at).value;
+    const CellRow& row = cell_row(type);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(row.topology.nodes); ++a) n[a] = shape(row, a, at).value;
     return n;
 }
 
 ShapeGradient reference_gradient(CellType type, const ReferencePoint& at) {
-    const CellTopology& cell = topology(type);
-    const auto dim = static_cast<std::size_t>(cell.dimension);
+    const CellRow& row = cell_row(type);
+    const auto dim = static_cast<std::size_t>(row.topology.dimension);
     ShapeGradient g{};
-    for (std::size_t a = 0; a < static_cast<std::size_t>(cell.nodes); ++a)
-        std::copy_n(shape(type, a, at).gradient.begin(), dim, g.begin() + static_cast<std::ptrdiff_t>(a * dim));
+    for (std::size_t a = 0; a < static_cast<std::size_t>(row.topology.nodes); ++a)
+        std::copy_n(shape(row, a, at).gradient.begin(), dim, g.begin() + static_cast<std::ptrdiff_t>(a * dim));
     return g;
 }
 

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "all_types.hpp"
 #include "base/error.hpp"
 #include "body/assembly.hpp"
 #include "body/element.hpp"
@@ -27,9 +28,6 @@ using namespace delam;
 namespace {
 
 const Elastic steel{210e9, 0.3};
-constexpr CellType all_types[] = {CellType::tri3,  CellType::quad4, CellType::tet4,  CellType::hex8, CellType::tri6,
-                                  CellType::quad8, CellType::quad9, CellType::tet10, CellType::hex20};
-
 int dimension_of(CellType type) { return topology(type).dimension; }
 
 // A block of one layer whose nodes are moved at random by up to a fifth of a cell, placed somewhere in space.

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "all_types.hpp"
 #include "base/error.hpp"
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
@@ -27,9 +28,6 @@ using Labels = std::vector<std::int32_t>;
 using Indices = std::vector<std::int64_t>;
 using Numbers = std::vector<double>;
 using Place = std::array<double, 3>;
-
-constexpr CellType all_types[] = {CellType::tri3,  CellType::quad4, CellType::tet4,  CellType::hex8, CellType::tri6,
-                                  CellType::quad8, CellType::quad9, CellType::tet10, CellType::hex20};
 
 // Message of the error in which an action ends; empty if there is none.
 std::string refusal(std::int32_t status, const std::function<void()>& action) {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "all_types.hpp"
 #include "base/error.hpp"
 #include "body/assembly.hpp"
 #include "body/element.hpp"
@@ -27,9 +28,6 @@ using namespace delam;
 namespace {
 
 const Elastic steel{210e9, 0.3};
-constexpr CellType all_types[] = {CellType::tri3,  CellType::quad4, CellType::tet4,  CellType::hex8, CellType::tri6,
-                                  CellType::quad8, CellType::quad9, CellType::tet10, CellType::hex20};
-
 std::size_t size(std::int64_t n) { return static_cast<std::size_t>(n); }
 bool quadratic(CellType type) { return topology(type).nodes > topology(type).corners; }
 

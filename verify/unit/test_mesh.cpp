@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "all_types.hpp"
 #include "base/error.hpp"
 #include "delam/delam.h"
 #include "mesh/box_tree.hpp"
@@ -31,9 +32,6 @@ namespace {
 using Labels = std::vector<std::int32_t>;
 using Indices = std::vector<std::int64_t>;
 using Numbers = std::vector<double>;
-
-constexpr CellType all_types[] = {CellType::tri3,  CellType::quad4, CellType::tet4,  CellType::hex8, CellType::tri6,
-                                  CellType::quad8, CellType::quad9, CellType::tet10, CellType::hex20};
 
 bool quadratic(CellType type) { return topology(type).nodes > topology(type).corners; }
 bool triangles(CellType type) { return topology(type).face_corners == 3; }

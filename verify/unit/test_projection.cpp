@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "all_types.hpp"
 #include "base/error.hpp"
 #include "delam/delam.h"
 #include "mesh/face_point.hpp"
@@ -26,8 +27,6 @@ using Labels = std::vector<std::int32_t>;
 using Indices = std::vector<std::int64_t>;
 using Numbers = std::vector<double>;
 
-constexpr CellType all_types[] = {CellType::tri3,  CellType::quad4, CellType::tet4,  CellType::hex8, CellType::tri6,
-                                  CellType::quad8, CellType::quad9, CellType::tet10, CellType::hex20};
 bool quadratic(CellType type) { return topology(type).nodes > topology(type).corners; }
 
 // Message of the error in which an action ends; empty if there is none.

@@ -20,7 +20,6 @@ using Local = std::array<double, most_face_nodes * most_face_nodes>;
 // A face as an element of its own: its pairs without the entries that only fill the list up (interface_geometry.hpp).
 struct Face {
     std::vector<std::int64_t> pair;  // corners, then mid-sides
-    std::size_t corners;
 };
 
 Face unpadded(std::span<const std::int64_t> listed, int dimension) {
@@ -28,7 +27,7 @@ Face unpadded(std::span<const std::int64_t> listed, int dimension) {
     const std::size_t corners = dimension == 2 ? 2 : nodes > 4 ? nodes / 2 : nodes;
     const std::size_t own = corners == 4 && listed[3] == listed[2] ? 3 : corners;
     const auto corner = listed.first(own);
-    Face face{{corner.begin(), corner.end()}, own};
+    Face face{{corner.begin(), corner.end()}};
     const auto is_corner = [&](std::int64_t pair) {
         return std::find(corner.begin(), corner.end(), pair) != corner.end();
     };
@@ -80,10 +79,9 @@ Local surface_stiffness(CellType type, std::span<const Node> x) {
     return local;
 }
 
-Local stiffness_of(const Face& face, int dimension, std::span<const Node> x) {
+Local stiffness_of(int dimension, std::span<const Node> x) {
     if (dimension == 2) return line_stiffness(x);
-    if (face.corners == 3) return surface_stiffness(x.size() == 3 ? CellType::tri3 : CellType::tri6, x);
-    return surface_stiffness(x.size() == 4 ? CellType::quad4 : CellType::quad8, x);
+    return surface_stiffness(face_row(dimension, x.size()).surface, x);
 }
 
 }  // namespace
@@ -103,7 +101,7 @@ SparseMatrix surface_stiffness(const Mesh& mesh, const InterfaceGeometry& interf
             const auto node = mesh.node(interface.node_a[static_cast<std::size_t>(face.pair[a])]);
             std::copy(node.begin(), node.end(), x[a].begin());
         }
-        const Local local = stiffness_of(face, mesh.dimension(), x);
+        const Local local = stiffness_of(mesh.dimension(), x);
         for (std::size_t a = 0; a < n; ++a)
             for (std::size_t b = 0; b < n; ++b)
                 entries.push_back({face.pair[a], face.pair[b], 0.5 * (local[a * n + b] + local[b * n + a])});

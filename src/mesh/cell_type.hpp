@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The cell types, one row each. Every part of the library takes what it needs of a type from its row; nothing else
+// lists the types.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "delam/delam.h"
+
+namespace delam {
+
+enum class CellType : std::int32_t {
+    tri3 = DELAM_TRI3,
+    quad4 = DELAM_QUAD4,
+    tet4 = DELAM_TET4,
+    hex8 = DELAM_HEX8,
+    tri6 = DELAM_TRI6,
+    quad8 = DELAM_QUAD8,
+    quad9 = DELAM_QUAD9,
+    tet10 = DELAM_TET10,
+    hex20 = DELAM_HEX20
+};
+inline constexpr std::size_t most_cell_nodes = 20;
+inline constexpr std::size_t most_cell_faces = 6;
+inline constexpr std::size_t most_face_nodes = 8;
+
+// The nodes of a cell are its corners, then those midway between two corners. Its faces (edges in 2D) are lists of
+// local nodes: corners, outward when walked in order, then the mid-side nodes, the k-th between corners k and k+1.
+struct CellTopology {
+    const char* name;  // as the C API and the scene file spell it
+    int dimension;
+    int nodes;
+    int corners;
+    int faces;
+    int face_nodes;
+    int face_corners;
+    std::array<std::array<int, most_face_nodes>, most_cell_faces> face;  // first face_nodes entries are used
+    std::array<std::array<int, 2>, 12> middle;                           // node corners+k sits between middle[k]
+};
+
+// The triangle or tetrahedron with corners 0, e1, e2(, e3); the square [-1,1]^2 or the cube [-1,1]^3.
+enum class ReferenceCell { simplex, box };
+// Linear (on boxes: in each coordinate); complete of second degree; serendipity, without nodes inside faces and cells.
+enum class Interpolation { linear, quadratic, serendipity };
+// Quadrature of the stiffness (shape.cpp).
+enum class Rule { centroid, triangle3, tetrahedron8, gauss2, gauss3 };
+
+struct CellRow {
+    CellType type;
+    CellTopology topology;
+    ReferenceCell reference;
+    Interpolation interpolation;
+    Rule rule;
+
+    constexpr bool linear() const { return interpolation == Interpolation::linear; }
+    constexpr bool simplex() const { return reference == ReferenceCell::simplex; }
+};
+
+// In the order of their numbers, 1, 2, ... The centre of quad9 counts as midway of a diagonal.
+// clang-format off
+inline constexpr std::array cell_rows{
+    CellRow{CellType::tri3, {"tri3", 2, 3, 3, 3, 2, 2, {{{0, 1}, {1, 2}, {2, 0}}}, {}},
+            ReferenceCell::simplex, Interpolation::linear, Rule::centroid},
+    CellRow{CellType::quad4, {"quad4", 2, 4, 4, 4, 2, 2, {{{0, 1}, {1, 2}, {2, 3}, {3, 0}}}, {}},
+            ReferenceCell::box, Interpolation::linear, Rule::gauss2},
+    CellRow{CellType::tet4, {"tet4", 3, 4, 4, 4, 3, 3, {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}}, {}},
+            ReferenceCell::simplex, Interpolation::linear, Rule::centroid},
+    CellRow{CellType::hex8,
+            {"hex8", 3, 8, 8, 6, 4, 4,
+             {{{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}},
+             {}},
+            ReferenceCell::box, Interpolation::linear, Rule::gauss2},
+    CellRow{CellType::tri6,
+            {"tri6", 2, 6, 3, 3, 3, 2, {{{0, 1, 3}, {1, 2, 4}, {2, 0, 5}}}, {{{0, 1}, {1, 2}, {2, 0}}}},
+            ReferenceCell::simplex, Interpolation::quadratic, Rule::triangle3},
+    CellRow{CellType::quad8,
+            {"quad8", 2, 8, 4, 4, 3, 2,
+             {{{0, 1, 4}, {1, 2, 5}, {2, 3, 6}, {3, 0, 7}}},
+             {{{0, 1}, {1, 2}, {2, 3}, {3, 0}}}},
+            ReferenceCell::box, Interpolation::serendipity, Rule::gauss3},
+    CellRow{CellType::quad9,
+            {"quad9", 2, 9, 4, 4, 3, 2,
+             {{{0, 1, 4}, {1, 2, 5}, {2, 3, 6}, {3, 0, 7}}},
+             {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}}}},
+            ReferenceCell::box, Interpolation::quadratic, Rule::gauss3},
+    CellRow{CellType::tet10,
+            {"tet10", 3, 10, 4, 4, 6, 3,
+             {{{0, 2, 1, 6, 5, 4}, {0, 1, 3, 4, 8, 7}, {1, 2, 3, 5, 9, 8}, {0, 3, 2, 7, 9, 6}}},
+             {{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}}},
+            ReferenceCell::simplex, Interpolation::quadratic, Rule::tetrahedron8},
+    CellRow{CellType::hex20,
+            {"hex20", 3, 20, 8, 6, 8, 4,
+             {{{0, 3, 2, 1, 11, 10, 9, 8},
+               {4, 5, 6, 7, 12, 13, 14, 15},
+               {0, 1, 5, 4, 8, 17, 12, 16},
+               {1, 2, 6, 5, 9, 18, 13, 17},
+               {2, 3, 7, 6, 10, 19, 14, 18},
+               {3, 0, 4, 7, 11, 16, 15, 19}}},
+             {{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}}},
+            ReferenceCell::box, Interpolation::serendipity, Rule::gauss3},
+};
+// clang-format on
+
+// A face of quadratic cells consists of linear pieces between its nodes: an edge of two chords; a triangle of four
+// triangles; a quadrilateral of a triangle at each corner and the quadrilateral of its mid-side nodes. A linear face is
+// one piece.
+struct FacePiece {
+    int nodes;
+    std::array<int, 4> node;  // positions in the list of the face's nodes, outward in order; the first `nodes` are used
+};
+
+// A kind of face: the dimension of the cells that have it and its number of nodes tell which.
+struct FaceRow {
+    int dimension;
+    int nodes;
+    int corners;
+    CellType surface;  // the plane cell whose reference cell and shape functions a face in space has; of edges unused
+    int pieces;
+    std::array<FacePiece, 5> piece;
+};
+
+// clang-format off
+inline constexpr std::array face_rows{
+    FaceRow{2, 2, 2, {}, 1, {{{2, {0, 1}}}}},
+    FaceRow{2, 3, 2, {}, 2, {{{2, {0, 2}}, {2, {2, 1}}}}},
+    FaceRow{3, 3, 3, CellType::tri3, 1, {{{3, {0, 1, 2}}}}},
+    FaceRow{3, 4, 4, CellType::quad4, 1, {{{4, {0, 1, 2, 3}}}}},
+    FaceRow{3, 6, 3, CellType::tri6, 4, {{{3, {0, 3, 5}}, {3, {3, 1, 4}}, {3, {5, 4, 2}}, {3, {3, 4, 5}}}}},
+    FaceRow{3, 8, 4, CellType::quad8, 5,
+            {{{3, {0, 4, 7}}, {3, {4, 1, 5}}, {3, {5, 2, 6}}, {3, {6, 3, 7}}, {4, {4, 5, 6, 7}}}}},
+};
+// clang-format on
+
+// Row of a type; nullptr for a number that is no cell type.
+const CellRow* find_cell_row(std::int32_t number);
+// The same, Error(DELAM_ERROR_ARGUMENT) where there is none.
+const CellRow& cell_row(CellType type);
+const CellTopology& topology(CellType type);
+// Names of the types that `wanted` picks, as "quad4 and hex8".
+std::string cell_names(bool (*wanted)(const CellRow&));
+
+// Row of the faces with so many nodes; nullptr where no cell has such faces.
+const FaceRow* find_face_row(int dimension, std::int64_t nodes);
+// The same, Error(DELAM_ERROR_INTERNAL) where there is none.
+const FaceRow& face_row(int dimension, std::size_t nodes);
+std::span<const FacePiece> face_pieces(int dimension, std::size_t face_nodes);
+// The numbers of nodes that faces may have, as "3, 4, 6 or 8".
+std::string face_sizes(int dimension);
+
+}  // namespace delam

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The rows of the cell types against geometry that does not come from them, and what happens to a number that is no
+// cell type.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "body/element.hpp"
+#include "delam/delam.h"
+#include "mesh/cell_type.hpp"
+#include "mesh/faces.hpp"
+#include "mesh/layers.hpp"
+#include "mesh/mesh.hpp"
+#include "mesh/shape.hpp"
+
+#include <check.h>  // last: it has a macro named fail
+
+using namespace delam;
+
+namespace {
+
+constexpr auto last = static_cast<std::int32_t>(cell_rows.size());
+constexpr CellType unknown_types[] = {CellType{0}, CellType{last + 1}, CellType{-1}, CellType{1 << 30}};
+
+void expect_refusal(std::int32_t status, const std::string& part, const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const Error& e) {
+        ck_assert_msg(e.status() == status && std::string(e.what()).find(part) != std::string::npos,
+                      "status %d, \"%s\" lacks \"%s\"", e.status(), e.what(), part.c_str());
+        return;
+    }
+    ck_abort_msg("\"%s\" was not refused", part.c_str());
+}
+
+// The reference cell as a mesh of one cell.
+Mesh reference_mesh(const CellRow& row) {
+    std::vector<double> nodes;
+    std::vector<std::int64_t> cell;
+    for (const ReferencePoint& p : reference_nodes(row.type)) {
+        nodes.insert(nodes.end(), p.begin(), p.begin() + row.topology.dimension);
+        cell.push_back(static_cast<std::int64_t>(cell.size()));
+    }
+    Mesh mesh(row.topology.dimension, nodes);
+    mesh.add_cells(row.type, cell, std::vector<std::int32_t>{0});
+    return mesh;
+}
+
+// All faces are there, their areas point out of the cell and close it.
+START_TEST(faces_close_the_cell) {
+    for (const CellRow& row : cell_rows) {
+        const Mesh mesh = reference_mesh(row);
+        const std::vector<BoundaryFace> faces = boundary_faces(mesh, 0);
+        ck_assert_int_eq(static_cast<int>(faces.size()), row.topology.faces);
+        const ReferencePoint& middle = centre(row.type);
+        std::array<double, 3> sum{};
+        for (const BoundaryFace& face : faces) {
+            const std::array<double, 3> area = area_vector(mesh, face.all());
+            double outward = 0.0;
+            for (std::size_t i = 0; i < static_cast<std::size_t>(row.topology.dimension); ++i) {
+                sum[i] += area[i];
+                outward += area[i] * (mesh.node(face.node[0])[i] - middle[i]);
+            }
+            ck_assert_msg(outward > 0.0, "%s: a face points inwards", row.topology.name);
+        }
+        for (const double component : sum) ck_assert_double_eq_tol(component, 0.0, 1e-14);
+    }
+}
+END_TEST
+
+// Triangle and tetrahedron 1/2 and 1/6, square and cube 4 and 8; no node twice.
+START_TEST(quadrature_measures_the_cell) {
+    for (const CellRow& row : cell_rows) {
+        const bool plane = row.topology.dimension == 2;
+        const double exact = row.simplex() ? (plane ? 0.5 : 1.0 / 6.0) : (plane ? 4.0 : 8.0);
+        double sum = 0.0;
+        for (const double weight : quadrature(row.type).weights) sum += weight;
+        ck_assert_double_eq_tol(sum, exact, 1e-14 * exact);
+        const auto nodes = reference_nodes(row.type);
+        std::vector<ReferencePoint> places(nodes.begin(), nodes.end());
+        std::sort(places.begin(), places.end());
+        ck_assert(std::adjacent_find(places.begin(), places.end()) == places.end());
+    }
+}
+END_TEST
+
+// N_a is 1 at node a and 0 at the others.
+START_TEST(shape_functions_interpolate) {
+    for (const CellRow& row : cell_rows) {
+        const auto nodes = reference_nodes(row.type);
+        for (std::size_t b = 0; b < nodes.size(); ++b) {
+            const ShapeValues value = shape_values(row.type, nodes[b]);
+            for (std::size_t a = 0; a < nodes.size(); ++a)
+                ck_assert_msg(std::abs(value[a] - (a == b ? 1.0 : 0.0)) < 1e-15, "%s: N_%zu at node %zu is %g",
+                              row.topology.name, a, b, value[a]);
+        }
+    }
+}
+END_TEST
+
+// Nodes inside faces and cells are of complete interpolations alone.
+START_TEST(interpolation_fits_the_nodes) {
+    for (const CellRow& row : cell_rows) {
+        const auto nodes = reference_nodes(row.type);
+        const auto inside = std::count_if(nodes.begin(), nodes.end(), [&](const ReferencePoint& p) {
+            const auto zeros = std::count(p.begin(), p.begin() + row.topology.dimension, 0.0);
+            return !row.simplex() && zeros > 1;
+        });
+        ck_assert_msg((inside > 0) == (!row.simplex() && row.interpolation == Interpolation::quadratic), "%s",
+                      row.topology.name);
+    }
+}
+END_TEST
+
+START_TEST(unknown_types_are_refused) {
+    const std::string part =
+        ": must be 1 (tri3) .. " + std::to_string(last) + " (" + cell_rows.back().topology.name + ")";
+    std::vector<double> room(3600);
+    for (const CellType type : unknown_types) {
+        const std::string text = "cell type " + std::to_string(static_cast<std::int32_t>(type)) + part;
+        ck_assert_ptr_null(find_cell_row(static_cast<std::int32_t>(type)));
+        expect_refusal(DELAM_ERROR_ARGUMENT, text, [&] { topology(type); });
+        expect_refusal(DELAM_ERROR_ARGUMENT, text, [&] { quadrature(type); });
+        expect_refusal(DELAM_ERROR_ARGUMENT, text, [&] { shape_values(type, {}); });
+        expect_refusal(DELAM_ERROR_ARGUMENT, text, [&] { centre(type); });
+        expect_refusal(DELAM_ERROR_ARGUMENT, text, [&] { smallest_jacobian(type, room); });
+        expect_refusal(DELAM_ERROR_ARGUMENT, text,
+                       [&] { element_stiffness(type, room, room, Formulation::standard, room); });
+        expect_refusal(DELAM_ERROR_ARGUMENT, text,
+                       [&] { mean_dilatation_stiffness(type, room, room, Dilatation{}, room); });
+        expect_refusal(DELAM_ERROR_ARGUMENT, text, [&] { dilatation_correction(type, room, room); });
+        expect_refusal(DELAM_ERROR_ARGUMENT, text, [&] { integrate_gradients(type, room, room); });
+        const double length = 1.0;
+        const std::int64_t one = 1;
+        expect_refusal(DELAM_ERROR_ARGUMENT, text, [&] {
+            make_layers(2, {&length, 1}, {&one, 1}, {&length, 1}, {&one, 1}, type);
+        });
+        Mesh mesh(2, std::vector<double>{0, 0, 1, 0, 0, 1});
+        expect_refusal(DELAM_ERROR_ARGUMENT, text, [&] {
+            mesh.add_cells(type, std::vector<std::int64_t>{0, 1, 2}, {});
+        });
+        ck_assert_int_eq(mesh.cell_count(), 0);
+    }
+}
+END_TEST
+
+START_TEST(unknown_faces_are_refused) {
+    for (const int dimension : {2, 3})
+        for (std::size_t nodes = 0; nodes < 12; ++nodes) {
+            const auto used = [&](const CellRow& row) {
+                return row.topology.dimension == dimension && row.topology.face_nodes == static_cast<int>(nodes);
+            };
+            if (std::any_of(cell_rows.begin(), cell_rows.end(), used)) {
+                ck_assert(!face_pieces(dimension, nodes).empty());
+                continue;
+            }
+            ck_assert_ptr_null(find_face_row(dimension, static_cast<std::int64_t>(nodes)));
+            expect_refusal(DELAM_ERROR_INTERNAL, "no cell has faces of " + std::to_string(nodes) + " nodes in ",
+                           [&] { face_pieces(dimension, nodes); });
+        }
+    ck_assert_str_eq(face_sizes(2).c_str(), "2 or 3");
+    ck_assert_str_eq(face_sizes(3).c_str(), "3, 4, 6 or 8");
+}
+END_TEST
+
+}  // namespace
+
+int main() {
+    Suite* suite = suite_create("cell types");
+    TCase* tests = tcase_create("rows");
+    tcase_add_test(tests, faces_close_the_cell);
+    tcase_add_test(tests, quadrature_measures_the_cell);
+    tcase_add_test(tests, shape_functions_interpolate);
+    tcase_add_test(tests, interpolation_fits_the_nodes);
+    tcase_add_test(tests, unknown_types_are_refused);
+    tcase_add_test(tests, unknown_faces_are_refused);
+    suite_add_tcase(suite, tests);
+    SRunner* runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? 0 : 1;
+}
