@@ -7,7 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "evolution/increment/mixity_rule.hpp"
+#include "evolution/increment/converged_increment.hpp"
+#include "evolution/increment/frozen_increment.hpp"
 #include "law/variational.hpp"
 
 #include <check.h>
@@ -36,6 +37,13 @@ std::array<double, 3> some_jump(std::mt19937& random, const Law& law) {
     const double size = std::sqrt(2.0 * law.normal_onset / law.normal_stiffness) * real(0.3, 2.5),
                  angle = real(0.05, 1.5), turn = real(0.0, 6.28);
     return {size * std::cos(angle), size * std::sin(angle) * std::cos(turn), size * std::sin(angle) * std::sin(turn)};
+}
+
+// A state in which nothing is damaged.
+State whole(std::size_t pairs) {
+    State state;
+    state.adhesion.assign(pairs, 1.0);
+    return state;
 }
 
 }  // namespace
@@ -177,17 +185,18 @@ START_TEST(swings_end) {
     pairs.law = {&law};
     pairs.weight = {1.0};
     for (const double gain : {-0.5, -1.0, -2.0, -50.0}) {
-        StepMixity mixity(pairs, MixityRule::converged, 1e-6, std::vector<double>{0.1});
+        const State before = whole(1);
+        ConvergedIncrement mixity(pairs, before, std::vector<double>{0.1}, 1e-6);
         const std::vector<double> adhesion{0.8};
         int updates = 0;
         for (; updates < 5000; ++updates) {
-            const double b = std::clamp(0.3 + gain * (mixity.used()[0] - 0.3), 0.05, 0.45);
+            const double b = std::clamp(0.3 + gain * (mixity.memory().used[0] - 0.3), 0.05, 0.45);
             const double y = 150.0;
             const std::vector<double> jump{std::sqrt(2.0 * y * (1.0 - b) / 1e11), std::sqrt(2.0 * y * b / 1e11)};
-            if (!mixity.look(adhesion, jump)) break;
+            if (!mixity.observe(adhesion, jump)) break;
         }
         ck_assert_msg(updates < 5000, "gain %g: the mixity swings for ever", gain);
-        if (gain > -10.0) ck_assert_double_eq_tol(mixity.used()[0], 0.3, 1e-4);
+        if (gain > -10.0) ck_assert_double_eq_tol(mixity.memory().used[0], 0.3, 1e-4);
         ck_assert(mixity.held() == 0 || gain < -10.0);
     }
 }
@@ -201,18 +210,23 @@ START_TEST(broken_pairs_keep_theirs) {
     PairLaws pairs;
     pairs.law = {&law, &law};
     pairs.weight = {1.0, 1.0};
-    StepMixity mixity(pairs, MixityRule::converged, 1e-6, std::vector<double>{0.1, 0.2});
+    const State before = whole(2);
+    ConvergedIncrement mixity(pairs, before, std::vector<double>{0.1, 0.2}, 1e-6);
     const std::vector<double> jump{1e-5, 1e-5, 1e-5, 1e-5};
-    mixity.look(std::vector<double>{0.0, 0.5}, jump);
-    ck_assert(mixity.used()[0] == 0.1);
-    ck_assert_double_eq_tol(mixity.used()[1], 0.5, 1e-12);
+    mixity.observe(std::vector<double>{0.0, 0.5}, jump);
+    ck_assert(mixity.memory().used[0] == 0.1);
+    ck_assert_double_eq_tol(mixity.memory().used[1], 0.5, 1e-12);
     // Frozen mixities stay, but are compared with those shown: Gc = 250 / sqrt((1-B)^2 + B^2).
-    StepMixity frozen(pairs, MixityRule::frozen, 1e-6, std::vector<double>{0.1, 0.0});
-    frozen.look(std::vector<double>{0.0, 0.5}, jump);
-    ck_assert(frozen.used()[1] == 0.0);
-    ck_assert_double_eq_tol(frozen.error(std::vector<double>{0.0, 1.0}, std::vector<double>{0.0, 0.0}),
-                            std::sqrt(2.0) - 1.0, 1e-12);
-    ck_assert(frozen.error(std::vector<double>{1.0, 1.0}, std::vector<double>{1.0, 1.0}) == 0.0);
+    FrozenIncrement frozen(pairs, before, std::vector<double>{0.1, 0.0}, 1e-6);
+    frozen.observe(std::vector<double>{0.0, 0.5}, jump);
+    ck_assert(frozen.memory().used[1] == 0.0);
+    State state = before;
+    state.adhesion = {1.0, 0.0};
+    frozen.record(state);
+    ck_assert_double_eq_tol(state.ledger.mixity_error, std::sqrt(2.0) - 1.0, 1e-12);
+    state.adhesion = before.adhesion;
+    frozen.record(state);
+    ck_assert(state.ledger.mixity_error == 0.0);
 }
 END_TEST
 

@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Frictionless unilateral contact, u_n >= 0, as an active set over a jump operator.
-//
-// A closed pair holds u_n = 0 and may only push (force <= 0); an open one follows its spring and may not penetrate (u_n
-// >= 0). The primal-dual active set (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13, 2002) moves every pair that
-// violates its side at once; warm it needs 3-4 solves. It can cycle: once a set comes back, only the violating pair of
-// least index moves (Murty's principal pivoting, which ends for every positive definite problem).
+// Unilateral contact of a whole scene: the active set of active_set.hpp over the jump operator.
 #pragma once
 
 #include <cstdint>
@@ -28,13 +23,13 @@ struct ContactScene {
     int dimension = 2;
     std::vector<std::uint8_t> bonded;  // [pairs] held in every direction for ever
     std::vector<std::uint8_t> level;   // [pairs] of contact_levels.hpp
-    std::uint8_t least_level =
-        0;  // pairs below it are not tested and may pass through each other: less energy than any contact leaves
+    // Pairs below this level are not tested and may pass through each other: less energy than any contact leaves.
+    std::uint8_t least_level = 0;
     std::int64_t limit = 200;
-    bool always = false;  // in every step, also test pairs whose normal jump the device prescribes: they cannot close,
-                          // only be pressed
-    // [patterns] What the eigenstrains at factor 1 move (L) and press (F) where they are not free: where they are,
-    // jumps and forces are the rounding of these, and no contact is to be read from it. Empty: no eigenstrains.
+    // In every step, also test pairs whose normal jump the device prescribes: they cannot close, only be pressed.
+    bool always = false;
+    // [patterns] What the eigenstrains at factor 1 move (L) and press (F) where they are not free: where they are free,
+    // jumps and forces are the rounding of these, and no contact can be read from them. Empty: no eigenstrains.
     std::vector<double> strain_jump{}, strain_force{};
     double jump_floor(std::span<const double> theta) const { return floor(strain_jump, theta); }
     double force_floor(std::span<const double> theta) const { return floor(strain_force, theta); }
@@ -47,9 +42,13 @@ private:
     }
 };
 
-// spring stiffness: [rows]. closed: [pairs], the warm start in, the contact set out. Throws Error(DELAM_LIMIT) when no
-// contact set balances the loads, Error(DELAM_ERROR_PROBLEM) when prescribed displacements press faces into each other.
-// cold: the set is searched from coarse to fine, with all pairs open at first. row_force: Springs::force.
+// Springs::held of a contact set: every row of a bonded pair and the normal row of a closed one. closed: [pairs].
+std::vector<std::uint8_t> held_rows(const ContactScene& scene, std::span<const std::uint8_t> closed);
+
+// stiffness: [rows] of the springs. closed: [pairs], the warm start in, the contact set out. row_force: Springs::force.
+// cold: the set is searched from coarse levels to fine ones, with all pairs open at first. Throws Error(DELAM_LIMIT)
+// when no contact set balances the loads, Error(DELAM_ERROR_PROBLEM) when prescribed displacements press faces into
+// each other.
 ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
                             std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response,
                             bool cold, std::span<const double> row_force = {});

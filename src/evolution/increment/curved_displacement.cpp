@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/numbers.hpp"
 #include "evolution/increment/extrapolation.hpp"
 
 namespace delam {
@@ -14,12 +15,6 @@ constexpr int most_steps = 200;
 constexpr double tolerance = 1e-10;  // of the largest force
 constexpr double acceptable = 1e-8;  // where rounding or the limit ends the steps
 constexpr double rounding = 1e-13;   // of an energy of the whole scene
-
-double largest(std::span<const double> values) {
-    double m = 0.0;
-    for (const double v : values) m = std::max(m, std::abs(v));
-    return m;
-}
 
 double bulk(const Response& r) { return r.stored_bulk + r.load_potential; }
 
@@ -99,11 +94,12 @@ double CurvedDisplacement::mismatch(const std::vector<std::uint8_t>& closed, con
         for (std::size_t c = closed[p] != 0 ? 1 : 0; c < dim; ++c)
             worst = std::max(worst, std::abs(response.force[p * dim + c] - pairs_.weight[p] * force[c]));
     }
-    const double most = largest(response.force);
+    const double most = max_abs(response.force);
     return most > 0.0 ? worst / most : 0.0;
 }
 
-bool CurvedDisplacement::run(const Solve& solve, std::vector<std::uint8_t>& closed, Response& response) const {
+bool CurvedDisplacement::run(const DisplacementSolve& solve, std::vector<std::uint8_t>& closed,
+                             Response& response) const {
     const auto dim = static_cast<std::size_t>(pairs_.dimension);
     std::vector<std::size_t> rows;  // that bend
     for (std::size_t p = 0; p < adhesion_.size(); ++p)

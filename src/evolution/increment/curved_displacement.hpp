@@ -12,12 +12,9 @@
 // traction of the law is that of the bodies.
 #pragma once
 
-#include <functional>
 #include <span>
 
-#include "evolution/increment/contact.hpp"
-#include "evolution/increment/damage_step.hpp"
-#include "evolution/increment/state.hpp"
+#include "evolution/increment/increment.hpp"
 #include "law/variational.hpp"
 
 namespace delam {
@@ -30,11 +27,8 @@ public:
 
     // Is the energy a quadratic form after all, because no adhesion lies between 0 and 1?
     bool plain() const;
-    // One ordinary displacement step: springs, forces of their own, answer. Returns whether it converged.
-    using Solve = std::function<bool(std::span<const double> stiffness, std::span<const double> row_force,
-                                     std::vector<std::uint8_t>& closed, Response& response)>;
     // closed, response: the start in (an empty or zero jump says nothing), the answer out. False: a limit.
-    bool run(const Solve& solve, std::vector<std::uint8_t>& closed, Response& response) const;
+    bool run(const DisplacementSolve& solve, std::vector<std::uint8_t>& closed, Response& response) const;
 
 private:
     struct Model {

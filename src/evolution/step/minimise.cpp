@@ -7,7 +7,6 @@
 
 #include "base/error.hpp"
 #include "delam/delam.h"
-#include "evolution/increment/curved_displacement.hpp"
 #include "evolution/increment/extrapolation.hpp"
 #include "evolution/step/zone_newton.hpp"
 
@@ -15,8 +14,8 @@ namespace delam {
 
 namespace {
 
-constexpr std::int64_t leap_steps = 1000;  // steps within the zone before the plain step looks at all pairs again
-constexpr double rounding = 1e-11;         // of an energy of the whole scene, a sum of large terms
+constexpr std::int64_t newton_steps = 1000;  // within the zone before the plain step sees all pairs again
+constexpr double rounding = 1e-11;           // of an energy of the whole scene, a sum of large terms
 
 double largest_change(std::span<const double> from, std::span<const double> to) {
     double change = 0.0;
@@ -26,7 +25,7 @@ double largest_change(std::span<const double> from, std::span<const double> to) 
 
 }  // namespace
 
-bool Minimiser::displace(State& state, bool cold) const {
+bool Minimiser::displace(State& state, const Increment& increment, bool cold) const {
     Counts& counts = state.counts;
     const auto solve = [&](std::span<const double> stiffness, std::span<const double> row_force,
                            std::vector<std::uint8_t>& closed, Response& response) {
@@ -41,109 +40,100 @@ bool Minimiser::displace(State& state, bool cold) const {
         counts.linear_residual = std::max(counts.linear_residual, result.linear_residual);
         return result.converged;
     };
-    if (rule == MixityRule::variational)
-        if (const CurvedDisplacement curved(pairs, state.adhesion, state.mixity); !curved.plain())
-            return curved.run(solve, state.closed, state.response);
-    return solve(spring_stiffness(pairs, state.adhesion), {}, state.closed, state.response);
+    return increment.displace(solve, state);
 }
 
-// What every way to minimise leaves in the state.
-bool Minimiser::record(State& state, std::span<const double> adhesion_old, const StepMixity& mixity,
-                       bool converged) const {
-    state.mixity = mixity.recorded();
-    state.ledger.mixity_error = mixity.error(adhesion_old, state.adhesion);
-    state.counts.mixity_held = mixity.held();
-    return converged && mixity.held() == 0;
+bool Minimiser::end(State& state, const Increment& increment, bool converged) const {
+    increment.record(state);
+    return converged && increment.held() == 0;
 }
 
-bool Minimiser::alternate(State& state, std::span<const double> adhesion_old) const {
-    StepMixity mixity(pairs, rule, tolerance, state.mixity);
+bool Minimiser::alternate(State& state, Increment& increment) const {
     while (true) {
         monitor.progress("minimise", state.counts.am_iterations, 0);
-        const bool converged = displace(state);
-        mixity.look(state.adhesion, state.response.jump);
-        std::vector<double> next = mixity.damage_step(adhesion_old, state.adhesion, state.response.jump);
+        const bool converged = displace(state, increment);
+        increment.observe(state.adhesion, state.response.jump);
+        std::vector<double> next = increment.damage_step(state.adhesion, state.response.jump);
         state.counts.damage_change = largest_change(state.adhesion, next);
         ++state.counts.am_iterations;
-        if (state.counts.damage_change <= tolerance && mixity.settled(state, adhesion_old))
-            return record(state, adhesion_old, mixity, converged);
+        if (state.counts.damage_change <= tolerance && increment.settled(state))
+            return end(state, increment, converged);
         state.adhesion = std::move(next);
         if (state.counts.am_iterations < limit) continue;
-        displace(state);
-        return record(state, adhesion_old, mixity, false);
+        displace(state, increment);
+        return end(state, increment, false);
     }
 }
 
-// E + D of a state whose displacements belong to its adhesion, up to a constant of the step.
-double Minimiser::energy(const State& state, std::span<const double> adhesion_old, const StepMixity& mixity) const {
+double Minimiser::energy(const State& state, const Increment& increment) const {
     return state.response.stored_bulk + state.response.load_potential +
-           mixity.energy(adhesion_old, state.adhesion, state.response.jump);
+           increment.energy(state.adhesion, state.response.jump);
 }
 
-// Each round is a step of alternate minimisation, which is also the stopping test; between rounds the adhesion leaps
-// ahead. A leap that raised the energy of the whole is taken back, and the plain step made instead. Where the mixity
-// follows the iterate, energies are compared at equal B: what a new B alone adds goes onto the level that is compared
-// with.
-bool Minimiser::accelerate(State& state, std::span<const double> adhesion_old) const {
-    StepMixity mixity(pairs, rule, tolerance, state.mixity);
+void Minimiser::extrapolate(State& state, const Increment& increment, std::span<const double> plain,
+                            Extrapolation& extrapolation) const {
+    const std::vector<double> from = state.adhesion;
+    state.adhesion = extrapolation.next(from, plain);
+    double along = 0.0;
+    for (std::size_t p = 0; p < plain.size(); ++p) {
+        state.adhesion[p] = std::clamp(state.adhesion[p], 0.0, increment.adhesion_before()[p]);
+        along += (state.adhesion[p] - from[p]) * (plain[p] - from[p]);
+    }
+    if (along > 0.0) return;
+    // Where plain steps grow, the fixed point at which extrapolation aims lies behind them.
+    state.adhesion.assign(plain.begin(), plain.end());
+    extrapolation.forget();
+}
+
+// Each round is one alternation, which is also the stopping test; between rounds the adhesion moves ahead. A move that
+// raised the energy of the whole is taken back, and the plain step is made instead. Where the mixity follows the
+// iterates, energies are compared at equal B: what a new B alone adds goes onto the level of comparison.
+bool Minimiser::accelerate(State& state, Increment& increment) const {
     // Newton's method eliminates the damage pair by pair, which a gradient term forbids.
-    const bool by_newton = pairs.gradient.empty() && op.offers_zone();
-    bool leapt = false;
+    const bool by_newton = increment.pairs().gradient.empty() && op.offers_zone();
+    const ZoneNewton newton{op, contact, monitor, tolerance, std::min(newton_steps, limit)};
+    bool ahead = false;
     std::optional<State> before;
-    std::optional<StepMixity::Memory> mixity_before;
+    std::optional<Increment::Memory> mixity_before;
     std::vector<double> plain;
     Extrapolation extrapolation;
     double level = 0.0;
     while (true) {
         monitor.progress("minimise", state.counts.am_iterations, 0);
-        const bool converged = displace(state);
-        const double reached = energy(state, adhesion_old, mixity);
+        const bool converged = displace(state, increment);
+        const double reached = energy(state, increment);
         if (!std::isfinite(reached)) fail(DELAM_ERROR_NUMERICAL, "the energy of a displacement step is not finite");
-        if (leapt && reached > level + rounding * std::abs(level)) {
+        if (ahead && reached > level + rounding * std::abs(level)) {
             const Counts counts = state.counts;
             state = std::move(*before);
             state.counts = counts;
             state.adhesion = plain;
-            mixity.restore(*mixity_before);
-            leapt = false;
+            increment.restore(*mixity_before);
+            ahead = false;
             extrapolation.forget();
             continue;
         }
-        level = mixity.look(state.adhesion, state.response.jump) ? energy(state, adhesion_old, mixity) : reached;
-        plain = mixity.damage_step(adhesion_old, state.adhesion, state.response.jump);
+        level = increment.observe(state.adhesion, state.response.jump) ? energy(state, increment) : reached;
+        plain = increment.damage_step(state.adhesion, state.response.jump);
         state.counts.damage_change = largest_change(state.adhesion, plain);
         ++state.counts.am_iterations;
-        if (state.counts.damage_change <= tolerance && mixity.settled(state, adhesion_old))
-            return record(state, adhesion_old, mixity, converged);
+        if (state.counts.damage_change <= tolerance && increment.settled(state))
+            return end(state, increment, converged);
         if (state.counts.am_iterations >= limit) {
             state.adhesion = plain;
-            displace(state);
-            return record(state, adhesion_old, mixity, false);
+            displace(state, increment);
+            return end(state, increment, false);
         }
         before = state;
-        mixity_before = mixity.memory();
-        std::optional<double> added;
-        if (by_newton)
-            added = ZoneNewton{op, pairs, contact, monitor, tolerance, std::min(leap_steps, limit)}.leap(state, mixity,
-                                                                                                         adhesion_old);
-        if (!added) {
-            state.adhesion = extrapolation.next(state.adhesion, plain);
-            // Where plain steps grow, the fixed point that extrapolation aims at lies behind them.
-            double along = 0.0;
-            for (std::size_t p = 0; p < plain.size(); ++p) {
-                state.adhesion[p] = std::clamp(state.adhesion[p], 0.0, adhesion_old[p]);
-                along += (state.adhesion[p] - before->adhesion[p]) * (plain[p] - before->adhesion[p]);
-            }
-            if (!(along > 0.0)) {
-                state.adhesion = plain;
-                extrapolation.forget();
-            }
-            leapt = state.adhesion != plain;
-            continue;
+        mixity_before = increment.memory();
+        if (const std::optional<double> added = by_newton ? newton.run(state, increment) : std::nullopt) {
+            level += *added;
+            ahead = state.adhesion != before->adhesion;
+            if (!ahead) state.adhesion = plain;
+        } else {
+            extrapolate(state, increment, plain, extrapolation);
+            ahead = state.adhesion != plain;
         }
-        level += *added;
-        leapt = state.adhesion != before->adhesion;
-        if (!leapt) state.adhesion = plain;
     }
 }
 

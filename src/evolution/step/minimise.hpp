@@ -1,40 +1,44 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One incremental problem by alternate minimisation (slides, "Alternate minimization algorithm"): displacements at
-// frozen damage, damage at frozen displacements, until the damage would move by no more than delta. The state that is
-// kept is the one that was tested: displacements that belong to its adhesion, and a damage step from there that changes
-// nothing more than delta.
+// One incremental problem by the staggered scheme (Zeman, Kruzik, Gruber, PANM 15 (2010), "Alternate minimization
+// algorithm"): displacements at frozen damage, damage at frozen displacements, until the adhesion would change by no
+// more than the tolerance. The state that is kept is the one that was tested: displacements that belong to its
+// adhesion, and a damage step from there that changes no adhesion by more.
 #pragma once
 
 #include <span>
 
 #include "base/monitor.hpp"
 #include "evolution/increment/contact.hpp"
-#include "evolution/increment/damage_step.hpp"
-#include "evolution/increment/mixity_rule.hpp"
-#include "evolution/increment/state.hpp"
+#include "evolution/increment/increment.hpp"
 
 namespace delam {
 
+class Extrapolation;
+
 struct Minimiser {
     JumpOperator& op;
-    const PairLaws& pairs;
     const ContactScene& contact;
     Monitor& monitor;
-    double tolerance;    // delta
-    std::int64_t limit;  // alternations
-    MixityRule rule = MixityRule::frozen;
+    double tolerance;    // of the adhesion
+    std::int64_t limit;  // of alternations
 
-    // Displacements and contact at the state's adhesion and theta; counts are added up.
-    // False: a limit of the linear or contact iteration was met.
-    // cold: the contact set at hand says nothing.
-    bool displace(State& state, bool cold = false) const;
-    double energy(const State& state, std::span<const double> adhesion_old, const StepMixity& mixity) const;
-    // The faster way to the same stopping test, safeguarded by the energy; zone leaps where the operator is condensed.
-    bool accelerate(State& state, std::span<const double> adhesion_old) const;
-    // Both unknowns; adhesion starts at the state's and stays below `adhesion_old`; B starts as the state's mixity and
-    // follows the rule. False: limit.
-    bool alternate(State& state, std::span<const double> adhesion_old) const;
-    bool record(State& state, std::span<const double> adhesion_old, const StepMixity& mixity, bool converged) const;
+    // Displacements and contact at the state's adhesion and theta; effort is added up. cold: the contact set at hand
+    // says nothing. False: a limit of the linear or contact iteration was met.
+    bool displace(State& state, const Increment& increment, bool cold = false) const;
+    // Both unknowns, by plain alternation. The adhesion starts at the state's, the mixity at the increment's. False: a
+    // limit was met, or the mixity of some pairs does not settle.
+    bool alternate(State& state, Increment& increment) const;
+    // The same to the same stopping test, sped up and safeguarded by the energy: between two alternations Newton's
+    // method moves ahead in a zone of the operator (zone_newton.hpp), or plain steps are extrapolated.
+    bool accelerate(State& state, Increment& increment) const;
+
+private:
+    // E + D of a state whose displacements belong to its adhesion, up to a constant of the step.
+    double energy(const State& state, const Increment& increment) const;
+    // Extrapolates plain damage steps; the adhesion stays between 0 and that before the step.
+    void extrapolate(State& state, const Increment& increment, std::span<const double> plain,
+                     Extrapolation& extrapolation) const;
+    bool end(State& state, const Increment& increment, bool converged) const;
 };
 
 }  // namespace delam

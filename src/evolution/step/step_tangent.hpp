@@ -16,9 +16,8 @@
 #include <vector>
 
 #include "evolution/increment/contact.hpp"
-#include "evolution/increment/damage_step.hpp"
-#include "evolution/increment/mixity_rule.hpp"
-#include "evolution/increment/state.hpp"
+#include "evolution/increment/increment.hpp"
+#include "linalg/dense.hpp"
 #include "reduction/jump_operator.hpp"
 #include "scene/problem.hpp"
 
@@ -33,24 +32,14 @@ public:
     // At the adhesion of the state, [patterns][patterns]. Error(DELAM_ERROR_STATE): a pattern acts along what nothing
     // holds.
     std::vector<double> tangent(std::span<const Pattern> patterns);
-    // Of a step that began at adhesion_old. tolerance: of the adhesion.
-    std::vector<double> step_tangent(std::span<const Pattern> patterns, MixityRule rule,
-                                     std::span<const double> adhesion_old, double tolerance);
+    // Of the step that `increment` is.
+    std::vector<double> step_tangent(std::span<const Pattern> patterns, const Increment& increment);
 
 private:
-    // A force v x that appears as the state moves, own x = omega . dj: x = dzeta and own = -g''; variational: own = 1.
-    struct Direction {
-        std::size_t pair;
-        std::vector<double> force;  // [dimension], v
-        std::vector<double> form;   // [dimension], omega
-        double own;                 // factor of its amount
-    };
     Response unit(std::span<const double> theta, const std::vector<double>& force);
-    std::vector<Direction> damaging(MixityRule rule, std::span<const double> adhesion_old, double tolerance) const;
-    std::vector<Direction> variational(std::span<const double> adhesion_old) const;
-    // dB/dj and dD/dB of a pair, as the last part of its form.
-    void add_mixity(Direction& direction, double zeta) const;
-    double along(const Direction& direction, std::span<const double> jump) const;
+    // The gradient term couples pairs that damage: - kappa A / w.
+    void add_gradient(std::span<const PairDirection> directions, DenseMatrix& system) const;
+    double along(const PairDirection& direction, std::span<const double> jump) const;
 
     JumpOperator& op_;
     const PairLaws& pairs_;

@@ -54,7 +54,7 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
         contact_.strain_jump = std::move(sizes.displacement);
         contact_.strain_force = std::move(sizes.force);
     }
-    rule_ = mixity_rule(pairs_, problem_.options.mixity_rule);
+    rule_.emplace(pairs_, problem_.options.mixity_rule);
     call_if_set(checking);
     ChosenOperator chosen = choose_operator(problem_, monitor_);
     operator_ = std::move(chosen.op);
@@ -74,9 +74,11 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
 }
 
 Minimiser Stepper::minimiser() const {
-    return {
-        *operator_, pairs_, contact_, monitor_, problem_.options.damage_tolerance, problem_.options.minimisation_limit,
-        rule_};
+    return {*operator_, contact_, monitor_, problem_.options.damage_tolerance, problem_.options.minimisation_limit};
+}
+
+std::unique_ptr<Increment> Stepper::increment(const State& before, std::span<const double> mixity) const {
+    return rule_->increment(pairs_, before, mixity, problem_.options.damage_tolerance);
 }
 
 Stepper::Result Stepper::initial(double time) {
@@ -90,11 +92,12 @@ Stepper::Result Stepper::initial(double time) {
     for (std::size_t p = 0; p < state.adhesion.size(); ++p)
         state.closed.push_back(
             contact_.bonded[p] == 0 && state.adhesion[p] == 0.0 && operator_->prescribed_rows()[p * dim] == 0 ? 1 : 0);
-    result.converged = minimiser().displace(state);
-    state.mixity = mixities(pairs_, state.response.jump, std::vector<double>(state.adhesion.size(), 0.0));
+    state.mixity.assign(state.adhesion.size(), 0.0);
+    result.converged = minimiser().displace(state, *increment(state, state.mixity));
+    state.mixity = mixities(pairs_, state.response.jump, state.mixity);
     state.mixity_before = state.mixity;
     state.loaded = any_jump(pairs_, state.response.jump) ? 1 : 0;
-    book_energies(state);
+    book_energies(pairs_, state);
     state.ledger.initial = state.ledger.energy();
     state.ledger.initial_slides = state.ledger.energy_slides();
     state.memory = operator_->memory();
@@ -109,51 +112,26 @@ void Stepper::begin(State& next, const State& before, double time) const {
     operator_->recall(before.memory);
 }
 
-// Energies of a state at its own mixity; cumulative columns are not touched.
-void Stepper::book_energies(State& state) const {
-    Ledger& ledger = state.ledger;
-    ledger.stored_bulk = state.response.stored_bulk;
-    ledger.load_potential = state.response.load_potential;
-    ledger.stored_interface = stored_energy(pairs_, state.adhesion, state.response.jump);
-    ledger.stored_interface_slides = ledger.stored_interface + stored_slides(pairs_, state.mixity, state.adhesion);
-}
-
-void Stepper::book_step(State& next, const State& before) const {
-    book_energies(next);
+void Stepper::book_step(State& next, const Increment& step) const {
+    step.book(next);
+    const State& before = step.before();
     Ledger& ledger = next.ledger;
-    const Ledger& last = before.ledger;
-    const double dissipated = dissipation(pairs_, next.mixity, before.adhesion, next.adhesion);
-    const double dissipated_before = dissipation(pairs_, next.mixity_before, before.adhesion, next.adhesion);
-    const double change = ledger.energy() - last.energy();
-    ledger.increment = change + dissipated;
-    ledger.increment_lower = change + dissipated_before;
     std::vector<double> d(next.theta.size());
     for (std::size_t p = 0; p < d.size(); ++p) d[p] = next.theta[p] - before.theta[p];
     ledger.lower = dot(d, next.response.conjugate) - lift_.half_quadratic(d, spring_stiffness(pairs_, next.adhesion));
     ledger.upper =
         dot(d, before.response.conjugate) + lift_.half_quadratic(d, spring_stiffness(pairs_, before.adhesion));
-    ledger.work = last.work + 0.5 * (ledger.lower + ledger.upper);
-    ledger.dissipated = last.dissipated + dissipated;
-    ledger.dissipated_slides = last.dissipated_slides;
-    if (rule_ != MixityRule::variational) {
-        ledger.dissipated_slides += dissipation_slides(pairs_, next.mixity, before.adhesion, next.adhesion);
-        return;
-    }
-    // What was minimised is the slides' split, with the dissipation at the mixity of the state before.
-    const double change_slides = ledger.energy_slides() - last.energy_slides();
-    const double spent = dissipation_slides(pairs_, next.mixity_before, before.adhesion, next.adhesion);
-    const std::vector<double>& before_last = before.loaded != 0 ? before.mixity_before : next.mixity_before;
-    ledger.dissipated_slides += spent;
-    ledger.increment = change_slides + spent;
-    ledger.increment_lower = change_slides + dissipation_slides(pairs_, before_last, before.adhesion, next.adhesion);
+    ledger.work = before.ledger.work + 0.5 * (ledger.lower + ledger.upper);
 }
 
-bool Stepper::minimise(State& next, const State& before) const {
-    const bool converged = problem_.options.minimisation == "alternate" ? minimiser().alternate(next, before.adhesion)
-                                                                        : minimiser().accelerate(next, before.adhesion);
-    refuse_runaway(next);
-    next.loaded = before.loaded != 0 || any_jump(pairs_, next.response.jump) ? 1 : 0;
-    book_step(next, before);
+// From the adhesion and the mixity of `next`.
+bool Stepper::minimise(State& next, const Increment& step) const {
+    const std::unique_ptr<Increment> own = step.starting_at(next.mixity);
+    const bool converged = problem_.options.minimisation == "alternate" ? minimiser().alternate(next, *own)
+                                                                        : minimiser().accelerate(next, *own);
+    refuse_runaway(next, step);
+    next.loaded = step.before().loaded != 0 || any_jump(pairs_, next.response.jump) ? 1 : 0;
+    book_step(next, step);
     next.memory = operator_->memory();
     return converged;
 }
@@ -161,7 +139,7 @@ bool Stepper::minimise(State& next, const State& before) const {
 // Beyond the limit of a dead load alternation takes adhesion to zero by ever smaller steps, and displacements to
 // infinity: what holds a part by no more adhesion than the tolerance does not hold it. Without that adhesion the
 // displacement step finds nothing that balances (DELAM_LIMIT).
-void Stepper::refuse_runaway(const State& state) const {
+void Stepper::refuse_runaway(const State& state, const Increment& step) const {
     bool dead = false, faint = false;
     for (std::size_t p = 0; p < state.theta.size(); ++p)
         dead = dead || (problem_.patterns[p].drives == Pattern::Drives::force && state.theta[p] != 0.0);
@@ -176,7 +154,7 @@ void Stepper::refuse_runaway(const State& state) const {
     }
     if (!faint) return;
     const std::vector<double> memory = operator_->memory();
-    minimiser().displace(without);
+    minimiser().displace(without, step);
     operator_->recall(memory);
 }
 
@@ -185,44 +163,46 @@ double Stepper::lower_excess(const State& state) const {
     return scale > 0.0 ? (state.ledger.lower - state.ledger.increment_lower) / scale : 0.0;
 }
 
+// Before the first load there is no jump to take the mixity from: the elastic solution of the step itself gives it.
+bool Stepper::start(State& next, const State& before, double time) const {
+    next = before;
+    begin(next, before, time);
+    ++next.step;
+    next.counts.revised_from = next.step;
+    if (before.loaded != 0) {
+        rule_->begin(pairs_, before, next);
+        return true;
+    }
+    State elastic = next;
+    const bool converged = minimiser().displace(elastic, *increment(before, next.mixity), true);
+    next.counts = elastic.counts;
+    rule_->begin(pairs_, before, elastic.response, next);
+    next.response = std::move(elastic.response);
+    next.closed = std::move(elastic.closed);
+    return converged;
+}
+
 Stepper::Result Stepper::step(const State& before, double time, std::span<const Start> also) {
-    State start = before;
-    begin(start, before, time);
-    ++start.step;
-    start.counts.revised_from = start.step;
-    bool converged = true;
-    if (before.loaded == 0) {
-        // Before the first load there is no jump to take the mixity from: the elastic solution of this step gives it.
-        State elastic = start;
-        converged = minimiser().displace(elastic, true);
-        start.counts = elastic.counts;
-        start.mixity = mixities(pairs_, elastic.response.jump, before.mixity);
-        start.mixity_before = start.mixity;
-        start.response = std::move(elastic.response);
-        start.closed = std::move(elastic.closed);
-    } else {
-        start.mixity_before = before.mixity;
-        start.mixity = starting_mixity(pairs_, rule_, before);
-    }
-    if (rule_ == MixityRule::variational) start.mixity_before = start.mixity;
-    Result best{start, true};
-    best.converged = minimise(best.state, before) && converged;
+    State first;
+    const bool converged = start(first, before, time);
+    const std::unique_ptr<Increment> step = increment(before, first.mixity);
+    Result best{first, true};
+    best.converged = minimise(best.state, *step) && converged;
     for (const Start& from : also) {
-        State other = start;
+        State other = first;
         other.counts = best.state.counts;
-        for (std::size_t p = 0; p < other.adhesion.size(); ++p) {
+        for (std::size_t p = 0; p < other.adhesion.size(); ++p)
             other.adhesion[p] = std::min(from.adhesion[p], before.adhesion[p]);
-            if (rule_ == MixityRule::converged && other.adhesion[p] <= 0.0) other.mixity[p] = from.mixity[p];
-        }
-        keep_lower(best, std::move(other), before);
+        step->adopt(from.mixity, other);
+        keep_lower(best, std::move(other), *step);
     }
-    if (problem_.options.solution == "energetic") search(best, before, start);
+    if (problem_.options.solution == "energetic") search(best, *step);
     return best;
 }
 
 // Minimises from another start and keeps what is lower. All effort is counted.
-void Stepper::keep_lower(Result& best, State other, const State& before) const {
-    const bool converged = minimise(other, before);
+void Stepper::keep_lower(Result& best, State other, const Increment& step) const {
+    const bool converged = minimise(other, step);
     const Counts counts = other.counts, kept = best.state.counts;
     const bool taken = other.ledger.increment < best.state.ledger.increment - rounding * scale_of(best.state.ledger);
     if (taken) best = {std::move(other), converged};
@@ -234,7 +214,7 @@ void Stepper::keep_lower(Result& best, State other, const State& before) const {
 
 // A zone's energy takes the contact outside as it was and may be too low: candidates that seem to lie below the state
 // kept are held against it by displacements of their own. Returns the lowest candidate.
-double Stepper::hold_against(Result& best, const SearchResult& found, const State& before) const {
+double Stepper::hold_against(Result& best, const SearchResult& found, const Increment& step) const {
     double lowest = std::numeric_limits<double>::infinity();
     bool held = false;
     for (const Candidate& candidate : found.starts) {
@@ -245,25 +225,26 @@ double Stepper::hold_against(Result& best, const SearchResult& found, const Stat
         State own = best.state;
         own.adhesion = candidate.adhesion;
         own.mixity = candidate.mixity;
-        minimiser().displace(own);
-        if (rule_ == MixityRule::variational) own.mixity = mixities(pairs_, own.response.jump, own.mixity);
-        book_step(own, before);
+        minimiser().displace(own, step);
+        own.mixity = step.shown(own.response.jump, std::move(own.mixity));
+        book_step(own, step);
         lowest = std::min(lowest, own.ledger.increment);
         best.state.counts = own.counts;
-        if (own.ledger.increment < kept) keep_lower(best, std::move(own), before);
+        if (own.ledger.increment < kept) keep_lower(best, std::move(own), step);
     }
     return held ? lowest : found.lowest;
 }
 
-void Stepper::search(Result& best, const State& before, const State& start) {
+void Stepper::search(Result& best, const Increment& step) {
     if (!search_) {
         twin_ = operator_->twin();
         search_.emplace(problem_, pairs_, contact_, monitor_, twin_ ? *twin_ : *operator_);
     }
     const State from = best.state;
     const double level = from.ledger.increment;
+    const State& before = step.before();
     if (twin_) twin_->recall(before.search_memory);
-    SearchResult found = search_->run(before, from, start.mixity);
+    SearchResult found = search_->run(step, from, step.memory().used);
     if (!twin_) operator_->recall(from.memory);
     std::size_t minimised = 0;
     for (const Candidate& candidate : found.starts) {
@@ -274,9 +255,9 @@ void Stepper::search(Result& best, const State& before, const State& start) {
         State other = best.state;
         other.adhesion = candidate.adhesion;
         other.mixity = candidate.mixity;
-        keep_lower(best, std::move(other), before);
+        keep_lower(best, std::move(other), step);
     }
-    const double lowest = hold_against(best, found, before);
+    const double lowest = hold_against(best, found, step);
     if (twin_) best.state.search_memory = twin_->memory();
     Counts& counts = best.state.counts;
     const double kept = best.state.ledger.increment;
@@ -284,7 +265,7 @@ void Stepper::search(Result& best, const State& before, const State& start) {
     counts.search_margin = std::isfinite(lowest) ? lowest - kept : 0.0;
     // Candidates under the variational rule are energies at the mixities of the start: no bound.
     counts.search_gap =
-        rule_ == MixityRule::variational ? std::numeric_limits<double>::infinity() : std::max(0.0, kept - found.bound);
+        step.bounds_candidates() ? std::max(0.0, kept - found.bound) : std::numeric_limits<double>::infinity();
     searched_ = text("step ", best.state.step, " at time ", best.state.time, ": ", found.candidates, " candidates, ",
                      minimised, " of them minimised from; lowest candidate less the state kept: ", counts.search_margin,
                      "\n", found.words);
@@ -298,9 +279,10 @@ Stepper::Result Stepper::equilibrate(const State& before, double time, std::span
     for (std::size_t p = 0; p < next.adhesion.size(); ++p)
         if (!(next.adhesion[p] >= 0.0 && next.adhesion[p] <= 1.0))
             fail(DELAM_ERROR_ARGUMENT, "adhesion of pair ", p, " is ", next.adhesion[p], ", allowed: 0 to 1");
-    result.converged = minimiser().displace(next);
-    if (rule_ == MixityRule::variational) next.mixity = mixities(pairs_, next.response.jump, next.mixity);
-    book_energies(next);
+    const std::unique_ptr<Increment> still = increment(before, next.mixity);
+    result.converged = minimiser().displace(next, *still);
+    next.mixity = still->shown(next.response.jump, std::move(next.mixity));
+    book_energies(pairs_, next);
     next.ledger.initial += next.ledger.energy() - before.ledger.energy();
     next.ledger.initial_slides += next.ledger.energy_slides() - before.ledger.energy_slides();
     next.memory = operator_->memory();
@@ -313,7 +295,7 @@ std::vector<double> Stepper::tangent(const State& state) const {
 
 std::vector<double> Stepper::step_tangent(const State& before, const State& state) const {
     return Linearised(*operator_, pairs_, contact_, state)
-        .step_tangent(problem_.patterns, rule_, before.adhesion, problem_.options.damage_tolerance);
+        .step_tangent(problem_.patterns, *increment(before, state.mixity));
 }
 
 }  // namespace delam

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/monitor.hpp"
+#include "evolution/increment/mixity_rule.hpp"
 #include "evolution/step/bounds.hpp"
 #include "evolution/step/minimise.hpp"
 #include "evolution/step/search.hpp"
@@ -55,26 +56,28 @@ public:
     const ReductionChoice& reduction() const { return reduction_; }
     const std::vector<double>& initial_adhesion() const { return initial_adhesion_; }
     // To the host: what it should know about the mixity of a step that is kept.
-    void warn(const State& state) const { warn_of_snap(monitor_, rule_, state); }
+    void warn(const State& state) const { rule_->warn_of_snap(monitor_, state); }
     // What the last search looked at, in words; empty: none.
     const std::string& searched() const { return searched_; }
 
 private:
     Minimiser minimiser() const;
     void begin(State& next, const State& before, double time) const;
-    bool minimise(State& next, const State& before) const;
-    void refuse_runaway(const State& state) const;
-    void book_energies(State& state) const;
-    void book_step(State& next, const State& before) const;
-    void keep_lower(Result& best, State other, const State& before) const;
-    double hold_against(Result& best, const SearchResult& found, const State& before) const;
-    void search(Result& best, const State& before, const State& start);
+    std::unique_ptr<Increment> increment(const State& before, std::span<const double> mixity) const;
+    // The state with which the minimisations of a step begin; false: its elastic displacements met a limit.
+    bool start(State& next, const State& before, double time) const;
+    bool minimise(State& next, const Increment& step) const;
+    void refuse_runaway(const State& state, const Increment& step) const;
+    void book_step(State& next, const Increment& step) const;
+    void keep_lower(Result& best, State other, const Increment& step) const;
+    double hold_against(Result& best, const SearchResult& found, const Increment& step) const;
+    void search(Result& best, const Increment& step);
 
     const Problem& problem_;
     Monitor& monitor_;
     PairLaws pairs_;
     ContactScene contact_;
-    MixityRule rule_ = MixityRule::frozen;
+    std::optional<MixityRule> rule_;  // set with the pairs
     std::vector<double> initial_adhesion_;
     std::unique_ptr<JumpOperator> operator_;
     ReductionChoice reduction_;

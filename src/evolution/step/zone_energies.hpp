@@ -9,11 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "evolution/increment/contact.hpp"
 #include "evolution/increment/damage_step.hpp"
 #include "evolution/increment/state.hpp"
-#include "reduction/jump_operator.hpp"
-#include "reduction/zone/zone.hpp"
+#include "evolution/increment/zone_system.hpp"
 
 namespace delam {
 
@@ -21,8 +19,8 @@ class ZoneEnergies {
 public:
     ZoneEnergies(JumpOperator& op, const PairLaws& pairs, const ContactScene& contact)
         : op_(op), pairs_(pairs), contact_(contact) {}
-    // known: a state with displacements and booked energy. wanted: [pairs] that may differ; those of a floating zone
-    // fail. False: the zone cannot tell its energy from its neighbours'.
+    // known: a state with displacements and booked energy, which must outlive the calls that follow. wanted: [pairs]
+    // that may differ. False: there is no zone for them, or nothing balances the known load in it.
     bool focus(const State& known, std::span<const std::uint8_t> wanted);
     // May this pair differ?
     bool inside(std::size_t pair) const { return place_[pair] >= 0; }
@@ -30,8 +28,8 @@ public:
     std::optional<double> energy(std::span<const double> adhesion);
     // Local jump of a pair inside, of the last energy().
     std::span<const double> jump(std::size_t pair) const {
-        return std::span<const double>(jump_).subspan(static_cast<std::size_t>(place_[pair]),
-                                                      static_cast<std::size_t>(pairs_.dimension));
+        return system_->jump().subspan(static_cast<std::size_t>(place_[pair]),
+                                       static_cast<std::size_t>(pairs_.dimension));
     }
 
 private:
@@ -40,12 +38,10 @@ private:
     JumpOperator& op_;
     const PairLaws& pairs_;
     const ContactScene& contact_;
-    const State* known_ = nullptr;
-    Zone* zone_ = nullptr;
-    std::vector<std::int64_t> place_;  // [pairs] first row within the zone, -1: outside
-    std::vector<std::uint8_t> held_, normal_;
-    std::vector<double> jump_;
-    double offset_ = 0.0;  // absolute energy less the zone's
+    std::optional<ZoneSystem> system_;
+    std::vector<std::uint8_t> closed_;  // [contact rows] of the last energy, where the next begins
+    std::vector<std::int64_t> place_;   // [pairs] first row within the zone, -1: outside
+    double offset_ = 0.0;               // absolute energy less the zone's
 };
 
 }  // namespace delam

@@ -2,37 +2,25 @@
 #include "evolution/step/zone_newton.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "base/numbers.hpp"
 #include "evolution/increment/extrapolation.hpp"
-#include "reduction/zone/zone.hpp"
+#include "evolution/increment/zone_system.hpp"
 
 namespace delam {
 
 namespace {
 
-constexpr double noise = 1e-11;  // of the largest jump or force in the zone: rounding
-// Of the terms of the zone's energy: what it changes by when the jumps of one state are found from all bodies or within
-// the zone. A plain step never adds energy, but on a stiff interface an avalanche begins with steps that free less than
-// this. Rises cannot add up: the caller compares the energy of the whole before and after.
-constexpr double energy_noise = 1e-11;
+// Part of the terms of the zone's energy by which it changes when the jumps of one state are found from all bodies or
+// within the zone. A plain step never adds energy, but on a stiff interface an avalanche begins with steps that free
+// less than this. Rises cannot add up: the caller compares the energy of the whole before and after.
+constexpr double energy_rounding = 1e-11;
 constexpr std::int64_t longest_wait = 8;    // plain steps between two attempts of what has failed
-constexpr std::int64_t contact_steps = 30;  // active-set steps of one Newton step; beyond them the step is not taken
+constexpr std::int64_t contact_steps = 30;  // active-set steps of one Newton step; beyond them it is not taken
+constexpr std::int64_t halvings = 7;        // of a line search, the full step included
 // A pair joins the zone when its driving energy is above this part of what damages it.
 constexpr double nearly_loaded = 0.7;
-
-double largest(std::span<const double> values) {
-    double m = 0.0;
-    for (const double v : values) m = std::max(m, std::abs(v));
-    return m;
-}
-
-// Pairs of the zone with all their rows; rows of other pairs have constant springs.
-struct ZonePair {
-    std::size_t pair;
-    std::size_t first;  // row of the zone: normal, then tangents
-};
 
 // What failed is tried again after 1, 2, 4, 8, 8 ... steps.
 class Patience {
@@ -53,39 +41,9 @@ private:
     std::int64_t wait_ = 0;
 };
 
-class Leap {
+class Descent {
 public:
-    Leap(const ZoneNewton& newton, State& state, StepMixity& mixity, std::span<const double> adhesion_old,
-         const Springs& springs_, Zone& zone)
-        : newton_(newton),
-          state_(state),
-          mixity_(mixity),
-          toughness_(mixity.toughness()),
-          old_(adhesion_old),
-          dim_(static_cast<std::size_t>(newton.pairs.dimension)),
-          zone_(zone) {
-        const std::vector<std::int64_t>& rows = zone_.jump_rows();
-        const std::span<const std::uint8_t> prescribed = newton_.op.prescribed_rows();
-        held_.resize(rows.size());
-        spring_.assign(rows.size(), 0.0);
-        normal_.assign(rows.size(), 0);
-        for (std::size_t z = 0; z < rows.size(); ++z) {
-            const auto row = static_cast<std::size_t>(rows[z]);
-            const bool given = prescribed[row] != 0;  // by the device: neither held nor let go
-            held_[z] = given ? 0 : springs_.held[row];
-            spring_[z] = springs_.stiffness[row];
-            normal_[z] = row % dim_ == 0 && newton_.contact.bonded[row / dim_] == 0 && !given ? 1 : 0;
-        }
-        for (std::size_t z = 0; z + dim_ <= rows.size(); ++z) {
-            const auto row = static_cast<std::size_t>(rows[z]);
-            if (row % dim_ != 0 || static_cast<std::size_t>(rows[z + dim_ - 1]) != row + dim_ - 1) continue;
-            const std::size_t pair = row / dim_;
-            if (newton_.pairs.law[pair] == nullptr || old_[pair] <= 0.0) continue;
-            members_.push_back({pair, z});
-            for (std::size_t c = 0; c < dim_; ++c) spring_[z + c] = 0.0;
-        }
-    }
-
+    Descent(const ZoneNewton& newton, State& state, Increment& increment, const Springs& springs, Zone& zone);
     // Returns the energy that new mixities alone have added.
     double run();
 
@@ -96,44 +54,81 @@ private:
         std::vector<double> jump;
         std::vector<double> adhesion;
         double energy = 0.0;
-        double size = 0.0;  // of the terms that the energy is the sum of
+        double size = 0.0;  // sum of the absolute terms of the energy
+    };
+    // A step from one point to the next: how it went, and with which adhesions the displacements were computed.
+    struct Move {
+        bool taken = false;
+        bool newton = false;
+        std::vector<double> carried;
+        Point to;
     };
 
+    std::span<const double> local(const Point& at, std::size_t member) const {
+        return std::span<const double>(at.jump).subspan(members_[member].first, dim_);
+    }
+    Point start() const;
     Point point(std::vector<double> unknowns) const;
-    // Model about a point: tangents of the members scaled between secant (0) and full (1), with one of them debonded
-    // (or none: -1).
-    bool model(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded);
-    // Minimiser of the model under contact; false: indefinite, or the contact set did not settle.
+    // Loads the system with models of the members about a point: their tangents between secant (0) and full (1), one
+    // of them debonded (or none: -1).
+    void model(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded);
+    // Minimiser of the model under contact; false: indefinite, unbalanced, or the contact set did not settle.
     bool minimise(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded,
                   Point& out);
     // The point between `at` and `to` on which the energy falls; false: none.
     bool descend(const Point& at, Point& to) const;
     std::int64_t weakest(const Point& at) const;
-    // The point shows its mixities: those of members that took part in its displacements, adhesion `carried` > 0. True:
-    // the toughness in use, and with it energy and adhesions of the point, have changed.
-    bool look(Point& at, std::span<const double> carried);
-    bool curved(const ZonePair& m) const {
-        return mixity_.rule() == MixityRule::variational && newton_.pairs.mixed(m.pair);
-    }
-    std::array<double, 9> tangent(const ZonePair& m, const Point& at, double zeta, double fraction) const;
+    Move step(const Point& at);
+    Move staggered_step(const Point& at, const std::vector<std::uint8_t>& closed);
+    // The point shows its mixities: those of the members whose adhesion `carried` was positive. True: the toughness in
+    // use, and with it energy and adhesions of the point, have changed.
+    bool observe(Point& at, std::span<const double> carried);
+    void hand_over(const Point& at);
 
     const ZoneNewton& newton_;
     State& state_;
-    StepMixity& mixity_;
-    std::span<const Toughness> toughness_;
-    double added_ = 0.0;
-    std::span<const double> old_;
+    Increment& increment_;
     std::size_t dim_;
     Zone& zone_;
-    std::vector<std::uint8_t> held_;
-    std::vector<std::uint8_t> normal_;
-    std::vector<double> spring_;  // of rows that belong to no member
-    std::vector<ZonePair> members_;
-    std::vector<Zone::Coupling> couplings_;
-    std::vector<double> row_force_;
+    ZoneSystem system_;
+    std::vector<ZoneSystem::Pair> members_;  // pairs that may damage
+    std::vector<double> spring_;             // [zone rows], of rows that belong to no member
+    std::vector<std::uint8_t> closed_;       // [contact rows]
+    double added_ = 0.0;
+    Extrapolation extrapolation_;
+    std::vector<double> used_;  // adhesions from which the last extrapolation went
+    Patience newton_patience_, move_patience_;
 };
 
-Leap::Point Leap::point(std::vector<double> unknowns) const {
+Descent::Descent(const ZoneNewton& newton, State& state, Increment& increment, const Springs& springs, Zone& zone)
+    : newton_(newton),
+      state_(state),
+      increment_(increment),
+      dim_(static_cast<std::size_t>(newton.contact.dimension)),
+      zone_(zone),
+      system_(zone, newton.contact, newton.op.prescribed_rows(), springs.held, state.theta,
+              [this] { newton_.monitor.progress("minimise", state_.counts.am_iterations, 0); }),
+      closed_(system_.entered_closed()) {
+    for (const std::int64_t row : zone.jump_rows()) spring_.push_back(springs.stiffness[index(row)]);
+    for (const ZoneSystem::Pair& p : system_.pairs()) {
+        if (increment.pairs().law[p.pair] == nullptr || increment.adhesion_before()[p.pair] <= 0.0) continue;
+        members_.push_back(p);
+        std::fill_n(spring_.begin() + static_cast<std::ptrdiff_t>(p.first), dim_, 0.0);
+    }
+}
+
+// The unknowns that are a jump row of their own start at the jumps of the state.
+Descent::Point Descent::start() const {
+    std::vector<double> x(index(zone_.energy().rows()), 0.0);
+    for (std::size_t z = 0; z < zone_.rows().size(); ++z) {
+        const JumpRow& row = zone_.rows()[z];
+        if (row.offset.empty() && row.unknowns.size() == 1 && row.unknowns.front().second == 1.0)
+            x[index(row.unknowns.front().first)] = state_.response.jump[index(zone_.jump_rows()[z])];
+    }
+    return point(std::move(x));
+}
+
+Descent::Point Descent::point(std::vector<double> unknowns) const {
     Point at;
     at.jump = zone_.jumps(state_.theta, unknowns);
     at.energy = zone_.energy_of(state_.theta, unknowns);
@@ -144,109 +139,51 @@ Leap::Point Leap::point(std::vector<double> unknowns) const {
     };
     for (std::size_t z = 0; z < spring_.size(); ++z) add(0.5 * spring_[z] * at.jump[z] * at.jump[z]);
     at.unknowns = std::move(unknowns);
-    for (const ZonePair& m : members_) {
-        const std::span<const double> local = std::span<const double>(at.jump).subspan(m.first, dim_);
-        if (curved(m)) {
-            const VariationalPair pair = mixity_.variational(m.pair);
-            at.adhesion.push_back(pair.minimiser(local, old_[m.pair]));
-            add(newton_.pairs.weight[m.pair] * pair.energy(local, at.adhesion.back()));
-            continue;
-        }
-        const Law& law = *newton_.pairs.law[m.pair];
-        const double driving = driving_energy(law, local).total();
-        const double zeta = law.minimiser(toughness_[m.pair], driving, old_[m.pair]);
-        at.adhesion.push_back(zeta);
-        add(newton_.pairs.weight[m.pair] * (zeta * driving + law.dissipated(toughness_[m.pair], zeta)));
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+        const PairMinimum m = increment_.minimum(members_[i].pair, local(at, i));
+        at.adhesion.push_back(m.adhesion);
+        add(increment_.pairs().weight[members_[i].pair] * m.energy);
     }
     return at;
 }
 
-// Tangents C, and the force h = C j - w zeta K j of their affine part.
-bool Leap::model(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded) {
-    couplings_.clear();
-    row_force_.assign(spring_.size(), 0.0);
+void Descent::model(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded) {
+    std::vector<Zone::Coupling> couplings;
+    std::vector<double> row_force(spring_.size(), 0.0);
     const auto add = [&](std::size_t r, std::size_t q, double value) {
-        couplings_.push_back({static_cast<std::int64_t>(r), static_cast<std::int64_t>(q), value});
+        couplings.push_back({static_cast<std::int64_t>(r), static_cast<std::int64_t>(q), value});
     };
     for (std::size_t z = 0; z < spring_.size(); ++z)
         if (spring_[z] > 0.0) add(z, z, spring_[z]);
     for (std::size_t i = 0; i < members_.size(); ++i) {
         if (static_cast<std::int64_t>(i) == debonded) continue;
-        const ZonePair& m = members_[i];
-        if (curved(m)) {
-            // The force of the model is C j - h, that of the pair at its own jump j.
-            const std::span<const double> local = std::span<const double>(at.jump).subspan(m.first, dim_);
-            const VariationalPair pair = mixity_.variational(m.pair);
-            const double weight = newton_.pairs.weight[m.pair];
-            std::array<double, 9> c{};
-            if (fraction > 0.0) {
-                c = pair.tangent(local, old_[m.pair]);
-            } else {
-                const Law& law = *newton_.pairs.law[m.pair];
-                const double scale = adhesion[i] + pair.proximal(local, adhesion[i]);
-                for (std::size_t r = 0; r < dim_; ++r)
-                    c[r * dim_ + r] = scale * (r == 0 ? law.normal_stiffness : law.tangential_stiffness);
-            }
-            const std::array<double, 3> force = pair.force(local, adhesion[i]);
-            for (std::size_t r = 0; r < dim_; ++r) {
-                row_force_[m.first + r] -= weight * force[r];
-                for (std::size_t q = 0; q < dim_; ++q) {
-                    if (c[r * dim_ + q] == 0.0) continue;
-                    add(m.first + r, m.first + q, weight * c[r * dim_ + q]);
-                    row_force_[m.first + r] += weight * c[r * dim_ + q] * local[q];
-                }
-            }
-            continue;
+        const PairModel m = increment_.model(members_[i].pair, local(at, i), adhesion[i], fraction);
+        for (std::size_t r = 0; r < dim_; ++r) {
+            row_force[members_[i].first + r] = m.force[r];
+            for (std::size_t q = 0; q < dim_; ++q)
+                if (const double c = m.tangent[r * dim_ + q]; c != 0.0)
+                    add(members_[i].first + r, members_[i].first + q, c);
         }
-        const std::array<double, 9> full = tangent(m, at, adhesion[i], fraction),
-                                    secant = tangent(m, at, adhesion[i], 0.0);
-        for (std::size_t r = 0; r < dim_; ++r)
-            for (std::size_t q = 0; q < dim_; ++q) {
-                if (full[r * dim_ + q] == 0.0) continue;
-                add(m.first + r, m.first + q, full[r * dim_ + q]);
-                row_force_[m.first + r] += (full[r * dim_ + q] - secant[r * dim_ + q]) * at.jump[m.first + q];
-            }
     }
-    return zone_.factor(couplings_, held_);
+    system_.load(std::move(couplings), std::move(row_force));
 }
 
-bool Leap::minimise(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded,
-                    Point& out) {
-    const std::vector<std::uint8_t> before = held_;
-    for (std::int64_t step = 0; step < contact_steps; ++step) {
-        newton_.monitor.progress("minimise", state_.counts.am_iterations, 0);
-        ++state_.counts.newton_solves;
-        if (!model(at, adhesion, fraction, debonded)) break;
-        const Zone::Solution solution = zone_.solve(state_.theta, row_force_);
-        if (!solution.balanced) break;
-        const std::vector<double> jump = zone_.jumps(state_.theta, solution.unknowns);
-        std::vector<double> force(jump.size());
-        for (std::size_t z = 0; z < force.size(); ++z) force[z] = -row_force_[z];
-        for (const Zone::Coupling& c : couplings_)
-            force[static_cast<std::size_t>(c.row)] += c.value * jump[static_cast<std::size_t>(c.column)];
-        zone_.complete_forces(state_.theta, solution, force);
-        const double jump_scale = noise * std::max(largest(jump), newton_.contact.jump_floor(state_.theta));
-        const double force_scale = noise * std::max(largest(force), newton_.contact.force_floor(state_.theta));
-        bool settled = true;
-        for (std::size_t z = 0; z < held_.size(); ++z) {
-            if (normal_[z] == 0) continue;
-            if (held_[z] != 0 ? force[z] > force_scale : jump[z] < -jump_scale) {
-                held_[z] ^= 1;
-                settled = false;
-            }
-        }
-        if (!settled) continue;
-        out = point(solution.unknowns);
-        return true;
-    }
-    held_ = before;
-    return false;
+bool Descent::minimise(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded,
+                       Point& out) {
+    model(at, adhesion, fraction, debonded);
+    std::vector<std::uint8_t> closed = closed_;
+    const ActiveSet found = find_active_set(system_, system_.contact_rows(), closed, contact_steps, false);
+    state_.counts.newton_solves += found.solves;
+    if (!found.settled) return false;
+    closed_ = std::move(closed);
+    out = point(system_.unknowns());
+    return true;
 }
 
-bool Leap::descend(const Point& at, Point& to) const {
+bool Descent::descend(const Point& at, Point& to) const {
     const double rounding = 1e-14 * (std::abs(at.energy) + std::abs(to.energy));
-    for (int halvings = 0; halvings < 7; ++halvings) {
-        if (halvings > 0) {
+    for (std::int64_t n = 0; n < halvings; ++n) {
+        if (n > 0) {
             std::vector<double> between(at.unknowns.size());
             for (std::size_t i = 0; i < between.size(); ++i)
                 between[i] = at.unknowns[i] + 0.5 * (to.unknowns[i] - at.unknowns[i]);
@@ -257,28 +194,12 @@ bool Leap::descend(const Point& at, Point& to) const {
     return false;
 }
 
-// w [zeta K + zeta'(Y) (K j)(K j)^T] of a member, with slope for zeta'; row-major.
-std::array<double, 9> Leap::tangent(const ZonePair& m, const Point& at, double zeta, double fraction) const {
-    const Law& law = *newton_.pairs.law[m.pair];
-    const double weight = newton_.pairs.weight[m.pair];
-    double pull[3] = {law.normal_stiffness * std::max(0.0, at.jump[m.first]), 0.0, 0.0};
-    for (std::size_t c = 1; c < dim_; ++c) pull[c] = law.tangential_stiffness * at.jump[m.first + c];
-    const double driving = driving_energy(law, std::span<const double>(at.jump).subspan(m.first, dim_)).total();
-    const double slope = fraction > 0.0 ? fraction * law.slope(toughness_[m.pair], driving, old_[m.pair]) : 0.0;
-    std::array<double, 9> c{};
-    for (std::size_t r = 0; r < dim_; ++r) {
-        for (std::size_t q = 0; q < dim_; ++q) c[r * dim_ + q] = weight * slope * pull[r] * pull[q];
-        c[r * dim_ + r] += weight * zeta * (r == 0 ? law.normal_stiffness : law.tangential_stiffness);
-    }
-    return c;
-}
-
 // The softening pair nearest to its end: the one that plain steps would break next.
-std::int64_t Leap::weakest(const Point& at) const {
+std::int64_t Descent::weakest(const Point& at) const {
     std::int64_t found = -1;
     double least = 1.0;
     for (std::size_t i = 0; i < members_.size(); ++i) {
-        const double left = at.adhesion[i] / old_[members_[i].pair];
+        const double left = at.adhesion[i] / increment_.adhesion_before()[members_[i].pair];
         if (at.adhesion[i] <= 0.0 || !(left < least)) continue;
         least = left;
         found = static_cast<std::int64_t>(i);
@@ -286,117 +207,110 @@ std::int64_t Leap::weakest(const Point& at) const {
     return found;
 }
 
-bool Leap::look(Point& at, std::span<const double> carried) {
+// Newton's method; else one pair to its debonded branch; else a step of the staggered scheme.
+Descent::Move Descent::step(const Point& at) {
+    const std::vector<std::uint8_t> before = closed_;
+    Move move;
+    move.carried = at.adhesion;
+    move.newton = newton_patience_.try_now() &&
+                  newton_patience_.report(minimise(at, at.adhesion, 1.0, -1, move.to) && descend(at, move.to));
+    move.taken = move.newton;
+    if (!move.taken && move_patience_.try_now()) {
+        closed_ = before;
+        const std::int64_t pair = weakest(at);
+        move.taken = move_patience_.report(pair >= 0 && minimise(at, at.adhesion, 0.0, pair, move.to) &&
+                                           move.to.energy < at.energy);
+        if (move.taken) {
+            ++state_.counts.debond_moves;
+            move.carried[index(pair)] = 0.0;
+        }
+    }
+    if (!move.taken) return staggered_step(at, before);
+    extrapolation_.forget();
+    used_ = move.to.adhesion;
+    return move;
+}
+
+// Extrapolated from the steps before while that lowers the energy, else plain.
+Descent::Move Descent::staggered_step(const Point& at, const std::vector<std::uint8_t>& closed) {
+    Move move;
+    closed_ = closed;
+    std::vector<double> ahead = extrapolation_.next(used_, at.adhesion);
+    for (std::size_t i = 0; i < ahead.size(); ++i)
+        ahead[i] = std::clamp(ahead[i], 0.0, increment_.adhesion_before()[members_[i].pair]);
+    move.taken = minimise(at, ahead, 0.0, -1, move.to) && move.to.energy < at.energy;
+    move.carried = move.taken ? ahead : at.adhesion;
+    used_ = std::move(ahead);
+    if (move.taken) return move;
+    closed_ = closed;
+    extrapolation_.forget();
+    used_ = at.adhesion;
+    move.taken =
+        minimise(at, at.adhesion, 0.0, -1, move.to) && !(move.to.energy > at.energy + energy_rounding * at.size);
+    if (!move.taken) closed_ = closed;
+    return move;
+}
+
+bool Descent::observe(Point& at, std::span<const double> carried) {
+    const PairLaws& pairs = increment_.pairs();
     bool changed = false;
     for (std::size_t i = 0; i < members_.size(); ++i) {
-        const ZonePair& m = members_[i];
-        if (!(carried[i] > 0.0) || !newton_.pairs.mixed(m.pair)) continue;
-        const Driving y =
-            driving_energy(*newton_.pairs.law[m.pair], std::span<const double>(at.jump).subspan(m.first, dim_));
-        const Toughness before = toughness_[m.pair];
-        if (!mixity_.look(m.pair, y)) continue;
+        const std::size_t pair = members_[i].pair;
+        if (!(carried[i] > 0.0) || !pairs.mixed(pair)) continue;
+        const double before = increment_.dissipated(pair, at.adhesion[i]);
+        if (!increment_.observe(pair, driving_energy(*pairs.law[pair], local(at, i)))) continue;
         changed = true;
-        const auto spent = [&](const Toughness& t) {
-            const Law& law = *newton_.pairs.law[m.pair];
-            return law.dissipated(t, at.adhesion[i]) - law.dissipated(t, old_[m.pair]);
-        };
-        added_ += newton_.pairs.weight[m.pair] * (spent(toughness_[m.pair]) - spent(before));
+        added_ += pairs.weight[pair] * (increment_.dissipated(pair, at.adhesion[i]) - before);
     }
     if (changed) at = point(std::move(at.unknowns));
     return changed;
 }
 
-double Leap::run() {
+// The jumps are where the next displacement step may start from.
+void Descent::hand_over(const Point& at) {
+    for (std::size_t i = 0; i < members_.size(); ++i) state_.adhesion[members_[i].pair] = at.adhesion[i];
+    const std::vector<std::uint8_t> held = system_.held(closed_);
+    for (std::size_t z = 0; z < at.jump.size(); ++z)
+        state_.response.jump[index(zone_.jump_rows()[z])] = held[z] != 0 ? 0.0 : at.jump[z];
+    for (std::size_t i = 0; i < closed_.size(); ++i)
+        state_.closed[index(zone_.jump_rows()[system_.contact_rows().row[i]]) / dim_] = closed_[i];
+}
+
+double Descent::run() {
     if (members_.empty()) return 0.0;
-    Point at = point([&] {
-        std::vector<double> x(static_cast<std::size_t>(zone_.energy().rows()), 0.0);
-        const std::vector<std::int64_t>& rows = zone_.jump_rows();
-        for (std::size_t z = 0; z < rows.size(); ++z)
-            if (const JumpRow& row = zone_.rows()[z];
-                row.offset.empty() && row.unknowns.size() == 1 && row.unknowns.front().second == 1.0)
-                x[static_cast<std::size_t>(row.unknowns.front().first)] =
-                    state_.response.jump[static_cast<std::size_t>(rows[z])];
-        return x;
-    }());
-    Extrapolation extrapolation;
-    std::vector<double> used = at.adhesion;
-    Patience newton_patience, move_patience;
-    for (std::int64_t step = 0; step < newton_.limit; ++step) {
-        Point next;
-        std::vector<double> carried = at.adhesion;
-        const std::vector<std::uint8_t> before = held_;
-        const bool newton = newton_patience.try_now() &&
-                            newton_patience.report(minimise(at, at.adhesion, 1.0, -1, next) && descend(at, next));
-        bool taken = newton;
-        if (!taken && move_patience.try_now()) {
-            held_ = before;
-            const std::int64_t pair = weakest(at);
-            taken = move_patience.report(pair >= 0 && minimise(at, at.adhesion, 0.0, pair, next) &&
-                                         next.energy < at.energy);
-            if (taken) {
-                ++state_.counts.debond_moves;
-                carried[static_cast<std::size_t>(pair)] = 0.0;
-            }
-        }
-        if (taken) {
-            extrapolation.forget();
-            used = next.adhesion;
-        } else {
-            held_ = before;
-            std::vector<double> ahead = extrapolation.next(used, at.adhesion);
-            for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] = std::clamp(ahead[i], 0.0, old_[members_[i].pair]);
-            taken = minimise(at, ahead, 0.0, -1, next) && next.energy < at.energy;
-            if (taken) carried = ahead;
-            used = std::move(ahead);
-        }
-        if (!taken) {
-            held_ = before;
-            extrapolation.forget();
-            used = at.adhesion;
-            if (!minimise(at, at.adhesion, 0.0, -1, next) || next.energy > at.energy + energy_noise * at.size) {
-                held_ = before;
-                break;
-            }
-        }
-        const bool renewed = look(next, carried);
+    Point at = start();
+    used_ = at.adhesion;
+    for (std::int64_t n = 0; n < newton_.limit; ++n) {
+        Move move = step(at);
+        if (!move.taken) break;
+        const bool renewed = observe(move.to, move.carried);
         double change = 0.0;
         for (std::size_t i = 0; i < members_.size(); ++i)
-            change = std::max(change, std::abs(next.adhesion[i] - at.adhesion[i]));
-        at = std::move(next);
-        // Newton's method squares the error: the next one would be far below delta.
-        if (newton && !renewed ? change * change <= 0.01 * newton_.tolerance : change <= newton_.tolerance) break;
+            change = std::max(change, std::abs(move.to.adhesion[i] - at.adhesion[i]));
+        at = std::move(move.to);
+        // Newton's method squares the error: the next one would be far below the tolerance.
+        if (move.newton && !renewed ? change * change <= 0.01 * newton_.tolerance : change <= newton_.tolerance) break;
     }
-    for (std::size_t i = 0; i < members_.size(); ++i) state_.adhesion[members_[i].pair] = at.adhesion[i];
-    const std::vector<std::int64_t>& rows = zone_.jump_rows();
-    for (std::size_t z = 0; z < rows.size(); ++z)
-        if (normal_[z] != 0) state_.closed[static_cast<std::size_t>(rows[z]) / dim_] = held_[z];
-    if (mixity_.rule() == MixityRule::variational)
-        for (std::size_t z = 0; z < rows.size(); ++z)
-            state_.response.jump[static_cast<std::size_t>(rows[z])] = held_[z] != 0 ? 0.0 : at.jump[z];
+    hand_over(at);
     return added_;
 }
 
 }  // namespace
 
-std::optional<double> ZoneNewton::leap(State& state, StepMixity& mixity, std::span<const double> adhesion_old) const {
-    const auto dim = static_cast<std::size_t>(pairs.dimension);
-    Springs springs{spring_stiffness(pairs, state.adhesion), {}};
-    springs.held.assign(springs.stiffness.size(), 0);
+std::optional<double> ZoneNewton::run(State& state, Increment& increment) const {
+    const auto dim = static_cast<std::size_t>(contact.dimension);
+    const PairLaws& pairs = increment.pairs();
+    const Springs springs{spring_stiffness(pairs, state.adhesion), held_rows(contact, state.closed)};
     std::vector<std::uint8_t> wanted(springs.stiffness.size(), 0);
-    for (std::size_t p = 0; p < adhesion_old.size(); ++p) {
-        const bool bonded = contact.bonded[p] != 0;
-        for (std::size_t c = 0; c < dim; ++c)
-            springs.held[p * dim + c] = bonded || (c == 0 && state.closed[p] != 0) ? 1 : 0;
-        if (bonded || pairs.law[p] == nullptr || adhesion_old[p] <= 0.0) continue;
-        const double driving = driving_energy(pairs, p, state.response.jump).total();
-        const bool partly = mixity.rule() == MixityRule::variational && adhesion_old[p] < 1.0;
-        if (partly || state.adhesion[p] < adhesion_old[p] ||
-            pairs.law[p]->minimiser(mixity.toughness()[p], driving / nearly_loaded, adhesion_old[p]) < adhesion_old[p])
-            for (std::size_t c = 0; c < dim; ++c) wanted[p * dim + c] = 1;
+    for (std::size_t p = 0; p < state.adhesion.size(); ++p) {
+        if (contact.bonded[p] != 0 || pairs.law[p] == nullptr || increment.adhesion_before()[p] <= 0.0) continue;
+        const auto jump = std::span<const double>(state.response.jump).subspan(p * dim, dim);
+        if (!increment.damages(p, state.adhesion[p], jump, nearly_loaded)) continue;
+        std::fill_n(wanted.begin() + static_cast<std::ptrdiff_t>(p * dim), dim, std::uint8_t{1});
     }
     Zone* zone = op.zone(springs, wanted, false);
     if (zone == nullptr) return std::nullopt;
-    return Leap(*this, state, mixity, adhesion_old, springs, *zone).run();
+    return Descent(*this, state, increment, springs, *zone).run();
 }
 
 }  // namespace delam

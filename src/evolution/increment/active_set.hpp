@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Frictionless unilateral contact as an active set, over anything that can be solved with given rows held:
+//
+//   u_n >= 0,   lambda_n <= 0,   u_n lambda_n = 0        (u_n: normal jump, lambda_n: force of the pair, tension > 0).
+//
+// A closed row is held at u_n = 0 and may only push; an open one follows its spring and must not penetrate. The
+// primal-dual active set (Hintermueller, Ito, Kunisch, SIAM J. Optim. 13, 2002) moves every row that violates its side
+// at once and needs 3 to 4 solves from a good start. It can cycle: once a set comes back, only the violating row of
+// least index moves (least-index principal pivoting, Murty 1988), which ends for every positive definite system.
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <cstdint>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/numbers.hpp"
+
+namespace delam {
+
+// unbalanced: no equilibrium, because a part that nothing holds carries a load. failed: no unique minimum.
+enum class ContactSolve { solved, unbalanced, failed };
+
+// The rows of a system that may open and close, in ascending order.
+struct ContactRows {
+    std::vector<std::size_t> row;     // among the system's jumps and forces
+    std::vector<std::uint8_t> level;  // coarse sets have high levels (contact_levels.hpp); empty: all rows have level 0
+    std::uint8_t least = 0;           // the search ends with the rows of this level and above
+    std::uint8_t first = 0;           // and begins with those of this one
+    bool on(std::size_t i, std::uint8_t at) const { return level.empty() || level[i] >= at; }
+};
+
+// solve(closed): with these contact rows held, the others free. Afterwards jump() and force() are those of all rows,
+// and jump_floor() and force_floor() are sizes of jump and force below which rounding may hide (0: none known).
+template <class S>
+concept ContactSystem = requires(S system, const std::vector<std::uint8_t>& closed) {
+    { system.solve(closed) } -> std::same_as<ContactSolve>;
+    { system.jump() } -> std::convertible_to<std::span<const double>>;
+    { system.force() } -> std::convertible_to<std::span<const double>>;
+    { system.jump_floor() } -> std::convertible_to<double>;
+    { system.force_floor() } -> std::convertible_to<double>;
+};
+
+struct ActiveSet {
+    ContactSolve last = ContactSolve::solved;  // anything else: the search ended there
+    bool settled = false;                      // no row violates its side
+    bool exchanged = false;                    // least-index exchanges were needed
+    std::int64_t solves = 0;
+};
+
+// Violations below this part of the largest jump or force are rounding of the solve.
+inline constexpr double contact_rounding = 1e-11;
+
+// Contact rows on the wrong side, as places in `rows`; only those on this level or above.
+template <ContactSystem S>
+std::vector<std::size_t> contact_violators(const S& system, const ContactRows& rows,
+                                           const std::vector<std::uint8_t>& closed, std::uint8_t level) {
+    const std::span<const double> jump = system.jump(), force = system.force();
+    const double least_jump = contact_rounding * std::max(max_abs(jump), system.jump_floor());
+    const double least_force = contact_rounding * std::max(max_abs(force), system.force_floor());
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < rows.row.size(); ++i) {
+        if (!rows.on(i, level)) continue;
+        const std::size_t r = rows.row[i];
+        if (closed[i] != 0 ? force[r] > least_force : jump[r] < -least_jump) found.push_back(i);
+    }
+    return found;
+}
+
+// closed: [contact rows], the start in, the contact set out. Where a loaded part floats, contact may hold it: with
+// close_once the search begins once more from everything closed.
+template <ContactSystem S>
+ActiveSet find_active_set(S& system, const ContactRows& rows, std::vector<std::uint8_t>& closed, std::int64_t limit,
+                          bool close_once) {
+    ActiveSet result;
+    std::set<std::string> seen;  // contact sets, as bytes
+    std::uint8_t level = rows.first;
+    bool exchange = false;
+    while (true) {
+        result.last = system.solve(closed);
+        ++result.solves;
+        if (result.last == ContactSolve::unbalanced && close_once) {
+            close_once = false;
+            level = rows.least;
+            std::fill(closed.begin(), closed.end(), std::uint8_t{1});
+            continue;
+        }
+        if (result.last != ContactSolve::solved) return result;
+        std::vector<std::size_t> wrong = contact_violators(system, rows, closed, level);
+        while (wrong.empty() && level > rows.least) {
+            wrong = contact_violators(system, rows, closed, --level);
+            seen.clear();
+            exchange = false;
+        }
+        result.settled = wrong.empty();
+        if (result.settled || result.solves >= limit) return result;
+        if (!seen.emplace(closed.begin(), closed.end()).second) result.exchanged = exchange = true;
+        for (const std::size_t i : wrong) {
+            closed[i] ^= 1;
+            if (exchange) break;
+        }
+    }
+}
+
+}  // namespace delam

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/increment/converged_increment.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "law/mixity.hpp"
+
+namespace delam {
+
+namespace {
+
+// A mixity that swings to and fro goes half as far with each swing that does not shrink to half. It is held once the
+// share is down to `least_share`, or after so many turns, so that a step ends.
+constexpr double least_share = 1.0 / 64.0;
+constexpr std::int64_t most_turns = 100;
+constexpr double mixity_difference = 1e-6;  // of the derivative by B
+
+}  // namespace
+
+ConvergedIncrement::ConvergedIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity,
+                                       double tolerance)
+    : FrozenIncrement(pairs, before, mixity, tolerance), swing_(mixity.size()) {}
+
+std::unique_ptr<Increment> ConvergedIncrement::starting_at(std::span<const double> mixity) const {
+    return std::make_unique<ConvergedIncrement>(pairs_, before_, mixity, tolerance_);
+}
+
+// What a broken pair has kept is settled.
+void ConvergedIncrement::begin_observation() {
+    for (Swing& s : swing_) s.open = 0.0;
+}
+
+bool ConvergedIncrement::observe(std::size_t pair, const Driving& y) {
+    if (!pairs_.mixed(pair) || !tells_mixity(*pairs_.law[pair], y, largest_)) return false;
+    const double shown = mode_mixity(y.normal, y.tangential);
+    now_.own[pair] = shown;
+    if (shown == now_.used[pair]) return false;
+    const Toughness from = now_.toughness[pair], to = pairs_.law[pair]->toughness(shown);
+    const double onset = from.onset > 0.0 ? to.onset / from.onset - 1.0 : 0.0, total = to.total / from.total - 1.0;
+    const double change = std::abs(onset) > std::abs(total) ? onset : total;
+    Swing& swing = swing_[pair];
+    if (change * swing.last < 0.0 && std::abs(change) > tolerance_) {
+        ++swing.turns;
+        if (std::abs(change) > 0.5 * std::abs(swing.last)) swing.share *= 0.5;
+        if (swing.share < least_share || swing.turns > most_turns) swing.share = 0.0;
+    }
+    swing.last = change;
+    swing.open = (1.0 - swing.share) * std::abs(change);
+    if (swing.share <= 0.0) return false;
+    if (swing.share >= 1.0) {
+        now_.used[pair] = shown;
+        now_.toughness[pair] = to;
+    } else {
+        now_.used[pair] += swing.share * (shown - now_.used[pair]);
+        now_.toughness[pair] = pairs_.law[pair]->toughness(now_.used[pair]);
+    }
+    return now_.toughness[pair].onset != from.onset || now_.toughness[pair].total != from.total;
+}
+
+bool ConvergedIncrement::settled(const State& state) {
+    if (now_.used == now_.own) return true;
+    const Memory before = now_;
+    double open = 0.0;
+    for (std::size_t p = 0; p < swing_.size(); ++p) {
+        if (now_.used[p] == now_.own[p]) continue;
+        now_.used[p] = now_.own[p];
+        now_.toughness[p] = pairs_.law[p]->toughness(now_.own[p]);
+        if (swing_[p].share > 0.0) open = std::max(open, swing_[p].open);
+    }
+    const std::vector<double> next = damage_step(state.adhesion, state.response.jump);
+    bool rests = true;
+    for (std::size_t p = 0; p < next.size(); ++p) rests = rests && std::abs(next[p] - state.adhesion[p]) <= tolerance_;
+    if (rests) {
+        begin_observation();
+        return true;
+    }
+    restore(before);
+    return open <= tolerance_;
+}
+
+std::int64_t ConvergedIncrement::held() const {
+    return std::count_if(swing_.begin(), swing_.end(),
+                         [&](const Swing& s) { return s.share <= 0.0 && s.open > tolerance_; });
+}
+
+void ConvergedIncrement::adopt(std::span<const double> mixity, State& start) const {
+    for (std::size_t p = 0; p < start.adhesion.size(); ++p)
+        if (start.adhesion[p] <= 0.0) start.mixity[p] = mixity[p];
+}
+
+// The driving energy that a pair needs is D(B, zeta), so omega loses dD/dB dB/dj, where B = Y_t/Y gives
+// dB/dj_n = -B k_n j_n / Y and dB/dj_t = (1 - B) k_t j_t / Y.
+void ConvergedIncrement::add_mixity(PairDirection& direction, const State& state) const {
+    const std::size_t p = direction.pair;
+    const Law& law = *pairs_.law[p];
+    if (!pairs_.mixed(p)) return;
+    const std::span<const double> jump = local(state.response.jump, p);
+    const Driving y = driving_energy(law, jump);
+    if (!tells_mixity(law, y, largest_driving(pairs_, state.response.jump))) return;
+    const double b = mode_mixity(y.normal, y.tangential), zeta = state.adhesion[p];
+    const double below = std::max(0.0, b - mixity_difference), above = std::min(1.0, b + mixity_difference);
+    const double slope =
+        (law.driving(law.toughness(above), zeta) - law.driving(law.toughness(below), zeta)) / (above - below);
+    for (std::size_t c = 0; c < jump.size(); ++c) {
+        const double k = c == 0 ? law.normal_stiffness : law.tangential_stiffness;
+        direction.form[c] -= slope * (c == 0 ? -b : 1.0 - b) * k * jump[c] / y.total();
+    }
+}
+
+}  // namespace delam

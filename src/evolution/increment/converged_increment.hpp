@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// mixity_rule = converged: the mixities follow the iterates to a fixed point, the step's own solution. A pair that
+// breaks keeps the mixity of the iterate in which it broke, the last one whose displacements it still took part in. B
+// adds no traction of its own; energies are compared at equal B.
+#pragma once
+
+#include "evolution/increment/frozen_increment.hpp"
+
+namespace delam {
+
+class ConvergedIncrement final : public FrozenIncrement {
+public:
+    ConvergedIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity, double tolerance);
+    std::unique_ptr<Increment> starting_at(std::span<const double> mixity) const override;
+
+    using Increment::observe;
+    bool observe(std::size_t pair, const Driving& y) override;
+    bool settled(const State& state) override;
+    std::int64_t held() const override;
+    bool follows_iterates() const override { return true; }
+    void adopt(std::span<const double> mixity, State& start) const override;
+
+protected:
+    void begin_observation() override;
+    void add_mixity(PairDirection& direction, const State& state) const override;
+
+private:
+    // How the mixity of a pair moves from iterate to iterate.
+    struct Swing {
+        double last = 0.0;   // relative change of Gc or Go that the last iterate called for
+        double share = 1.0;  // part of such a change that is made
+        double open = 0.0;   // what the last change left out
+        std::int64_t turns = 0;
+    };
+    std::vector<Swing> swing_;
+};
+
+}  // namespace delam

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// mixity_rule = frozen: the whole step uses the mixities of the state before it. The step minimises the booked split:
+// stored zeta Y, dissipated g(B, zeta) - g(B, zeta_before). At frozen B the displacement step is a quadratic program.
+#pragma once
+
+#include "evolution/increment/increment.hpp"
+
+namespace delam {
+
+class FrozenIncrement : public Increment {
+public:
+    FrozenIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity, double tolerance)
+        : Increment(pairs, before, mixity, tolerance) {}
+    std::unique_ptr<Increment> starting_at(std::span<const double> mixity) const override;
+
+    double energy(std::span<const double> adhesion, std::span<const double> jump) const override;
+    std::vector<double> damage_step(std::span<const double> adhesion, std::span<const double> jump) const override;
+    bool displace(const DisplacementSolve& solve, State& state) const override;
+    double cost(std::span<const double> mixity, std::span<const double> adhesion) const override;
+    double energy_before() const override { return before_.ledger.energy(); }
+    std::vector<PairDirection> directions(const State& state) const override;
+
+protected:
+    void book_rule(State& next, double energy_change, double energy_change_slides) const override;
+    // What the mixity of the pair adds to the form omega of its direction as the pair moves; nothing while B is frozen.
+    virtual void add_mixity(PairDirection& /*direction*/, const State& /*state*/) const {}
+
+private:
+    // Does the pair damage at the end of the step: is its adhesion the minimiser at its load, strictly inside?
+    bool damaging(const State& state, std::size_t pair, bool coupled) const;
+};
+
+}  // namespace delam

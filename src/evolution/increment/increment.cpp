@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/increment/increment.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "law/mixity.hpp"
+
+namespace delam {
+
+Increment::Increment(const PairLaws& pairs, const State& before, std::span<const double> mixity, double tolerance)
+    : pairs_(pairs), before_(before), tolerance_(tolerance) {
+    now_.used.assign(mixity.begin(), mixity.end());
+    now_.own = now_.used;
+    now_.toughness = toughnesses(pairs, mixity);
+}
+
+bool Increment::damages(std::size_t pair, double adhesion, std::span<const double> local_jump, double nearly) const {
+    const Law& law = *pairs_.law[pair];
+    const double before = before_.adhesion[pair];
+    return adhesion < before ||
+           law.minimiser(now_.toughness[pair], driving_energy(law, local_jump).total() / nearly, before) < before;
+}
+
+PairMinimum Increment::minimum(std::size_t pair, std::span<const double> local_jump) const {
+    const Law& law = *pairs_.law[pair];
+    const double driving = driving_energy(law, local_jump).total();
+    const double zeta = law.minimiser(now_.toughness[pair], driving, before_.adhesion[pair]);
+    return {zeta, zeta * driving + law.dissipated(now_.toughness[pair], zeta)};
+}
+
+// C = w [zeta K + fraction zeta'(Y) (K j)(K j)^T],   h = C j - w zeta K j.
+PairModel Increment::model(std::size_t pair, std::span<const double> local_jump, double adhesion,
+                           double fraction) const {
+    const std::size_t dim = local_jump.size();
+    const Law& law = *pairs_.law[pair];
+    const double weight = pairs_.weight[pair];
+    double pull[3] = {law.normal_stiffness * std::max(0.0, local_jump[0]), 0.0, 0.0};
+    for (std::size_t c = 1; c < dim; ++c) pull[c] = law.tangential_stiffness * local_jump[c];
+    const double driving = driving_energy(law, local_jump).total();
+    const double slope =
+        fraction > 0.0 ? fraction * law.slope(now_.toughness[pair], driving, before_.adhesion[pair]) : 0.0;
+    PairModel m;
+    for (std::size_t r = 0; r < dim; ++r)
+        for (std::size_t q = 0; q < dim; ++q) {
+            const double spring = weight * adhesion * (r == 0 ? law.normal_stiffness : law.tangential_stiffness);
+            const double secant = r == q ? spring : 0.0;
+            const double full = weight * slope * pull[r] * pull[q] + secant;
+            m.tangent[r * dim + q] = full;
+            if (full != 0.0) m.force[r] += (full - secant) * local_jump[q];
+        }
+    return m;
+}
+
+double Increment::dissipated(std::size_t pair, double adhesion) const {
+    const Law& law = *pairs_.law[pair];
+    const Toughness& t = now_.toughness[pair];
+    return law.dissipated(t, adhesion) - law.dissipated(t, before_.adhesion[pair]);
+}
+
+bool Increment::observe(std::span<const double> adhesion, std::span<const double> jump) {
+    largest_ = largest_driving(pairs_, jump);
+    begin_observation();
+    bool changed = false;
+    for (std::size_t p = 0; p < adhesion.size(); ++p)
+        if (pairs_.mixed(p) && adhesion[p] > 0.0 && observe(p, driving_energy(pairs_, p, jump))) changed = true;
+    return changed;
+}
+
+bool Increment::observe(std::size_t pair, const Driving& y) {
+    if (pairs_.mixed(pair) && tells_mixity(*pairs_.law[pair], y, largest_))
+        now_.own[pair] = mode_mixity(y.normal, y.tangential);
+    return false;
+}
+
+// mixity_error = sum w |dzeta| |Gc(own) - Gc(used)| / sum w |dzeta| Gc(used); 0 when nothing was damaged.
+void Increment::record(State& state) const {
+    double missed = 0.0, all = 0.0;
+    for (std::size_t p = 0; p < state.adhesion.size(); ++p) {
+        if (pairs_.law[p] == nullptr || state.adhesion[p] == before_.adhesion[p]) continue;
+        const double part = pairs_.weight[p] * std::abs(before_.adhesion[p] - state.adhesion[p]);
+        const double total = now_.toughness[p].total;
+        all += part * total;
+        if (pairs_.mixed(p)) missed += part * std::abs(pairs_.law[p]->toughness(now_.own[p]).total - total);
+    }
+    state.mixity = recorded();
+    state.ledger.mixity_error = all > 0.0 ? missed / all : 0.0;
+    state.counts.mixity_held = held();
+}
+
+void Increment::restore(const Memory& memory) {
+    std::copy(memory.used.begin(), memory.used.end(), now_.used.begin());
+    std::copy(memory.own.begin(), memory.own.end(), now_.own.begin());
+    std::copy(memory.toughness.begin(), memory.toughness.end(), now_.toughness.begin());
+}
+
+void book_energies(const PairLaws& pairs, State& state) {
+    Ledger& ledger = state.ledger;
+    ledger.stored_bulk = state.response.stored_bulk;
+    ledger.load_potential = state.response.load_potential;
+    ledger.stored_interface = stored_energy(pairs, state.adhesion, state.response.jump);
+    ledger.stored_interface_slides = ledger.stored_interface + stored_slides(pairs, state.mixity, state.adhesion);
+}
+
+void Increment::book(State& next) const {
+    book_energies(pairs_, next);
+    Ledger& ledger = next.ledger;
+    const double dissipated = dissipation(pairs_, next.mixity, before_.adhesion, next.adhesion);
+    ledger.dissipated = before_.ledger.dissipated + dissipated;
+    const double change = ledger.energy() - before_.ledger.energy();
+    ledger.increment = change + dissipated;
+    ledger.increment_lower = change + dissipation(pairs_, next.mixity_before, before_.adhesion, next.adhesion);
+    book_rule(next, change, ledger.energy_slides() - before_.ledger.energy_slides());
+}
+
+}  // namespace delam

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// mixity_rule = variational: the stored energy holds f(B(u), zeta) at the mixity of the displacements themselves, the
+// dissipated one Gc at the mixity before the step (law/variational.hpp). The displacement step is no quadratic program
+// (curved_displacement.hpp), and the step minimises the split with f stored and Gc dzeta dissipated.
+#pragma once
+
+#include "evolution/increment/increment.hpp"
+#include "law/variational.hpp"
+
+namespace delam {
+
+class VariationalIncrement final : public Increment {
+public:
+    VariationalIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity, double tolerance)
+        : Increment(pairs, before, mixity, tolerance) {}
+    std::unique_ptr<Increment> starting_at(std::span<const double> mixity) const override;
+
+    double energy(std::span<const double> adhesion, std::span<const double> jump) const override;
+    std::vector<double> damage_step(std::span<const double> adhesion, std::span<const double> jump) const override;
+    bool displace(const DisplacementSolve& solve, State& state) const override;
+    bool damages(std::size_t pair, double adhesion, std::span<const double> local_jump, double nearly) const override;
+    PairMinimum minimum(std::size_t pair, std::span<const double> local_jump) const override;
+    PairModel model(std::size_t pair, std::span<const double> local_jump, double adhesion,
+                    double fraction) const override;
+    double cost(std::span<const double> mixity, std::span<const double> adhesion) const override;
+    double energy_before() const override { return before_.ledger.energy_slides(); }
+    bool bounds_candidates() const override { return false; }
+    std::vector<double> shown(std::span<const double> jump, std::vector<double> mixity) const override;
+    std::vector<PairDirection> directions(const State& state) const override;
+
+protected:
+    const std::vector<double>& recorded() const override { return now_.own; }
+    void book_rule(State& next, double energy_change, double energy_change_slides) const override;
+
+private:
+    VariationalPair pair(std::size_t p) const {
+        return {*pairs_.law[p], now_.used[p], now_.toughness[p].total, largest_};
+    }
+};
+
+}  // namespace delam

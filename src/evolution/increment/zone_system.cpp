@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/increment/zone_system.hpp"
+
+#include "base/numbers.hpp"
+
+namespace delam {
+
+ZoneSystem::ZoneSystem(Zone& zone, const ContactScene& scene, std::span<const std::uint8_t> prescribed,
+                       std::span<const std::uint8_t> held, std::span<const double> theta, Poll poll)
+    : zone_(zone), scene_(scene), theta_(theta), poll_(std::move(poll)) {
+    const auto dim = static_cast<std::size_t>(scene.dimension);
+    const std::vector<std::int64_t>& rows = zone.jump_rows();
+    for (std::size_t z = 0; z < rows.size(); ++z) {
+        const std::size_t row = index(rows[z]);
+        const bool driven = prescribed[row] != 0;  // by the device: neither held nor let go
+        held_.push_back(driven ? 0 : held[row]);
+        if (row % dim == 0 && scene.bonded[row / dim] == 0 && !driven) {
+            contact_.row.push_back(z);
+            entered_.push_back(held_[z]);
+        }
+        if (row % dim == 0 && z + dim <= rows.size() && index(rows[z + dim - 1]) == row + dim - 1)
+            pairs_.push_back({row / dim, z});
+    }
+}
+
+void ZoneSystem::load(std::vector<Zone::Coupling> couplings, std::vector<double> row_force) {
+    couplings_ = std::move(couplings);
+    row_force_ = std::move(row_force);
+}
+
+std::vector<std::uint8_t> ZoneSystem::held(const std::vector<std::uint8_t>& closed) const {
+    std::vector<std::uint8_t> held = held_;
+    for (std::size_t i = 0; i < closed.size(); ++i) held[contact_.row[i]] = closed[i];
+    return held;
+}
+
+ContactSolve ZoneSystem::solve(const std::vector<std::uint8_t>& closed) {
+    call_if_set(poll_);
+    held_ = held(closed);
+    if (!zone_.factor(couplings_, held_)) return ContactSolve::failed;
+    const Zone::Solution solution = zone_.solve(theta_, row_force_);
+    if (!solution.balanced) return ContactSolve::unbalanced;
+    unknowns_ = solution.unknowns;
+    jump_ = zone_.jumps(theta_, unknowns_);
+    force_.assign(jump_.size(), 0.0);
+    for (std::size_t z = 0; z < row_force_.size(); ++z) force_[z] = -row_force_[z];
+    for (const Zone::Coupling& c : couplings_) force_[index(c.row)] += c.value * jump_[index(c.column)];
+    zone_.complete_forces(theta_, solution, force_);
+    return ContactSolve::solved;
+}
+
+}  // namespace delam

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A zone of the jump operator as a system with contact: springs or tangents on its rows, forces of their own, and the
+// normal rows of its pairs that may open and close.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "evolution/increment/active_set.hpp"
+#include "evolution/increment/contact.hpp"
+#include "reduction/zone/zone.hpp"
+
+namespace delam {
+
+class ZoneSystem {
+public:
+    // held: [jump rows] of the whole scene, as the zone is entered. poll: called in every solve. The zone, the scene
+    // and theta must outlive the system.
+    ZoneSystem(Zone& zone, const ContactScene& scene, std::span<const std::uint8_t> prescribed,
+               std::span<const std::uint8_t> held, std::span<const double> theta, Poll poll = {});
+
+    const Zone& zone() const { return zone_; }
+    std::span<const double> theta() const { return theta_; }
+    const ContactRows& contact_rows() const { return contact_; }
+    // The contact set with which the zone was entered, [contact rows].
+    const std::vector<std::uint8_t>& entered_closed() const { return entered_; }
+    // First zone row of a pair of which the zone has all rows, [pairs found], with the pair.
+    struct Pair {
+        std::size_t pair;
+        std::size_t first;
+    };
+    const std::vector<Pair>& pairs() const { return pairs_; }
+
+    // What acts on the rows from now on: the force of a row is sum_q C_rq j_q - h_r. row_force: h, [zone rows] or
+    // empty.
+    void load(std::vector<Zone::Coupling> couplings, std::vector<double> row_force);
+
+    ContactSolve solve(const std::vector<std::uint8_t>& closed);
+    std::span<const double> jump() const { return jump_; }
+    std::span<const double> force() const { return force_; }
+    double jump_floor() const { return scene_.jump_floor(theta_); }
+    double force_floor() const { return scene_.force_floor(theta_); }
+    // Of the last solve.
+    const std::vector<double>& unknowns() const { return unknowns_; }
+    // Zone rows that are held with this contact set.
+    std::vector<std::uint8_t> held(const std::vector<std::uint8_t>& closed) const;
+
+private:
+    Zone& zone_;
+    const ContactScene& scene_;
+    std::span<const double> theta_;
+    Poll poll_;
+    ContactRows contact_;
+    std::vector<std::uint8_t> entered_;
+    std::vector<Pair> pairs_;
+    std::vector<std::uint8_t> held_;  // [zone rows]
+    std::vector<Zone::Coupling> couplings_;
+    std::vector<double> row_force_;
+    std::vector<double> unknowns_, jump_, force_;
+};
+
+}  // namespace delam

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/step/candidate_energies.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "base/error.hpp"
+#include "base/numbers.hpp"
+#include "delam/delam.h"
+#include "law/mixity.hpp"
+
+namespace delam {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+std::uint64_t key_of(std::span<const double> adhesion) {
+    std::uint64_t h = 14695981039346656037ULL;
+    for (const double z : adhesion) {
+        h ^= std::bit_cast<std::uint64_t>(z);
+        h *= 1099511628211ULL;
+        h ^= h >> 29U;
+    }
+    return h;
+}
+
+}  // namespace
+
+CandidateEnergies::CandidateEnergies(JumpOperator& op, const ContactScene& contact, Monitor& monitor,
+                                     ZoneEnergies* zone, const Increment& increment, const State& from)
+    : op_(op),
+      contact_(contact),
+      monitor_(monitor),
+      zone_(zone),
+      increment_(increment),
+      from_(from),
+      follow_mixity_(increment.follows_iterates()),
+      size_(max_abs(from.theta)),
+      direction_(from.theta),
+      closed_(from.closed),
+      response_(from.response) {
+    for (double& d : direction_) d /= size_ > 0.0 ? size_ : 1.0;
+}
+
+void CandidateEnergies::focus(std::span<const std::uint8_t> wanted) {
+    if (zone_ == nullptr) return;
+    std::vector<std::uint8_t> pairs(wanted.begin(), wanted.end());
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+        if (from_.adhesion[p] != increment_.adhesion_before()[p]) pairs[p] = 1;
+    focused_ = zone_->focus(from_, pairs);
+}
+
+bool CandidateEnergies::within_zone(std::span<const double> adhesion, std::span<const std::int64_t> next) const {
+    bool within = focused_;
+    for (std::size_t p = 0; within && p < adhesion.size(); ++p)
+        within = adhesion[p] == from_.adhesion[p] || zone_->inside(p);
+    for (std::size_t i = 0; within && follow_mixity_ && i < next.size(); ++i) within = zone_->inside(index(next[i]));
+    return within;
+}
+
+void CandidateEnergies::from_zone(std::span<const double> adhesion, std::span<const double> known, CandidateEnergy& e) {
+    const std::optional<double> value = zone_->energy(adhesion);
+    if (!value) return;
+    e.value = *value / (size_ * size_);
+    for (std::size_t i = 0; follow_mixity_ && i < e.next.size(); ++i) {
+        const std::size_t p = index(e.next[i]);
+        const Driving y = driving_energy(*increment_.pairs().law[p], zone_->jump(p));
+        e.next_mixity.push_back(y.total() > 0.0 ? mode_mixity(y.normal, y.tangential) : known[p]);
+    }
+}
+
+void CandidateEnergies::from_operator(std::span<const double> adhesion, std::span<const double> known,
+                                      CandidateEnergy& e) {
+    const PairLaws& pairs = increment_.pairs();
+    focused_ = false;  // the solve may choose another zone
+    try {
+        if (!solve_contact(op_, contact_, spring_stiffness(pairs, adhesion), direction_, closed_, response_, false)
+                 .converged)
+            return;
+        e.value = response_.stored_bulk + response_.load_potential + stored_energy(pairs, adhesion, response_.jump) -
+                  gradient_energy(pairs, adhesion);  // which does not grow with the load
+        if (!follow_mixity_) return;
+        const std::vector<double> own = mixities(pairs, response_.jump, known);
+        for (const std::int64_t p : e.next) e.next_mixity.push_back(own[index(p)]);
+    } catch (const Error& error) {
+        if (error.status() != DELAM_LIMIT) throw;
+    }
+}
+
+const CandidateEnergy& CandidateEnergies::at(const std::vector<double>& adhesion, std::span<const std::int64_t> next,
+                                             std::span<const double> known, std::int64_t candidates) {
+    const std::uint64_t key = key_of(adhesion);
+    if (const auto it = known_.find(key);
+        it != known_.end() && (!follow_mixity_ || next.empty() || std::ranges::equal(it->second.next, next)))
+        return it->second;
+    monitor_.progress("search", candidates, 0);
+    CandidateEnergy e{infinite, {next.begin(), next.end()}, {}};
+    if (within_zone(adhesion, next))
+        from_zone(adhesion, known, e);
+    else
+        from_operator(adhesion, known, e);
+    return known_[key] = std::move(e);
+}
+
+}  // namespace delam

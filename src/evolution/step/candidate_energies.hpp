@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Energies E(t, z) of the candidates of one search, per unit of the load, each computed once.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "evolution/increment/increment.hpp"
+#include "evolution/step/zone_energies.hpp"
+
+namespace delam {
+
+struct CandidateEnergy {
+    double value;                     // at the unit load; infinite: nothing balances the load
+    std::vector<std::int64_t> next;   // pairs that may break next
+    std::vector<double> next_mixity;  // which they show; empty where the mixity does not follow the iterates
+};
+
+class CandidateEnergies {
+public:
+    // The load of `from`: a direction whose largest entry is 1 in size, and its size.
+    CandidateEnergies(JumpOperator& op, const ContactScene& contact, Monitor& monitor, ZoneEnergies* zone,
+                      const Increment& increment, const State& from);
+
+    double size() const { return size_; }
+    const std::vector<double>& direction() const { return direction_; }
+    bool has_zones() const { return zone_ != nullptr; }
+    // Lets energies of states come from a zone about these pairs, [pairs], and those that the step has damaged.
+    void focus(std::span<const std::uint8_t> wanted);
+    void lose_focus() { focused_ = false; }
+    // known: B of the pairs. candidates: so many have been compared (progress).
+    const CandidateEnergy& at(const std::vector<double>& adhesion, std::span<const std::int64_t> next,
+                              std::span<const double> known, std::int64_t candidates);
+
+private:
+    bool within_zone(std::span<const double> adhesion, std::span<const std::int64_t> next) const;
+    void from_zone(std::span<const double> adhesion, std::span<const double> known, CandidateEnergy& e);
+    void from_operator(std::span<const double> adhesion, std::span<const double> known, CandidateEnergy& e);
+
+    JumpOperator& op_;
+    const ContactScene& contact_;
+    Monitor& monitor_;
+    ZoneEnergies* zone_;
+    const Increment& increment_;
+    const State& from_;
+    bool follow_mixity_;
+    bool focused_ = false;
+    double size_ = 0.0;
+    std::vector<double> direction_;
+    std::vector<std::uint8_t> closed_;
+    Response response_;
+    std::unordered_map<std::uint64_t, CandidateEnergy> known_;
+};
+
+}  // namespace delam

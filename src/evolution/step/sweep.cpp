@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/step/sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/numbers.hpp"
+
+namespace delam {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr std::size_t fine = 16;            // rings that are all sampled; of longer sweeps about as many
+constexpr std::size_t largest_zone = 1500;  // rows in which sweeps live where the operator offers zones
+constexpr std::size_t largest_crack = 32;   // rings of a new crack, and of the zone about it
+
+}  // namespace
+
+std::vector<std::uint8_t> SearchRun::adhering(const Candidate& base) const {
+    return adhering_pairs(pairs(), base.adhesion, toughnesses(pairs(), base.mixity));
+}
+
+double SearchRun::compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity) {
+    --left;
+    ++result.candidates;
+    const CandidateEnergy& e = energies.at(candidate.adhesion, next, candidate.mixity, result.candidates);
+    if (next_mixity != nullptr) *next_mixity = e.next_mixity;
+    const double size = energies.size();
+    candidate.incremental = size * size * e.value - increment.energy_before() +
+                            gradient_energy(pairs(), candidate.adhesion) + cost(candidate);
+    result.lowest = std::min(result.lowest, candidate.incremental);
+    best = std::min(best, candidate.incremental);
+    return candidate.incremental;
+}
+
+// A new crack that meets an older one is an advance of that one, with the mixity that its front brings.
+bool Sweep::touches_debonded(std::span<const std::int64_t> ring) const {
+    for (const std::int64_t p : ring)
+        for (const std::int64_t q : search_.graph.neighbours(index(p)))
+            if (search_.pairs().law[index(q)] != nullptr && adhering_[index(q)] == 0) return true;
+    return false;
+}
+
+Sweep::Sweep(SearchRun& search, const Front& front, const Candidate& base)
+    : search_(search),
+      base_(base),
+      adhering_(search.adhering(base)),
+      ring_(rings(search.graph, adhering_, front)),
+      nucleation_(front.nucleation),
+      all_(ring_.size()) {
+    keep_rings();
+}
+
+void Sweep::keep_rings() {
+    const PairLaws& pairs = search_.pairs();
+    double cost = search_.cost(base_);
+    std::vector<std::uint8_t> wanted(base_.adhesion.size(), 0);
+    for (std::size_t p = 0; p < wanted.size(); ++p)
+        if (base_.adhesion[p] != search_.increment.adhesion_before()[p]) wanted[p] = 1;
+    auto rows = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}));
+    std::size_t keep = 0;
+    while (keep < ring_.size() && (keep < 2 || search_.floor + cost < search_.best)) {
+        rows += ring_[keep].size();
+        if (keep > 0 && search_.energies.has_zones() && rows * index(pairs.dimension) > largest_zone) break;
+        if (nucleation_ && (keep == largest_crack || touches_debonded(ring_[keep]))) break;
+        for (const std::int64_t i : ring_[keep]) {
+            const std::size_t p = index(i);
+            const Toughness t = pairs.toughness(p, base_.mixity[p]);
+            cost += pairs.weight[p] * (t.total - pairs.law[p]->dissipated(t, base_.adhesion[p]));
+            wanted[p] = 1;
+        }
+        ++keep;
+    }
+    if (keep < ring_.size())
+        for (const std::int64_t p : ring_[keep]) wanted[index(p)] = 1;  // whose mixity may be needed
+    ring_.resize(keep);
+    mixity_.resize(ring_.size());
+    search_.energies.focus(wanted);
+}
+
+Candidate Sweep::candidate(std::size_t n) const {
+    Candidate c = base_;
+    const std::vector<double>* latest = nullptr;
+    for (std::size_t k = 0; k < n; ++k) {
+        if (!mixity_[k].empty()) latest = &mixity_[k];
+        for (std::size_t i = 0; i < ring_[k].size(); ++i) {
+            const auto p = index(ring_[k][i]);
+            if (search_.increment.follows_iterates() && latest != nullptr)
+                c.mixity[p] = (*latest)[std::min(i, latest->size() - 1)];
+            c.adhesion[p] = 0.0;
+        }
+    }
+    if (const auto it = value_.find(n); it != value_.end()) c.incremental = it->second.incremental;
+    return c;
+}
+
+std::optional<Candidate> Sweep::best() const {
+    if (best_at_ == 0) return std::nullopt;
+    return candidate(best_at_);
+}
+
+void Sweep::sample(std::size_t n) {
+    if (value_.contains(n)) return;
+    Candidate c = candidate(n);
+    const std::span<const std::int64_t> next =
+        n < ring_.size() ? std::span<const std::int64_t>(ring_[n]) : std::span<const std::int64_t>();
+    std::vector<double> next_mixity;
+    search_.compare(c, next, &next_mixity);
+    if (n < ring_.size()) mixity_[n] = std::move(next_mixity);
+    cost_[n] = search_.cost(c);
+    value_[n] = Candidate{{}, {}, c.incremental};
+}
+
+double Sweep::between(std::size_t low, std::size_t high) const {
+    const double first = search_.cost(candidate(low + 1));
+    // The gradient energy is not monotone along the front: what is left of it in between is bounded by 0.
+    const double gradient =
+        search_.pairs().gradient.empty() ? 0.0 : gradient_energy(search_.pairs(), candidate(high).adhesion);
+    return value_.at(high).incremental - gradient - cost_.at(high) + first;
+}
+
+double Sweep::bound() const {
+    double least = infinite;
+    for (auto low = value_.begin(), high = std::next(low); high != value_.end(); low = high++) {
+        if (!std::isfinite(high->second.incremental))  // its energy is not known, or nothing balances its load
+            least = std::min(least, search_.floor + cost_.at(low->first));
+        else if (high->first > low->first + 1)
+            least = std::min(least, between(low->first, high->first));
+    }
+    const std::size_t last = value_.rbegin()->first;
+    return last < all_ ? std::min(least, search_.floor + cost_.at(last)) : least;
+}
+
+// Halves the intervals on both sides of the lowest sample until its neighbours are sampled.
+void Sweep::refine_minimum() {
+    while (search_.left > 0) {
+        // The lowest sample to which I falls: beyond the first pairs' resistance it may lie above the start and still
+        // be worth relaxing.
+        auto lowest = value_.end();
+        for (auto it = std::next(value_.begin()); it != value_.end(); ++it)
+            if (it->second.incremental < std::prev(it)->second.incremental &&
+                (lowest == value_.end() || it->second.incremental < lowest->second.incremental))
+                lowest = it;
+        best_at_ = lowest != value_.end() ? lowest->first : 0;
+        if (best_at_ == 0) return;
+        const std::size_t at = lowest->first, left = std::prev(lowest)->first;
+        const std::size_t right = std::next(lowest) == value_.end() ? at : std::next(lowest)->first;
+        if (at - left <= 1 && right - at <= 1) return;
+        if (at - left > 1) sample(left + (at - left) / 2);
+        if (right - at > 1 && search_.left > 0) sample(at + (right - at) / 2);
+    }
+    stopped_ = true;
+}
+
+void Sweep::close_gap() {
+    while (true) {
+        std::size_t low = 0, high = 0;
+        double least = search_.best - search_.tolerance;
+        for (auto a = value_.begin(), b = std::next(a); b != value_.end(); a = b++) {
+            if (b->first <= a->first + 1 || !std::isfinite(b->second.incremental)) continue;
+            if (const double left = between(a->first, b->first); left < least) {
+                least = left;
+                low = a->first;
+                high = b->first;
+            }
+        }
+        if (high == 0) return;
+        if (search_.left <= 0) {
+            stopped_ = true;
+            return;
+        }
+        sample(low + (high - low) / 2);
+    }
+}
+
+// Rings far apart, at places that do not move with the front; new cracks of sizes 1, 2, 4 ...
+void Sweep::sample_coarsely() {
+    std::size_t stride = 1;
+    while (ring_.size() / stride > fine) stride *= 2;
+    std::size_t geometric = 1;
+    for (std::size_t n = 1; n <= ring_.size(); ++n) {
+        const std::size_t place = ring_[n - 1].size() == 1 ? index(ring_[n - 1].front()) : n;
+        const bool wanted = nucleation_ ? n == geometric : n <= 2 || place % stride == 0;
+        if (!wanted && n < ring_.size()) continue;
+        if (search_.left <= 0) {
+            stopped_ = true;
+            return;
+        }
+        if (nucleation_) geometric *= 2;
+        sample(n);
+        if (search_.floor + cost_.at(n) >= search_.best) return;
+    }
+}
+
+void Sweep::run() {
+    sample(0);
+    sample_coarsely();
+    if (value_.size() > 1) {
+        refine_minimum();
+        if (!nucleation_) close_gap();
+    }
+    search_.result.bound = std::min(search_.result.bound, nucleation_ ? infinite : bound());
+}
+
+}  // namespace delam

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The growth of one front, or of a new crack, ring by ring from a base; and what all sweeps of one search share.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "evolution/step/candidate_energies.hpp"
+#include "evolution/step/fronts.hpp"
+#include "evolution/step/search.hpp"
+
+namespace delam {
+
+// One search as far as it has come.
+struct SearchRun {
+    const Increment& increment;
+    const PairGraph& graph;
+    CandidateEnergies& energies;
+    SearchResult& result;
+    double floor;       // E_all less the energy before
+    double best;        // lowest I so far, of the step or a candidate
+    double tolerance;   // of energies
+    std::int64_t left;  // candidates until the limit
+
+    const PairLaws& pairs() const { return increment.pairs(); }
+    double cost(const Candidate& c) const { return increment.cost(c.mixity, c.adhesion); }
+    std::vector<std::uint8_t> adhering(const Candidate& base) const;
+    // I of a candidate; counts it. next_mixity: B that the pairs `next` show, where the mixity follows the iterates.
+    double compare(Candidate& candidate, std::span<const std::int64_t> next, std::vector<double>* next_mixity);
+};
+
+class Sweep {
+public:
+    Sweep(SearchRun& search, const Front& front, const Candidate& base);
+
+    void run();
+    std::size_t rings_swept() const { return all_; }
+    std::size_t sampled() const { return value_.size() - 1; }
+    std::size_t best_at() const { return best_at_; }
+    bool stopped() const { return stopped_; }
+    // The lowest minimum beyond the base; none where I only grows.
+    std::optional<Candidate> best() const;
+    // No state between or beyond the samples lies below.
+    double bound() const;
+
+private:
+    // Keeps the rings whose dissipation alone does not yet exceed what could be gained.
+    void keep_rings();
+    bool touches_debonded(std::span<const std::int64_t> ring) const;
+    Candidate candidate(std::size_t n) const;
+    void sample(std::size_t n);
+    void sample_coarsely();
+    void refine_minimum();
+    void close_gap();
+    // Lower bound of what lies strictly between two samples.
+    double between(std::size_t low, std::size_t high) const;
+
+    SearchRun& search_;
+    const Candidate& base_;
+    std::vector<std::uint8_t> adhering_;
+    std::vector<std::vector<std::int64_t>> ring_;
+    bool nucleation_;
+    std::map<std::size_t, Candidate> value_;   // by rings; adhesion is left out: only I and D are needed
+    std::map<std::size_t, double> cost_;       // D
+    std::vector<std::vector<double>> mixity_;  // B of a ring, from the nearest sample before it
+    std::size_t best_at_ = 0;
+    std::size_t all_ = 0;  // rings of the front; those kept may matter and fit
+    bool stopped_ = false;
+};
+
+}  // namespace delam
