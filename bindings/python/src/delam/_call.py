@@ -7,10 +7,9 @@ run in parallel (ctypes releases the interpreter lock during a call).
 
 Python code called from inside (laws, progress) must not let an exception into C. An exception is kept, the library is
 told to stop, and the exception is raised again when the call has ended. So is Ctrl-C: during long calls of the main
-thread a separate handler keeps the exception that the present SIGINT handler raises. Leaving it to the interpreter
-would lose it,
-because a signal that arrives in C becomes an exception at the first instruction of the next callback, before any try
-block.
+thread a separate handler keeps the exception that the present SIGINT handler raises. The interpreter
+itself would lose it, because a signal that arrives in C becomes an exception at the first instruction of the next
+callback, before any try block.
 """
 import collections
 import ctypes

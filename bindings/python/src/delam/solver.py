@@ -227,7 +227,7 @@ class Solver(Object):
         times = floats("times", listed(times), (None,))
         values = floats("values", listed(values), (times.size,))
         self._call(library.delam_solver_set_history, pattern_index(pattern, self.problem, self._patterns), times.size,
-        pointer(times), pointer(values))
+                   pointer(times), pointer(values))
 
     def march(self, times, values=None, progress=False):
         """Advances and commits, time after time; yields a dict of values after each step.
