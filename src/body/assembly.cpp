@@ -16,7 +16,7 @@ namespace delam {
 
 namespace {
 
-// Coordinates of a cell's nodes; its size is that of the type.
+// Coordinates of a cell's nodes, as many as its type has.
 struct Coordinates {
     std::array<double, 3 * most_cell_nodes> x;
     std::size_t count = 0;
@@ -29,8 +29,8 @@ Coordinates cell_coordinates(const Mesh& mesh, std::int64_t cell) {
     return c;
 }
 
-// Where the nodes of all cells stand in `nodes`, cell after cell. Neighbouring cells tend to be neighbours in the list
-// too: the place after that of the same corner of the cell before is tried first.
+// Positions in `nodes` of the nodes of all cells, cell after cell. Neighbouring cells tend to be neighbours in the list
+// too, so the search begins after the position of the same corner of the previous cell.
 struct LocalCells {
     std::vector<std::size_t> start{0};
     std::vector<std::int32_t> node;
@@ -58,8 +58,8 @@ LocalCells local_cells(const Mesh& mesh, std::span<const std::int64_t> cells, st
     return local;
 }
 
-// Which nodes share a cell: compressed rows over the local nodes, each with its neighbours (itself included) ascending.
-// Node b of a cell is neighbour number place[a*n + b] of node a, from the cell's own first place on.
+// Which nodes share a cell: compressed rows over the local nodes, each with its neighbours (including itself)
+// ascending. Node b of a cell is neighbour number place[a*n + b] of node a; place starts at the cell's own offset.
 struct NodeGraph {
     std::vector<std::size_t> start;
     std::vector<std::int32_t> neighbour;
@@ -67,10 +67,10 @@ struct NodeGraph {
     std::vector<std::int32_t> place;
 };
 
-// Rows are gathered in the order in which cells name their nodes. Turned over, row i giving itself to each of its
-// neighbours for i = 0, 1, ..., they come out ascending without being sorted, since the graph is symmetric.
+// Rows are gathered in the order in which cells name their nodes. Transposing them (row i is added to each of its
+// neighbours for i = 0, 1, ...) sorts them in ascending order, because the graph is symmetric.
 NodeGraph node_graph(const LocalCells& cells, std::size_t nodes) {
-    // The cells of each node, as places in the list of their nodes.
+    // The cells of each node, as positions in the list of their nodes.
     std::vector<std::size_t> begin(nodes + 1, 0);
     for (const std::int32_t i : cells.node) ++begin[at(i) + 1];
     for (std::size_t i = 0; i < nodes; ++i) begin[i + 1] += begin[i];
@@ -91,7 +91,7 @@ NodeGraph node_graph(const LocalCells& cells, std::size_t nodes) {
         places += n * n;
     }
 
-    std::vector<std::int32_t> met;  // the rows, not in order
+    std::vector<std::int32_t> met;  // the rows, unsorted
     std::vector<std::int32_t> mark(nodes, -1);
     graph.start.reserve(nodes + 1);
     graph.start.push_back(0);
@@ -155,7 +155,7 @@ SparseMatrix empty_matrix(const NodeGraph& graph, std::size_t dim) {
 
 constexpr std::size_t cells_per_poll = 256;
 
-// The matrix of a cell and where its nodes and pairs of nodes stand.
+// The matrix of a cell and the positions of its nodes and pairs of nodes.
 struct Block {
     std::span<const std::int32_t> node;
     const std::int32_t* place;
@@ -179,8 +179,8 @@ void add(const Block& block, SparseMatrix& k) {
 
 }  // namespace
 
-// The pattern is known from the graph of nodes before any number is: element matrices are added straight into their
-// places, cell after cell, and no list of all their entries ever exists. Both triangles receive the same numbers in
+// The pattern follows from the graph of nodes before any number is known: element matrices are added directly at their
+// positions, cell after cell, and no list of all their entries ever exists. Both triangles receive the same numbers in
 // the same order.
 SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> cells,
                                 std::span<const std::int64_t> nodes, const BodyModel& model, const Poll& poll) {
@@ -211,7 +211,7 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> 
     return k;
 }
 
-// Without eigenstrains the rows of the plane are enough, and isotropic bodies know their zz from the others.
+// Without eigenstrains the in-plane rows suffice, and isotropic bodies have their zz from the others.
 std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> models,
                                   std::span<const double> displacement, std::span<const Strain> eigenstrain) {
     const std::size_t dim = at(mesh.dimension());

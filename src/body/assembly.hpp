@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From cells to the stiffness matrix of a set of cells.
+// Stiffness matrix of a set of cells, and stresses.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> 
                                 std::span<const std::int64_t> nodes, const BodyModel& model, const Poll& poll = {});
 
 // Stresses at cell centres, [cells][4 or 6]: xx, yy, zz, xy (2D, zz from the plane assumption) or xx, yy, zz, xy, yz,
-// zx: C (eps - e*). displacement: [mesh nodes][dimension]; models by body index; eigenstrains e* likewise, in material
-// axes (none where the list is empty).
+// zx: C (eps - e*). displacement: [mesh nodes][dimension]; models by body index; eigenstrains e* by body index too, in
+// material axes (none if the list is empty).
 std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> models,
                                   std::span<const double> displacement, std::span<const Strain> eigenstrain = {});
 

@@ -26,7 +26,7 @@ const Axes* CellElasticity::axes(std::int64_t cell) const {
     return own < 0 ? nullptr : &model_.orientation->axes[static_cast<std::size_t>(own)];
 }
 
-// Isotropic elasticity is the same in all axes, and stays as it was computed.
+// Isotropic elasticity is the same in all axes, so it keeps the computed digits.
 void CellElasticity::turn(std::int64_t cell) {
     if (model_.orientation == nullptr || std::holds_alternative<Elastic>(model_.material)) return;
     const std::int32_t own = model_.orientation->of_cell[static_cast<std::size_t>(cell)];

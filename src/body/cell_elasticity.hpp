@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The elasticity of the cells of one body, each in its own orientation. Only the matrices of the last orientation are
-// kept: to turn them is cheap beside a cell's stiffness.
+// stored: rotating them is cheap compared with computing a cell's stiffness.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ public:
     Dilatation dilatation(std::int64_t cell);
     // All six strains, also in the plane.
     const SpaceElasticity& space(std::int64_t cell);
-    // nullptr: the axes of space.
+    // nullptr: the global axes.
     const Axes* axes(std::int64_t cell) const;
 
 private:

@@ -13,16 +13,17 @@ namespace delam {
 
 namespace {
 
-// Energy of a rigid motion over that of the diagonal alone: rounding below the one, a support above the other.
+// Energy of a rigid motion relative to that of the diagonal alone: rounding below the first number, a support above the
+// second.
 constexpr double rounding = 1e-12, resisted = 1e-9;
-// What a told motion may miss of a rigid one, and the force it may need.
+// Tolerances of a declared motion: its distance from a rigid one, and the force that it needs.
 constexpr double told_tolerance = 1e-6;
-// Ratio of pivots that is no more than rounding.
+// Smaller ratios of pivots are rounding.
 constexpr double mechanism = 1e-14;
 
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-// Nodes that entries other than zero join, each set ascending.
+// Connected components of nodes joined by non-zero entries, each ascending.
 std::vector<std::vector<std::int64_t>> components(const SparseMatrix& k, std::int64_t dim) {
     const std::int64_t nodes = k.rows / dim;
     std::vector<std::int64_t> of(index(nodes), -1), open;
@@ -80,7 +81,7 @@ DenseMatrix some_columns(const DenseMatrix& q, const DenseMatrix& combination, s
     return multiply(q, part);
 }
 
-// D Q of some nodes' DOFs, D the diagonal of K: the forces that would be if all else were held.
+// D Q for the DOFs of some nodes, D the diagonal of K: the forces if everything else were fixed.
 DenseMatrix diagonal_forces(const SparseMatrix& k, std::span<const std::int64_t> nodes, std::int64_t dim,
                             const DenseMatrix& motions) {
     DenseMatrix f = motions;
@@ -91,8 +92,7 @@ DenseMatrix diagonal_forces(const SparseMatrix& k, std::span<const std::int64_t>
     return f;
 }
 
-// Pieces without a free motion need not be told apart: nodes that the host has cut off for supports of its own may be
-// many.
+// Pieces without a free motion need not be distinguished: the host may have disconnected many nodes to support them.
 void unite_held_pieces(HostStiffness& own, std::int64_t dim) {
     HostPiece united;
     std::vector<HostPiece> pieces;
@@ -110,9 +110,9 @@ void unite_held_pieces(HostStiffness& own, std::int64_t dim) {
     own.pieces = std::move(pieces);
 }
 
-// With as many DOFs held as there are free motions, a solid has no motion without energy left. Judged with a unit
-// diagonal: what one row is soft beside another says nothing (rows that the host has emptied have whatever number it
-// likes).
+// With as many DOFs fixed as there are free motions, a solid has no motion without energy left. The check scales the
+// matrix to a unit diagonal, because a row that is soft relative to another one proves nothing (rows that the host has
+// emptied may have any diagonal).
 void refuse_mechanisms(const Mesh& mesh, std::int32_t body, const HostStiffness& own, Monitor& monitor) {
     const std::int64_t dim = mesh.dimension();
     const std::vector<std::int64_t> nodes = mesh.body_nodes(body);
@@ -162,9 +162,9 @@ void refuse_mechanisms(const Mesh& mesh, std::int32_t body, const HostStiffness&
          ": a mechanism, or an indefinite matrix");
 }
 
-// The matrix to judge rigid motions by: in a solid that is free no diagonal entry is larger than the others of its row
-// together. What is more is a support of the host's (a penalty, a number on an emptied row), of which it matters that
-// it is there; were it 1e25, all else would be rounding beside it.
+// The matrix used to judge rigid motions. In a free solid no diagonal entry exceeds the sum of the others in its row.
+// Any excess is a support of the host (a penalty, a number on an emptied row), whose size does not matter; if it were
+// 1e25, everything else would be rounding in comparison.
 SparseMatrix with_tame_supports(SparseMatrix k, std::int64_t dim) {
     const auto entry = [&](std::int64_t row) -> double& {
         const auto begin = k.column.begin() + k.start[index(row)], end = k.column.begin() + k.start[index(row) + 1];
@@ -185,16 +185,15 @@ SparseMatrix with_tame_supports(SparseMatrix k, std::int64_t dim) {
     return k;
 }
 
-// The rigid motions of a piece in another basis: those that are free, then those that are held, orthogonal to them.
+// The rigid motions of a piece in another basis: the free ones, then the held ones orthogonal to them.
 struct Split {
     DenseMatrix combination;  // [rigid motions][rigid motions], of the orthonormal columns of q
     std::int64_t free_count = 0;
 };
 
-// From any vectors that span the free ones; those that are less than told_tolerance of the others' lengths span
-// nothing.
+// From vectors that span the free motions; vectors shorter than told_tolerance times the others span nothing.
 Split split_by(const DenseMatrix& free) {
-    DenseMatrix span(free.rows, free.rows);  // less than zero on what they span: its eigenvectors come first
+    DenseMatrix span(free.rows, free.rows);  // negative definite on their span, so that its eigenvectors come first
     for (std::int64_t c = 0; c < free.columns; ++c) {
         double square = 0.0;
         for (std::int64_t i = 0; i < free.rows; ++i) square += free(i, c) * free(i, c);
@@ -209,7 +208,7 @@ Split split_by(const DenseMatrix& free) {
     return split;
 }
 
-// By their energy over that of the diagonal alone: x.A x / x.B x, A = Q^T K Q, B = Q^T D Q = L L^T.
+// By their energy relative to that of the diagonal alone: x.A x / x.B x, A = Q^T K Q, B = Q^T D Q = L L^T.
 Split found_split(const SparseMatrix& k, std::span<const std::int64_t> local, std::int64_t dim, const DenseMatrix& q,
                   const std::string& where) {
     DenseMatrix energy = multiply_transposed(q, forces(k, local, dim, q)),
@@ -245,12 +244,12 @@ Split found_split(const SparseMatrix& k, std::span<const std::int64_t> local, st
     return split_by(free);
 }
 
-// By what the host tells, as far as it moves the piece.
+// By the motions that the host declares, as far as they move the piece.
 Split told_split(const SparseMatrix& k, std::span<const std::int64_t> local, std::int64_t dim, const DenseMatrix& q,
                  const DenseMatrix& told, const std::string& where) {
     DenseMatrix own(q.rows, told.columns);
     for (std::int64_t c = 0; c < own.columns; ++c) {
-        double largest_part = 0.0;  // a motion may be told in any size
+        double largest_part = 0.0;  // a declared motion may have any size
         for (std::int64_t i = 0; i < own.rows; ++i) {
             own(i, c) = told(local[index(i / dim)] * dim + i % dim, c);
             largest_part = std::max(largest_part, std::abs(own(i, c)));
@@ -298,8 +297,8 @@ HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix m
         q.columns = static_cast<std::int64_t>(q.value.size()) / q.rows;
         const Split split = kernel.told ? told_split(judged, local, dim, q, kernel.motions, where)
                                         : found_split(judged, local, dim, q, where);
-        // A node alone, whose rows the host has emptied for supports of its own, has translations only; its own
-        // diagonal resists them.
+        // A single node whose rows the host has emptied for its own supports has only translations; its diagonal
+        // resists them.
         if (split.free_count > 0 && q.columns < rigid)
             fail(DELAM_ERROR_ARGUMENT, where, ", lie on one ", dim == 2 ? "point" : "line",
                  ": they are no solid, whose rigid motions are ", rigid);
@@ -308,7 +307,7 @@ HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix m
         free_motions += split.free_count;
         made.pieces.push_back(std::move(piece));
     }
-    // Motions told of several bodies at once may leave this one at rest.
+    // Motions declared for several bodies at once may leave this one at rest.
     std::int64_t moving = 0;
     for (std::int64_t c = 0; c < kernel.motions.columns; ++c) {
         const auto motion =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stiffness of a body as the host has assembled it. What hangs together in the matrix is a rigid piece: an elastic
-// solid whose motions without energy are rigid ones, all of them or, where the host has supports of its own, some. What
-// nothing moves without energy is one piece, also where it does not hang together.
+// The stiffness of a body as assembled by the host. A connected part of the matrix is a rigid piece: an elastic solid
+// whose motions without energy are rigid, either all rigid motions or, with supports of the host, some of them. A part
+// that has no motion without energy is one piece, even if it is not connected.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ namespace delam {
 struct HostPiece {
     std::vector<std::int64_t> nodes;  // mesh nodes, ascending
     DenseMatrix free;                 // motions without energy, [dimension*nodes][..], orthonormal
-    DenseMatrix held;  // the other rigid motions, orthogonal to them: what the host's supports resist. Not set where
-                       // nothing is free
+    // The other rigid motions, orthogonal to them: those that the host's supports resist. Not set if nothing is free.
+    DenseMatrix held;
 
     bool fixed() const { return free.columns == 0; }
 };
@@ -29,13 +29,13 @@ struct HostStiffness {
     std::vector<HostPiece> pieces;
 };
 
-// Motions without energy that the host tells, over the body's DOFs; columns.
+// Motions without energy declared by the host, over the body's DOFs; columns.
 struct ToldKernel {
     bool told = false;
     DenseMatrix motions;
 };
 
-// Of one body. matrix: symmetric, both triangles. Error(DELAM_ERROR_ARGUMENT) names the node where something is wrong.
+// For one body. matrix: symmetric, both triangles. Error(DELAM_ERROR_ARGUMENT) names the node where something is wrong.
 HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix matrix, const ToldKernel& kernel,
                              Monitor& monitor);
 

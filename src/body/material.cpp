@@ -26,7 +26,7 @@ struct Coupling {
     double determinant() const { return 1.0 - a * a - b * b - c * c - 2.0 * a * b * c; }
 };
 
-// What is smaller is rounding.
+// Smaller values are rounding.
 constexpr double definite = 1e-14;
 
 // M of  strain in material axes = M strain in space:  2 eps_pq = 2 a_pi a_qj eps_ij.

@@ -38,15 +38,15 @@ std::vector<double> elasticity_matrix(const Elastic& material, int dimension, Pl
 
 // In material axes. The material must be positive definite.
 SpaceElasticity space_elasticity(const Material& material);
-// Which of the constants makes the elasticity indefinite, its value and its bound; "": none.
+// The constant that makes the elasticity indefinite, its value and its bound; "": none.
 std::string indefinite_constant(const Orthotropic& material);
 
-// The same elasticity seen from space; rows of `axes`: the material axes in space, orthonormal.
+// The same elasticity in global axes; rows of `axes`: the material axes in space, orthonormal.
 SpaceElasticity rotated(const SpaceElasticity& elasticity, const std::array<double, 9>& axes);
-// Engineering strains in space of strains in material axes.
+// Engineering strains in global axes from strains in material axes.
 std::array<double, 6> rotated_strain(const std::array<double, 6>& strain, const std::array<double, 9>& axes);
 
-// The rows of the plane, xx, yy, 2xy: plane strain cuts the others out, plane stress sets their stresses free.
+// The in-plane rows, xx, yy, 2xy: plane strain drops the others, plane stress sets their stresses to zero.
 std::array<double, 9> plane_elasticity(const SpaceElasticity& elasticity, Plane plane);
 
 }  // namespace delam

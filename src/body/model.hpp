@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a body is made of and how its cells are computed: all that turns its mesh into a stiffness.
+// The material of a body and the formulation of its cells: everything that turns its mesh into a stiffness.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct BodyModel {
     bool operator==(const BodyModel& other) const = default;
 };
 
-// Error(status) when a cell of the body has no such formulation.
+// Error(status) if a cell of the body has no such formulation.
 void require_formulation(const Mesh& mesh, std::int32_t body, Formulation formulation, std::int32_t status);
 
 }  // namespace delam

@@ -11,7 +11,7 @@ namespace delam {
 
 namespace {
 
-// Axes whose angle has a smaller sine count as parallel.
+// Axes at an angle with a smaller sine count as parallel.
 constexpr double parallel = 1e-8;
 
 bool normalise(double* v) {
@@ -44,7 +44,7 @@ bool orthonormal_axes(std::span<const double, 3> first, std::span<const double, 
 
 Orientation oriented(const Orientation& before, std::int64_t mesh_cells, std::span<const std::int64_t> cells,
                      std::span<const Axes> chosen) {
-    // Cells as they will be, in axes of both lists; then numbered anew, in the order of the cells.
+    // The new orientation of each cell, in axes of both lists; then renumbered in the order of the cells.
     const auto old = static_cast<std::int32_t>(before.axes.size());
     std::vector<std::int32_t> of_cell = before.of_cell;
     of_cell.resize(static_cast<std::size_t>(mesh_cells), -1);

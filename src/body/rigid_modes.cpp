@@ -9,9 +9,9 @@
 
 namespace delam {
 
-// Translations, then the rotations  omega x (x - centroid) / size  about each axis. Columns are made orthonormal by
-// Gram-Schmidt in its modified form, run twice: once more than needed is enough for full precision even of a slender
-// body (Giraud, Langou, Rozloznik, Comput. Math. Appl. 50, 2005).
+// Translations, then the rotations  omega x (x - centroid) / size  about each axis. Modified Gram-Schmidt, run twice,
+// makes the columns orthonormal: the second run gives full precision even for a slender body (Giraud, Langou,
+// Rozloznik, Comput. Math. Appl. 50, 2005).
 std::vector<double> rigid_modes(const Mesh& mesh, std::span<const std::int64_t> nodes) {
     const std::size_t dim = at(mesh.dimension());
     const std::size_t rows = nodes.size() * dim;

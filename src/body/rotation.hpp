@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far cells turn: small strains hold as long as that is little.
+// Rotations of cells: the small-strain assumption holds as long as they are small.
 #pragma once
 
 #include <span>
@@ -10,10 +10,10 @@
 namespace delam {
 
 // Axial vector of the skew part of the displacement gradient at cell centres, rad, as [cells][1 or 3]: (u_y,x -
-// u_x,y)/2 in 2D, (curl u)/2. A rotation by theta leaves a false strain of about theta^2/2. displacement: [mesh
-// nodes][dimension].
+// u_x,y)/2 in 2D, (curl u)/2 in 3D. A rotation by theta causes a spurious strain of about theta^2/2. displacement:
+// [mesh nodes][dimension].
 std::vector<double> centre_rotation(const Mesh& mesh, std::span<const double> displacement);
-// Largest length of it.
+// Largest length of this vector.
 double largest_rotation(const Mesh& mesh, std::span<const double> displacement);
 
 }  // namespace delam

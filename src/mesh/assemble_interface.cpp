@@ -17,8 +17,8 @@ namespace delam {
 
 namespace {
 
-// Orders places by x, then y, then z, where coordinates closer than `distance` count as equal: rounding in the nodes
-// of a straight interface must not shuffle it.
+// Orders positions by x, then y, then z, where coordinates closer than `distance` count as equal, so that rounding of
+// the nodes of a straight interface does not change their order.
 std::vector<std::size_t> spatial_order(const Mesh& mesh, std::span<const NodePair> pairs, FaceSide side,
                                        double distance) {
     std::vector<std::size_t> order(pairs.size());
@@ -38,8 +38,8 @@ std::vector<std::size_t> spatial_order(const Mesh& mesh, std::span<const NodePai
     return order;
 }
 
-// A face as pairs: walked from its smallest pair (edges: from their first corner on), so that neither weights nor order
-// depend on how the host numbered its cells.
+// A face in terms of pairs, beginning at its smallest pair (edges: at their first corner), so that neither weights nor
+// order depend on the host's numbering of its cells.
 struct PairFace {
     std::vector<std::int64_t> pair;  // corners, then mid-sides
     std::size_t corners;
@@ -58,8 +58,8 @@ PairFace pair_face(const BoundaryFace& face, const std::map<std::int64_t, std::i
     return result;
 }
 
-// The face in the list of an interface whose largest faces have more corners: the last corner is repeated, and where
-// there is no mid-side node, the corner before it stands in.
+// The face in the list of an interface whose largest faces have more corners: the last corner is repeated, and the
+// corner before it replaces the missing mid-side node.
 void append_padded(const PairFace& face, std::size_t corners, std::size_t nodes, std::vector<std::int64_t>& out) {
     const std::size_t own = face.corners;
     for (std::size_t k = 0; k < corners; ++k) out.push_back(face.pair[std::min(k, own - 1)]);
@@ -72,8 +72,8 @@ void append_padded(const PairFace& face, std::size_t corners, std::size_t nodes,
 
 }  // namespace
 
-// In the plane the tangent is the normal turned clockwise; in space the first one is the x axis laid into the face, or
-// the y axis where the normal is close to x, and the second completes a right-handed frame.
+// In the plane the tangent is the normal rotated clockwise. In space the first tangent is the x axis projected onto the
+// face, or the y axis if the normal is close to x, and the second completes a right-handed frame.
 void write_frame(int dimension, const Point& along, double* frame) {
     const double size = length(along);
     const Point n{along[0] / size, along[1] / size, along[2] / size};

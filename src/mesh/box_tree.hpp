@@ -27,7 +27,7 @@ public:
     // Calls visit(i) for each box that has a point in common with this one.
     void meeting(const Box& box, const std::function<void(std::int64_t)>& visit) const;
 
-    // The box nearest to a point, the first of several, among those within `limit`; index -1 when there is none.
+    // The box nearest to a point (the first of several) among those within `limit`; index -1 if there is none.
     struct Nearest {
         std::int64_t index = -1;
         double distance = std::numeric_limits<double>::infinity();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A conforming mesh of touching bodies has one node where a body of its own needs one each. Copies of a node form a
-// list that starts at the original, so that a body finds its own again in whatever call its next cell comes.
+// A conforming mesh of touching bodies has one node where each body needs its own. Copies of a node form a list that
+// starts at the original, so that a body finds its own copy again in whichever call adds its next cell.
 #include <algorithm>
 #include <numeric>
 
@@ -13,7 +13,7 @@
 
 namespace delam {
 
-// The node that stands for this one in a body: itself, a copy there is, or a new one.
+// The node that represents this one in a body: itself, an existing copy, or a new one.
 std::int64_t Mesh::node_for(std::int64_t node, std::int32_t label, std::vector<std::int64_t>& taken) {
     const std::int64_t origin = node_origin_[at(node)];
     if (node_label_[at(origin)] == -1) {
@@ -45,7 +45,7 @@ void Mesh::add_conforming_cells(CellType type, std::span<const std::int64_t> con
             const std::size_t c = i / per_cell;
             if (i % per_cell == 0) poll_cancel("mesh");
             const std::int32_t label = c < labels.size() ? labels[c] : 0;
-            // What else is wrong is left as it is, for add_cells to refuse.
+            // Other errors stay, so that add_cells reports them.
             if (label < 0) continue;
             if (own[i] < 0 || own[i] >= before)
                 fail(DELAM_ERROR_ARGUMENT, "cell ", cell_type_.size() + c, " (body ", label, "): node ", own[i],

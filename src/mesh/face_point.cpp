@@ -15,7 +15,7 @@ namespace delam {
 namespace {
 
 constexpr int most_steps = 60;
-constexpr double converged = 1e-14;  // of the reference cell
+constexpr double converged = 1e-14;  // in the reference cell
 
 using Parameters = std::array<double, 2>;
 
@@ -105,7 +105,7 @@ private:
     std::vector<Point> node_;
 };
 
-// Along the straight line from one place of the reference cell to another: the nearest of three starts.
+// Along the straight line from one point of the reference cell to another: the nearest of three starting points.
 Parameters closest_on_line(const Chart& chart, const Parameters& from, const Parameters& to, const Point& x) {
     const Parameters along{to[0] - from[0], to[1] - from[1]};
     const auto on = [&](double t) { return Parameters{from[0] + t * along[0], from[1] + t * along[1]}; };
@@ -125,7 +125,7 @@ Parameters closest_on_line(const Chart& chart, const Parameters& from, const Par
     return on(best.second);
 }
 
-// A stationary point within the face, from one start.
+// A stationary point within the face, from one starting point.
 std::optional<Parameters> closest_inside(const Chart& chart, Parameters xi, const Point& x) {
     for (int step = 0; step < most_steps; ++step) {
         const Chart::Value v = chart(xi);

@@ -10,18 +10,18 @@
 
 namespace delam {
 
-// x = sum_i N_i x_i; a field that is linear in space has the value sum_i N_i u_i there, on curved faces too.
+// x = sum_i N_i x_i; a field linear in space has the value sum_i N_i u_i there, on curved faces too.
 struct FacePoint {
     std::array<double, most_face_nodes> weight{};  // N_i, summing to 1
     Point place{};
     Point normal{};  // outward, unit
 };
 
-// The point of a face that is nearest to x, found by Gauss-Newton steps on |x(xi) - x|^2: certain for x closer to the
-// face than its radius of curvature.
+// The point of a face nearest to x, found by Gauss-Newton steps on |x(xi) - x|^2: reliable if x is closer to the face
+// than its radius of curvature.
 FacePoint closest_point(const Mesh& mesh, const BoundaryFace& face, const Point& x);
 
-// Points spread over the inside of a face, some of them just off its nodes: where to look whether another face covers
+// Points spread over the inside of a face, some of them just beside its nodes, for testing whether another face covers
 // it. The first one is the centre.
 std::vector<FacePoint> inner_points(const Mesh& mesh, const BoundaryFace& face);
 

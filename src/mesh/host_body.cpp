@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Bodies that the library knows by their nodes alone, and interfaces whose pairs the host gives: what an obstacle is to
-// one side, with both sides free to deform.
+// Bodies that the library knows by their nodes alone, and interfaces whose pairs the host gives, like those of an
+// obstacle but with two deformable sides.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -93,7 +93,7 @@ std::int64_t Mesh::add_pairs(std::int32_t label_a, std::int32_t label_b, std::sp
             if (face[i] < 0 || face[i] >= made.pair_count())
                 fail(DELAM_ERROR_ARGUMENT, "faces[", i / per_face, "][", i % per_face, "] = ", face[i],
                      ": must be in 0..", made.pair_count() - 1);
-            // Corners differ but for the last of a triangle among quadrilaterals.
+            // Corners must differ, except the last one of a triangle among quadrilaterals.
             const std::size_t corners = dimension_ == 2 ? 2 : per_face == 3 || per_face == 6 ? 3 : 4, k = i % per_face;
             for (std::size_t j = 0; j < k && k < corners; ++j)
                 if (face[i] == face[i - k + j] && !(corners == 4 && k == 3 && j == 2))

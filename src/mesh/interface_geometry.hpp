@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An interface as node pairs with nodal quadrature weights: what is left of it once faces have been matched.
+// An interface as node pairs with nodal quadrature weights: the result of matching faces.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,11 @@ struct InterfaceGeometry {
     std::int32_t body_b = -1;
     std::vector<std::int64_t> node_a;  // [pairs] mesh nodes
     std::vector<std::int64_t> node_b;
-    std::vector<double> weight;  // [pairs] length (2D) or area (3D) that a pair stands for, > 0
+    std::vector<double> weight;  // [pairs] length (2D) or area (3D) of a pair, > 0
     std::vector<double> frame;   // [pairs][dim][dim] rows: normal from a to b, tangent(s); orthonormal
     int nodes_per_face = 2;
     // [faces][nodes_per_face] pair indices, corners then mid-sides; triangles among quadrilaterals repeat their last
-    // corner, also as the mid-side node of the side that has shrunk to it
+    // corner, also as the mid-side node of the collapsed side
     std::vector<std::int64_t> face;
 
     std::int64_t pair_count() const { return static_cast<std::int64_t>(node_a.size()); }

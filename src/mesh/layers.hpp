@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Generator of a block of stacked layers, each a body of its own (delam_mesh_create_layers).
+// Generator of a block of stacked layers, each a separate body (delam_mesh_create_layers).
 #pragma once
 
 #include <span>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Rules whose points are the nodes keep the stiffness of an interface diagonal. With the integrals of the shape
-// functions as weights, the corners of a 6-node triangle would count nothing and those of an 8-node face less than
-// nothing.
+// functions as weights, the corners of a 6-node triangle would have weight zero and those of an 8-node face a negative
+// weight.
 #include "mesh/nodal_rule.hpp"
 
 #include <algorithm>
@@ -59,7 +59,7 @@ public:
     }
     Vector tangent(double xi) const { return {slope_[0] + xi * bend_[0], slope_[1] + xi * bend_[1], 0.0}; }
 
-    // 5 Gauss points: off by 1e-8 of the length where the arc turns by 45 degrees, by 1e-5 where it turns by 90.
+    // 5 Gauss points: the relative error of the length is 1e-8 if the arc turns by 45 degrees, 1e-5 if it turns by 90.
     double arc() const {
         constexpr double point[] = {-0.90617984593866399280, -0.53846931010568309104, 0.0, 0.53846931010568309104,
                                     0.90617984593866399280};
@@ -76,7 +76,7 @@ private:
 
 // Simpson's rule with the Jacobian of the edge,
 //     w ~ (1/3, 1/3, 4/3) |x'(xi)|  at the corners and the middle,
-// is exact for straight edges, wherever m lies on them. On a curved one |x'| is no polynomial: the weights are then
+// is exact for straight edges, wherever m lies on them. On a curved edge |x'| is no polynomial, so the weights are
 // scaled to the length of the arc.
 NodalRule quadratic_edge(const Mesh& mesh, std::span<const std::int64_t> nodes) {
     const Parabola edge(mesh.node(nodes[0]), mesh.node(nodes[1]), mesh.node(nodes[2]));

@@ -11,8 +11,9 @@
 namespace delam {
 
 struct NodalRule {
-    std::array<double, most_face_nodes> weight{};               // L (2D) or L2 (3D), > 0
-    std::array<std::array<double, 3>, most_face_nodes> area{};  // the normal at each node, as long as what it rules
+    std::array<double, most_face_nodes> weight{};  // L (2D) or L2 (3D), > 0
+    // The normal at each node times the area that the node represents.
+    std::array<std::array<double, 3>, most_face_nodes> area{};
 };
 
 // nodes: of a face, corners then mid-sides. Weights sum to the length of an edge, curved or not, and to the area of a

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// An obstacle is rigid and moves as one translation, that of its control node: each node that may touch it has a pair
-// with this node.
+// An obstacle is rigid and only translates, with its control node: each node that may touch it forms a pair with this
+// node.
 #include <algorithm>
 #include <cmath>
 #include <map>

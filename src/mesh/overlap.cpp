@@ -51,8 +51,8 @@ bool on_face(const Mesh& mesh, const BoundaryFace& face, const Point& p, double 
     });
 }
 
-// One way round: the centroid of a face, and its nodes drawn in by a thousandth, so that faces which only touch along
-// their rim do not count.
+// One direction of the test: the centroid of a face, and its nodes moved inwards by a thousandth, so that faces that
+// only touch along their rims do not count.
 std::pair<std::int64_t, std::int64_t> find_covered(const Mesh& mesh, std::span<const BoundaryFace> under,
                                                    std::span<const BoundaryFace> over, double distance) {
     std::vector<Box> boxes;

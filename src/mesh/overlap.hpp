@@ -9,7 +9,7 @@
 
 namespace delam {
 
-// The first of `faces_b` that partly covers, within a distance, one of `faces_a` and looks the opposite way; as
+// The first of `faces_b` that partly covers, within a distance, one of `faces_a` and faces the opposite way; as
 // positions in the two lists, or -1, -1.
 std::pair<std::int64_t, std::int64_t> find_overlap(const Mesh& mesh, std::span<const BoundaryFace> faces_a,
                                                    std::span<const BoundaryFace> faces_b, double distance);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// From two bodies to an interface: their boundary nodes are matched in space, then their boundary faces through the
-// nodes, and what the faces know (area, normal) is brought to the node pairs.
+// Forms an interface of two bodies: their boundary nodes are matched by position, then their boundary faces through the
+// nodes, and area and normal of the faces give the weights and frames of the node pairs.
 #include <algorithm>
 #include <iterator>
 #include <limits>
@@ -37,8 +37,8 @@ BoxTree tree_of(const Mesh& mesh, std::span<const std::int64_t> nodes) {
     return BoxTree(std::move(boxes));
 }
 
-// Nodes of b with the node of a that each coincides with, ascending. As large as the two lists of nodes, not as the
-// mesh: a mesh may have thousands of small interfaces.
+// Nodes of b with the coinciding node of a, ascending. Its size is that of the two lists of nodes, not of the mesh: a
+// mesh may have thousands of small interfaces.
 class Partners {
 public:
     Partners(const Mesh& mesh, std::span<const std::int64_t> a, std::span<const std::int64_t> b, double distance) {
@@ -69,13 +69,13 @@ FaceKey sorted_key(std::span<const std::int64_t> nodes) {
 }
 
 struct Matching {
-    std::vector<BoundaryFace> on_a;            // matched faces, as body a has them
+    std::vector<BoundaryFace> on_a;            // matched faces, as in body a
     std::vector<NodePair> node;                // matched nodes, ascending
     std::vector<BoundaryFace> left_a, left_b;  // faces without a match
 };
 
-// Two faces whose corners coincide are one face. A mid-side node of either that meets none of the other is an error:
-// named here, since such faces lie on each other as they should.
+// Two faces with coinciding corners are one face. A mid-side node of either without a partner is an error, reported
+// here because such faces otherwise match.
 void require_same_middle(const Mesh& mesh, const BoundaryFace& a, const BoundaryFace& b, const Partners& partner) {
     std::vector<std::int64_t> met;
     const auto refuse = [&](std::int64_t node) {
@@ -134,8 +134,8 @@ Matching match_boundaries(const Mesh& mesh, std::span<const BoundaryFace> faces_
     return m;
 }
 
-// What two bodies share within a distance, empty where no face of one is a face of the other. Faces that lie on each
-// other otherwise are refused.
+// The common faces of two bodies within a distance; empty if no face of one is a face of the other. Faces that overlap
+// otherwise are refused.
 Matching match_bodies(const Mesh& mesh, std::span<const BoundaryFace> faces_a, std::span<const BoundaryFace> faces_b,
                       double distance) {
     const Partners partner(mesh, distinct_nodes(faces_a), distinct_nodes(faces_b), distance);
@@ -166,7 +166,7 @@ void require_tolerance(double tolerance) {
         fail(DELAM_ERROR_ARGUMENT, "tolerance ", tolerance, ": must be in [0, 0.5)");
 }
 
-// What the search for touching bodies knows of each.
+// Data of each body for the search for touching bodies.
 struct Skin {
     double edge = std::numeric_limits<double>::infinity();
     std::vector<std::size_t> faces;
@@ -216,8 +216,8 @@ std::int64_t Mesh::add_interface(std::int32_t label_a, std::int32_t label_b, dou
     return static_cast<std::int64_t>(interfaces_.size()) - 1;
 }
 
-// Two bodies can share a face only where boxes around their boundary faces meet; what is matched then are the faces
-// with such boxes alone. So the effort follows the faces that there are, whatever the number of bodies.
+// Two bodies can share a face only where boxes around their boundary faces meet, and only the faces with such boxes are
+// matched. The effort therefore grows with the number of faces, whatever the number of bodies.
 std::int64_t Mesh::add_all_interfaces(double tolerance) {
     require_tolerance(tolerance);
     std::vector<Skin> skins(at(body_count()));
@@ -249,7 +249,7 @@ std::int64_t Mesh::add_all_interfaces(double tolerance) {
 
     std::set<std::pair<std::int32_t, std::int32_t>> joined;
     for (const InterfaceGeometry& i : interfaces_)
-        joined.insert(std::minmax(i.body_a, i.body_b));  // obstacles: none such
+        joined.insert(std::minmax(i.body_a, i.body_b));  // obstacles have no such pair of bodies
     const auto those = [&](std::vector<std::size_t> list) {
         std::sort(list.begin(), list.end());
         list.erase(std::unique(list.begin(), list.end()), list.end());

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Cells are the vertices of a graph, shared faces its edges. METIS cuts it evenly with short borders; what it leaves in
-// pieces or empty is mended here, so that every part is non-empty and connected and their number is the one asked for.
+// Cells are the vertices of a graph, shared faces its edges. METIS cuts it evenly with short borders. Parts that it
+// leaves disconnected or empty are mended here, so that every part is non-empty and connected and their number is as
+// requested.
 #include "mesh/partition.hpp"
 
 #include <metis.h>
@@ -38,8 +39,8 @@ struct Graph {
 using Parts = std::vector<std::int32_t>;  // part of each vertex
 
 // METIS 5 reseeds rand() and installs handlers for SIGABRT and SIGTERM while it runs. Both belong to the host: its
-// sequence of random numbers goes on where it was, its handlers are put back. Process-wide state, hence one call at a
-// time.
+// random sequence continues where it was, and its handlers are restored. This is process-wide state, hence one call at
+// a time.
 class Visit {
 public:
     Visit() : lock_(mutex()) {
@@ -65,8 +66,8 @@ private:
     std::array<struct sigaction, 2> handlers_{};
 };
 
-// METIS prints where it gets no memory. What it takes at most was measured on grids: up to 43 bytes a vertex or
-// neighbour, in small parts, and 100 KiB at least.
+// METIS prints a message if an allocation fails. Its maximal memory was measured on grids: up to 43 bytes per vertex or
+// neighbour, in small parts, and at least 100 KiB.
 void require_room_for_metis(const Graph& graph) {
     require_room((std::size_t{1} << 17) + 48 * (graph.size() + graph.neighbour.size()));
 }
@@ -87,13 +88,13 @@ Parts cut_with_metis(Graph& graph, idx_t parts) {
         status = METIS_PartGraphKway(&vertices, &constraints, graph.start.data(), graph.neighbour.data(), nullptr,
                                      nullptr, nullptr, &parts, nullptr, nullptr, options.data(), &cut, part.data());
     }
-    // Without memory in its innermost stage METIS speaks of an error at large, which nothing else here leads to.
+    // Without memory in its innermost stage METIS reports a general error, which nothing else here causes.
     if (status == METIS_ERROR_MEMORY || status == METIS_ERROR) throw std::bad_alloc();
     if (status != METIS_OK) fail(DELAM_ERROR_INTERNAL, "METIS_PartGraphKway: status ", status);
     return {part.begin(), part.end()};
 }
 
-// Pieces that hang together within their part: the piece of each vertex, numbered by their first vertices.
+// Connected pieces of each part: the piece of each vertex, numbered by their first vertices.
 std::int32_t pieces(const Graph& graph, const Parts& part, std::vector<std::int32_t>& piece) {
     piece.assign(graph.size(), -1);
     std::int32_t count = 0;
@@ -117,8 +118,8 @@ std::int32_t pieces(const Graph& graph, const Parts& part, std::vector<std::int3
     return count;
 }
 
-// Each part keeps its largest piece; the other ones join the part that they share most faces with. Repeats until no
-// part is in pieces; each round lessens their number, since what is joined touches its new part.
+// Each part keeps its largest piece; the others join the part with which they share most faces. Repeats until every
+// part is connected; each round reduces the number of pieces, because a moved piece touches its new part.
 void mend(const Graph& graph, Parts& part, std::int32_t parts) {
     std::vector<std::int32_t> piece;
     for (;;) {
@@ -150,7 +151,7 @@ void mend(const Graph& graph, Parts& part, std::int32_t parts) {
     }
 }
 
-// Breadth-first tree over one part: its vertices in order, parents before children.
+// Breadth-first tree of one part: its vertices in order, parents before children.
 struct Tree {
     std::vector<std::size_t> order;
     std::vector<std::size_t> parent;  // by vertex
@@ -170,13 +171,13 @@ Tree breadth_first(const Graph& graph, const Parts& part, std::size_t root) {
     return tree;
 }
 
-// Cuts a connected part in two connected ones: a branch of a breadth-first tree, as near to half of it as there is,
-// becomes `fresh`. The tree starts from a vertex far out, so that its branches are long.
+// Cuts a connected part into two connected ones: the branch of a breadth-first tree closest to half of it becomes
+// `fresh`. The tree starts from a vertex far out, so that its branches are long.
 void halve(const Graph& graph, Parts& part, std::int32_t old, std::int32_t fresh) {
     const auto first = static_cast<std::size_t>(std::find(part.begin(), part.end(), old) - part.begin());
     const std::size_t far = breadth_first(graph, part, first).order.back();
     const Tree tree = breadth_first(graph, part, far);
-    std::vector<std::size_t> weight(graph.size(), 1);  // of the branch that a vertex carries
+    std::vector<std::size_t> weight(graph.size(), 1);  // of the branch below a vertex
     for (std::size_t k = tree.order.size() - 1; k > 0; --k) weight[tree.parent[tree.order[k]]] += weight[tree.order[k]];
     const auto off_half = [&](std::size_t i) {
         const std::size_t twice = 2 * weight[i];
@@ -190,8 +191,8 @@ void halve(const Graph& graph, Parts& part, std::int32_t old, std::int32_t fresh
         if (i != far && part[tree.parent[i]] == fresh) part[i] = fresh;
 }
 
-// Parts 0 .. parts-1 of a connected graph, each non-empty and connected. Below a few vertices per part METIS is not
-// asked: it would leave parts empty and print about it.
+// Parts 0 .. parts-1 of a connected graph, each non-empty and connected. With few vertices per part METIS is not used:
+// it would leave parts empty and print messages.
 Parts cut(Graph& graph, std::int32_t parts) {
     constexpr std::size_t enough = 12;
     Parts part(graph.size(), 0);
@@ -230,7 +231,7 @@ struct Component {
     std::int64_t parts = 1;
 };
 
-// One part for each component, then each further one where the cells per part are most numerous.
+// One part for each component; each further part goes to the component with the most cells per part.
 void share_out(std::vector<Component>& components, std::int64_t subdomains) {
     using Load = std::pair<double, std::size_t>;
     const auto load = [&](std::size_t c) {
@@ -291,7 +292,8 @@ Partition partition(const Mesh& mesh, std::int64_t subdomains, std::span<const s
     for (const Component& component : components) {
         Graph graph = graph_of(table, component.cells, number);
         const Parts part = cut(graph, static_cast<std::int32_t>(component.parts));
-        std::vector<std::int32_t> name(at(component.parts), -1);  // parts are named in the order of their first cells
+        // Parts are numbered in the order of their first cells.
+        std::vector<std::int32_t> name(at(component.parts), -1);
         for (std::size_t k = 0; k < component.cells.size(); ++k) {
             std::int32_t& n = name[at(part[k])];
             if (n < 0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Places in space and what one computes with them; in 2D the third component is 0.
+// Points in space and computations with them; in 2D the third component is 0.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What carries a node: a body, nothing but constraints, forces and pairs (a control node), or other nodes (a tied one).
+// What carries a node: a body; only constraints, forces and pairs (a control node); or other nodes (a tied node).
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ public:
 
     enum class Kind : std::uint8_t { nothing, body, control, tied };
     Kind kind(std::int64_t node) const { return kind_[static_cast<std::size_t>(node)]; }
-    // Nodes of no body that a constraint, a force or a pair refers to, ascending. Their displacements are unknowns
+    // Nodes of no body to which a constraint, a force or a pair refers, ascending. Their displacements are unknowns
     // without stiffness.
     const std::vector<std::int64_t>& controls() const { return controls_; }
-    // The displacement of a node is the sum of weight u over these: of a tied node what it is tied to, of any other
-    // itself.
+    // The displacement of a node is the sum of weight u over these: for a tied node, the nodes to which it is tied; for
+    // any other, the node itself.
     std::span<const std::pair<std::int64_t, double>> of(std::int64_t node) const;
 
 private:

@@ -12,10 +12,11 @@ namespace delam {
 
 namespace {
 
-// Of the geometric mean of the two diagonal entries; above it the host has made a mistake, below it the mean is taken.
+// Relative to the geometric mean of the two diagonal entries; a larger asymmetry is an error of the host, a smaller one
+// is averaged out.
 constexpr double asymmetry = 1e-9;
 
-// Energies of motions, and their squares, have to stay finite.
+// Energies of motions, and their squares, must stay finite.
 constexpr double largest_stiffness = 1e150;
 
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
@@ -57,7 +58,8 @@ SparseMatrix symmetric(const Mesh& mesh, std::int32_t body, std::int64_t rows, s
                 fail(DELAM_ERROR_ARGUMENT, "the stiffness of body ", mesh.body_label(body), " is not symmetric: ", a,
                      " and ", b, " between ", name(r), " and ", name(column), ", allowed difference ",
                      asymmetry * scale);
-            // Of a matrix without negative energies none is beyond the mean; twice that is no rounding.
+            // In a matrix without negative energies no entry exceeds the mean of its diagonal entries; twice that is no
+            // rounding.
             if (!(std::abs(a) <= 2.0 * scale))
                 fail(DELAM_ERROR_ARGUMENT, "the stiffness of body ", mesh.body_label(body), " has ", a, " between ",
                      name(r), " and ", name(column), ", beyond ", scale,
@@ -84,7 +86,7 @@ void take_stiffness(Problem& problem, const GivenMatrix& given, Monitor& monitor
             fail(DELAM_ERROR_ARGUMENT, "nodes[", i, "] = ", node, " belongs to no body (delam_mesh_add_host_body)");
         nodes_of.try_emplace(body);
     }
-    std::vector<Place> place(index(rows));  // of each row of the host's
+    std::vector<Place> place(index(rows));  // of each row of the host's matrix
     for (auto& [body, nodes] : nodes_of) {
         nodes = mesh.body_nodes(body);
         for (std::size_t local = 0; local < nodes.size(); ++local) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A stiffness in the numbering of the host, cut into those of the bodies.
+// A stiffness in the host's numbering, split into those of the bodies.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct GivenMatrix {
     ToldKernel kernel;  // by row
 };
 
-// Error(DELAM_ERROR_ARGUMENT) names what is wrong; the problem is then unchanged.
+// Error(DELAM_ERROR_ARGUMENT) names the fault; the problem is then unchanged.
 void take_stiffness(Problem& problem, const GivenMatrix& given, Monitor& monitor);
 
 }  // namespace delam

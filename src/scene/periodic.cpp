@@ -51,7 +51,7 @@ std::vector<Point> dual_basis(const std::vector<Point>& periods) {
     return dual;
 }
 
-// Nodes by place: a grid of cells a little larger than the tolerance, of which all neighbours are looked at.
+// Nodes by position: a grid of cells a little larger than the tolerance; a search visits all neighbouring cells.
 class Places {
 public:
     Places(double width, int dimension) : width_(width), dimension_(dimension) {}
@@ -103,7 +103,7 @@ std::vector<PeriodicPair> periodic_pairs(const Mesh& mesh, std::span<const doubl
         return x;
     };
 
-    // Which upper faces each node lies on, as bits.
+    // The upper faces on which each node lies, as bits.
     std::vector<std::int64_t> nodes;
     for (std::int64_t n = 0; n < mesh.node_count(); ++n)
         if (mesh.node_body(n) >= 0) nodes.push_back(n);
@@ -143,7 +143,7 @@ std::vector<PeriodicPair> periodic_pairs(const Mesh& mesh, std::span<const doubl
                 for (std::size_t d = 0; d < 3; ++d) x[d] -= periods[k][d];
         return x;
     };
-    // Nodes that lie at one place of one face look for their partners together.
+    // Nodes at one position on one face find their partners together.
     std::map<std::pair<unsigned, std::vector<std::int64_t>>, std::vector<std::int64_t>> gathered;
     std::string missing;
     std::int64_t missing_count = 0;
@@ -165,7 +165,7 @@ std::vector<PeriodicPair> periodic_pairs(const Mesh& mesh, std::span<const doubl
     std::vector<PeriodicPair> pairs;
     for (const auto& [key, group] : gathered) {
         poll_cancel("loads");
-        const auto directions = key.first;  // clang's lambdas do not see parts of a pair
+        const auto directions = key.first;  // lambdas of clang cannot capture parts of a structured binding
         std::vector<std::int64_t> left = key.second, rest;
         const auto join = [&](std::int64_t node, std::int64_t base) {
             PeriodicPair pair{node, base, {}};
@@ -193,7 +193,7 @@ std::vector<PeriodicPair> periodic_pairs(const Mesh& mesh, std::span<const doubl
         else
             for (const std::int64_t node : rest) miss(node, " (only other bodies)");
     }
-    // And the other way: every node of a lower face has been met from each upper face opposite to it.
+    // And conversely: every node of a lower face must have been reached from each upper face opposite to it.
     for (std::size_t k = 0; k < periods.size(); ++k) {
         double low = INFINITY;
         for (const std::int64_t n : nodes) low = std::min(low, dot(dual[k], place(n)));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What moves rigidly: parts of bodies that hang together through whole faces, and parts of a stiffness that the host
-// gave.
+// Parts that move rigidly: parts of bodies connected through whole faces, and connected parts of a stiffness given by
+// the host.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,16 @@ namespace delam {
 struct Pieces {
     std::vector<std::int32_t> body;                // [pieces] body index
     std::vector<std::vector<std::int64_t>> nodes;  // [pieces] ascending
-    std::vector<std::int64_t> of_node;             // [mesh nodes] the first piece that has it, -1: none
+    std::vector<std::int64_t> of_node;             // [mesh nodes] the first piece that contains it, -1: none
 
-    // Cells that meet in a node but no face: two pieces at one place.
+    // Cells that share a node but no face: two pieces at one position.
     struct Hinge {
         std::int64_t node, piece_a, piece_b;
     };
     std::vector<Hinge> hinges;
 
-    std::vector<std::uint8_t> fixed;  // [pieces] 1: the host's own supports hold it altogether
-    // Rigid motions of the others that they resist: sum of coefficient u[dof] would be zero on what is free.
+    std::vector<std::uint8_t> fixed;  // [pieces] 1: the host's own supports hold it completely
+    // Rigid motions of the other pieces that these supports resist: sum of coefficient u[dof] is zero for free motions.
     using Row = std::vector<std::pair<std::int64_t, double>>;
     std::vector<Row> resisted;
 
@@ -32,7 +32,7 @@ struct Pieces {
 
 Pieces rigid_pieces(const Problem& problem);
 
-// 1 for bodies whose stiffness the host gave, [bodies].
+// 1 for bodies whose stiffness the host has given, [bodies].
 std::vector<std::uint8_t> given_by_host(const Problem& problem);
 
 }  // namespace delam

@@ -16,7 +16,7 @@ double Pattern::at(double time) const {
     if (after == times.begin()) return values.front();
     if (after == times.end()) return values.back();
     const auto i = static_cast<std::size_t>(after - times.begin());
-    const double half = std::isfinite(times[i] - times[i - 1]) ? 1.0 : 0.5;  // of times as far apart as doubles go
+    const double half = std::isfinite(times[i] - times[i - 1]) ? 1.0 : 0.5;  // for times as far apart as doubles allow
     const double s = (half * time - half * times[i - 1]) / (half * times[i] - half * times[i - 1]);
     return (1.0 - s) * values[i - 1] + s * values[i];
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the host asked for, complete and checked: bodies, interfaces with laws, constraints, loads, options.
+// The host's input, complete and checked: bodies, interfaces with laws, constraints, loads, options.
 #pragma once
 
 #include <cstdint>
@@ -28,13 +28,13 @@ struct Pattern {
     double at(double time) const;
 };
 
-// sum_j coefficient[j] u[dof[j]] = sum_p prescribed[p] factor_p(t), of bodies and control nodes, never of tied ones.
-// Prescribed nodes are scaled so that the coefficients' squares sum to 1, means so that they sum to 1 along the
-// direction, equations are taken as they come.
+// sum_j coefficient[j] u[dof[j]] = sum_p prescribed[p] factor_p(t), for bodies and control nodes, never for tied nodes.
+// Coefficients of prescribed nodes are scaled to a square sum of 1, those of means to a sum of 1 along the direction;
+// equations are not scaled.
 struct Constraint {
     std::vector<std::int64_t> dof;  // mesh DOFs: dimension*node + component
     std::vector<double> coefficient;
-    std::vector<double> prescribed;  // [patterns defined when it was added]; missing ones are 0
+    std::vector<double> prescribed;  // [patterns that existed when it was added]; later ones are 0
 };
 
 struct NodalForce {
@@ -43,7 +43,7 @@ struct NodalForce {
     double value;
 };
 
-// In the material axes of a body: strain times the factor.
+// In the material axes of a body: strain per unit factor.
 struct Eigenstrain {
     std::int64_t pattern;
     std::int32_t body;
@@ -51,9 +51,9 @@ struct Eigenstrain {
 };
 
 struct InterfaceProperties {
-    std::optional<Law> law;  // none, not bonded and no contact: still missing
+    std::optional<Law> law;  // none, although not bonded and no contact: still missing
     bool bonded = false;
-    bool contact = false;          // contact alone: no law, no adhesion
+    bool contact = false;          // contact only: no law, no adhesion
     std::vector<double> adhesion;  // initial, [pairs]
 };
 
@@ -76,7 +76,7 @@ struct Problem {
 
     // DOFs of all pairs: rows of the jump, interface after interface, pair after pair, normal first.
     std::int64_t pair_count() const;
-    // Of a body whose material is there. Error(DELAM_ERROR_PROBLEM) where the plane does not go with the formulation.
+    // For a body whose material is set. Error(DELAM_ERROR_PROBLEM) if the plane does not fit the formulation.
     BodyModel model(std::int32_t body) const;
     // K of a body over its nodes in ascending order, both triangles.
     SparseMatrix body_stiffness(std::int32_t body, const Poll& poll = {}) const;
@@ -86,8 +86,8 @@ struct Problem {
     std::vector<double> prescribed_matrix() const;
 };
 
-// Throws Error(DELAM_ERROR_PROBLEM) with the first thing that is missing or contradictory, supports included: every
-// part that hangs together through bonded or adhering pairs must be held against all its rigid motions.
+// Throws Error(DELAM_ERROR_PROBLEM) for the first thing that is missing or contradictory, including supports: every
+// part connected through bonded or adhering pairs must be held against all its rigid motions.
 void validate(const Problem& problem, const Poll& poll = {});
 
 // FNV-1a over everything that determines the result, the options included.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The search runs on rigid pieces, not on nodes. Face-connected cells are one piece (pieces.hpp); pieces that enough
-// tied pairs join become one as well. What is left are a few pieces, hinges between them (a single pair, say), control
-// nodes, which move by translations, and rows: constraints, pairs that join control nodes, and what the host's own
-// supports resist. Rows act on three or six motions per piece, and the null space of their small Gram matrix is what
-// nothing resists.
+// The search works with rigid pieces, not nodes. Face-connected cells are one piece (pieces.hpp); pieces joined by
+// enough tied pairs become one as well. What remains are a few pieces, hinges between them (such as a single pair),
+// control nodes, which move by translations, and rows: constraints, pairs with control nodes, and the motions resisted
+// by the host's own supports. Rows act on three or six motions per piece, and the null space of their small Gram matrix
+// contains the motions that nothing resists.
 #include "scene/supports.hpp"
 
 #include <algorithm>
@@ -21,8 +21,8 @@
 namespace delam {
 namespace {
 
-// Relative pivot below which a motion counts as unresisted. Rows enter squared: supports closer than 1e-5 of the size
-// of what they hold do not count as holding its rotation.
+// Relative pivot below which a motion counts as unresisted. Rows enter squared: supports closer together than 1e-5 of
+// the size of the supported part do not count as holding its rotation.
 constexpr double pivot_tolerance = 1e-10;
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
@@ -46,8 +46,8 @@ private:
     std::vector<std::size_t> parent_;
 };
 
-// Null space of a symmetric positive semidefinite n x n matrix by Cholesky with diagonal pivoting; one vector after
-// another.
+// Null space of a symmetric positive semidefinite n x n matrix by Cholesky factorisation with diagonal pivoting; one
+// vector after another.
 std::vector<std::vector<double>> null_space(std::vector<double> g, std::size_t n) {
     std::vector<std::size_t> order(n);
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -64,7 +64,7 @@ std::vector<std::vector<double>> null_space(std::vector<double> g, std::size_t n
         std::swap(order[rank], order[pivot]);
         for (std::size_t j = 0; j < n; ++j) std::swap(g[rank * n + j], g[pivot * n + j]);
         for (std::size_t i = 0; i < n; ++i) std::swap(g[i * n + rank], g[i * n + pivot]);
-        // Row `rank` keeps u = D L^T; the trailing block keeps the Schur complement.
+        // Row `rank` stores u = D L^T; the trailing block stores the Schur complement.
         for (std::size_t i = rank + 1; i < n; ++i) {
             const double factor = g[rank * n + i] / g[rank * n + rank];
             if (factor == 0.0) continue;
@@ -140,8 +140,8 @@ private:
     bool control(std::int64_t node) const { return carriers_.kind(node) == Carriers::Kind::control; }
     bool control_group(std::size_t group) const { return group >= pieces_.count(); }
 
-    // Component c of rigid mode m at p: translations, then rotations about the centre, of unit displacement at distance
-    // `length`.
+    // Component c of rigid mode m at p: translations, then rotations about the centre that have unit displacement at
+    // distance `length`.
     static double mode(const Frame& f, std::size_t dimension, std::size_t m, std::size_t c, const Point& p) {
         if (m < dimension) return m == c ? 1.0 : 0.0;
         const std::size_t axis = dimension == 2 ? 2 : m - dimension;
@@ -172,8 +172,8 @@ void Search::take_pieces() {
         node_piece_[at(carriers_.controls()[c])] = static_cast<std::int64_t>(pieces_.count() + c);
 }
 
-// A tied node moves with the piece that it is tied to: its combination is exact in rigid motions. A control node is
-// nowhere: pairs with one are rows.
+// A tied node moves with the piece to which it is tied, because its combination is exact for rigid motions. A control
+// node has no position, so pairs with one are rows.
 void Search::find_ties(bool tied) {
     for (std::size_t i = 0; i < problem_.interfaces.size(); ++i) {
         const InterfaceGeometry& face = mesh_.interfaces()[i];
@@ -235,7 +235,7 @@ void Search::measure() {
     }
 }
 
-// Do ties at these places leave no relative motion at all?
+// Whether ties at these positions leave no relative motion.
 bool Search::rigid(const std::vector<Point>& places, double length) const {
     Frame f;
     f.length = length;
@@ -367,7 +367,7 @@ FreeMotion Search::describe(const std::vector<std::size_t>& cluster, const std::
     for (std::size_t i = 0; i < cluster.size(); ++i) {
         for (std::size_t m = 0; m < modes_; ++m) size[i] = std::max(size[i], std::abs(motion[i * modes_ + m]));
         largest = std::max(largest, size[i]);
-        // Bodies say more than control nodes, which follow them.
+        // Bodies are more informative than control nodes, which follow them.
         const bool tells = control_group(cluster[mover]) == control_group(cluster[i]) ? size[i] > size[mover]
                                                                                       : control_group(cluster[mover]);
         if (tells && size[i] > 1e-6 * largest) mover = i;
@@ -411,7 +411,8 @@ FreeMotion Search::describe(const std::vector<std::size_t>& cluster, const std::
     return free;
 }
 
-// Free translations of the whole cluster are told first, since they read best; the rest is made orthogonal to them.
+// Free translations of the whole cluster come first, because they are easiest to read; the rest is made orthogonal to
+// them.
 std::vector<FreeMotion> Search::examine(const std::vector<std::size_t>& cluster) {
     const std::size_t n = cluster.size() * modes_;
     const std::vector<double> g = gram(cluster);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the supports leave free: rigid motions of the structure that no constraint and no tie resists.
+// The motions that the supports leave free: rigid motions of the structure that no constraint and no tie resists.
 #pragma once
 
 #include <cstdint>
@@ -19,9 +19,9 @@ struct FreeMotion {
     std::int64_t force_pattern;  // the pattern of that work, -1: none
 };
 
-// tied: all interfaces count as glued, the notches included; otherwise only bonded interfaces and pairs with adhesion >
-// 0 do, and those of contact alone (delam_problem_set_contact) hold their normal: whether a load presses or lifts is
-// not asked here.
+// tied: all interfaces count as bonded, including notches. Otherwise only bonded interfaces and pairs with adhesion > 0
+// do, and interfaces with contact alone (delam_problem_set_contact) hold their normals, whether a load presses or
+// lifts.
 std::vector<FreeMotion> free_motions(const Problem& problem, bool tied);
 
 }  // namespace delam
