@@ -19,14 +19,14 @@ struct Key {
     bool operator==(const Key& other) const { return node == other.node; }
 };
 
-// Two cells on the two sides of a face walk around it in opposite senses.
+// Two cells on the two sides of a face traverse it in opposite directions.
 bool opposite(std::span<const std::int64_t> a, std::span<const std::int64_t> b) {
     const std::size_t n = a.size();
     const auto k = static_cast<std::size_t>(std::find(b.begin(), b.end(), a[0]) - b.begin());
     return n == 2 ? k == 1 : b[(k + n - 1) % n] == a[1];
 }
 
-// Between neighbouring nodes: of a quadratic cell, from a corner to the mid-side node.
+// Distance of neighbouring nodes; in a quadratic cell, from a corner to the mid-side node.
 double shortest_edge(const Mesh& mesh, std::int64_t c) {
     double shortest = std::numeric_limits<double>::infinity();
     const auto measure = [&](std::int64_t a, std::int64_t b) {
@@ -85,7 +85,7 @@ std::array<double, 3> area_vector(const Mesh& mesh, std::span<const std::int64_t
     return sum;
 }
 
-// Faces are gathered under their smallest node by a counting sort; the few that meet there are compared directly.
+// A counting sort gathers the faces by their smallest node; the few with the same node are compared directly.
 FaceTable match_faces(const Mesh& mesh, std::span<const std::int64_t> cells) {
     constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
     FaceTable table;

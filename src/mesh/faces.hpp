@@ -15,14 +15,14 @@ namespace delam {
 // Position of a signed index in a standard container.
 constexpr std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-// Neighbours across faces among some cells of a mesh: of cells[i] across its local face f it is
-// cells[neighbour[i*stride + f]]; negative: nobody.
+// Neighbours across faces among some cells of a mesh: the neighbour of cells[i] across its local face f is
+// cells[neighbour[i*stride + f]]; negative: none.
 struct FaceTable {
     static constexpr std::int64_t stride = 6;
     std::vector<std::int64_t> neighbour;
 };
-// Cells that share the corners of a face must lie on both sides of it, two at most, and share its mid-side nodes too:
-// Error(DELAM_ERROR_MESH) otherwise.
+// At most two cells may share the corners of a face. They must lie on both sides of it and share its mid-side nodes
+// too; otherwise Error(DELAM_ERROR_MESH).
 FaceTable match_faces(const Mesh& mesh, std::span<const std::int64_t> cells);
 
 // Mesh nodes of a local face in the order of its topology; the first topology(type).face_nodes entries are used.

@@ -8,8 +8,8 @@
 namespace delam {
 
 struct InterfaceGeometry {
-    std::int32_t body_a =
-        -1;  // body indices; the jump is u_b - u_a; -1: an obstacle, whose control node all node_a are
+    // Body indices; the jump is u_b - u_a. body_a = -1: an obstacle, and all node_a are its control node.
+    std::int32_t body_a = -1;
     std::int32_t body_b = -1;
     std::vector<std::int64_t> node_a;  // [pairs] mesh nodes
     std::vector<std::int64_t> node_b;

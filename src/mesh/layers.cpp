@@ -13,9 +13,9 @@ namespace delam {
 
 namespace {
 
-// Corners of a box in VTK order, and how simplices fill it: in 3D the six tetrahedra around the diagonal 0-6 (Kuhn
-// 1960), one per order of the axes. Every box is split alike and opposite faces carry the same diagonal, so that
-// boxes match each other.
+// Corners of a box in VTK order, and its division into simplices: in 3D the six tetrahedra around the diagonal 0-6
+// (Kuhn 1960), one per order of the axes. Every box is divided in the same way and opposite faces have the same
+// diagonal, so that neighbouring boxes match.
 constexpr int two_triangles[] = {0, 1, 2, 0, 2, 3};
 constexpr int six_tetrahedra[] = {0, 1, 2, 6, 0, 5, 1, 6, 0, 2, 3, 6, 0, 3, 7, 6, 0, 4, 5, 6, 0, 7, 4, 6};
 constexpr int one_square[] = {0, 1, 2, 3};
@@ -27,8 +27,8 @@ std::span<const int> split(const CellRow& row) {
     return plane ? std::span<const int>(one_square) : one_cube;
 }
 
-// Quadratic cells have nodes midway between those of linear ones, on a lattice of half their size: serendipity cells
-// only at the places on the edges of boxes, which lie midway in one direction at most, the others at all of them.
+// Quadratic cells have nodes midway between those of linear ones, on a lattice of half the spacing: serendipity cells
+// only at the points on the edges of boxes, which lie midway in at most one direction, the others at all points.
 bool on_lattice(const CellRow& row, std::int64_t i, std::int64_t j, std::int64_t k) {
     return row.interpolation != Interpolation::serendipity || i % 2 + j % 2 + k % 2 <= 1;
 }
@@ -46,7 +46,7 @@ double even(double length, std::int64_t i, std::int64_t n) {
     return length * (static_cast<double>(i) / static_cast<double>(n));
 }
 
-// A block of layers as make_layers is given it, with its checks and the lattice of nodes that its cells make.
+// A block of layers with the arguments of make_layers, their checks, and the lattice of nodes of its cells.
 struct Block {
     const CellRow& row;
     int dimension;
@@ -56,10 +56,10 @@ struct Block {
     std::span<const std::int64_t> layer_divisions;
 
     std::int64_t order() const { return row.linear() ? 1 : 2; }
-    // Cells along x and y, in steps of the lattice; a plane block is one sheet.
+    // Number of lattice steps along x and y; a plane block is one sheet.
     std::int64_t nx() const { return order() * divisions[0]; }
     std::int64_t ny() const { return dimension == 3 ? order() * divisions[1] : 0; }
-    // Distances in the lattice: x, then y in space, then the axis of the stack.
+    // Strides in the lattice: x, then y in space, then the stacking axis.
     std::int64_t line() const { return nx() + 1; }
     std::int64_t level() const { return line() * (ny() + 1); }
 };
@@ -68,7 +68,7 @@ double places_along(const Block& block, std::int64_t cells) {
     return static_cast<double>(block.order()) * static_cast<double>(cells) + 1.0;
 }
 
-// Returns the number of places of the lattice, at least that of the nodes.
+// Returns the number of lattice points, an upper bound of the number of nodes.
 double check(const Block& block) {
     const std::size_t across = index(block.dimension) - 1;
     if (block.row.topology.dimension != block.dimension)
@@ -97,8 +97,8 @@ double check(const Block& block) {
     return total;
 }
 
-// Appends the nodes of a layer between two heights; `count` is the number of nodes before and after. Returns the
-// number of the node at each place of the layer's lattice, -1 where there is none.
+// Appends the nodes of a layer between two heights; `count` is the number of nodes, updated. Returns the node at each
+// point of the layer's lattice, -1 for none.
 std::vector<std::int64_t> add_nodes(const Block& block, std::size_t layer, double base, double top, std::int64_t& count,
                                     std::vector<double>& nodes) {
     const std::int64_t nz = block.order() * block.layer_divisions[layer];

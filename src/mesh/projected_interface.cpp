@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Two bodies whose meshes do not match: each node of b's faces is paired with its projection on a's faces, a tied node
-// whose displacement is the one that a has there, sum_i N_i u_i. Weights and normals are those of b's faces, so that
-// the tractions of b are its own nodal rule; a receives them through the N_i.
+// whose displacement is that of a there, sum_i N_i u_i. Weights and normals are those of b's faces, so that the
+// tractions on b follow its own nodal rule; a receives them through the N_i.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,9 +25,9 @@ namespace delam {
 
 namespace {
 
-// Faces that points may lie on: within `reach` of them, on the side that they look to or behind, and not beyond their
-// rim. Where faces bend at an edge, a point over the edge is off both normals by half the bend: what it is off sideways
-// may be half of what it is off along the normal, and `rim` for rounding.
+// Faces on which points may lie: within `reach` of them, on their front side or behind, and not beyond their rim. Where
+// faces meet at an angle, a point above the edge deviates from both normals by half the angle, so its sideways distance
+// may be half of its normal distance, plus `rim` for rounding.
 class Ground {
 public:
     Ground(const Mesh& mesh, std::vector<BoundaryFace> faces, double reach, double rim)
@@ -37,7 +37,7 @@ public:
         std::size_t face;
         FacePoint point;
     };
-    // The nearest place on a face that looks against `normal`, within 60 degrees.
+    // The nearest point on a face that is oriented against `normal`, within 60 degrees.
     std::optional<Found> under(const Point& x, const Point& normal) const {
         std::optional<Found> best;
         double nearest = std::numeric_limits<double>::infinity();
@@ -64,7 +64,7 @@ private:
     double rim_;
     BoxTree tree_;
 
-    // A quadratic face bulges out of the box of its nodes by less than a quarter of its extent.
+    // A quadratic face extends beyond the box of its nodes by less than a quarter of its extent.
     std::vector<Box> boxes() const {
         std::vector<Box> list;
         for (const BoundaryFace& face : faces_) {
@@ -76,17 +76,18 @@ private:
     }
 };
 
-// Of a face whose points are projected, on curved faces by iteration, in cells of a light loop.
+// Work for a face whose points are projected (by iteration on curved faces), in cells of a light loop.
 constexpr std::int64_t face_work = 32;
 
 struct Split {
     std::vector<BoundaryFace> on, off;
 };
 
-// The nodes of b's faces with their projections: by node, the distance and the tie whose own node is not known yet.
+// The nodes of b's faces with their projections: for each node, the distance and the tie, whose own node is not known
+// yet.
 using Projected = std::map<std::int64_t, std::pair<double, NodeTie>>;
 
-// Body b on body a, before anything of the mesh changes.
+// Projects body b onto body a, before the mesh changes.
 class Projection {
 public:
     Projection(const Mesh& mesh, std::int32_t a, std::int32_t b, double reach, double rim)
@@ -99,7 +100,7 @@ public:
           faces_b_(boundary_faces(mesh, b)),
           ground_(mesh, faces_a_, reach, rim) {}
 
-    // A face of b lies on a as a whole or not at all.
+    // A face of b lies on a completely or not at all.
     Split split_faces() const {
         Split faces;
         for (const BoundaryFace& face : faces_b_) {
@@ -117,7 +118,7 @@ public:
         return faces;
     }
 
-    // Seen from a: no face of a may lie on the faces of b that were left out.
+    // In the other direction: no face of a may lie on faces of b that were left out.
     void refuse_covered(const std::vector<BoundaryFace>& off) const {
         const Ground apart(mesh_, off, reach_, rim_);
         for (const BoundaryFace& face : faces_a_) {
@@ -133,7 +134,7 @@ public:
         }
     }
 
-    // Of the projections that a node has from its faces, the nearest.
+    // The nearest of a node's projections from its faces.
     Projected project_nodes(const std::vector<BoundaryFace>& on) const {
         Projected projected;
         for (const BoundaryFace& face : on) {
@@ -233,7 +234,7 @@ std::int64_t Mesh::add_projected_interface(std::int32_t label_a, std::int32_t la
     return static_cast<std::int64_t>(interfaces_.size()) - 1;
 }
 
-// All room is made first: nothing after that can fail.
+// Allocates everything first, so that nothing after that can fail.
 void Mesh::append_tied(std::vector<NodeTie> ties, std::span<const double> places, InterfaceGeometry interface) {
     nodes_.reserve(nodes_.size() + places.size());
     node_label_.reserve(node_label_.size() + ties.size());

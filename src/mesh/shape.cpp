@@ -52,12 +52,12 @@ Quadrature gauss_product(int dimension, int order) {
     return rule;
 }
 
-// What a rule has to integrate: the products of gradients, and for constant stress the gradients times the cofactors
-// of dx/dxi. On tri6 both have degree 2: three points. On tet10 they have degrees 2 and 3; the vertices (1/40 each of
-// the volume) and the centroids of the faces (9/40 each) are exact to degree 3 (Keast, Comput. Meth. Appl. Mech. Eng.
-// 55, 1986, lists such rules), where the familiar four points would unbalance curved cells. On quad8, quad9 and hex20
-// the degree in one variable is up to 4 and 5: three points in each direction; two would also leave motions without
-// energy.
+// Degrees that a rule must integrate: the products of gradients and, for constant stress, the gradients times the
+// cofactors of dx/dxi. On tri6 both have degree 2: three points. On tet10 they have degrees 2 and 3; the vertices (1/40
+// of the volume each) and the centroids of the faces (9/40 each) are exact to degree 3 (Keast, Comput. Meth. Appl.
+// Mech. Eng. 55, 1986, lists such rules), while the familiar four points would violate equilibrium on curved cells. On
+// quad8, quad9 and hex20 the degree in one variable is up to 4 and 5: three points in each direction; two would also
+// leave motions without energy.
 Quadrature rule_of(const CellRow& row) {
     const int dimension = row.topology.dimension;
     const double s = 1.0 / 6.0;
@@ -83,7 +83,7 @@ Quadrature rule_of(const CellRow& row) {
     fail(DELAM_ERROR_INTERNAL, "cell type ", row.topology.name, " has no quadrature rule");
 }
 
-// All that is known of a type before any cell: computed once.
+// Data of a type that do not depend on a cell, computed once.
 struct Reference {
     std::vector<ReferencePoint> nodes;
     Quadrature rule;

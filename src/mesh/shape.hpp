@@ -17,8 +17,8 @@ using ShapeValues = std::array<double, most_cell_nodes>;
 using ShapeGradient = std::array<double, 3 * most_cell_nodes>;
 
 // Gauss quadrature on the reference cell with the gradients dN/dxi at its points. It integrates the stiffness of an
-// undistorted cell exactly, and on any cell, curved ones included, int dN_a/dx dx: constant stresses are in balance
-// (the patch test). All weights are positive.
+// undistorted cell exactly and, on any cell, even a curved one, int dN_a/dx dx, so that constant stresses are in
+// equilibrium (the patch test). All weights are positive.
 struct Quadrature {
     std::vector<ReferencePoint> points;
     std::vector<double> weights;
