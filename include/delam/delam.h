@@ -625,7 +625,8 @@ DELAM_API int32_t delam_problem_add_forces(delam_problem *problem, int64_t patte
 DELAM_API int32_t delam_problem_add_eigenstrain(delam_problem *problem, int64_t pattern, int32_t body,
                                                 const double *strain);
 
-/* Sets a number option by its key or alias; delam_option_info lists the options. Integer options take whole numbers only.
+/* Sets a number option by its key or alias; delam_option_info lists the options. Integer options take whole numbers
+ * only.
  * [unit value of key in its range; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_number(delam_problem *problem, const char *key, double value);
 /* Sets a text option by its key or alias, to a value from its list.
@@ -638,11 +639,11 @@ DELAM_API int64_t delam_option_count(void);
  * [null key, type, unit, initial, range, meaning; owns texts static; status only argument; thread any; since 0.1] */
 DELAM_API int32_t delam_option_info(int64_t index, const char **key, const char **type, const char **unit,
                                     const char **initial, const char **range, const char **meaning);
-/* Alias of an option, by index from 0: a second key that every function takes in place of the key. "": it has none.
+/* Returns the alias of an option, by index from 0: a second key that every function accepts. "": there is none.
  * [null none; owns alias static; status only argument; thread any; since 0.1] */
 DELAM_API int32_t delam_option_alias(int64_t index, const char **alias);
-/* Bounds of a number option, by index from 0: it lies between *lower and *upper. *lower_open and *upper_open are 1 if
- * the bound itself is excluded, else 0. DELAM_ERROR_ARGUMENT also for a text option.
+/* Returns the bounds of a number option, by index from 0: *lower and *upper. *lower_open and *upper_open are 1 if the
+ * bound itself is excluded, else 0. A text option also gives DELAM_ERROR_ARGUMENT.
  * [unit lower of key, upper of key; null lower, upper, lower_open, upper_open; status only argument; thread any;
  * source none; since 0.1] */
 DELAM_API int32_t delam_option_bounds(int64_t index, double *lower, double *upper, int32_t *lower_open,

@@ -233,7 +233,7 @@ Split found_split(const SparseMatrix& k, std::span<const std::int64_t> local, st
             if (ratio >= resisted) continue;
             fail(DELAM_ERROR_ARGUMENT, where, ": a rigid motion costs ", ratio,
                  " of the energy of the diagonal, between ", rounding, " (free) and ", resisted,
-                 " (held): tell the kernel");
+                 " (held): give the kernel");
         }
         std::vector<double> x(eigen.vector.value.begin() + e * q.columns,
                               eigen.vector.value.begin() + (e + 1) * q.columns);
@@ -291,7 +291,7 @@ HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix m
         HostPiece piece;
         for (const std::int64_t i : local) piece.nodes.push_back(nodes[index(i)]);
         const std::string where = text("body ", mesh.body_label(body), ", the ", local.size(),
-                                       " nodes that hang together with node ", piece.nodes.front());
+                                       " nodes connected with node ", piece.nodes.front());
         DenseMatrix q(dim * static_cast<std::int64_t>(local.size()), 0);
         q.value = rigid_modes(mesh, piece.nodes);
         q.columns = static_cast<std::int64_t>(q.value.size()) / q.rows;

@@ -48,7 +48,7 @@ int32_t delam_problem_body_matrix(const delam_problem* problem, int32_t body, in
                                   int64_t* row_starts, int64_t* columns, double* values) {
     return guard_read(problem, [&] {
         const std::int32_t index = body < 0 ? -1 : problem->core->mesh->body_of_label(body);
-        if (index < 0) fail(DELAM_ERROR_ARGUMENT, "body = ", body, ": there is no body of this label");
+        if (index < 0) fail(DELAM_ERROR_ARGUMENT, "body = ", body, ": no body has this label");
         const SparseMatrix& matrix = body_matrix(*problem, index);
         if (rows != nullptr) *rows = matrix.rows;
         if (entries != nullptr) *entries = matrix.entries();

@@ -55,7 +55,7 @@ std::int64_t require_node(const Mesh& mesh, std::int64_t value, std::int32_t ind
 // Even finite arguments may have a sum or a quotient that is not finite.
 template <class... What>
 void require_no_overflow(double value, const What&... what) {
-    if (!std::isfinite(value)) fail(DELAM_ERROR_ARGUMENT, what..., " comes to ", value, ", must be finite");
+    if (!std::isfinite(value)) fail(DELAM_ERROR_ARGUMENT, what..., " amounts to ", value, ", must be finite");
 }
 
 // Displacements with coefficients, each DOF once; tied nodes are replaced by the nodes to which they are tied.
@@ -187,7 +187,8 @@ int32_t delam_problem_add_pattern(delam_problem* problem, const char* name, int6
         require_history(count, times, values);
         std::vector<Pattern>& patterns = problem->core->patterns;
         for (const Pattern& other : patterns) {
-            if (other.name == name) fail(DELAM_ERROR_ARGUMENT, "name = '", name, "' is taken by another pattern");
+            if (other.name == name)
+                fail(DELAM_ERROR_ARGUMENT, "name = '", name, "' is already the name of another pattern");
         }
         Pattern pattern{name, {times, times + count}, {values, values + count}};
         patterns.push_back(std::move(pattern));
@@ -303,7 +304,8 @@ int32_t delam_problem_add_equation(delam_problem* problem, int64_t count, const 
         Constraint constraint = terms.constraint(prescribed(core, list, prescribed_values));
         if (std::none_of(constraint.coefficient.begin(), constraint.coefficient.end(),
                          [&](double c) { return std::abs(c) > 1e-14 * largest; }))
-            fail(DELAM_ERROR_ARGUMENT, "coefficients: their sums over each node are all 0, the equation says nothing");
+            fail(DELAM_ERROR_ARGUMENT,
+                 "coefficients: their sums over each node are all 0, so that the equation is empty");
         core.constraints.push_back(std::move(constraint));
         mark(core, list, Pattern::Drives::displacement);
     });
@@ -385,7 +387,7 @@ int32_t delam_problem_add_eigenstrain(delam_problem* problem, int64_t pattern, i
         Problem& core = *problem->core;
         require_index(pattern, static_cast<std::int64_t>(core.patterns.size()), 0, "pattern");
         const std::int32_t index = body < 0 ? -1 : core.mesh->body_of_label(body);
-        if (body != -1 && index < 0) fail(DELAM_ERROR_ARGUMENT, "body = ", body, ": there is no body of this label");
+        if (body != -1 && index < 0) fail(DELAM_ERROR_ARGUMENT, "body = ", body, ": no body has this label");
         require_pointer(strain, "strain");
         require_finite(strain, 6, "strain");
         const auto list = require_patterns(core, 1, &pattern, 0, Pattern::Drives::strain);

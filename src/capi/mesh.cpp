@@ -53,7 +53,7 @@ void require_divisions(const std::int64_t* values, std::int64_t count, const cha
 std::int32_t require_body(const Mesh& mesh, std::int32_t label, const char* name, bool all) {
     if (all && label == -1) return -1;
     const std::int32_t body = label < 0 ? -1 : mesh.body_of_label(label);
-    if (body < 0) fail(DELAM_ERROR_ARGUMENT, name, " = ", label, ": there is no body of this label");
+    if (body < 0) fail(DELAM_ERROR_ARGUMENT, name, " = ", label, ": no body has this label");
     return body;
 }
 

@@ -25,7 +25,7 @@ std::size_t require_interface(const Problem& problem, std::int64_t index) {
 // -1: all bodies.
 std::int32_t require_body(const Problem& problem, std::int32_t body) {
     const std::int32_t index = body < 0 ? -1 : problem.mesh->body_of_label(body);
-    if (body != -1 && index < 0) fail(DELAM_ERROR_ARGUMENT, "body = ", body, ": there is no body of this label");
+    if (body != -1 && index < 0) fail(DELAM_ERROR_ARGUMENT, "body = ", body, ": no body has this label");
     return index;
 }
 

@@ -213,7 +213,7 @@ int32_t delam_solver_average(const delam_solver* solver, int32_t body, double* v
     return guard_read(solver, [&] {
         const Mesh& mesh = *solver->core->problem().mesh;
         const std::int32_t index = body < 0 ? -1 : mesh.body_of_label(body);
-        if (body != -1 && index < 0) fail(DELAM_ERROR_ARGUMENT, "body ", body, ": there is no body of this label");
+        if (body != -1 && index < 0) fail(DELAM_ERROR_ARGUMENT, "body ", body, ": no body has this label");
         if (index >= 0 && mesh.host_body(index))
             fail(DELAM_ERROR_ARGUMENT, "body ", body, " has no cells to average over");
         const VolumeAverage average = solver->core->average(index);

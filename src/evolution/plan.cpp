@@ -25,7 +25,7 @@ void add_reduction(std::vector<PlanItem>& items, const Solver& solver) {
     const double saving = both ? (choice.condensed ? 1.0 : -1.0) * (f.march() - c.march()) : 0.0;
     const std::string words = text(choice.forced ? "forced, " : "chosen by predicted cost and memory, ", choice.reason);
     const std::string built =
-        text(words, "; ", solver.jump_operator().description(), "; cost of a march of ", nominal_steps, " steps");
+        text(words, "; ", solver.jump_operator().description(), "; cost of an analysis of ", nominal_steps, " steps");
     const std::string other =
         text("the other realisation is used: ", words, both ? "" : "; its cost was not predicted");
     items.push_back({"condensed operator", choice.condensed ? used : left_out, choice.condensed ? built : other,
@@ -35,9 +35,9 @@ void add_reduction(std::vector<PlanItem>& items, const Solver& solver) {
     const double bytes = choice.condensed ? c.bytes : f.bytes;
     items.push_back({"memory", used,
                      choice.monolithic > 0.0
-                         ? text("predicted peak of a march, ", std::round(10.0 * bytes / choice.monolithic) / 10.0,
+                         ? text("predicted peak of an analysis, ", std::round(10.0 * bytes / choice.monolithic) / 10.0,
                                 " times one monolithic factorisation; saved against the other realisation")
-                         : std::string("predicted peak of a march"),
+                         : std::string("predicted peak of an analysis"),
                      bytes, both ? (choice.condensed ? f.bytes - c.bytes : c.bytes - f.bytes) : 0.0, "byte"});
     if (choice.condensed)
         items.push_back({"subdomains", left_out, "the condensed operator factors all bodies at once", 0.0, 0.0, "-"});
@@ -50,8 +50,8 @@ void add_reduction(std::vector<PlanItem>& items, const Solver& solver) {
     const std::int64_t own = solver.problem().options.threads, blas = blas_threads();
     const std::string of_blas = blas > 0 ? text(blas) : std::string("an unknown number");
     items.push_back({"threads", own > 1 && !choice.condensed ? used : left_out,
-                     choice.condensed ? text("the condensed operator works by BLAS, which has ", of_blas,
-                                             own > 1 ? text(" (", own, " of the library asked for)") : std::string())
+                     choice.condensed ? text("the condensed operator uses BLAS, which has ", of_blas,
+                                             own > 1 ? text(" (", own, " of the library requested)") : std::string())
                                       : text(own, " of the library (option threads), BLAS uses ", of_blas),
                      0.0, 0.0, "-"});
     const double longest = choice.condensed ? c.longest : f.longest;
@@ -77,21 +77,22 @@ PlanItem contact_of(const Solver& solver, std::size_t interface, std::int64_t fi
     const auto all = static_cast<double>(pairs);
     const std::string subject = text("contact of interface ", interface);
     if (problem.interfaces[interface].bonded)
-        return {subject, left_out, "bonded for ever: it neither opens nor closes", 0.0, all, "comparison/solve"};
+        return {subject, left_out, "bonded permanently: it neither opens nor closes", 0.0, all, "comparison/solve"};
     const std::int64_t prescribed = prescribed_pairs(solver, first, pairs);
     if (problem.options.contact == "always")
         return {
             subject, used, text("option contact = always: all ", pairs, " pairs are tested in every active-set step"),
             all,     0.0,  "comparison/solve"};
     if (prescribed == pairs && pairs > 0)
-        return {subject, left_out, "the device prescribes every normal jump: no pair can close",
+        return {subject, left_out, "supports and loads prescribe every normal jump: no pair can close",
                 0.0,     all,      "comparison/solve"};
     return {subject,
             used,
             text(pairs - prescribed, " of ", pairs,
-                 " pairs can close, nothing proves beforehand that they do not; the test is one comparison a pair "
+                 " pairs may close, and nothing proves beforehand that they stay open; the test costs one comparison "
+                 "per pair "
                  "until one closes, "
-                 "then each change of the contact set is one more solve"),
+                 "then one more solve for each change of the contact set"),
             all - static_cast<double>(prescribed),
             static_cast<double>(prescribed),
             "comparison/solve"};
@@ -102,8 +103,10 @@ PlanItem mixity_of(const Solver& solver, std::size_t interface) {
     const double work = mixity_operations * static_cast<double>(problem.mesh->interfaces()[interface].pair_count());
     const std::string subject = text("mixity of interface ", interface);
     const char* unit = "flop/step";
-    if (problem.interfaces[interface].bonded) return {subject, left_out, "bonded for ever: no damage", 0.0, work, unit};
-    if (problem.interfaces[interface].contact) return {subject, left_out, "contact alone: no damage", 0.0, work, unit};
+    if (problem.interfaces[interface].bonded)
+        return {subject, left_out, "bonded permanently: no damage", 0.0, work, unit};
+    if (problem.interfaces[interface].contact)
+        return {subject, left_out, "contact without adhesion: no damage", 0.0, work, unit};
     if (problem.interfaces[interface].law->depends_on_mixity())
         return {subject,
                 used,
@@ -126,7 +129,7 @@ PlanItem gradient_term(const Solver& solver) {
         return {"gradient term", left_out, "no law has kappa > 0: the damage step is pointwise", 0.0, 0.0, unit};
     std::string reason =
         "one bound-constrained problem for each interface with kappa > 0 instead of the pointwise damage step, and no "
-        "leaps of the "
+        "Newton steps in the "
         "process zone;";
     double work = 0.0;
     for (const auto& term : terms) {
@@ -158,7 +161,7 @@ std::vector<PlanItem> Solver::plan() const {
                      text(plain ? "option minimisation = alternate"
                           : reduction().condensed && pairs().gradient.empty()
                               ? "Newton steps and debonding moves in the process zone, each checked by the energy"
-                              : "extrapolated alternate minimisation, each leap checked by the energy",
+                              : "extrapolated alternate minimisation, each step checked by the energy",
                           "; same stopping test: delta = ", options.damage_tolerance, ", at most ",
                           options.minimisation_limit, " alternations a step"),
                      0.0, 0.0, "-"});
@@ -178,7 +181,7 @@ std::vector<PlanItem> Solver::plan() const {
         {"backtracking", keeps_past() ? used : left_out,
          keeps_past() ? text("option backtracking = ", options.backtracking, ", eta = ", options.backtracking_tolerance,
                              ", at most ", options.backtracking_limit, " returns a step")
-                      : std::string("the two-sided energy estimate is reported, not acted on"),
+                      : std::string("the two-sided energy estimate is reported but causes no return"),
          0.0, 0.0, "-"});
     return items;
 }

@@ -18,15 +18,15 @@ namespace delam {
 
 void Mesh::add_host_body(std::int32_t label, std::span<const std::int64_t> nodes) {
     if (label < 0) fail(DELAM_ERROR_ARGUMENT, "body = ", label, ": must be >= 0");
-    if (nodes.empty()) fail(DELAM_ERROR_ARGUMENT, "nodes: a body needs one at least");
-    if (body_of_label(label) >= 0) fail(DELAM_ERROR_MESH, "body ", label, " is there already");
+    if (nodes.empty()) fail(DELAM_ERROR_ARGUMENT, "nodes: a body needs at least one");
+    if (body_of_label(label) >= 0) fail(DELAM_ERROR_MESH, "body ", label, " exists already");
     std::set<std::int64_t> listed;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         poll_cancel("mesh");
         const std::int64_t node = nodes[i];
         if (node < 0 || node >= node_count())
             fail(DELAM_ERROR_ARGUMENT, "nodes[", i, "] = ", node, ": must be in 0..", node_count() - 1);
-        if (!listed.insert(node).second) fail(DELAM_ERROR_ARGUMENT, "nodes[", i, "] = ", node, " is there twice");
+        if (!listed.insert(node).second) fail(DELAM_ERROR_ARGUMENT, "nodes[", i, "] = ", node, " occurs twice");
         if (node_label_[at(node)] == reserved)
             fail(DELAM_ERROR_MESH, "nodes[", i, "] = ", node,
                  " is tied to an interface or the control node of an obstacle");
@@ -51,7 +51,7 @@ std::int64_t Mesh::add_pairs(std::int32_t label_a, std::int32_t label_b, std::sp
     InterfaceGeometry made;
     made.body_a = a;
     made.body_b = b;
-    if (nodes_a.empty()) fail(DELAM_ERROR_ARGUMENT, "count = 0: an interface needs one pair at least");
+    if (nodes_a.empty()) fail(DELAM_ERROR_ARGUMENT, "count = 0: an interface needs at least one pair");
     const auto take = [&](std::span<const std::int64_t> nodes, std::int32_t body, const char* name) {
         std::set<std::int64_t> listed;
         for (std::size_t p = 0; p < nodes.size(); ++p) {
@@ -61,7 +61,7 @@ std::int64_t Mesh::add_pairs(std::int32_t label_a, std::int32_t label_b, std::sp
                 fail(DELAM_ERROR_ARGUMENT, name, "[", p, "] = ", node, ": must be in 0..", node_count() - 1);
             if (node_body(node) != body)
                 fail(DELAM_ERROR_ARGUMENT, name, "[", p, "] = ", node, " does not belong to body ", body_label(body));
-            if (!listed.insert(node).second) fail(DELAM_ERROR_ARGUMENT, name, "[", p, "] = ", node, " is there twice");
+            if (!listed.insert(node).second) fail(DELAM_ERROR_ARGUMENT, name, "[", p, "] = ", node, " occurs twice");
         }
     };
     take(nodes_a, a, "nodes_a");

@@ -47,7 +47,7 @@ void check_jacobian(CellType type, int dimension, std::span<const double> coordi
     const double jacobian = smallest_jacobian(type, coordinates);
     if (!(jacobian > 1e-14 * std::pow(extent, dimension)))
         fail(DELAM_ERROR_MESH, "cell ", number, " (body ", label, "): smallest Jacobian ", jacobian,
-             jacobian > 0.0 ? " is nothing beside its size: degenerate" : " <= 0: inverted or degenerate");
+             jacobian > 0.0 ? " is negligible beside its size: degenerate" : " <= 0: inverted or degenerate");
 }
 
 void insert_label(std::vector<std::int32_t>& labels, std::int32_t label) {
@@ -73,7 +73,7 @@ void Mesh::check_label(std::int32_t label, std::span<const std::int32_t> joined,
         fail(DELAM_ERROR_MESH, "cell ", number, ": body ", label, " was made without cells (delam_mesh_add_host_body)");
     if (std::binary_search(joined.begin(), joined.end(), label))
         fail(DELAM_ERROR_STATE, "cell ", number, ": body ", label,
-             " has an interface already; add all its cells before");
+             " has an interface already; add all of its cells first");
 }
 
 void Mesh::take_node(std::int64_t node, std::int32_t label, std::size_t number, std::vector<std::int64_t>& taken) {

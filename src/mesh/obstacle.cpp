@@ -19,7 +19,7 @@ namespace delam {
 std::int64_t Mesh::add_obstacle(std::span<const std::int64_t> nodes, std::span<const double> normals,
                                 std::span<const double> weights, std::int64_t control) {
     const auto dim = at(dimension_);
-    if (nodes.empty()) fail(DELAM_ERROR_ARGUMENT, "nodes: an obstacle needs one at least");
+    if (nodes.empty()) fail(DELAM_ERROR_ARGUMENT, "nodes: an obstacle needs at least one");
     if (normals.size() != nodes.size() * dim || (!weights.empty() && weights.size() != nodes.size()))
         fail(DELAM_ERROR_ARGUMENT, normals.size(), " components of normals and ", weights.size(), " weights for ",
              nodes.size(), " nodes");
@@ -44,7 +44,7 @@ std::int64_t Mesh::add_obstacle(std::span<const std::int64_t> nodes, std::span<c
         if (body != made.body_b)
             fail(DELAM_ERROR_ARGUMENT, "nodes[", p, "] = ", node, " belongs to body ", body_label(body),
                  ", nodes[0] to ", body_label(made.body_b), ": each body needs an obstacle of its own");
-        if (!listed.emplace(node, p).second) fail(DELAM_ERROR_ARGUMENT, "nodes[", p, "] = ", node, " is there twice");
+        if (!listed.emplace(node, p).second) fail(DELAM_ERROR_ARGUMENT, "nodes[", p, "] = ", node, " occurs twice");
         Point normal{};
         for (std::size_t i = 0; i < dim; ++i) {
             normal[i] = normals[p * dim + i];
@@ -79,7 +79,8 @@ std::int64_t Mesh::add_obstacle(std::span<const std::int64_t> nodes, std::span<c
         for (std::size_t p = 0; p < nodes.size(); ++p)
             if (!(made.weight[p] > 0.0))
                 fail(DELAM_ERROR_MESH, "node ", nodes[p], " at ", place(*this, nodes[p]),
-                     " is on no boundary face of which all nodes are listed and face the obstacle: give weights");
+                     " lies on no boundary face that faces the obstacle and has all its nodes in the list: give "
+                     "weights");
     }
     interfaces_.push_back(std::move(made));
     node_label_[at(control)] = reserved;

@@ -177,13 +177,13 @@ struct Skin {
 std::pair<std::int32_t, std::int32_t> Mesh::require_unjoined(std::int32_t label_a, std::int32_t label_b) const {
     const std::int32_t a = body_of_label(label_a);
     const std::int32_t b = body_of_label(label_b);
-    if (a < 0) fail(DELAM_ERROR_ARGUMENT, "body_a ", label_a, ": there is no body of this label");
-    if (b < 0) fail(DELAM_ERROR_ARGUMENT, "body_b ", label_b, ": there is no body of this label");
-    if (a == b) fail(DELAM_ERROR_ARGUMENT, "body_a and body_b are both ", label_a, ": an interface joins two bodies");
+    if (a < 0) fail(DELAM_ERROR_ARGUMENT, "body_a ", label_a, ": no body has this label");
+    if (b < 0) fail(DELAM_ERROR_ARGUMENT, "body_b ", label_b, ": no body has this label");
+    if (a == b)
+        fail(DELAM_ERROR_ARGUMENT, "body_a and body_b are both ", label_a, ": an interface joins two different bodies");
     for (std::size_t i = 0; i < interfaces_.size(); ++i)
         if (std::minmax(interfaces_[i].body_a, interfaces_[i].body_b) == std::minmax(a, b))
-            fail(DELAM_ERROR_ARGUMENT, "bodies ", label_a, " and ", label_b, " are joined by interface ", i,
-                 " already");
+            fail(DELAM_ERROR_ARGUMENT, "bodies ", label_a, " and ", label_b, " are already joined by interface ", i);
     return {a, b};
 }
 
@@ -210,7 +210,7 @@ std::int64_t Mesh::add_interface(std::int32_t label_a, std::int32_t label_b, dou
             nearest = std::min(nearest, {tree.nearest(position(*this, node), nearest.first).distance, node});
         fail(DELAM_ERROR_MESH, "bodies ", label_a, " and ", label_b,
              ": no boundary faces coincide; their boundary nodes come as close as ", nearest.first, " (node ",
-             nearest.second, "), faces count as one within ", distance);
+             nearest.second, "), faces coincide within ", distance);
     }
     interfaces_.push_back(interface_of(*this, m, a, b, distance));
     return static_cast<std::int64_t>(interfaces_.size()) - 1;

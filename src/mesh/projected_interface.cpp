@@ -129,7 +129,7 @@ public:
                 const BoundaryFace& other = apart.face(found->face);
                 fail(DELAM_ERROR_MESH, "bodies ", label_a_, " and ", label_b_, ": the face of cell ", other.cell,
                      " (body ", label_b_, ") with a corner at ", place(mesh_, other.node[0]), " lies on faces of body ",
-                     label_a_, " in part only, about ", place(mesh_.dimension(), p.place));
+                     label_a_, " only in part, near ", place(mesh_.dimension(), p.place));
             }
         }
     }
@@ -183,7 +183,7 @@ private:
     [[noreturn]] void refuse_partial(const BoundaryFace& face, const Point& off) const {
         fail(DELAM_ERROR_MESH, "bodies ", label_a_, " and ", label_b_, ": the face of cell ", face.cell, " (body ",
              label_b_, ") with a corner at ", place(mesh_, face.node[0]), " lies on faces of body ", label_a_,
-             " in part only: at ", place(mesh_.dimension(), off), " there is none within ", reach_);
+             " only in part: at ", place(mesh_.dimension(), off), " there is none within ", reach_);
     }
 
     NodeTie tie_of(const Ground::Found& found) const {

@@ -79,7 +79,7 @@ void take_stiffness(Problem& problem, const GivenMatrix& given, Monitor& monitor
     std::vector<std::int64_t> listed(index(mesh.node_count()), -1);
     for (std::size_t i = 0; i < given.nodes.size(); ++i) {
         const std::int64_t node = given.nodes[i];
-        if (listed[index(node)] >= 0) fail(DELAM_ERROR_ARGUMENT, "nodes[", i, "] = ", node, " is there twice");
+        if (listed[index(node)] >= 0) fail(DELAM_ERROR_ARGUMENT, "nodes[", i, "] = ", node, " occurs twice");
         listed[index(node)] = static_cast<std::int64_t>(i);
         const std::int32_t body = mesh.node_body(node);
         if (body < 0)
@@ -93,7 +93,7 @@ void take_stiffness(Problem& problem, const GivenMatrix& given, Monitor& monitor
             const std::int64_t i = listed[index(nodes[local])];
             if (i < 0)
                 fail(DELAM_ERROR_ARGUMENT, "nodes: node ", nodes[local], " of body ", mesh.body_label(body),
-                     " is missing; a stiffness has whole bodies");
+                     " is missing; a stiffness must cover whole bodies");
             for (std::int64_t c = 0; c < dim; ++c) {
                 const std::int64_t row = given.dofs.empty() ? i * dim + c : given.dofs[index(i * dim + c)];
                 if (place[index(row)].body >= 0)
@@ -113,7 +113,7 @@ void take_stiffness(Problem& problem, const GivenMatrix& given, Monitor& monitor
             } else if (given.values[index(e)] != 0.0) {
                 fail(DELAM_ERROR_ARGUMENT, "values[", e, "] = ", given.values[index(e)], " in row ", r,
                      " couples bodies ", mesh.body_label(at.body), " and ", mesh.body_label(other.body),
-                     ": they meet at interfaces alone");
+                     ": bodies interact only at interfaces");
             }
         }
     }

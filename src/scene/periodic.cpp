@@ -41,7 +41,7 @@ std::vector<Point> dual_basis(const std::vector<Point>& periods) {
     const bool definite = factor_definite(factor);
     for (std::int64_t k = 0; k < n; ++k) determinant *= factor(k, k) * factor(k, k);
     if (!definite || !(determinant > 1e-12 * volume))
-        fail(DELAM_ERROR_ARGUMENT, "periods: they depend on each other, or one has length 0");
+        fail(DELAM_ERROR_ARGUMENT, "periods: they are linearly dependent, or one has length 0");
     const DenseMatrix inverse = inverse_definite(std::move(gram));
     std::vector<Point> dual(periods.size(), Point{});
     for (std::size_t k = 0; k < periods.size(); ++k)

@@ -49,14 +49,14 @@ void check_interfaces(const Problem& problem) {
         if (interface.bonded) {
             for (std::size_t p = 0; p < interface.adhesion.size(); ++p) {
                 if (interface.adhesion[p] < 1.0) {
-                    fail(DELAM_ERROR_PROBLEM, "interface ", i, " is bonded for ever, but pair ", p,
+                    fail(DELAM_ERROR_PROBLEM, "interface ", i, " is bonded permanently, but pair ", p,
                          " has an adhesion of ", interface.adhesion[p], ", not 1");
                 }
             }
         } else if (interface.contact) {
             for (std::size_t p = 0; p < interface.adhesion.size(); ++p)
                 if (interface.adhesion[p] > 0.0)
-                    fail(DELAM_ERROR_PROBLEM, "interface ", i, " has contact alone, but pair ", p,
+                    fail(DELAM_ERROR_PROBLEM, "interface ", i, " has contact without adhesion, but pair ", p,
                          " has an adhesion of ", interface.adhesion[p], ", not 0");
         } else if (!interface.law) {
             fail(DELAM_ERROR_PROBLEM, "interface ", i,

@@ -424,7 +424,7 @@ START_TEST(loads) {
     expect(delam_problem_prescribe_mean(problem, 2, top, huge, y, 0, NULL, NULL, 0), DELAM_ERROR_ARGUMENT,
            "weights: their sum is inf");
     expect(delam_problem_add_equation(problem, 2, twice, huge, 0, NULL, NULL, 0), DELAM_ERROR_ARGUMENT,
-           "a coefficient of node 9 comes to inf");
+           "a coefficient of node 9 amounts to inf");
     expect(delam_problem_add_forces(problem, pattern, 1, top, force, 0), DELAM_ERROR_ARGUMENT, "forces[1] = nan");
     unchanged();
     fine(delam_problem_prescribe_nodes(problem, 1, top, down, 1, &pattern, &one, 0));

@@ -646,7 +646,7 @@ CASE_TEST(refusals) {
         cases::expect(status == DELAM_ERROR_ARGUMENT && text.find("mechanism") != std::string::npos, "hinge: " + text);
     }
     // A support that is neither stiff nor absent.
-    changed([&](Csr& c, auto&) { c.value[0] *= 1.0 + 3e-10; }, "tell the kernel");
+    changed([&](Csr& c, auto&) { c.value[0] *= 1.0 + 3e-10; }, "give the kernel");
     // One matrix that couples two bodies.
     {
         Csr two = k;
@@ -674,7 +674,7 @@ CASE_TEST(refusals) {
     // Meshes.
     delam_mesh* mesh = scene.mesh();
     const std::vector<std::int64_t> one{0}, cell{0, 1, 4, 3};
-    refused(delam_mesh_add_host_body(mesh, 0, 1, one.data(), 0), DELAM_ERROR_MESH, "body 0 is there already");
+    refused(delam_mesh_add_host_body(mesh, 0, 1, one.data(), 0), DELAM_ERROR_MESH, "body 0 exists already");
     refused(delam_mesh_add_host_body(mesh, 7, 1, one.data(), 0), DELAM_ERROR_MESH, "belongs to body 0");
     refused(delam_mesh_add_cells(mesh, DELAM_QUAD4, 1, cell.data(), nullptr, 0), DELAM_ERROR_MESH,
             "made without cells");

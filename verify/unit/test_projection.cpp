@@ -247,7 +247,7 @@ START_TEST(partly_covered) {
         for (const auto& r : refused) {
             Mesh mesh = blocks(stack(type, type, 4, r.upper, r.start, r.length));
             const std::int64_t before = mesh.node_count();
-            ck_assert_refused(DELAM_ERROR_MESH, "in part only", mesh.add_projected_interface(0, 1, 0.0));
+            ck_assert_refused(DELAM_ERROR_MESH, "only in part", mesh.add_projected_interface(0, 1, 0.0));
             ck_assert(mesh.interfaces().empty() && mesh.ties().empty() && mesh.node_count() == before);
         }
         Mesh apart = blocks(stack(type, type, 4, 4, 1.25, 1.0));

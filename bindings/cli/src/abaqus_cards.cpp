@@ -217,7 +217,7 @@ private:
             for (std::size_t i = 1; i < line.fields.size(); ++i)
                 node.at[i - 1] = inp_number(line.fields[i], line.place);
             if (!open_->node_of.emplace(node.id, open_->nodes.size()).second)
-                throw SceneFailure(line.place, fmt::format("node {} is there twice", node.id));
+                throw SceneFailure(line.place, fmt::format("node {} occurs twice", node.id));
             open_->nodes.push_back(node);
             if (card.has("NSET"))
                 set_named(open_->node_sets, card.required("NSET"), card.place)
@@ -247,7 +247,7 @@ private:
             Element element{inp_whole(fields[0], place), &type, {}, card.parameter("ELSET"), place};
             for (std::size_t k = 1; k < fields.size(); ++k) element.nodes.push_back(inp_whole(fields[k], place));
             if (!open_->element_of.emplace(element.id, open_->elements.size()).second)
-                throw SceneFailure(place, fmt::format("element {} is there twice", element.id));
+                throw SceneFailure(place, fmt::format("element {} occurs twice", element.id));
             open_->elements.push_back(std::move(element));
             if (card.has("ELSET"))
                 set_named(open_->element_sets, card.required("ELSET"), card.place)

@@ -64,8 +64,8 @@ int check(const std::string& scene_file, const std::vector<std::string>& setting
                                        nullptr, nullptr),
              data.place);
         say("interface   \"{}\", {}, {}, {} with adhesion of their own\n", data.name, counted(pairs, "pair"),
-            data.bonded    ? "bonded for ever"
-            : data.contact ? "contact alone"
+            data.bonded    ? "bonded permanently"
+            : data.contact ? "contact without adhesion"
                            : "law \"" + scene.laws[data.law].name + "\"",
             counted(static_cast<std::int64_t>(data.regions.size()), "region"));
     }

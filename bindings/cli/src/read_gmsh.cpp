@@ -111,7 +111,7 @@ private:
         const auto dimension = static_cast<std::size_t>(mesh_.dimension);
         for (std::size_t i = 0; i < tags.size(); ++i) {
             if (!number_.emplace(tags[i], static_cast<std::int64_t>(i)).second)
-                fail(fmt::format("node {} is there twice", tags[i]));
+                fail(fmt::format("node {} occurs twice", tags[i]));
             for (std::size_t a = 0; a < 3; ++a)
                 if (!std::isfinite(coordinates[3 * i + a]))
                     fail(fmt::format("node {}: its place is not finite", tags[i]));
