@@ -607,7 +607,7 @@ CASE_TEST(refusals) {
     changed([](Csr& c, auto&) { c.value[2] = NAN; }, "values[2]");
     changed([](Csr& c, auto&) { c.column[2] = 99; }, "columns[2] = 99");
     changed([](Csr& c, auto&) { c.start[3] = 1; }, "row_starts[3] = 1");
-    changed([](Csr&, auto& list) { list[1] = list[0]; }, "is there twice");
+    changed([](Csr&, auto& list) { list[1] = list[0]; }, "occurs twice");
     changed([](Csr&, auto& list) { list[1] = 999; }, "nodes[1] = 999");
     changed([&](Csr&, auto& list) { list[1] = nodes_of(own, 1)[0]; }, "is missing");
     changed(

@@ -62,7 +62,7 @@ def plot_averages(result):
 
 
 def draw_energies(ax, result):
-    """The curves of the slides' energetics."""
+    """Energies over the load, as in the presentation of PANM 15 ("Energetics of ENF test")."""
     h = result.history
     stored = h["stored_bulk"] + h["stored_interface"] + h.get("load_potential", 0)
     curves = [("stored, bodies", h["stored_bulk"], {"color": BLUE}),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""examples/run.sh: which names it knows, what it would run for each; the slides' families are checked, the other scenes are
+"""examples/run.sh: which names it knows, what it would run for each; the families of PANM 15 are checked, the other scenes are
 run at a coarse size."""
 import os
 import subprocess
@@ -55,7 +55,7 @@ for family in (*FAMILIES, "enf-modified", "enf"):
     for h in SIZES[:3] if family != "enf" else SIZES[:1]:
         code, out, error = delam("check", path, "--set", f"geometry.h={h}e-3")
         dofs = {"1.0": "1936 primal, 242 dual", "0.75": "3220 primal, 322 dual", "0.5": "6748 primal, 482 dual"}[h]
-        expect(code == 0 and dofs in out, f"{family}, h = {h} mm: the slides' unknowns {error.strip()}")
+        expect(code == 0 and dofs in out, f"{family}, h = {h} mm: the unknowns of PANM 15 {error.strip()}")
         if family != "enf":
             concept = "energetic" if "energetic" in family or "modified" in family else "local"
             rule = "converged" if "converged" in family or family == "mmf-brittle-energetic" else "frozen"
