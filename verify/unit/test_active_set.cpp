@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The active set of unilateral contact on dense systems: it ends, also where all violators moved at once would cycle,
+// and its result is the one contact set that an exhaustive search finds.
+#include <cmath>
+#include <cstdlib>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "evolution/increment/active_set.hpp"
+#include "linalg/dense.hpp"
+
+#include <check.h>
+
+using namespace delam;
+
+namespace {
+
+// minimise 1/2 x^T S x - f^T x over x >= 0; the force of a held row is what holds it.
+struct DenseSystem {
+    DenseMatrix stiffness;
+    std::vector<double> load;
+    std::vector<double> x, reaction;
+    bool definite = true, balanced = true;
+    std::int64_t solves = 0;
+
+    ContactSolve solve(const std::vector<std::uint8_t>& closed) {
+        ++solves;
+        if (!definite) return ContactSolve::failed;
+        bool held = false;
+        for (const std::uint8_t c : closed) held = held || c != 0;
+        if (!balanced && !held) return ContactSolve::unbalanced;
+        const std::int64_t n = stiffness.rows;
+        DenseMatrix a = stiffness, b(n, 1);
+        for (std::int64_t i = 0; i < n; ++i) {
+            b(i, 0) = closed[index(i)] != 0 ? 0.0 : load[index(i)];
+            if (closed[index(i)] == 0) continue;
+            for (std::int64_t j = 0; j < n; ++j) a(i, j) = a(j, i) = i == j ? 1.0 : 0.0;
+        }
+        ck_assert(solve_general(a, b, 1e-14));
+        x.assign(b.value.begin(), b.value.end());
+        reaction.assign(index(n), 0.0);
+        for (std::int64_t i = 0; i < n; ++i) {
+            if (closed[index(i)] == 0) continue;
+            reaction[index(i)] = load[index(i)];
+            for (std::int64_t j = 0; j < n; ++j) reaction[index(i)] -= stiffness(i, j) * x[index(j)];
+        }
+        return ContactSolve::solved;
+    }
+    std::span<const double> jump() const { return x; }
+    std::span<const double> force() const { return reaction; }
+    double jump_floor() const { return 0.0; }
+    double force_floor() const { return 0.0; }
+};
+
+// Nearly of rank 3: rows that are coupled as closely as these are what makes simultaneous moves cycle.
+DenseSystem some_system(std::mt19937& random, std::int64_t n) {
+    std::normal_distribution<double> normal;
+    DenseMatrix g(n, 3);
+    for (double& v : g.value) v = normal(random);
+    DenseSystem s;
+    s.stiffness = DenseMatrix(n, n);
+    for (std::int64_t i = 0; i < n; ++i)
+        for (std::int64_t j = 0; j < n; ++j) {
+            double sum = i == j ? 1e-3 : 0.0;
+            for (std::int64_t k = 0; k < 3; ++k) sum += g(i, k) * g(j, k);
+            s.stiffness(i, j) = sum;
+        }
+    for (std::int64_t i = 0; i < n; ++i) s.load.push_back(normal(random));
+    return s;
+}
+
+ContactRows all_rows(std::int64_t n) {
+    ContactRows rows;
+    for (std::int64_t i = 0; i < n; ++i) rows.row.push_back(index(i));
+    return rows;
+}
+
+// The only set without a violator, by trying all of them.
+std::vector<std::uint8_t> exhaustive(DenseSystem s, const ContactRows& rows) {
+    const std::size_t n = rows.row.size();
+    std::vector<std::uint8_t> found;
+    int count = 0;
+    for (std::size_t code = 0; code < (std::size_t{1} << n); ++code) {
+        std::vector<std::uint8_t> closed(n);
+        for (std::size_t i = 0; i < n; ++i) closed[i] = (code >> i) & 1U;
+        s.solve(closed);
+        if (!contact_violators(s, rows, closed, 0).empty()) continue;
+        ++count;
+        found = closed;
+    }
+    ck_assert_int_eq(count, 1);
+    return found;
+}
+
+// Does moving all violators at once come back to a set that it has left?
+bool cycles(DenseSystem s, const ContactRows& rows) {
+    std::vector<std::uint8_t> closed(rows.row.size(), 0);
+    std::set<std::string> seen;
+    while (seen.emplace(closed.begin(), closed.end()).second) {
+        s.solve(closed);
+        const std::vector<std::size_t> wrong = contact_violators(s, rows, closed, 0);
+        if (wrong.empty()) return false;
+        for (const std::size_t i : wrong) closed[i] ^= 1;
+    }
+    return true;
+}
+
+}  // namespace
+
+START_TEST(the_set_is_the_only_one) {
+    std::mt19937 random(1);
+    int cycled = 0;
+    for (int trial = 0; trial < 400; ++trial) {
+        const std::int64_t n = 4 + trial % 5;
+        DenseSystem s = some_system(random, n);
+        const ContactRows rows = all_rows(n);
+        std::vector<std::uint8_t> closed(index(n), trial % 2 == 0 ? 0 : 1);
+        const ActiveSet found = find_active_set(s, rows, closed, 10000, false);
+        ck_assert(found.settled && found.last == ContactSolve::solved);
+        ck_assert_int_eq(found.solves, s.solves);
+        ck_assert(closed == exhaustive(s, rows));
+        if (cycles(s, rows)) {
+            ++cycled;
+            ck_assert(trial % 2 != 0 || found.exchanged);
+        }
+    }
+    // Else the test shows nothing about cycles.
+    ck_assert_int_ge(cycled, 5);
+}
+END_TEST
+
+START_TEST(limits_and_failures_are_reported) {
+    std::mt19937 random(2);
+    const ContactRows rows = all_rows(6);
+    DenseSystem s = some_system(random, 6);
+    s.load.assign(6, -1.0);  // everything wants to close
+    std::vector<std::uint8_t> closed(6, 0);
+    const ActiveSet stopped = find_active_set(s, rows, closed, 1, false);
+    ck_assert(!stopped.settled && stopped.last == ContactSolve::solved && stopped.solves == 1);
+    s.definite = false;
+    const ActiveSet failed = find_active_set(s, rows, closed, 100, true);
+    ck_assert(!failed.settled && failed.last == ContactSolve::failed && failed.solves == 1);
+}
+END_TEST
+
+// Nothing balances the load while all rows are open; contact does.
+START_TEST(contact_may_hold_what_floats) {
+    std::mt19937 random(4);
+    const ContactRows rows = all_rows(5);
+    DenseSystem s = some_system(random, 5);
+    s.load.assign(5, -1.0);
+    s.balanced = false;
+    std::vector<std::uint8_t> closed(5, 0);
+    ck_assert(find_active_set(s, rows, closed, 100, false).last == ContactSolve::unbalanced);
+    closed.assign(5, 0);
+    const ActiveSet found = find_active_set(s, rows, closed, 100, true);
+    ck_assert(found.settled);
+    s.balanced = true;
+    ck_assert(closed == exhaustive(s, rows));
+}
+END_TEST
+
+// From coarse rows to all of them: the same set.
+START_TEST(levels_lead_to_the_same_set) {
+    std::mt19937 random(6);
+    for (int trial = 0; trial < 100; ++trial) {
+        DenseSystem s = some_system(random, 8);
+        ContactRows rows = all_rows(8);
+        rows.level = {3, 0, 1, 0, 2, 0, 1, 0};
+        rows.first = 3;
+        std::vector<std::uint8_t> closed(8, 0);
+        ck_assert(find_active_set(s, rows, closed, 10000, false).settled);
+        ck_assert(closed == exhaustive(s, rows));
+    }
+}
+END_TEST
+
+int main() {
+    Suite* suite = suite_create("active_set");
+    TCase* tests = tcase_create("active_set");
+    tcase_add_test(tests, the_set_is_the_only_one);
+    tcase_add_test(tests, limits_and_failures_are_reported);
+    tcase_add_test(tests, contact_may_hold_what_floats);
+    tcase_add_test(tests, levels_lead_to_the_same_set);
+    suite_add_tcase(suite, tests);
+    SRunner* runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
