@@ -9,7 +9,7 @@ namespace delam {
 
 namespace {
 
-constexpr double rounding = 1e-10;  // of the energies: lower by less is not lower
+constexpr double rounding = 1e-10;  // of the energies: smaller differences do not count as lower
 
 bool lower(const State& a, const State& b) {
     const double scale = std::max(std::abs(b.ledger.energy()), std::abs(b.ledger.work));
@@ -29,8 +29,8 @@ Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t la
     Stepper::Result next;
     std::int64_t i = k, returns = 0, revised_from = k;
     bool returning = true, same_before = false;
-    Counts effort;                          // of all that was computed and not kept as step k
-    std::map<std::int64_t, bool> settled;   // did the replaced steps converge?
+    Counts effort;                          // of everything computed that is not kept as step k
+    std::map<std::int64_t, bool> settled;   // whether the replaced steps converged
     std::optional<Stepper::Start> carried;  // the state whose lower bound has failed
     while (true) {
         std::vector<Stepper::Start> starts;
@@ -38,7 +38,7 @@ Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t la
         if (i < k) starts.push_back({chain.at(i).adhesion, chain.at(i).mixity});
         Stepper::Result found = stepper.step(chain.at(i - 1), i < k ? chain.at(i).time : time, starts);
         if (i < k && same_before && !lower(found.state, chain.at(i))) {
-            // Nothing lower: step i stands, and so does what was computed from it.
+            // Nothing lower: step i stays, and so do the later steps computed from it.
             returning = false;
             effort.add(found.state.counts);
             if (++i == k) break;
@@ -71,7 +71,7 @@ Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t la
     Counts& counts = next.state.counts;
     const Counts own = counts;
     counts.add(effort);
-    // What describes the state itself, and not the way to it.
+    // The data that describe the state itself, not how it was reached.
     counts.damage_change = own.damage_change;
     counts.mixity_held = own.mixity_held;
     for (const auto& [step, converged] : settled) next.converged = next.converged && converged;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Backtracking on the two-sided energy estimate (slides, "Backtracking algorithm"; Mielke, Roubicek, Zeman 2010).
+// Backtracking by the two-sided energy estimate (Zeman, Kruzik, Gruber, PANM 15 (2010), "Backtracking algorithm";
+// Mielke, Roubicek, Zeman, CMAME 199 (2010) 1242-1253).
 //
-// When the lower bound of step k fails, the state k, taken back to the time of step k - 1, has less energy there than
-// the state k - 1: that step was not minimal. It is computed anew from state k - 2, from both starts, and the lower of
-// all is kept. Only the lower bound decides (a minimisation from z_{k-1} always meets the upper one), with the mixity
-// of step k - 2: what was minimised is what is bounded. Each return lowers the incremental energy of the step returned
-// to, so it ends; a return that finds nothing lower is the last.
+// If the lower bound of step k fails, the state k, taken back to the time of step k - 1, has less energy there than the
+// state k - 1: that step was not minimal. It is computed again from state k - 2, from both starts, and the lowest of
+// all states is kept. Only the lower bound decides (a minimisation from z_{k-1} always satisfies the upper one), with
+// the mixity of step k - 2, because the bound holds for what was minimised. Each return lowers the incremental energy
+// of the step to which it returns, so the algorithm terminates; a return that finds nothing lower is the last.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@
 
 namespace delam {
 
-// Committed steps, oldest first, the last one being where the march stands; some of them replaced.
+// Committed steps, oldest first; the last one is the present state; some of them replaced.
 class Chain {
 public:
     Chain(std::span<const State> past, const State& last) : past_(past), last_(last) {}
@@ -31,8 +32,8 @@ private:
     std::map<std::int64_t, State> revised_;
 };
 
-// The step after the chain's last, at `time`; the chain is revised where the estimate asks for it. counts.backtracks
-// says how often.
+// Computes the step after the chain's last, at `time`, and revises the chain if the estimate requires it.
+// counts.backtracks is the number of returns.
 Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t last_step, double time,
                                  const Options& options);
 

@@ -19,7 +19,7 @@ const Bulk& bulk_of(const Solver& solver) {
     return *bulk;
 }
 
-// The lower triangle of S is the one that holds.
+// Only the lower triangle of S is valid.
 void copy_stiffness(const DenseEnergy& energy, double* out) {
     for (std::int64_t j = 0; j < energy.rows(); ++j) {
         poll_cancel("copy", 1 + energy.rows() / 64);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The energy of all bodies condensed onto the jumps, as a host reads it:
+// The energy of all bodies condensed onto the jumps, for hosts:
 //   E(theta, x) = 1/2 x^T S x - theta^T L^T x + 1/2 theta^T A theta,      jump rows  j = N x + O theta.
 #pragma once
 
@@ -14,10 +14,10 @@ struct CondensedSize {
     std::int64_t entries;   // of N
 };
 
-// Both throw Error(DELAM_ERROR_STATE) where the operator is not condensed.
+// Both throw Error(DELAM_ERROR_STATE) if the operator is not condensed.
 CondensedSize condensed_size(const Solver& solver);
 
-// Null: not wanted.
+// Null: not requested.
 struct CondensedMatrices {
     double* stiffness = nullptr;         // S, [unknowns][unknowns]
     double* load = nullptr;              // L, [patterns][unknowns]

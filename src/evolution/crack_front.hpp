@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the cracks of an interface end, what drives them there, and how well the pairs resolve it.
+// The ends of an interface's cracks, their energy release rate, and how well the pairs resolve them.
 //
 // A front separates pairs with adhesion below 1/2 from those above: in 2D a point, in 3D the contour zeta = 1/2 on the
-// faces. Its energy release rate is Rice's J integral (J. Appl. Mech. 35, 1968) on a path that hugs the interface from
-// the open crack through the process zone and crosses the interface ahead of it, where the layer holds 1/2 t.[u]:
-//     J = - int t . d[u]/dx dx + (1/2 t.[u])_ahead = 1/2 int (dt/dx . [u] - t . d[u]/dx) dx = int Y dzeta/dx dx,   t_c
-//     = zeta k_c [u]_c.
-// The last form has nothing to add where zeta is constant: it does not depend on how far behind and ahead it goes, and
-// a closed contact, [u]_n = 0, adds nothing either. Between neighbouring pairs it is
+// faces. Its energy release rate is Rice's J integral (J. Appl. Mech. 35, 1968) on a path that follows the interface
+// from the open crack through the process zone and crosses the interface ahead of it, where the layer stores 1/2 t.[u]:
+//     J = - int t . d[u]/dx dx + (1/2 t.[u])_ahead = 1/2 int (dt/dx . [u] - t . d[u]/dx) dx = int Y dzeta/dx dx,
+//     t_c = zeta k_c [u]_c.
+// The last form has no contribution where zeta is constant, so it does not depend on how far the path extends; a closed
+// contact, [u]_n = 0, does not contribute either. Between neighbouring pairs it is
 //     1/2 (t_1.[u]_0 - t_0.[u]_1) = 1/2 k (zeta_1 - zeta_0) [u]_0 [u]_1,
 // at a sharp tip 1/2 t_tip.[u]_behind: the virtual crack closure of Rybicki and Kanninen (Eng. Fract. Mech. 9, 1977).
-// Components are the modes.
+// Its components are the modes.
 #pragma once
 
 #include <array>
@@ -27,20 +27,20 @@ using Vector3 = std::array<double, 3>;  // third component 0 in 2D
 
 struct FrontPoint {
     Vector3 place{};
-    Vector3 direction{};      // unit, along the interface into what adheres
-    double length = 0.0;      // 2D: of the crack that ends here; 3D: of front that the point stands for
+    Vector3 direction{};      // unit, along the interface into the adhering part
+    double length = 0.0;      // 2D: of the crack that ends here; 3D: length of front that belongs to the point
     Vector3 rate{};           // energy release rate in modes I, II, III, F/L
     double zone = 0.0;        // process zone along `direction`, L
-    double zone_pairs = 0.0;  // how many pairs lie in it
+    double zone_pairs = 0.0;  // number of pairs in it
 
     double total() const { return rate[0] + rate[1] + rate[2]; }
-    // Share of the shearing modes; 0 where there is no rate.
+    // Share of the shearing modes; 0 if the rate is 0.
     double mixity() const { return total() > 0.0 ? (rate[1] + rate[2]) / total() : 0.0; }
 };
 
 // In 2D one point.
 struct CrackFront {
-    bool closed = false;  // a loop: its last point is joined to the first
+    bool closed = false;  // a loop: its last point is connected to the first
     std::vector<FrontPoint> points;
 };
 
@@ -54,29 +54,30 @@ struct CrackedInterface {
     std::span<const double> jump;
 };
 
-// Adhesion where a front lies.
+// The adhesion at a front.
 inline constexpr double front_adhesion = 0.5;
-// Does a pair lie in the process zone? It has lost a thousandth of its adhesion, and a thousandth of its toughness is
-// left to spend. The adhesion alone does not tell where the zone ends: past the onset it is below (onset jump)/(jump),
-// little throughout the zone of a stiff interface.
+// Whether a pair lies in the process zone: it has lost a thousandth of its adhesion, and a thousandth of its toughness
+// is left to dissipate. The adhesion alone does not show where the zone ends: beyond the onset it is below (onset
+// jump)/(jump), which is small throughout the zone of a stiff interface.
 bool in_process_zone(const CrackedInterface& interface, std::int64_t pair);
-// Behind it: all but a thousandth of the toughness is spent, or it never adhered.
+// Whether it lies behind the zone: all but a thousandth of the toughness is dissipated, or it never adhered.
 bool spent(const CrackedInterface& interface, std::int64_t pair);
 // Weight of these pairs, L or L2.
 double process_zone(const CrackedInterface& interface);
-// Neither damaged nor open from the start: where the adhesion of two such pairs differs, it is no work of a crack.
+// Neither damaged nor initially open: where the adhesion of two such pairs differs, no crack is the cause.
 inline bool undamaged(double initial, double adhesion) { return initial > 0.0 && adhesion >= initial; }
 
 std::vector<CrackFront> crack_fronts(const CrackedInterface& interface);
-// The two dimensions of it.
+// For interfaces in 2D and in 3D.
 std::vector<CrackFront> crack_fronts_on_lines(const CrackedInterface& interface);
 std::vector<CrackFront> crack_fronts_on_faces(const CrackedInterface& interface);
 
-// a = a_0 + sum w (1 - zeta) over the pairs that adhered at first, L or L2; a_0: the linear pieces of faces that touch
-// a pair without initial adhesion, so in 2D up to the pair at the tip. No more than the interface has.
+// a = a_0 + sum w (1 - zeta) over the initially adhering pairs, L or L2; a_0 is the size of the linear pieces of faces
+// that touch a pair without initial adhesion, so in 2D up to the pair at the tip. Never more than the size of the
+// interface.
 double crack_length(const CrackedInterface& interface);
 
-// Straight pieces of the faces as pair indices, without entries that only fill the list up: 2 pairs (2D), 3 or 4.
+// Straight pieces of the faces as pair indices, without padding entries: 2 pairs (2D), 3 or 4.
 struct PairPiece {
     int pairs;
     std::array<std::int64_t, 4> pair;
@@ -84,7 +85,7 @@ struct PairPiece {
 std::vector<PairPiece> pair_pieces(const InterfaceGeometry& geometry, int dimension);
 
 Vector3 place_of(const CrackedInterface& interface, std::int64_t pair);
-// The jump in space: its part along the pair's normal, and the rest.
+// The jump in space: its component along the pair's normal, and the rest.
 struct SpaceJump {
     double normal;
     Vector3 tangential;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fronts of an interface that is a line: the pairs as chains, each walked from the open side of a front to the adhering
-// one.
+// Fronts of an interface that is a line: the pairs as chains, each traversed from the open side of a front to the
+// adhering side.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ namespace delam {
 
 namespace {
 
-// Pairs one after another. In a ring the first pair is the last one, too, with half of its weight in either place.
+// Pairs in order. In a ring the first pair is also the last one, with half of its weight in each place.
 struct Chain {
     std::vector<std::int64_t> pair;
     std::vector<double> arc;  // distance from the first pair
@@ -20,8 +20,8 @@ struct Chain {
 
 double distance(const Vector3& p, const Vector3& q) { return std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]); }
 
-// Edges walked from pairs that do not have two of them; what is left are rings. A ring is cut where the adhesion is
-// largest.
+// Chains of edges, beginning at pairs that do not have two edges; the remaining edges are rings. A ring is cut where
+// the adhesion is largest.
 std::vector<Chain> chains(const CrackedInterface& interface) {
     const std::size_t count = interface.adhesion.size();
     std::vector<std::vector<std::int64_t>> next(count);
@@ -29,7 +29,7 @@ std::vector<Chain> chains(const CrackedInterface& interface) {
         next[at(piece.pair[0])].push_back(piece.pair[1]);
         next[at(piece.pair[1])].push_back(piece.pair[0]);
     }
-    const auto take = [&](std::int64_t from, std::int64_t to) {  // the edge, from both of its ends
+    const auto take = [&](std::int64_t from, std::int64_t to) {  // an edge, from either end
         std::erase(next[at(from)], to);
         std::erase(next[at(to)], from);
     };
@@ -72,7 +72,7 @@ std::vector<Chain> chains(const CrackedInterface& interface) {
     return found;
 }
 
-// A chain with the state of its pairs, and what lies about one of its fronts. Positions are those in the chain.
+// A chain with the state of its pairs, and the surroundings of each of its fronts. Positions are those in the chain.
 class Walk {
 public:
     // corner: of quadratic faces, [pairs]
@@ -82,7 +82,7 @@ public:
     struct Found {
         std::int64_t open, adhering;  // the two pairs that it separates
         std::int64_t from, to;        // what belongs to it, from the open side on
-        double arc;                   // where it is
+        double arc;                   // position of the front
     };
     std::vector<Found> fronts() const {
         std::vector<Found> found;
@@ -137,13 +137,13 @@ private:
     Vector3 place(std::int64_t i) const { return place_of(interface_, pair(i)); }
     bool inside(std::int64_t i) const { return i >= 0 && i < size(); }
 
-    // Last pair on the same side of 1/2, from i on.
+    // The last pair on the same side of 1/2, beginning at i.
     std::int64_t run_end(std::int64_t i, std::int64_t step) const {
         while (inside(i + step) && below(i + step) == below(i)) i += step;
         return i;
     }
-    // What belongs to one of two fronts ends where the run from i to end has its extreme adhesion, in the middle if
-    // there are many.
+    // The region of one of two fronts ends where the run from i to end has its extreme adhesion, in the middle if there
+    // are several.
     std::int64_t share_of(std::int64_t i, std::int64_t end, std::int64_t step) const {
         if (!inside(end + step)) return end;
         double extreme = adhesion(i);
@@ -164,7 +164,8 @@ private:
         const std::int64_t open_end = run_end(open, -step);
         Found found{open, adhering, share_of(open, open_end, -step), share_of(adhering, run_end(adhering, step), step),
                     0.0};
-        // Counted from the tip of the notch, else from the end of the chain or the middle of a crack that began inside.
+        // Counted from the tip of the notch; otherwise from the end of the chain or the middle of a crack that began
+        // inside.
         std::int64_t anchor = open;
         while (anchor != open_end && initial(anchor) > 0.0) anchor -= step;
         double spent = 0.0;
@@ -182,16 +183,16 @@ private:
         return found;
     }
 
-    // From a pair to the next. The weights of quadratic cells alternate, and with them the tractions: there every pair
-    // goes with the next one of its kind, corners with a third (Simpson's share of an edge), middle nodes with two
-    // thirds, so that a sharp tip gives the virtual crack closure of quadratic cells, 1/(2 l) (F_corner.[u] one cell
-    // behind + F_middle.[u] one cell behind).
+    // From a pair to the next. The weights of quadratic cells alternate, and with them the tractions. There every pair
+    // is combined with the next one of its kind, corners with the factor one third (Simpson's share of an edge), middle
+    // nodes with two thirds, so that a sharp tip gives the virtual crack closure of quadratic cells, 1/(2 l)
+    // (F_corner.[u] one cell behind + F_middle.[u] one cell behind).
     void add_links(std::int64_t i0, std::int64_t i1, FrontPoint& out) const {
         if (interface_.geometry.nodes_per_face == 2) return add_link(i0, i1, 1.0, out);
         const std::int64_t i2 = 2 * i1 - i0;
         const bool corner = (i0 - first_corner_) % 2 == 0;
         if (inside(i2)) return add_link(i0, i2, corner ? 1.0 / 3.0 : 2.0 / 3.0, out);
-        if (!corner) add_link(i0, i1, 2.0 / 3.0, out);  // the end of the interface stands for a middle node beyond
+        if (!corner) add_link(i0, i1, 2.0 / 3.0, out);  // the end of the interface replaces a middle node beyond it
     }
     // 1/2 k (zeta_1 - zeta_0) [u]_0 [u]_1
     void add_link(std::int64_t i0, std::int64_t i1, double share, FrontPoint& out) const {

@@ -26,17 +26,17 @@ Vector3 unit(const Vector3& p) {
     return length > 0.0 ? (1.0 / length) * p : p;
 }
 
-// Where the contour crosses the line between two neighbouring pairs, and who is next to it on the contour.
+// The point where the contour crosses the line between two neighbouring pairs, and its neighbours on the contour.
 struct Crossing {
     Vector3 place{};
-    Vector3 ahead{};    // sum of the directions into what adheres
+    Vector3 ahead{};    // sum of the directions into the adhering part
     Vector3 normal{};   // of the interface
-    Vector3 between{};  // from the one pair to the other
+    Vector3 between{};  // from one pair to the other
     std::vector<std::size_t> next;
 };
 
-// A polygon has an even number of crossings on its sides; the contour joins them two by two, and where a quadrilateral
-// has four the mean of its corners says which: those that cut off the corners on the other side of it.
+// A polygon has an even number of crossings on its sides, and the contour connects them in pairs. Where a quadrilateral
+// has four, the mean of its corners decides: the contour cuts off the corners on the other side of the mean.
 class Contour {
 public:
     Contour(const CrackedInterface& interface, std::span<const PairPiece> pieces) : interface_(interface) {
@@ -83,9 +83,9 @@ private:
         return entry->second;
     }
 
-    // The direction ahead is that of the mean gradient of the adhesion, whose sign is all that counts.
+    // The direction ahead is that of the mean gradient of the adhesion; only its sign matters.
     void join(std::size_t a, std::size_t b, const PairPiece& piece) {
-        if (crossings[a].next.size() > 1 || crossings[b].next.size() > 1) return;  // faces that do not make a surface
+        if (crossings[a].next.size() > 1 || crossings[b].next.size() > 1) return;  // faces that do not form a surface
         crossings[a].next.push_back(b);
         crossings[b].next.push_back(a);
         const Vector3 middle = 0.5 * (crossings[a].place + crossings[b].place);
@@ -130,7 +130,8 @@ std::vector<Line> lines(std::span<const Crossing> crossings) {
     return found;
 }
 
-// Points much nearer to each other than pairs are tell nothing of their own: they go, but for the ends of a line.
+// Points much closer to each other than pairs are carry no information of their own and are removed, except the ends of
+// a line.
 void thin(Line& line, std::span<const Crossing> crossings) {
     double spacing = 0.0;
     for (const std::size_t c : line.crossing)
@@ -153,7 +154,7 @@ struct Near {
     double share;                      // of its second point
 };
 
-// What a place on the interface belongs to.
+// The front, segment and share to which a point of the interface belongs.
 class Nearest {
 public:
     explicit Nearest(std::span<const CrackFront> fronts) : fronts_(fronts) {}
@@ -182,7 +183,7 @@ private:
     std::span<const CrackFront> fronts_;
 };
 
-// Length of front that each point stands for, and the direction ahead: along the interface, across the front.
+// Length of front that belongs to each point, and the direction ahead: along the interface, across the front.
 void lay_out(CrackFront& front, const Line& line, std::span<const Crossing> crossings) {
     const std::size_t n = line.crossing.size();
     front.closed = line.closed;
@@ -204,8 +205,9 @@ void lay_out(CrackFront& front, const Line& line, std::span<const Crossing> cros
     }
 }
 
-// A triangle of pairs. With gradients g_i of its shape functions, grad zeta = sum over its sides (zeta_j - zeta_i)(g_j
-// - g_i)/3: with each side goes the product of the jumps at its ends, as between two pairs of a line.
+// A triangle of pairs. With the gradients g_i of its shape functions, grad zeta = sum over its sides (zeta_j -
+// zeta_i)(g_j - g_i)/3; each side is multiplied by the product of the jumps at its ends, as between two pairs of a
+// line.
 class Triangle {
 public:
     Triangle(const CrackedInterface& interface, const std::array<std::int64_t, 3>& pair)

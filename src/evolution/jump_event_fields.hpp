@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What of a jump event is saved (increment/state_fields.hpp).
+// The saved members of a jump event (increment/state_fields.hpp).
 #pragma once
 
 #include "base/archive.hpp"
@@ -7,7 +7,7 @@
 
 namespace delam {
 
-// One row a line.
+// One row per line.
 // clang-format off
 template <>
 inline constexpr auto saved_fields<JumpEvent> = saved_since(5,

@@ -61,7 +61,7 @@ void add_reduction(std::vector<PlanItem>& items, const Solver& solver) {
          longest / nominal_rate, 0.0, "s"});
 }
 
-// Pairs of an interface whose normal jump the device alone determines.
+// Pairs of an interface whose normal jump is determined by the device alone.
 std::int64_t prescribed_pairs(const Solver& solver, std::int64_t first, std::int64_t pairs) {
     const auto rows = solver.jump_operator().prescribed_rows();
     const std::int64_t dim = solver.problem().mesh->dimension();
@@ -70,7 +70,7 @@ std::int64_t prescribed_pairs(const Solver& solver, std::int64_t first, std::int
     return found;
 }
 
-// Nothing else proves a priori that a pair stays open: whether it closes depends on the load path and on the damage.
+// Nothing else proves in advance that a pair stays open: whether it closes depends on the load path and on the damage.
 PlanItem contact_of(const Solver& solver, std::size_t interface, std::int64_t first) {
     const Problem& problem = solver.problem();
     const std::int64_t pairs = problem.mesh->interfaces()[interface].pair_count();
@@ -119,7 +119,7 @@ PlanItem mixity_of(const Solver& solver, std::size_t interface) {
     return {subject, left_out, "onset and toughness of the law are the same at every mixity", 0.0, work, unit};
 }
 
-// Factorisations of a coupled damage step, as seen in marches.
+// Factorisations of a coupled damage step, as counted in analyses.
 constexpr double nominal_factorisations = 5.0;
 
 PlanItem gradient_term(const Solver& solver) {

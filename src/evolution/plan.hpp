@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene needs and what was left out, as data: each with its reason, what it costs and what the decision saves.
+// What a scene needs and what was left out, as data: each item with its reason, its cost and what the decision saves.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@ struct PlanItem {
     std::string subject;   // "contact of interface 0"
     std::string decision;  // "used" or "left out"
     std::string reason;
-    double cost = 0.0;    // predicted, of what is used; 0 for what is left out
-    double saving = 0.0;  // predicted, against the other decision
+    double cost = 0.0;    // predicted, of used items; 0 for items left out
+    double saving = 0.0;  // predicted, compared with the other decision
     std::string unit;     // of both
 };
 

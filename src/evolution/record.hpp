@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Values of every committed step, by the keys that the host asked for: the march's load curve, as part of its state.
+// Values of every committed step under the keys that the host requested: the load curve, as part of the saved state.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ class Record {
 public:
     struct Column {
         std::string key;
-        std::vector<double> values;  // [steps], NaN before the key was asked for
+        std::vector<double> values;  // [steps], NaN before the key was requested
     };
     struct Row {
         std::int64_t step = 0;
@@ -30,13 +30,13 @@ public:
     // nullptr: the key is not recorded.
     const Column* find(const std::string& key) const;
 
-    // A further key, its value at `step`, the last there is.
+    // Adds a key, with its value at `step`, the last one there is.
     void add(const std::string& key, std::int64_t step, double value);
-    // Columns as they were saved, of equal lengths.
+    // Saved columns, of equal lengths.
     void add(Column column, std::int64_t first);
-    // Room for a further row, so that put() cannot fail.
+    // Allocates a further row, so that put() cannot fail.
     void reserve_row();
-    // Puts a row in the place of its step, or behind the last. One from before the record began is left out.
+    // Replaces the row of its step, or appends it. A row of a step before the record began is dropped.
     void put(const Row& row) noexcept;
 
 private:

@@ -28,7 +28,7 @@ std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
     return h;
 }
 
-// Numbers that are not finite, wherever they stand in a struct that is saved.
+// Rejects non-finite numbers in any saved struct.
 class Finite {
 public:
     bool holds = true;
@@ -38,7 +38,7 @@ public:
     void item(const T&) {}
 };
 
-// Every array as long as this solver's own, every number one that a march can produce.
+// Every array must have the length of this solver's, and every number must be one that an analysis can produce.
 void check(const State& state, const Solver& solver) {
     const State& mine = solver.committed();
     const Response &a = state.response, &b = mine.response;
@@ -151,7 +151,7 @@ Record read_record(Reader& r, const Solver& solver) {
     return record;
 }
 
-// A row for every step from the first to that of the state.
+// One row for every step from the first to that of the state.
 void check(const Record& record, const State& state) {
     for (const Record::Column& column : record.columns())
         if (record.first() < 0 || record.first() > state.step ||
@@ -160,7 +160,7 @@ void check(const Record& record, const State& state) {
                  "' from step ", record.first(), " on, its state is of step ", state.step);
 }
 
-// Of bytes that this library has written, in whatever version, and that are whole.
+// For complete bytes that this library has written, in any version.
 std::uint32_t read_version(std::span<const std::uint8_t> bytes) {
     Reader r(bytes, version);
     std::uint64_t found_magic = 0, found_sum = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The committed state as bytes: magic, version, hash of the scene, the state, checksum. Little-endian doubles as they
-// are, so that a restored march goes on bit for bit.
+// The committed state as bytes: magic, version, hash of the scene, the state, checksum. Doubles are stored
+// little-endian without conversion, so that a restored analysis continues bit for bit.
 #pragma once
 
 #include <cstdint>

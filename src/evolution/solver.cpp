@@ -131,7 +131,7 @@ void Solver::commit() {
     for (const State& state : pending_->revised) rows.push_back({state.step, values_of(state, keys)});
     rows.push_back({pending_->state.step, values_of(pending_->state, keys)});
     record_.reserve_row();
-    // Nothing below can fail.
+    // From here on nothing can fail.
     for (const Record::Row& row : rows) record_.put(row);
     if (looked_ != nullptr) forget();
     looked_ = nullptr;
@@ -142,7 +142,7 @@ void Solver::commit() {
         else
             past_[static_cast<std::size_t>(state.step - past_.front().step)] = std::move(state);
     }
-    if (pending_->state.step == committed_.step) past_.clear();  // a state that was set: nothing leads back behind it
+    if (pending_->state.step == committed_.step) past_.clear();  // a state that was set: no earlier step leads to it
     if (keeps) {
         past_.push_back(std::move(committed_));
         if (past_.size() > static_cast<std::size_t>(problem_.options.backtracking_depth)) past_.erase(past_.begin());
@@ -246,7 +246,7 @@ void Solver::look(std::int64_t step) {
 std::vector<JumpEvent> Solver::jumps(bool pending) const {
     std::vector<JumpEvent> all = jumps_;
     if (!pending || !pending_) return all;
-    if (pending_->state.step == committed_.step) return all;  // set, not marched to
+    if (pending_->state.step == committed_.step) return all;  // set, not computed by steps
     const std::int64_t from = pending_->revised.empty() ? pending_->state.step : pending_->revised.front().step;
     std::erase_if(all, [&](const JumpEvent& jump) { return jump.step >= from; });
     all.insert(all.end(), pending_->jumps.begin(), pending_->jumps.end());
@@ -287,9 +287,9 @@ std::optional<CrackedInterface> Solver::cracked(const State& state, std::int64_t
                             std::span(state.response.jump).subspan(first * dim, count * dim)};
 }
 
-// A front has grown where a pair broke: until the first one does, the zone is still forming. A zone that is cut short
-// where a front comes to rest was longer before it ran: the better of both states counts. The energetic solution knows
-// the front by its energy, which needs no resolved zone; Griffith's law has none.
+// A front has grown if a pair broke: until the first one breaks, the zone is still forming. A zone is cut short where a
+// front comes to rest, and was longer before, so the better of both states counts. The energetic solution finds the
+// front by its energy, which needs no resolved zone; Griffith's law has no zone.
 void Solver::warn_of_unresolved_front(const State& before, const State& after) {
     if (warned_of_front_ || problem_.options.solution == "energetic") return;
     for (std::int64_t i = 0; i < static_cast<std::int64_t>(problem_.interfaces.size()); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The march: committed states, perhaps a pending one, and the stepper that makes them.
+// The analysis: committed states, possibly a pending one, and the stepper that computes them.
 #pragma once
 
 #include <memory>
@@ -36,35 +36,34 @@ public:
     void commit();
     void rollback();
     bool pending() const { return pending_.has_value(); }
-    // Another history of a pattern from the committed time on.
+    // Changes the history of a pattern from the committed time on.
     void set_history(std::int64_t pattern, std::span<const double> times, std::span<const double> values);
-    // Patterns whose history was changed, with those that hold now.
+    // Patterns whose history was changed, with their present histories.
     std::vector<std::int64_t> changed_histories() const;
-    // From the committed state on, commit() keeps this value of every step.
+    // From the committed state on, commit() records this value for every step.
     void record(const std::string& key);
     const Record& recorded() const { return record_; }
-    // Hash of the scene as the solver was made with it.
+    // Hash of the scene at the solver's creation.
     std::uint64_t scene_hash() const { return scene_hash_; }
-    // state() is then that of an earlier step which is still kept, of the pending chain or the committed one; -1: the
-    // present.
+    // Makes state() that of an earlier kept step, of the pending chain or the committed one; -1: the present one.
     void look(std::int64_t step);
-    // Steps that can be looked at and returned to: from this one on.
+    // The first step that can be read and returned to.
     std::int64_t first_kept() const { return past_.empty() ? committed_.step : past_.front().step; }
 
     const Problem& problem() const { return problem_; }
-    // How the displacements of the initial state ended.
+    // Outcome of the displacement step of the initial state.
     const Outcome& initial_outcome() const { return initial_outcome_; }
-    // The one looked at, else the pending state, else the committed one.
+    // The state being read if look() selected one, otherwise the pending or the committed one.
     const State& state() const { return looked_ != nullptr ? *looked_ : pending_ ? pending_->state : committed_; }
     const State& committed() const { return committed_; }
     // Kept steps before the committed one, oldest first.
     const std::vector<State>& past() const { return past_; }
-    // Jumps of the march up to the committed state, and with `pending` those of the pending step.
+    // Jumps of the analysis up to the committed state, and with `pending` those of the pending step.
     std::vector<JumpEvent> jumps(bool pending) const;
-    // Replaces the committed states (of the same scene); drops a pending one.
+    // Replaces the committed states (of the same scene); discards a pending one.
     void restore(State state, std::vector<State> past, std::vector<JumpEvent> jumps, std::vector<Pattern> patterns,
                  Record record);
-    // Of the scene as the solver was made with it.
+    // The scene at the solver's creation.
     const std::vector<Pattern>& first_patterns() const { return first_patterns_; }
     bool keeps_past() const;
     const PairLaws& pairs() const { return stepper_.pairs(); }
@@ -73,7 +72,7 @@ public:
     const std::vector<double>& displacement() const;
     // Forces of the device, [constraints].
     std::vector<double> reaction() const { return stepper_.op().reaction(state().theta, state().response); }
-    // d2E / dtheta2 at the adhesion and contact set of state(), [patterns][patterns].
+    // d2E / dtheta2 at fixed adhesion and contact set of state(), [patterns][patterns].
     std::vector<double> tangent() const { return stepper_.tangent(state()); }
     // Consistent tangent of the pending step, [patterns][patterns].
     std::vector<double> step_tangent() const;
@@ -87,20 +86,20 @@ public:
     std::vector<PlanItem> plan() const;
     // Initial adhesion, [pairs].
     const std::vector<double>& initial_adhesion() const { return stepper_.initial_adhesion(); }
-    // Fronts of the cracks of an interface; none where it has no law. Found on request, kept until the state changes.
+    // Fronts of the cracks of an interface; none if it has no law. Computed on request, kept until the state changes.
     const std::vector<CrackFront>& crack_fronts(std::int64_t interface) const;
-    // L or L2; 0 where it has no law.
+    // L or L2; 0 if it has no law.
     double crack_length(std::int64_t interface) const;
     double process_zone(std::int64_t interface) const;
-    // rad; recovers the displacements. Warns once of more than 0.1.
+    // rad; recovers the displacements. Warns once if it exceeds 0.1.
     double largest_rotation() const;
-    // Of a body (index), -1: of all; recovers the displacements.
+    // For a body (index), -1: for all; recovers the displacements.
     VolumeAverage average(std::int32_t body) const;
-    // At the centres of the cells (centre_stress); NaN where a body has the host's stiffness and no material.
+    // At the centres of the cells (centre_stress); NaN for bodies with a stiffness of the host and no material.
     std::vector<double> stress() const;
     // e* of the bodies at this state, in material axes; empty: there are none.
     std::vector<Strain> eigenstrains() const;
-    // What the last search looked at, in words.
+    // Description of what the last search compared.
     const std::string& searched() const { return searched_; }
 
 private:
@@ -111,12 +110,12 @@ private:
     };
 
     bool known(std::int32_t body) const { return problem_.material[static_cast<std::size_t>(body)].has_value(); }
-    // Of each body; anything where the material is not known.
+    // For each body; undefined where the material is unknown.
     std::vector<BodyModel> models() const;
     void require_nothing_pending(double time) const;
-    // Of what was found on request.
+    // Discards results computed on request.
     void forget();
-    // Of a state that need not be that of state().
+    // For any state, not only state().
     std::vector<double> values_of(const State& state, const std::vector<std::string>& keys);
     void warn_of_unresolved_front(const State& before, const State& after);
     std::optional<CrackedInterface> cracked(const State& state, std::int64_t interface) const;

@@ -10,9 +10,9 @@ namespace delam {
 namespace {
 
 constexpr double sharp_share = 0.75;  // of the change, in half of the time: a jump rather than growth
-constexpr int smooth_levels = 2;      // halvings in a row that halve the change: the change is continuous
+constexpr int smooth_levels = 2;      // consecutive halvings that halve the change: the change is continuous
 
-// Sum of w |z - z_before| in mean weights of a pair.
+// Sum of w |z - z_before|, in units of the mean weight of a pair.
 double change_in_pairs(const PairLaws& pairs, const State& before, const State& after) {
     double change = 0.0, weight = 0.0, count = 0.0;
     for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
@@ -55,13 +55,13 @@ JumpEvent describe(const PairLaws& pairs, const PairGraph& graph, const State& b
     return jump;
 }
 
-// An instant to be reached; once computed, with the state there.
+// An instant to be reached, and its state once computed.
 struct Goal {
     double time;
     std::unique_ptr<Stepper::Result> reached;  // null: not computed
     double change = 0.0;
     int smooth = 0;
-    bool sharp = false;  // nearly all of the change of an interval about twice as long
+    bool sharp = false;  // nearly all of the change in an interval about twice as long
 };
 
 }  // namespace
@@ -110,7 +110,7 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
         ++parts;
         at = std::move(next);
         --at.step;  // the parts of a step share its number
-        // What was computed from the start of this part does not hold from its end.
+        // What was computed from the start of this part is invalid from its end.
         for (Goal& other : goals)
             if (other.reached) {
                 other.reached.reset();
@@ -131,7 +131,7 @@ ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const S
                 goal.sharp = goal.sharp || (parent.reached && share > sharp_share);
                 goal.smooth = parent.reached && share > 0.25 && share < 0.75 ? parent.smooth + 1 : 0;
                 if (goal.smooth >= smooth_levels && !too_long(*parent.reached, parent.change)) {
-                    // The parent's interval is continuous: its end is reached in one part.
+                    // The change over the parent's interval is continuous, so its end is reached in one part.
                     goals.pop_back();
                     Goal done = std::move(parent);
                     goals.pop_back();

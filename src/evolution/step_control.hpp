@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A load step in parts: steps that are too long are refused and halved, and the instants at which the state jumps are
-// located by bisection.
+// A load step in parts: steps that are too long are refused and halved, and bisection locates the instants at which the
+// state jumps.
 //
-// An interval whose end state differs from its start by less than a jump, or in which half of the change happens in
-// half of the time twice in a row, is continuous. Else it is halved until it is shorter than the tolerance and half of
-// it holds nearly all of the change: then the state jumps within it. An energetic jump happens where the energies of
-// two states cross; a local one where the state loses its stability.
+// The change over an interval is continuous if its end state differs from its start by less than a jump, or if half of
+// the change happens in half of the time twice in a row. Otherwise the interval is halved until it is shorter than the
+// tolerance and half of it contains nearly all of the change: then the state jumps within it. An energetic jump happens
+// where the energies of two states cross; a local one where the state loses its stability.
 #pragma once
 
 #include <cstdint>

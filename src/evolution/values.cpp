@@ -17,7 +17,7 @@ std::int64_t count_of_interfaces(const Problem& problem) {
     return static_cast<std::int64_t>(problem.interfaces.size());
 }
 
-// Sum of weight * f(adhesion) over the pairs that adhered at first.
+// Sum of weight * f(adhesion) over the initially adhering pairs.
 template <class F>
 double over_bond(const Solver& solver, F f) {
     const State& state = solver.state();
@@ -33,7 +33,7 @@ double contact_pairs(const Solver& solver) {
     return count(std::count(closed.begin(), closed.end(), std::uint8_t{1}));
 }
 
-// Normal jumps of all pairs from the displacements at their nodes: what a host would measure.
+// Normal jumps of all pairs from the displacements of their nodes, as a host would compute them.
 std::vector<double> gaps(const Solver& solver) {
     const std::vector<double> u = solver.displacement();
     const Mesh& mesh = *solver.problem().mesh;
@@ -79,8 +79,8 @@ double kkt_complementarity(const Solver& s) {
     return ratio(product, max_abs(state.response.jump) * max_abs(state.response.force));
 }
 
-// The point of an interface's fronts (-1: of all) with the largest energy release rate; a point of zeros where there is
-// no front.
+// The point of an interface's fronts (-1: of all) with the largest energy release rate; a point of zeros if there is no
+// front.
 FrontPoint leading_point(const Solver& s, std::int64_t interface) {
     FrontPoint leading;
     bool found = false;
@@ -103,7 +103,7 @@ double crack_length(const Solver& s, std::int64_t interface) {
     return sum;
 }
 
-// Of all interfaces together (-1), and as KEY:I of one.
+// For all interfaces together (-1), and as KEY:I for one.
 struct FrontEntry {
     const char* key;
     double (*value)(const Solver&, std::int64_t);
@@ -122,7 +122,7 @@ constexpr const char* counts_on = "it counts over the solver's life and is no pa
 struct Entry {
     const char* key;
     double (*value)(const Solver&);
-    const char* unrecorded = nullptr;  // why it is not recorded
+    const char* unrecorded = nullptr;  // why it is not recorded; null: it is
 };
 
 constexpr Entry table[] = {

@@ -13,7 +13,7 @@ namespace delam {
 std::vector<std::string> value_names(const Problem& problem);
 // Throws Error(DELAM_ERROR_ARGUMENT) for an unknown key.
 double value(const Solver& solver, const std::string& key);
-// Why a value is not recorded, in words; nullptr where it can be.
+// The reason why a value is not recorded; nullptr if it can be.
 const char* why_unrecorded(const std::string& key);
 
 }  // namespace delam

@@ -5,9 +5,10 @@
 // has energetic form: adhesion zeta minimises zeta Y + g(B, zeta) over 0 <= zeta <= zeta_old, where g is convex and
 // decreasing, g(1) = 0, g(0) = Gc.
 //   stored       zeta Y                dissipated   g(zeta)
-//   or (slides)  zeta Y + f(zeta)      dissipated   Gc (zeta_old - zeta),    f(zeta) = g(zeta) - Gc (1-zeta) <= 0
-// Both splits have the same minimiser. The area under the traction-jump curve of a first loading is Gc at any fixed
-// mixity, its peak sqrt(2 k Go).
+//   or           zeta Y + f(zeta)      dissipated   Gc (zeta_old - zeta),    f(zeta) = g(zeta) - Gc (1-zeta) <= 0
+// The second split is that of Zeman, Kruzik, Gruber, PANM 15 (2010), "Application to delamination problem". Both splits
+// have the same minimiser. The area under the traction-jump curve of a first loading is Gc at any fixed mixity, its
+// peak sqrt(2 k Go).
 //
 // A value: copies are independent.
 #pragma once

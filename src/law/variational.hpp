@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One pair under the slides' functional to the letter: the mixity of the stored part follows the displacements, that of
-// the dissipated part is the one of the state before,
+// One pair under the functional of Zeman, Kruzik, Gruber (PANM 15 (2010), "Application to delamination problem")
+// without changes: the mixity of the stored part follows the displacements, that of the dissipated part is the one of
+// the state before,
 //
 //   phi(j, zeta) = zeta Y(j) + f(B(j), zeta) - Gc_before zeta,     f = g - Gc (1 - zeta),
 //

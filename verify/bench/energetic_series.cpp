@@ -83,7 +83,7 @@ double scale_of(const Values& v) {
 }
 
 // The step that debonds most; the largest violation of the two-sided estimate
-//     lower <= increment <= upper;
+//   lower <= increment <= upper;
 // the largest gap and the smallest margin of the search.
 Json findings(const Course& course) {
     Json f;

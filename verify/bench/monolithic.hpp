@@ -5,7 +5,7 @@
 // A spring is then one diagonal entry, and a closed contact is one unknown fixed at zero, whose row and column become
 // those of the identity. Neither changes the pattern, so one symbolic analysis serves every adhesion and every contact
 // set. Prescribed displacements are eliminated: with v the free unknowns and theta the load factors,
-//         u = T v + C theta,   K0 = T^T K T,   lift = T^T K C,   dead = T^T F.
+//     u = T v + C theta,   K0 = T^T K T,   lift = T^T K C,   dead = T^T F.
 #pragma once
 
 #include "exported.hpp"

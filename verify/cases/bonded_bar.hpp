@@ -6,7 +6,7 @@
 // Et is the membrane stiffness per unit width, k the tangential stiffness of the bond, and lam = sqrt(Et/k) the length
 // over which the bond takes up the load. A bar that is free over a and bonded beyond (with its far end many lam away)
 // has, for the end displacement w,
-//         F = Et w / (a + lam),    G = F^2 / (2 Et),
+//     F = Et w / (a + lam),    G = F^2 / (2 Et),
 // so the plateau is F = sqrt(2 G Et) and the front a = w sqrt(Et/(2G)) - lam; for a rigid bond lam = 0.
 #pragma once
 

@@ -89,7 +89,7 @@ inline MmfMarch march_mmf(double h, const reference::LawData& law, const char* r
     for (const std::string& line : warnings.lines)
         if (line.find("mode mixity") != std::string::npos) m.warnings.push_back(line);
     std::printf(
-        "MMF, h %g mm, Go %g Gc %g, %s, %d steps: %.5g J/m over %.4g mm, %.4g J/m2; defect %.3g, slides' %.3g J/m; "
+        "MMF, h %g mm, Go %g Gc %g, %s, %d steps: %.5g J/m over %.4g mm, %.4g J/m2; defect %.3g, PANM 15 %.3g J/m; "
         "bounds missed %d below, %d above; "
         "worst mixity error %.3f, %zu warnings; %.0f solves\n",
         1e3 * h, law.normal_onset, law.normal_toughness, rule, steps, m.dissipated, 1e3 * m.front,

@@ -137,7 +137,7 @@ CASE_TEST(closed_forms) {
             cases::expect_near(solver.value("dissipated"), spent, 1e-4, onset, where + "spent");
             const double slides = solver.value("stored_interface_slides") + solver.value("dissipated_slides");
             cases::expect_near(solver.value("stored_interface") + solver.value("dissipated"), slides, 1e-12, onset,
-                               where + "the slides' split");
+                               where + "the split of PANM 15");
         }
         const double rest = std::string(kind.kind) == "exponential" ? 0.02 : 1e-12;
         cases::expect_near(solver.value("dissipated"), kind.toughness, rest, kind.toughness, "all is spent");

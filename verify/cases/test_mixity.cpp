@@ -63,7 +63,7 @@ CASE_TEST(mode_changes_while_it_softens) {
     for (const char* rule : {"frozen", "converged"}) {
         const cases::TurningDefect coarse = cases::turning_defect(rule, 50), middle = cases::turning_defect(rule, 200),
                                    fine = cases::turning_defect(rule, 800);
-        cases::expect_near(fine.slides, limit, 0.03, std::abs(limit), std::string(rule) + ": slides' ledger");
+        cases::expect_near(fine.slides, limit, 0.03, std::abs(limit), std::string(rule) + ": ledger of PANM 15");
         cases::expect_below(std::abs(middle.booked), 0.4 * std::abs(coarse.booked),
                             std::string(rule) + ": booked, 200 steps");
         cases::expect_below(std::abs(fine.booked), 0.4 * std::abs(middle.booked),
@@ -71,7 +71,7 @@ CASE_TEST(mode_changes_while_it_softens) {
     }
     const cases::TurningDefect coarse = cases::turning_defect("variational", 50),
                                fine = cases::turning_defect("variational", 800);
-    cases::expect_below(std::abs(fine.slides), 0.2 * std::abs(coarse.slides), "variational: slides' ledger");
+    cases::expect_below(std::abs(fine.slides), 0.2 * std::abs(coarse.slides), "variational: ledger of PANM 15");
 }
 
 // The defects follow their definition in every step.
@@ -87,7 +87,7 @@ CASE_TEST(defects_by_definition) {
                            "defect");
         cases::expect_near(solver.value("defect_slides"),
                            bulk + solver.value("stored_interface_slides") + solver.value("dissipated_slides") - work,
-                           1e-12, work, "slides' defect");
+                           1e-12, work, "defect by PANM 15");
         cases::expect(solver.value("mixity_error") >= 0.0, "mixity error");
     }
     // Setting a state does not change the accumulated defects.
@@ -95,7 +95,7 @@ CASE_TEST(defects_by_definition) {
     solver.equilibrate(0.3, {});
     cases::expect_near(solver.value("defect"), defect, 1e-12, solver.value("work"), "defect of a state that is set");
     cases::expect_near(solver.value("defect_slides"), slides, 1e-12, solver.value("work"),
-                       "slides' defect of a state that is set");
+                       "defect by PANM 15 of a state that is set");
 }
 
 // ---- one result ----------------------------------------------------------------------------------------------------

@@ -108,9 +108,9 @@ CASE_TEST(bilinear_law) {
         cases::expect_near(solver.value("stored_interface"), 0.5 * t * w, 1e-12, m.toughness, where + "stored");
         cases::expect_near(solver.value("dissipated"), dissipated(m, zeta), 1e-12, m.toughness, where + "dissipated");
         cases::expect_near(solver.value("stored_interface_slides"), 0.5 * t * w + slides_stored(m, zeta), 1e-12,
-                           m.toughness, where + "stored, slides' split");
+                           m.toughness, where + "stored, split of PANM 15");
         cases::expect_near(solver.value("dissipated_slides"), slides, 1e-12, m.toughness,
-                           where + "dissipated, slides' split");
+                           where + "dissipated, split of PANM 15");
         cases::expect_near(solver.value("stored_bulk"), 0.0, 1e-12, m.toughness, where + "rigid blocks");
     }
     cases::expect_near(solver.value("dissipated"), m.toughness, 1e-12, m.toughness, "all of the toughness is spent");

@@ -57,7 +57,7 @@ inline TurningDefect turning_defect(const char* rule, int steps) {
         solver.commit();
     }
     const TurningDefect d{solver.value("defect"), solver.value("defect_slides"), solver.value("work")};
-    std::printf("turning pair, %s, %d steps: defect %.4f, slides' %.4f J/m2 of %.1f\n", rule, steps, d.booked, d.slides,
+    std::printf("turning pair, %s, %d steps: defect %.4f, PANM 15 %.4f J/m2 of %.1f\n", rule, steps, d.booked, d.slides,
                 d.work);
     return d;
 }

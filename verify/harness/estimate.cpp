@@ -90,8 +90,8 @@ Table estimate(const Options& options) {
         "upper bound by more than "
         "eta = 1e-3 of max(|E|, work), then those by more than 1e-9; worst: largest violation on that scale. band: sum "
         "of upper - lower; defect, "
-        "defect_slides: largest |stored + dissipated - work| over the final work in the booked and in the slides' "
-        "ledger; order_: observed in "
+        "defect_slides: largest |stored + dissipated - work| over the final work in the booked ledger and that of "
+        "PANM 15; order_: observed in "
         "the step, from the row before. drop: largest energy that one step released. note: steps that violate eta.";
     table.columns = {"specimen",     "h_mm",       "solution",   "mixity",        "steps",
                      "low_eta",      "high_eta",   "low",        "high",          "worst",

@@ -7,7 +7,7 @@
 // positively homogeneous, so under one proportional load the energy of an adhesion is quadratic in the load, and the
 // mixities do not change:
 //
-//         E(w, a) = (w/w1)^2 E(w1, a),    B(w, a) = B(w1, a),
+//     E(w, a) = (w/w1)^2 E(w1, a),    B(w, a) = B(w1, a),
 //
 // and every front is solved only once, at the load w1 (cases/test_front_scan checks this against solutions at each
 // load).

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gradient regularisation of the adhesion: the stored energy  kappa/2 int |grad_s zeta|^2  over an interface (slides,
-// "Stored energy").
+// Gradient regularisation of the adhesion: the stored energy  kappa/2 int |grad_s zeta|^2  over an interface (Zeman,
+// Kruzik, Gruber, PANM 15 (2010), "Application to delamination problem", stored energy).
 //
 // zeta is interpolated by the shape functions of the faces between its values at the pairs, on the geometry of face a:
 //   energy = kappa/2 zeta^T A zeta,   A_ij = int grad_s N_i . grad_s N_j,   grad_s N_i . grad_s N_j = g_i^T G^-1 g_j,

@@ -10,7 +10,7 @@
 
 namespace delam {
 
-// Energies, F L (2D: F). The booked split has both parts >= 0; the slides' one is reported beside it.
+// Energies, F L (2D: F). Both parts of the booked split are >= 0; that of PANM 15 (2010) is reported in addition.
 struct Ledger {
     double stored_bulk = 0.0;
     double stored_interface = 0.0;         // sum w zeta Y + kappa/2 zeta^T A zeta

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two-sided energy estimate of a step (Mielke, Roubicek; slides, eq. (3)) with a lift that does not depend on the
-// mesh.
+// The two-sided energy estimate of a step (Zeman, Kruzik, Gruber, PANM 15 (2010), equation (3)), with a lift that does
+// not depend on the mesh.
 //
 // Taking q = (jump, zeta) and letting u be the energy-minimal extension, E is quadratic in the load parameters theta at
 // fixed q:

@@ -6,8 +6,8 @@
 //   [ -G        0  ] [alpha ] = [ -R^T f      ]        F = B K^+ B^T,  G = R^T B^T
 //
 // C is the compliance 1/s of the springs on jump rows, zero elsewhere; a row with s = 0 carries no force and is left
-// out (tagged primal in the slides), its jump follows from u. Slides: "FETI formulation", "Dual problem", "Active set
-// strategy".
+// out, and its jump follows from u (Zeman, Kruzik, Gruber, PANM 15 (2010), "FETI formulation", "Dual problem", "Active
+// set strategy").
 #pragma once
 
 #include <memory>
