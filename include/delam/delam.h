@@ -173,6 +173,24 @@ DELAM_API int32_t delam_context_cancel(delam_context *context);
 #define DELAM_TET10 8
 #define DELAM_HEX20 9
 
+/* Returns how many cell types there are (delam_cell_type_info).
+ * [status -; thread any; since 0.1] */
+DELAM_API int64_t delam_cell_type_count(void);
+/* Describes a cell type, by index from 0. *name: "tri3" for DELAM_TRI3, and so on; *cell_type: the constant;
+ * *dimension: 2 or 3; *nodes: number of nodes, the first *corners of which are corners; *faces: number of faces (2D:
+ * edges). Every face has *face_nodes nodes, the first *face_corners of which are corners.
+ * [null name, cell_type, dimension, nodes, corners, faces, face_nodes, face_corners; owns texts static; status only
+ * argument; thread any; since 0.1] */
+DELAM_API int32_t delam_cell_type_info(int64_t index, const char **name, int32_t *cell_type, int32_t *dimension,
+                                       int32_t *nodes, int32_t *corners, int32_t *faces, int32_t *face_nodes,
+                                       int32_t *face_corners);
+/* Lists the local nodes, counted from 0, of the faces and middle nodes of a cell type, by the index of
+ * delam_cell_type_info. face: [faces][face_nodes], the corners of each face in outward order, then its middle nodes,
+ * the k-th between corners k and k+1. middle: [nodes-corners][2], the two corners on either side of each middle node;
+ * the centre of quad9 lies midway between corners 0 and 2.
+ * [null face, middle; status only argument; thread any; since 0.1] */
+DELAM_API int32_t delam_cell_type_topology(int64_t index, int32_t *face, int32_t *middle);
+
 /* Creates a mesh from its nodes: [node_count][dimension], dimension 2 or 3, node_count >= 1.
  * [unit nodes L finite; null none; owns out caller; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_create(delam_context *context, int32_t dimension, int64_t node_count, const double *nodes,

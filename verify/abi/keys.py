@@ -6,6 +6,7 @@ still hold those of the baseline? Prints what does not, by key; exit code 1 then
 A line of the baseline is one of
     option NAME; TYPE; unit UNIT; initial TEXT; range TEXT       as delam_option_info gives them
     law KIND NAME; TYPE; unit UNIT; initial TEXT; range TEXT     as delam_law_parameter_info does; kinds of the header
+    cell NAME; number CONSTANT; shape [NODES][DIMENSION]         as delam_cell_type_info does
     value NAME; unit UNIT; recorded yes          delam_solver_value_name; units by the table at delam_solver_value; of
                                                  those that delam_solver_record refuses: no
     field NAME; shape [ROWS][COLUMNS]; unit UNIT     the table at delam_solver_field_shape
@@ -33,7 +34,7 @@ import promise  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 HEAD = ("# SPDX-License-Identifier: BSD-3-Clause\n"
-        "# Options, parameters of laws, values and fields as they were promised (../keys.py). Written by update.sh.\n")
+        "# Options, parameters of laws, cell types, values and fields as they were promised (../keys.py). Written by update.sh.\n")
 UNIT = r"F/L2|F/L3|F/L|F L|F|L or L2|L|rad|t|-"
 # Nothing but rounding: their digits are no measure of a unit.
 ROUNDING = {"mixity_error", "damage_change", "linear_residual", "kkt_gap", "kkt_pressure", "kkt_complementarity",
@@ -68,6 +69,23 @@ def described(info, count, *first):
     return found
 
 
+def cells_of(library):
+    """(name, constant, nodes, dimension) of each cell type."""
+    for index in range(library.delam_cell_type_count()):
+        name, number, dimension, nodes = c_char_p(), c_int32(), c_int32(), c_int32()
+        if library.delam_cell_type_info(index, byref(name), byref(number), byref(dimension), byref(nodes), *[None] * 4):
+            raise SystemExit(f"delam_cell_type_info: index {index} is refused")
+        yield name.value.decode(), number.value, nodes.value, dimension.value
+
+
+def misnamed_cells(library, header):
+    """Cell types whose number is not the constant of their name in the header."""
+    for name, number, _, _ in cells_of(library):
+        constant = header.constants.get(f"DELAM_{name.upper()}")
+        if constant is None or int(constant) != number:
+            yield f"cell {name}: number {number}, by the header {constant}"
+
+
 def keys_of(library, header):
     """line's head -> facts."""
     found = {}
@@ -77,6 +95,8 @@ def keys_of(library, header):
         count = library.delam_law_parameter_count(kind.encode())
         for name, facts in described(library.delam_law_parameter_info, count, kind.encode()).items():
             found[f"law {kind} {name}"] = facts
+    for name, number, nodes, dimension in cells_of(library):
+        found[f"cell {name}"] = {"type": f"number {number}", "shape": f"[{nodes}][{dimension}]"}
     recorded = recorded_of(library, header)
     for name, unit in values_of(header).items():
         found[f"value {name}"] = {"unit": unit, "recorded": recorded.get(name, "no")}
@@ -389,7 +409,7 @@ def main():
         sys.stdout.write(HEAD + "".join(line_of(head, facts) + "\n" for head, facts in sorted(today.items())))
         return
     baseline = read_keys(options.baseline)
-    wrong = compare(baseline, today, options.new_defaults)
+    wrong = compare(baseline, today, options.new_defaults) + list(misnamed_cells(library, header))
     unlike, seen = measured(library, header)
     for line in wrong + unlike:
         print(line)

@@ -307,6 +307,8 @@ CALLS = {
     "problem_add_eigenstrain": (bare, lambda s: [s.problem, 2, 0, real(1, 0, 0, 0, 0, 0)]),
     "problem_set_number": (bare, lambda s: [s.problem, words("damage_tolerance"), 1e-6]),
     "problem_set_text": (bare, lambda s: [s.problem, words("solution"), words("local")]),
+    "cell_type_info": (bare, lambda s: [0, c_void_p()] + [short(0) for _ in range(7)]),
+    "cell_type_topology": (bare, lambda s: [0, room(c_int32, 6), room(c_int32, 2)]),
     "option_info": (bare, lambda s: [0] + [c_void_p() for _ in range(6)]),
     "option_alias": (bare, lambda s: [0, c_void_p()]),
     "option_bounds": (bare, number_option),
@@ -360,7 +362,7 @@ CALLS = {
 # Functions that return no status: what they give for the right call and for a wrong one.
 TEXTS = {
     "version": lambda: [], "commit": lambda: [], "status_name": lambda: [99], "abi": lambda: [],
-    "option_count": lambda: [], "blas_threads": lambda: [], "law_parameter_count": lambda: [None], "context_message": None,
+    "option_count": lambda: [], "cell_type_count": lambda: [], "blas_threads": lambda: [], "law_parameter_count": lambda: [None], "context_message": None,
     "problem_pattern_name": None, "solver_value_name": None, "solver_plan": None, "solver_option": None,
     "solver_searched": None,
 }

@@ -481,6 +481,16 @@ cat >"$work/keys/lying.c" <<'CODE'
 #ifdef FEWER_OPTIONS
 int64_t delam_option_count(void) { BEHIND(delam_option_count); return behind() - 1; }
 #endif
+#ifdef CELL
+int32_t delam_cell_type_info(int64_t index, const char **name, int32_t *cell_type, int32_t *dimension, int32_t *nodes,
+                             int32_t *corners, int32_t *faces, int32_t *face_nodes, int32_t *face_corners) {
+    BEHIND(delam_cell_type_info);
+    const int32_t status =
+        behind(index, name, cell_type, dimension, nodes, corners, faces, face_nodes, face_corners);
+    if (strcmp(*name, CELL) == 0) *PLACE = NUMBER;
+    return status;
+}
+#endif
 #ifdef OPTION
 int32_t delam_option_info(int64_t index, const char **key, const char **type, const char **unit, const char **initial,
                           const char **range, const char **meaning) {
@@ -558,6 +568,8 @@ more=()
 refused '^law trapezoidal normal_stiffness: unit F/L2, in the baseline F/L3' \
     lying '-DPARAMETER="normal_stiffness"' -DPLACE=unit '-DTEXT="F/L2"'
 refused "^law trapezoidal plateau: in the baseline, gone" lying '-DPARAMETER="plateau"' -DPLACE=key '-DTEXT="level"'
+refused '^cell hex8: shape \[9\]\[3\], in the baseline \[8\]\[3\]' lying '-DCELL="hex8"' -DPLACE=nodes -DNUMBER=9
+refused '^cell hex8: number 3, by the header 4' lying '-DCELL="hex8"' -DPLACE=cell_type -DNUMBER=3
 refused '^value reaction:NAME: in the header, delam_solver_value_name does not give it' lying -DFEWER_VALUES
 refused '^value crack_length: is not recorded any more' lying '-DUNRECORDED="crack_length"' -DIN=2
 refused '^value crack_length: is not recorded any more' lying '-DUNRECORDED="crack_length"' -DIN=3

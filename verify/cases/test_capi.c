@@ -125,6 +125,47 @@ START_TEST(constants) {
 }
 END_TEST
 
+/* The constants of the header with their names, and what the comment above them says of nodes. */
+START_TEST(cell_types) {
+    const struct {
+        const char *name;
+        int32_t type, dimension, nodes, corners, faces, face_nodes, face_corners;
+    } known[] = {{"tri3", DELAM_TRI3, 2, 3, 3, 3, 2, 2},   {"quad4", DELAM_QUAD4, 2, 4, 4, 4, 2, 2},
+                 {"tet4", DELAM_TET4, 3, 4, 4, 4, 3, 3},   {"hex8", DELAM_HEX8, 3, 8, 8, 6, 4, 4},
+                 {"tri6", DELAM_TRI6, 2, 6, 3, 3, 3, 2},   {"quad8", DELAM_QUAD8, 2, 8, 4, 4, 3, 2},
+                 {"quad9", DELAM_QUAD9, 2, 9, 4, 4, 3, 2}, {"tet10", DELAM_TET10, 3, 10, 4, 4, 6, 3},
+                 {"hex20", DELAM_HEX20, 3, 20, 8, 6, 8, 4}};
+    const int32_t tet10[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
+    const int64_t count = (int64_t)(sizeof known / sizeof known[0]);
+    const char *name = NULL;
+    int32_t face[6 * 8];
+    int32_t middle[12 * 2];
+    int32_t i, k, found[7];
+    ck_assert_int_eq(delam_cell_type_count(), count);
+    for (i = 0; i < count; ++i) {
+        ck_assert_int_eq(
+            delam_cell_type_info(i, &name, &found[0], &found[1], &found[2], &found[3], &found[4], &found[5], &found[6]),
+            DELAM_OK);
+        ck_assert_str_eq(name, known[i].name);
+        ck_assert_mem_eq(found, &known[i].type, sizeof found);
+        ck_assert_int_eq(delam_cell_type_info(i, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL), DELAM_OK);
+        ck_assert_int_eq(delam_cell_type_topology(i, NULL, NULL), DELAM_OK);
+        ck_assert_int_eq(delam_cell_type_topology(i, face, middle), DELAM_OK);
+        for (k = 0; k < known[i].faces * known[i].face_nodes; ++k)
+            ck_assert(face[k] >= 0 && face[k] < known[i].nodes &&
+                      (face[k] < known[i].corners) == (k % known[i].face_nodes < known[i].face_corners));
+        for (k = 0; k < 2 * (known[i].nodes - known[i].corners); ++k)
+            ck_assert(middle[k] >= 0 && middle[k] < known[i].corners);
+        if (known[i].type == DELAM_TET10) ck_assert_mem_eq(middle, tet10, sizeof tet10);
+    }
+    for (i = -1; i <= count; i += (int32_t)count + 1) {
+        ck_assert_int_eq(delam_cell_type_info(i, &name, NULL, NULL, NULL, NULL, NULL, NULL, NULL),
+                         DELAM_ERROR_ARGUMENT);
+        ck_assert_int_eq(delam_cell_type_topology(i, face, middle), DELAM_ERROR_ARGUMENT);
+    }
+}
+END_TEST
+
 START_TEST(meshes) {
     const double square[8] = {0, 0, 1, 0, 1, 1, 0, 1};
     const double bad[8] = {0, 0, 1, NAN, 1, 1, 0, 1};
@@ -622,6 +663,7 @@ int main(void) {
     tcase_add_test(tests, handles);
     tcase_add_test(tests, any_order_of_destruction);
     tcase_add_test(tests, constants);
+    tcase_add_test(tests, cell_types);
     tcase_add_test(tests, meshes);
     tcase_add_test(tests, unpaired_faces);
     tcase_add_test(tests, conforming_meshes);

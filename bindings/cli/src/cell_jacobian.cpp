@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "cell_shape.hpp"
 #include "delam/delam.h"
 
 namespace cli {
@@ -23,24 +24,17 @@ struct Rule {
     std::vector<double> weights;
 };
 
-bool is_simplex(std::int32_t type) { return type != DELAM_QUAD4 && type != DELAM_QUAD8; }
-
-std::size_t dimension_of(std::int32_t type) { return type == DELAM_TET4 || type == DELAM_TET10 ? 3 : 2; }
-
 // N_a = L_a; quadratic N_a = L_a (2 L_a - 1) at corners, N_ab = 4 L_a L_b between them.
-Slope simplex_slope(std::int32_t type, const double* x, std::size_t axis, const Local& at) {
-    constexpr std::array<std::array<std::size_t, 2>, 6> triangle{{{0, 1}, {1, 2}, {2, 0}, {}, {}, {}}};
-    constexpr std::array<std::array<std::size_t, 2>, 6> tetrahedron{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
-    const std::size_t dimension = dimension_of(type);
-    const std::size_t corners = dimension + 1;
-    const bool quadratic = type == DELAM_TRI6 || type == DELAM_TET10;
+Slope simplex_slope(const CellShape& shape, const double* x, std::size_t axis, const Local& at) {
+    const auto dimension = static_cast<std::size_t>(shape.dimension);
+    const std::size_t corners = shape.corners;
+    const bool quadratic = !shape.linear();
     Slope slope{};
     for (std::size_t a = 0; a < corners; ++a)
         slope[a] = x[a * dimension + axis] * (quadratic ? 4.0 * at[a] - 1.0 : 1.0);
     if (!quadratic) return slope;
-    const std::size_t edges = dimension == 2 ? 3 : 6;
-    for (std::size_t e = 0; e < edges; ++e) {
-        const auto [a, b] = dimension == 2 ? triangle[e] : tetrahedron[e];
+    for (std::size_t e = 0; e < shape.middles.size(); ++e) {
+        const auto [a, b] = shape.middles[e];
         const double middle = 4.0 * x[(corners + e) * dimension + axis];
         slope[a] += middle * at[b];
         slope[b] += middle * at[a];
@@ -50,17 +44,17 @@ Slope simplex_slope(std::int32_t type, const double* x, std::size_t axis, const 
 
 // N_i = (1 + xi_i xi)(1 + eta_i eta)/4, of quad8 times (xi_i xi + eta_i eta - 1); midway (1 - xi^2)(1 + eta_i eta)/2
 // and (1 + xi_i xi)(1 - eta^2)/2.
-Slope quadrilateral_slope(std::int32_t type, const double* x, std::size_t axis, const Local& at) {
+Slope quadrilateral_slope(const CellShape& shape, const double* x, std::size_t axis, const Local& at) {
     constexpr std::array<std::array<double, 2>, 8> node{
         {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
     const double s = at[0];
     const double t = at[1];
     Slope slope{};
-    for (std::size_t i = 0; i < (type == DELAM_QUAD8 ? 8U : 4U); ++i) {
+    for (std::size_t i = 0; i < shape.nodes; ++i) {
         const auto [p, q] = node[i];
         double ds = 0.25 * p * (1 + q * t);
         double dt = 0.25 * q * (1 + p * s);
-        if (i < 4 && type == DELAM_QUAD8) {
+        if (i < 4 && !shape.linear()) {
             ds *= 2 * p * s + q * t;
             dt *= p * s + 2 * q * t;
         } else if (p == 0) {
@@ -76,12 +70,12 @@ Slope quadrilateral_slope(std::int32_t type, const double* x, std::size_t axis, 
     return slope;
 }
 
-double jacobian(std::int32_t type, const double* x, const Local& at) {
-    const std::size_t dimension = dimension_of(type);
+double jacobian(const CellShape& shape, const double* x, const Local& at) {
+    const auto dimension = static_cast<std::size_t>(shape.dimension);
     std::array<std::array<double, 3>, 3> j{};
     for (std::size_t axis = 0; axis < dimension; ++axis) {
-        const bool simplex = is_simplex(type);
-        const Slope slope = simplex ? simplex_slope(type, x, axis, at) : quadrilateral_slope(type, x, axis, at);
+        const bool simplex = shape.simplex();
+        const Slope slope = simplex ? simplex_slope(shape, x, axis, at) : quadrilateral_slope(shape, x, axis, at);
         for (std::size_t k = 0; k < dimension; ++k) j[axis][k] = simplex ? slope[k + 1] - slope[0] : slope[k];
     }
     if (dimension == 2) return j[0][0] * j[1][1] - j[0][1] * j[1][0];
@@ -92,7 +86,7 @@ double jacobian(std::int32_t type, const double* x, const Local& at) {
 constexpr double h = 0.5;
 constexpr double t = 1.0 / 3.0;
 
-const std::vector<Local>& checked_points(std::int32_t type) {
+const std::vector<Local>& checked_points(const CellShape& shape) {
     static const std::vector<Local> triangle{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {h, h, 0, 0},
                                              {0, h, h, 0}, {h, 0, h, 0}, {t, t, t, 0}};
     static const std::vector<Local> tetrahedron{
@@ -101,12 +95,12 @@ const std::vector<Local>& checked_points(std::int32_t type) {
         {t, t, t, 0}, {t, t, 0, t}, {t, 0, t, t}, {0, t, t, t}, {0.25, 0.25, 0.25, 0.25}};
     static const std::vector<Local> quadrilateral{{-1, -1}, {1, -1}, {1, 1},  {-1, 1}, {0, -1},
                                                   {1, 0},   {0, 1},  {-1, 0}, {0, 0}};
-    if (!is_simplex(type)) return quadrilateral;
-    return dimension_of(type) == 2 ? triangle : tetrahedron;
+    if (!shape.simplex()) return quadrilateral;
+    return shape.dimension == 2 ? triangle : tetrahedron;
 }
 
 // Exact: the Jacobian has degree 2 on tri6, 3 on tet10, 3 in each variable on quad8.
-const Rule& measure_rule(std::int32_t type) {
+const Rule& measure_rule(const CellShape& shape) {
     static const double g = 1.0 / std::sqrt(3.0);
     static const Rule triangle{{{h, h, 0, 0}, {0, h, h, 0}, {h, 0, h, 0}}, {1.0 / 6, 1.0 / 6, 1.0 / 6}};
     static const Rule tetrahedron{
@@ -120,30 +114,30 @@ const Rule& measure_rule(std::int32_t type) {
          {0, t, t, t}},
         {1.0 / 240, 1.0 / 240, 1.0 / 240, 1.0 / 240, 9.0 / 240, 9.0 / 240, 9.0 / 240, 9.0 / 240}};
     static const Rule quadrilateral{{{-g, -g}, {g, -g}, {g, g}, {-g, g}}, {1, 1, 1, 1}};
-    if (!is_simplex(type)) return quadrilateral;
-    return dimension_of(type) == 2 ? triangle : tetrahedron;
+    if (!shape.simplex()) return quadrilateral;
+    return shape.dimension == 2 ? triangle : tetrahedron;
 }
 
-void require_known(std::int32_t type) {
-    for (const std::int32_t known : {DELAM_TRI3, DELAM_TRI6, DELAM_QUAD4, DELAM_QUAD8, DELAM_TET4, DELAM_TET10})
-        if (type == known) return;
+const CellShape& known(std::int32_t type) {
+    for (const std::int32_t made : {DELAM_TRI3, DELAM_TRI6, DELAM_QUAD4, DELAM_QUAD8, DELAM_TET4, DELAM_TET10})
+        if (type == made) return shape_of(type);
     throw std::logic_error("a cell type that generators do not make");
 }
 
 }  // namespace
 
 double smallest_jacobian(std::int32_t type, const double* x) {
-    require_known(type);
+    const CellShape& shape = known(type);
     double smallest = HUGE_VAL;
-    for (const Local& at : checked_points(type)) smallest = std::min(smallest, jacobian(type, x, at));
+    for (const Local& at : checked_points(shape)) smallest = std::min(smallest, jacobian(shape, x, at));
     return smallest;
 }
 
 double cell_measure(std::int32_t type, const double* x) {
-    require_known(type);
-    const Rule& rule = measure_rule(type);
+    const CellShape& shape = known(type);
+    const Rule& rule = measure_rule(shape);
     double sum = 0;
-    for (std::size_t i = 0; i < rule.points.size(); ++i) sum += rule.weights[i] * jacobian(type, x, rule.points[i]);
+    for (std::size_t i = 0; i < rule.points.size(); ++i) sum += rule.weights[i] * jacobian(shape, x, rule.points[i]);
     return sum;
 }
 

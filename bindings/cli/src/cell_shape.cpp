@@ -1,55 +1,70 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cell_shape.hpp"
 
-#include <algorithm>
-#include <array>
-#include <stdexcept>
+#include <fmt/format.h>
 
 #include "delam/delam.h"
+#include "error.hpp"
 
 namespace cli {
 
+namespace {
+
+CellShape listed(std::int64_t index) {
+    const char* name = nullptr;
+    std::int32_t type = 0;
+    std::int32_t dimension = 0;
+    std::int32_t nodes = 0;
+    std::int32_t corners = 0;
+    std::int32_t faces = 0;
+    std::int32_t face_nodes = 0;
+    std::int32_t face_corners = 0;
+    delam_cell_type_info(index, &name, &type, &dimension, &nodes, &corners, &faces, &face_nodes, &face_corners);
+    CellShape shape{type,
+                    name,
+                    dimension,
+                    static_cast<std::size_t>(nodes),
+                    static_cast<std::size_t>(corners),
+                    static_cast<std::size_t>(face_corners),
+                    {},
+                    {}};
+    std::vector<std::int32_t> face(static_cast<std::size_t>(faces * face_nodes));
+    std::vector<std::int32_t> middle(2 * (shape.nodes - shape.corners));
+    delam_cell_type_topology(index, face.data(), middle.data());
+    for (auto at = face.begin(); at != face.end(); at += face_nodes) shape.sides.emplace_back(at, at + face_nodes);
+    for (std::size_t m = 0; m < middle.size(); m += 2)
+        shape.middles.push_back({static_cast<std::size_t>(middle[m]), static_cast<std::size_t>(middle[m + 1])});
+    return shape;
+}
+
+}  // namespace
+
 std::span<const CellShape> all_shapes() {
-    // Abaqus: "Two-dimensional solid element library" and "Three-dimensional solid element library", element faces.
-    static const std::array<CellShape, 9> shapes{{
-        {DELAM_TRI3, "tri3", 2, 3, 3, {{0, 1}, {1, 2}, {2, 0}}},
-        {DELAM_QUAD4, "quad4", 2, 4, 4, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}},
-        {DELAM_TET4, "tet4", 3, 4, 4, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}},
-        {DELAM_HEX8,
-         "hex8",
-         3,
-         8,
-         8,
-         {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}}},
-        {DELAM_TRI6, "tri6", 2, 6, 3, {{0, 1, 3}, {1, 2, 4}, {2, 0, 5}}},
-        {DELAM_QUAD8, "quad8", 2, 8, 4, {{0, 1, 4}, {1, 2, 5}, {2, 3, 6}, {3, 0, 7}}},
-        {DELAM_QUAD9, "quad9", 2, 9, 4, {{0, 1, 4}, {1, 2, 5}, {2, 3, 6}, {3, 0, 7}}},
-        {DELAM_TET10,
-         "tet10",
-         3,
-         10,
-         4,
-         {{0, 1, 2, 4, 5, 6}, {0, 3, 1, 7, 8, 4}, {1, 3, 2, 8, 9, 5}, {2, 3, 0, 9, 7, 6}}},
-        {DELAM_HEX20,
-         "hex20",
-         3,
-         20,
-         8,
-         {{0, 1, 2, 3, 8, 9, 10, 11},
-          {4, 7, 6, 5, 15, 14, 13, 12},
-          {0, 4, 5, 1, 16, 12, 17, 8},
-          {1, 5, 6, 2, 17, 13, 18, 9},
-          {2, 6, 7, 3, 18, 14, 19, 10},
-          {3, 7, 4, 0, 19, 15, 16, 11}}},
-    }};
+    static const std::vector<CellShape> shapes = [] {
+        std::vector<CellShape> all;
+        for (std::int64_t i = 0; i < delam_cell_type_count(); ++i) all.push_back(listed(i));
+        return all;
+    }();
     return shapes;
 }
 
 const CellShape& shape_of(std::int32_t type) {
-    const auto shapes = all_shapes();
-    const auto at = std::find_if(shapes.begin(), shapes.end(), [type](const CellShape& s) { return s.type == type; });
-    if (at == shapes.end()) throw std::logic_error("a cell type that the program does not know");
-    return *at;
+    for (const CellShape& shape : all_shapes())
+        if (shape.type == type) return shape;
+    throw Failure(exit_numerical, fmt::format("{} is no cell type of the library", type));
+}
+
+const CellShape& shape_named(const std::string& name) {
+    for (const CellShape& shape : all_shapes())
+        if (shape.name == name) return shape;
+    throw Failure(exit_numerical, fmt::format("\"{}\" is no cell type of the library", name));
+}
+
+std::vector<std::string> shape_names(std::int32_t dimension) {
+    std::vector<std::string> names;
+    for (const CellShape& shape : all_shapes())
+        if (shape.dimension == dimension) names.push_back(shape.name);
+    return names;
 }
 
 }  // namespace cli

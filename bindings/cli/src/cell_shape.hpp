@@ -1,25 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The topology of the library's cell types, in its node order (delam.h).
+// The library's cell types as it lists them (delam_cell_type_info), in its node order.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
+#include <string>
 #include <vector>
 
 namespace cli {
 
 struct CellShape {
     std::int32_t type;  // a delam_cell_type
-    std::string_view name;
+    std::string name;
     std::int32_t dimension;
     std::size_t nodes;
     std::size_t corners;
-    // Nodes of each side, corners first, then the nodes midway; in the order in which Abaqus numbers sides, from S1.
-    std::vector<std::vector<std::size_t>> sides;
+    std::size_t side_corners;                         // of each side
+    std::vector<std::vector<std::size_t>> sides;      // nodes of each: corners, outward in order, then those midway
+    std::vector<std::array<std::size_t, 2>> middles;  // corners that each node behind the corners is midway between
+
+    [[nodiscard]] bool simplex() const { return corners == static_cast<std::size_t>(dimension) + 1; }
+    [[nodiscard]] bool linear() const { return nodes == corners; }
 };
 
+// Failure for a number that is no cell type, or a name.
 const CellShape& shape_of(std::int32_t type);
+const CellShape& shape_named(const std::string& name);
 std::span<const CellShape> all_shapes();
+std::vector<std::string> shape_names(std::int32_t dimension);
 
 }  // namespace cli

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "call.hpp"
+#include "cell_format.hpp"
 #include "file.hpp"
 #include "h5.hpp"
 #include "step_file.hpp"
@@ -23,35 +24,6 @@ std::vector<double> points_3d(const std::vector<double>& nodes, std::size_t dime
     for (std::size_t i = 0; i < nodes.size() / dimension; ++i)
         for (std::size_t a = 0; a < dimension; ++a) out[3 * i + a] = nodes[dimension * i + a];
     return out;
-}
-
-// XDMF's names and numbers (those of the topology Mixed); its node orders are VTK's.
-struct Topology {
-    const char* name;
-    std::int64_t number;
-};
-
-Topology topology(std::int32_t cell_type) {
-    switch (cell_type) {
-        case DELAM_TRI3:
-            return {"Triangle", 4};
-        case DELAM_TET4:
-            return {"Tetrahedron", 6};
-        case DELAM_HEX8:
-            return {"Hexahedron", 9};
-        case DELAM_TRI6:
-            return {"Triangle_6", 36};
-        case DELAM_QUAD8:
-            return {"Quadrilateral_8", 37};
-        case DELAM_QUAD9:
-            return {"Quadrilateral_9", 35};
-        case DELAM_TET10:
-            return {"Tetrahedron_10", 38};
-        case DELAM_HEX20:
-            return {"Hexahedron_20", 48};
-        default:
-            return {"Quadrilateral", 5};
-    }
 }
 
 XdmfBlock write_interface(const Model& model, const InterfaceData& data, std::int64_t index, hid_t parent,
@@ -89,12 +61,8 @@ XdmfBlock write_interface(const Model& model, const InterfaceData& data, std::in
     h5::write(group.get(), "nodes_b", b, 0);
     h5::write(group.get(), "weights", weights, 0);
     h5::write(group.get(), "frames", frames, dimension * dimension);
-    const char* topology = "Polyline";
-    if (per_face == 3) topology = dimension == 2 ? "Edge_3" : "Triangle";
-    if (per_face == 4) topology = "Quadrilateral";
-    if (per_face == 6) topology = "Triangle_6";
-    if (per_face == 8) topology = "Quadrilateral_8";
-    return {data.name, pairs, faces, per_face, topology, 0};
+    return {data.name, pairs, faces, per_face, std::string(xdmf_face(static_cast<std::int32_t>(dimension), per_face)),
+            0};
 }
 
 // Mesh and interfaces; returns what the XDMF file has to say about them.
@@ -121,7 +89,7 @@ std::vector<XdmfBlock> write_mesh(const Model& model, const Scene& scene, hid_t 
     std::int64_t per_cell = 0;
     for (std::size_t c = 0; c < types.size(); ++c) per_cell = std::max(per_cell, offsets[c + 1] - offsets[c]);
     std::vector<XdmfBlock> blocks{
-        {"bodies", nodes, cells, per_cell, mixed ? "Mixed" : topology(types.front()).name, 0}};
+        {"bodies", nodes, cells, per_cell, mixed ? "Mixed" : std::string(format_of(types.front()).xdmf), 0}};
     {
         const h5::Group group(h5::new_group(file, "mesh"), "fields.h5");
         h5::write(group.get(), "points", points, 3);
@@ -134,7 +102,7 @@ std::vector<XdmfBlock> write_mesh(const Model& model, const Scene& scene, hid_t 
                 const auto begin = connectivity.begin() + offsets[c];
                 const auto end = connectivity.begin() + offsets[c + 1];
                 std::copy(begin, end, rows.begin() + static_cast<std::ptrdiff_t>(c) * per_cell);
-                list.push_back(topology(types[c]).number);
+                list.push_back(format_of(types[c]).xdmf_number);
                 list.insert(list.end(), begin, end);
             }
             blocks.front().entries = static_cast<std::int64_t>(list.size());

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "call.hpp"
+#include "cell_shape.hpp"
 #include "say.hpp"
 
 namespace cli {
@@ -95,7 +96,7 @@ std::vector<std::string> notes_of(const Scene& scene) {
     std::vector<std::string> out;
     const Geometry& geometry = scene.geometry;
     if (scene.mesh) out = scene.mesh->notes;
-    const bool simplices = geometry.cell_type == DELAM_TRI3 || geometry.cell_type == DELAM_TET4;
+    const CellShape* cell = scene.mesh ? nullptr : &shape_of(geometry.cell_type);
     for (const Layer& layer : scene.layers) {
         const Material& material = scene.materials[layer.material];
         // In plane stress the thickness can change freely, so nothing locks.
@@ -106,11 +107,11 @@ std::vector<std::string> notes_of(const Scene& scene) {
                 fmt::format("{} \"{}\": poisson = {} locks with full integration: far too stiff (use formulation = "
                             "\"mean-dilatation\")",
                             scene.mesh ? "body" : "layer", layer.name, isotropic->poisson));
-        if (simplices && layer.divisions < 4)
+        if (cell != nullptr && cell->simplex() && cell->linear() && layer.divisions < 4)
             out.push_back(
                 fmt::format("layer \"{}\": {} of {} across the thickness: far too stiff in bending (use {}, "
                             "or 4 cells and more)",
-                            layer.name, counted(layer.divisions, "cell"), geometry.dimension == 2 ? "tri3" : "tet4",
+                            layer.name, counted(layer.divisions, "cell"), cell->name,
                             geometry.dimension == 2 ? "tri6 or quad8" : "tet10 or hex20"));
     }
     return out;

@@ -24,22 +24,14 @@ struct Edge {
     std::size_t part = parts.size() - 1;
 };
 
-struct Quadratic {
-    std::int32_t type;
-    std::vector<std::array<std::size_t, 2>> middles;  // corners that each middle node is between
-};
-
-const Quadratic& quadratic_of(std::int32_t linear) {
-    static const Quadratic triangle{DELAM_TRI6, {{0, 1}, {1, 2}, {2, 0}}};
-    static const Quadratic quadrilateral{DELAM_QUAD8, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
-    static const Quadratic tetrahedron{DELAM_TET10, {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
+const CellShape& quadratic_of(std::int32_t linear) {
     switch (linear) {
         case DELAM_TRI3:
-            return triangle;
+            return shape_of(DELAM_TRI6);
         case DELAM_QUAD4:
-            return quadrilateral;
+            return shape_of(DELAM_QUAD8);
         case DELAM_TET4:
-            return tetrahedron;
+            return shape_of(DELAM_TET10);
         default:
             throw std::logic_error("only tri3, quad4 and tet4 are made quadratic");
     }
@@ -92,7 +84,7 @@ private:
 
     void add_middles(CellBlock& block) {
         const std::size_t corners = shape_of(block.type).nodes;
-        const Quadratic& to = quadratic_of(block.type);
+        const CellShape& to = quadratic_of(block.type);
         std::vector<std::int64_t> connectivity;
         for (std::size_t c = 0; c < block.bodies.size(); ++c) {
             const std::int64_t* cell = block.connectivity.data() + c * corners;

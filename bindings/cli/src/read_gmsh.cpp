@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <set>
 #include <sstream>
 #include <unordered_map>
 
 #include <fmt/format.h>
 
+#include "cell_format.hpp"
 #include "cell_shape.hpp"
 #include "delam/delam.h"
 #include "file.hpp"
@@ -21,37 +21,6 @@ namespace cli {
 namespace {
 
 constexpr const char* entity_names[] = {"point", "curve", "surface", "volume"};
-
-// The number of each node in Gmsh; empty: the same order.
-struct CellFrom {
-    std::int32_t type;
-    std::vector<std::size_t> order;
-};
-
-std::optional<CellFrom> cell_from(int gmsh_type) {
-    switch (gmsh_type) {
-        case 2:
-            return CellFrom{DELAM_TRI3, {}};
-        case 3:
-            return CellFrom{DELAM_QUAD4, {}};
-        case 4:
-            return CellFrom{DELAM_TET4, {}};
-        case 5:
-            return CellFrom{DELAM_HEX8, {}};
-        case 9:
-            return CellFrom{DELAM_TRI6, {}};
-        case 10:
-            return CellFrom{DELAM_QUAD9, {}};
-        case 11:
-            return CellFrom{DELAM_TET10, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}};
-        case 16:
-            return CellFrom{DELAM_QUAD8, {}};
-        case 17:
-            return CellFrom{DELAM_HEX20, {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15}};
-        default:
-            return std::nullopt;
-    }
-}
 
 // Gmsh would read, and run, a file that is no mesh as a script.
 void require_mesh_format(const std::string& path, const std::string& bytes, const Place& place) {
@@ -179,16 +148,17 @@ private:
 
     void add_cells(int gmsh_type, const std::vector<std::size_t>& tags, const std::vector<std::size_t>& nodes,
                    std::int32_t body, const std::string& entity) {
-        const std::optional<CellFrom> from = cell_from(gmsh_type);
-        if (!from)
+        const CellFormat* from = format_of_gmsh(gmsh_type);
+        if (from == nullptr)
             fail(fmt::format("element {} of {} is a {}: {} are known", tags.at(0), entity, type_name(gmsh_type),
-                             mesh_.dimension == 2 ? "tri3, quad4, tri6, quad8, quad9" : "tet4, hex8, tet10, hex20"));
+                             fmt::join(shape_names(mesh_.dimension), ", ")));
         const std::size_t per_cell = shape_of(from->type).nodes;
+        const bool same_order = from->gmsh_order == decltype(from->gmsh_order){};
         CellBlock& block = block_of(from->type);
         for (std::size_t c = 0; c < tags.size(); ++c) {
             for (std::size_t i = 0; i < per_cell; ++i)
                 block.connectivity.push_back(
-                    number(nodes.at(c * per_cell + (from->order.empty() ? i : from->order[i])), tags[c]));
+                    number(nodes.at(c * per_cell + (same_order ? i : from->gmsh_order.at(i))), tags[c]));
             block.bodies.push_back(body);
         }
     }

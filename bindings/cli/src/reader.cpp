@@ -203,9 +203,8 @@ std::string Table::text(std::string_view key, const std::string& otherwise) cons
     return has(key) ? text(key) : otherwise;
 }
 
-std::string Table::choice(std::string_view key, std::initializer_list<std::string_view> names,
+std::string Table::choice(std::string_view key, const std::vector<std::string>& known,
                           std::string_view otherwise) const {
-    const std::vector<std::string> known(names.begin(), names.end());
     if (otherwise.empty() && !has(key)) fail(key, "is missing: one of " + listing(known));
     const std::string value = text(key, std::string(otherwise));
     if (std::find(known.begin(), known.end(), value) == known.end())

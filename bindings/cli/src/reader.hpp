@@ -57,7 +57,7 @@ public:
     [[nodiscard]] std::string word(std::string_view key, const std::string& words) const;
     [[nodiscard]] std::string text(std::string_view key) const;
     [[nodiscard]] std::string text(std::string_view key, const std::string& otherwise) const;
-    [[nodiscard]] std::string choice(std::string_view key, std::initializer_list<std::string_view> names,
+    [[nodiscard]] std::string choice(std::string_view key, const std::vector<std::string>& known,
                                      std::string_view otherwise) const;
     // count 0: any number of entries, but at least one.
     [[nodiscard]] std::vector<double> numbers(std::string_view key, const Range& range, std::size_t count = 0) const;

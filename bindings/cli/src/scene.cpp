@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "cell_shape.hpp"
 #include "cell_size.hpp"
 #include "delam/delam.h"
 #include "file.hpp"
@@ -43,14 +44,6 @@ std::int64_t cells_of_size(const Table& root, const Table& table, std::string_vi
                                                : "h = " + better + " divides all lengths and thicknesses"));
 }
 
-std::int32_t cell_type(const std::string& name) {
-    static const std::map<std::string, std::int32_t> types{
-        {"tri3", DELAM_TRI3},   {"quad4", DELAM_QUAD4}, {"tet4", DELAM_TET4},
-        {"hex8", DELAM_HEX8},   {"tri6", DELAM_TRI6},   {"quad8", DELAM_QUAD8},
-        {"quad9", DELAM_QUAD9}, {"tet10", DELAM_TET10}, {"hex20", DELAM_HEX20}};
-    return types.at(name);
-}
-
 void read_geometry(const Table& root, Scene& scene) {
     const Table table = root.table("geometry");
     table.only({"dimension", "length", "width", "divisions", "h", "cell", "plane"});
@@ -63,11 +56,11 @@ void read_geometry(const Table& root, Scene& scene) {
     if (dimension == 3) {
         geometry.lengths.push_back(table.number("width", positive));
         if (table.has("plane")) table.fail("plane", "is for dimension 2 only");
-        geometry.cell_type = cell_type(table.choice("cell", {"hex8", "tet4", "hex20", "tet10"}, "hex8"));
+        geometry.cell_type = shape_named(table.choice("cell", shape_names(3), "hex8")).type;
     } else {
         if (table.has("width")) table.fail("width", "is for dimension 3 only");
         geometry.plane = table.choice("plane", {"plane-strain", "plane-stress"}, "plane-strain");
-        geometry.cell_type = cell_type(table.choice("cell", {"quad4", "tri3", "quad8", "quad9", "tri6"}, "quad4"));
+        geometry.cell_type = shape_named(table.choice("cell", shape_names(2), "quad4")).type;
     }
     if (table.has("divisions") == table.has("h"))
         table.fail("h", "give either h (edge of a cell) or divisions (numbers of cells)");

@@ -3,22 +3,13 @@
 
 #include <utility>
 
-#include "delam/delam.h"
+#include "cell_shape.hpp"
 #include "generate_fibre_cell.hpp"
 #include "generate_weave.hpp"
 
 namespace cli {
 
 namespace {
-
-std::int32_t cell_type(const std::string& name) {
-    constexpr std::pair<const char*, std::int32_t> types[] = {{"tri3", DELAM_TRI3},   {"tri6", DELAM_TRI6},
-                                                              {"quad4", DELAM_QUAD4}, {"quad8", DELAM_QUAD8},
-                                                              {"tet4", DELAM_TET4},   {"tet10", DELAM_TET10}};
-    for (const auto& [known, type] : types)
-        if (name == known) return type;
-    return 0;
-}
 
 MeshData fibre_cell(const Table& table) {
     table.only({"generator", "plane", "fibres", "fraction", "radius", "arrangement", "aspect", "gap", "edge_gap",
@@ -41,7 +32,7 @@ MeshData fibre_cell(const Table& table) {
     if (table.has("h") && table.has("cells_around")) table.fail("h", "give either h or cells_around");
     if (table.has("h")) cell.h = table.number("h", positive);
     cell.cells_around = table.whole("cells_around", 8, cell.cells_around);
-    cell.cell = cell_type(table.choice("cell", {"tri3", "tri6", "quad4", "quad8"}, "tri6"));
+    cell.cell = shape_named(table.choice("cell", {"tri3", "tri6", "quad4", "quad8"}, "tri6")).type;
     return generate_fibre_cell(cell);
 }
 
@@ -57,7 +48,7 @@ MeshData weave(const Table& table) {
     cell.section = table.choice("section", {"lens", "ellipse"}, cell.section);
     cell.stacked = table.flag("stacked", cell.stacked);
     cell.h = table.number("h", positive);
-    cell.cell = cell_type(table.choice("cell", {"tet4", "tet10"}, "tet10"));
+    cell.cell = shape_named(table.choice("cell", {"tet4", "tet10"}, "tet10")).type;
     return generate_weave(cell);
 }
 

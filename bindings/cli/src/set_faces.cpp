@@ -56,9 +56,21 @@ MeshArrays arrays_of(const delam_context* context, const delam_mesh* mesh, const
     return out;
 }
 
+// Of a side of which the number of nodes is known: in space it is a plane cell.
 std::size_t corner_count(std::size_t dimension, std::size_t nodes) {
     if (dimension == 2) return 2;
-    return nodes == 3 || nodes == 6 ? 3 : 4;
+    for (const CellShape& shape : all_shapes())
+        if (shape.dimension == 2 && shape.nodes == nodes) return shape.corners;
+    throw Failure(exit_numerical, fmt::format("no cell has sides of {} nodes", nodes));
+}
+
+// A side of a solid cell, walked the other way round from the same corner: inwards.
+std::vector<std::size_t> turned(const std::vector<std::size_t>& side, std::size_t corners) {
+    std::vector<std::size_t> out = side;
+    const auto middles = static_cast<std::ptrdiff_t>(corners);
+    std::reverse(out.begin() + 1, out.begin() + middles);
+    if (side.size() > corners) std::reverse(out.begin() + middles, out.end());
+    return out;
 }
 
 // Sides of cells by their corners, of the given faces or between the given nodes.
@@ -67,9 +79,11 @@ std::map<Key, std::vector<Face>> sides_in(const MeshArrays& mesh, const std::set
     std::map<Key, std::vector<Face>> out;
     for (std::size_t c = 0; c < mesh.types.size(); ++c) {
         const std::int64_t* cell = mesh.connectivity.data() + mesh.offsets[c];
-        for (const auto& side : shape_of(mesh.types[c]).sides) {
+        const CellShape& shape = shape_of(mesh.types[c]);
+        for (const auto& outward : shape.sides) {
+            const auto side = mesh.dimension == 2 ? outward : turned(outward, shape.side_corners);
             Key key;
-            for (std::size_t i = 0; i < corner_count(mesh.dimension, side.size()); ++i)
+            for (std::size_t i = 0; i < shape.side_corners; ++i)
                 key.push_back(mesh.origins[static_cast<std::size_t>(cell[side[i]])]);
             std::sort(key.begin(), key.end());
             const bool chosen = wanted.empty()

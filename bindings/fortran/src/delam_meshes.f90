@@ -52,12 +52,19 @@ contains
     call next_owner(self, other)
   end subroutine same_mesh
 
-  pure function nodes_of(cell_type) result(nodes)
+  ! Nodes of a cell, as the library has them; 0 for a number that is no cell type.
+  function nodes_of(cell_type) result(nodes)
     integer, intent(in) :: cell_type
-    integer :: nodes
-    integer, parameter :: of(9) = [3, 4, 4, 8, 6, 8, 9, 10, 20]
+    integer(c_int32_t) :: nodes, number
+    integer(c_int64_t) :: i
+    integer(c_int32_t) :: status
     nodes = 0
-    if (cell_type >= 1 .and. cell_type <= size(of)) nodes = of(cell_type)
+    number = 0
+    do i = 0, delam_cell_type_count() - 1
+      status = delam_cell_type_info(i, cell_type=number, nodes=nodes)
+      if (status == DELAM_OK .and. number == cell_type) return
+    end do
+    nodes = 0
   end function nodes_of
 
   pure function body_or_all(body) result(label)
@@ -148,7 +155,7 @@ contains
   end subroutine mesh_add_conforming_cells
 
   ! The library reports unknown cell types by name.
-  pure function fits(cell_type, connectivity, bodies)
+  function fits(cell_type, connectivity, bodies)
     integer, intent(in) :: cell_type
     integer(delam_index), intent(in) :: connectivity(:,:)
     integer(delam_label), intent(in), optional :: bodies(:)

@@ -126,6 +126,32 @@ module delam_raw
       type(c_ptr), value :: context
       integer(c_int32_t) :: status
     end function delam_context_cancel
+    function delam_cell_type_count() bind(c, name="delam_cell_type_count") result(count_)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      integer(c_int64_t) :: count_
+    end function delam_cell_type_count
+    function delam_cell_type_info(index, name, cell_type, dimension, nodes, corners, faces, face_nodes, &
+        face_corners) bind(c, name="delam_cell_type_info") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      integer(c_int64_t), value :: index
+      type(c_ptr), intent(inout), optional :: name
+      integer(c_int32_t), intent(inout), optional :: cell_type
+      integer(c_int32_t), intent(inout), optional :: dimension
+      integer(c_int32_t), intent(inout), optional :: nodes
+      integer(c_int32_t), intent(inout), optional :: corners
+      integer(c_int32_t), intent(inout), optional :: faces
+      integer(c_int32_t), intent(inout), optional :: face_nodes
+      integer(c_int32_t), intent(inout), optional :: face_corners
+      integer(c_int32_t) :: status
+    end function delam_cell_type_info
+    function delam_cell_type_topology(index, face, middle) bind(c, name="delam_cell_type_topology") &
+        result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      integer(c_int64_t), value :: index
+      integer(c_int32_t), intent(inout), optional :: face(*)
+      integer(c_int32_t), intent(inout), optional :: middle(*)
+      integer(c_int32_t) :: status
+    end function delam_cell_type_topology
     function delam_mesh_create(context, dimension, node_count, nodes, out) bind(c, name="delam_mesh_create") &
         result(status)
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double

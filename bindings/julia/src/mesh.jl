@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
-"Cell types by name: number, nodes of a cell."
-const CELLS = Dict("tri3" => (Raw.DELAM_TRI3, 3), "quad4" => (Raw.DELAM_QUAD4, 4), "tet4" => (Raw.DELAM_TET4, 4),
-    "hex8" => (Raw.DELAM_HEX8, 8), "tri6" => (Raw.DELAM_TRI6, 6), "quad8" => (Raw.DELAM_QUAD8, 8),
-    "quad9" => (Raw.DELAM_QUAD9, 9), "tet10" => (Raw.DELAM_TET10, 10), "hex20" => (Raw.DELAM_HEX20, 20))
-
+"Number and nodes of the cell type of this name, which the library knows."
 function cell_type(name)
-    haskey(CELLS, name) ||
-        throw(InvalidArgument("cell = \"$name\" is no cell type; known are $(join(sort(collect(keys(CELLS))), ", "))"))
-    return CELLS[name]
+    known = String[]
+    for i in 0:Raw.delam_cell_type_count()-1
+        own, number, dimension, nodes = Ref{Cstring}(C_NULL), Ref{Int32}(0), Ref{Int32}(0), Ref{Int32}(0)
+        Raw.delam_cell_type_info(i, own, number, dimension, nodes, C_NULL, C_NULL, C_NULL, C_NULL)
+        push!(known, unsafe_string(own[]))
+        known[end] == name && return (number[], Int64(nodes[]))
+    end
+    throw(InvalidArgument("cell = \"$name\" is no cell type; known are $(join(known, ", "))"))
 end
 
 """

@@ -100,6 +100,20 @@ function delam_context_cancel(context)
     @ccall libdelam.delam_context_cancel(context::Ptr{delam_context})::Int32
 end
 
+function delam_cell_type_count()
+    @ccall libdelam.delam_cell_type_count()::Int64
+end
+
+function delam_cell_type_info(index, name, cell_type, dimension, nodes, corners, faces, face_nodes, face_corners)
+    @ccall libdelam.delam_cell_type_info(index::Int64, name::Ptr{Cstring}, cell_type::Ptr{Int32},
+        dimension::Ptr{Int32}, nodes::Ptr{Int32}, corners::Ptr{Int32}, faces::Ptr{Int32},
+        face_nodes::Ptr{Int32}, face_corners::Ptr{Int32})::Int32
+end
+
+function delam_cell_type_topology(index, face, middle)
+    @ccall libdelam.delam_cell_type_topology(index::Int64, face::Ptr{Int32}, middle::Ptr{Int32})::Int32
+end
+
 function delam_mesh_create(context, dimension, node_count, nodes, out)
     @ccall libdelam.delam_mesh_create(context::Ptr{delam_context}, dimension::Int32, node_count::Int64,
         nodes::Ptr{Cdouble}, out::Ptr{Ptr{delam_mesh}})::Int32
@@ -599,32 +613,32 @@ end
 const FUNCTIONS = (
     :delam_version, :delam_commit, :delam_abi, :delam_status_name, :delam_blas_threads, :delam_context_create,
     :delam_context_destroy, :delam_context_message, :delam_context_set_log, :delam_context_set_progress,
-    :delam_context_cancel, :delam_mesh_create, :delam_mesh_create_layers, :delam_mesh_add_cells,
-    :delam_mesh_add_conforming_cells, :delam_mesh_add_interface, :delam_mesh_add_all_interfaces,
-    :delam_mesh_add_projected_interface, :delam_mesh_add_obstacle, :delam_mesh_add_host_body, :delam_mesh_add_pairs,
-    :delam_mesh_destroy, :delam_mesh_size, :delam_mesh_nodes, :delam_mesh_node_bodies, :delam_mesh_node_origins,
-    :delam_mesh_node_ties, :delam_mesh_cells, :delam_mesh_interface_size, :delam_mesh_interface_pairs,
-    :delam_mesh_interface_faces, :delam_mesh_find_nodes, :delam_mesh_find_patch, :delam_law_create, :delam_law_set,
-    :delam_law_set_text, :delam_law_set_table, :delam_law_parameter_count, :delam_law_parameter_info,
-    :delam_law_create_host, :delam_law_check, :delam_law_toughness, :delam_law_respond, :delam_law_destroy,
-    :delam_problem_create, :delam_problem_destroy, :delam_problem_set_plane, :delam_problem_set_elastic,
-    :delam_problem_set_orthotropic, :delam_problem_set_orientation, :delam_problem_set_formulation,
-    :delam_problem_set_stiffness, :delam_problem_set_law, :delam_problem_set_bonded, :delam_problem_set_contact,
-    :delam_problem_set_adhesion, :delam_problem_add_pattern, :delam_problem_prescribe_nodes,
-    :delam_problem_prescribe_mean, :delam_problem_add_equation, :delam_problem_add_periodic, :delam_problem_add_forces,
-    :delam_problem_add_eigenstrain, :delam_problem_set_number, :delam_problem_set_text, :delam_option_count,
-    :delam_option_info, :delam_option_alias, :delam_option_bounds, :delam_problem_check, :delam_problem_hash,
-    :delam_problem_dofs, :delam_problem_process_zone, :delam_problem_body_matrix, :delam_problem_constraints,
-    :delam_problem_forces, :delam_problem_eigenstrain_energy, :delam_problem_factors, :delam_problem_pattern_count,
-    :delam_problem_pattern_name, :delam_solver_create, :delam_solver_destroy, :delam_solver_advance,
-    :delam_solver_commit, :delam_solver_rollback, :delam_solver_pending, :delam_solver_set_history,
-    :delam_solver_equilibrate, :delam_solver_value, :delam_solver_value_count, :delam_solver_value_name,
-    :delam_solver_record, :delam_solver_recorded_size, :delam_solver_recorded, :delam_solver_field_shape,
-    :delam_solver_field, :delam_solver_average, :delam_solver_front_count, :delam_solver_front, :delam_solver_tangent,
-    :delam_solver_step_tangent, :delam_solver_condensed_size, :delam_solver_condensed, :delam_solver_plan,
-    :delam_solver_plan_count, :delam_solver_plan_item, :delam_solver_option, :delam_solver_searched, :delam_solver_look,
-    :delam_solver_jump_count, :delam_solver_jump, :delam_solver_save, :delam_solver_load, :delam_solver_save_file,
-    :delam_solver_load_file,
+    :delam_context_cancel, :delam_cell_type_count, :delam_cell_type_info, :delam_cell_type_topology, :delam_mesh_create,
+    :delam_mesh_create_layers, :delam_mesh_add_cells, :delam_mesh_add_conforming_cells, :delam_mesh_add_interface,
+    :delam_mesh_add_all_interfaces, :delam_mesh_add_projected_interface, :delam_mesh_add_obstacle,
+    :delam_mesh_add_host_body, :delam_mesh_add_pairs, :delam_mesh_destroy, :delam_mesh_size, :delam_mesh_nodes,
+    :delam_mesh_node_bodies, :delam_mesh_node_origins, :delam_mesh_node_ties, :delam_mesh_cells,
+    :delam_mesh_interface_size, :delam_mesh_interface_pairs, :delam_mesh_interface_faces, :delam_mesh_find_nodes,
+    :delam_mesh_find_patch, :delam_law_create, :delam_law_set, :delam_law_set_text, :delam_law_set_table,
+    :delam_law_parameter_count, :delam_law_parameter_info, :delam_law_create_host, :delam_law_check,
+    :delam_law_toughness, :delam_law_respond, :delam_law_destroy, :delam_problem_create, :delam_problem_destroy,
+    :delam_problem_set_plane, :delam_problem_set_elastic, :delam_problem_set_orthotropic,
+    :delam_problem_set_orientation, :delam_problem_set_formulation, :delam_problem_set_stiffness,
+    :delam_problem_set_law, :delam_problem_set_bonded, :delam_problem_set_contact, :delam_problem_set_adhesion,
+    :delam_problem_add_pattern, :delam_problem_prescribe_nodes, :delam_problem_prescribe_mean,
+    :delam_problem_add_equation, :delam_problem_add_periodic, :delam_problem_add_forces, :delam_problem_add_eigenstrain,
+    :delam_problem_set_number, :delam_problem_set_text, :delam_option_count, :delam_option_info, :delam_option_alias,
+    :delam_option_bounds, :delam_problem_check, :delam_problem_hash, :delam_problem_dofs, :delam_problem_process_zone,
+    :delam_problem_body_matrix, :delam_problem_constraints, :delam_problem_forces, :delam_problem_eigenstrain_energy,
+    :delam_problem_factors, :delam_problem_pattern_count, :delam_problem_pattern_name, :delam_solver_create,
+    :delam_solver_destroy, :delam_solver_advance, :delam_solver_commit, :delam_solver_rollback, :delam_solver_pending,
+    :delam_solver_set_history, :delam_solver_equilibrate, :delam_solver_value, :delam_solver_value_count,
+    :delam_solver_value_name, :delam_solver_record, :delam_solver_recorded_size, :delam_solver_recorded,
+    :delam_solver_field_shape, :delam_solver_field, :delam_solver_average, :delam_solver_front_count,
+    :delam_solver_front, :delam_solver_tangent, :delam_solver_step_tangent, :delam_solver_condensed_size,
+    :delam_solver_condensed, :delam_solver_plan, :delam_solver_plan_count, :delam_solver_plan_item,
+    :delam_solver_option, :delam_solver_searched, :delam_solver_look, :delam_solver_jump_count, :delam_solver_jump,
+    :delam_solver_save, :delam_solver_load, :delam_solver_save_file, :delam_solver_load_file,
 )
 
 end

@@ -6,6 +6,9 @@ import support
 import numpy as np
 
 import delam
+from delam import _raw
+from delam.mesh import CELL_TYPES
+from delam.meshes import NAMES
 
 SQUARES = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [1, 2], [0, 2]], float)
 
@@ -25,6 +28,14 @@ class Arrays(unittest.TestCase):
         np.testing.assert_allclose(interface.frames[:, 0], [[0, 1], [0, 1]])
         np.testing.assert_array_equal(mesh.nodes[interface.nodes_a], mesh.nodes[interface.nodes_b])
         np.testing.assert_array_equal(np.sort(interface.faces), [[0, 1]])
+
+    def test_cell_types_are_those_of_the_library(self):
+        numbers = {name: getattr(_raw, f"DELAM_{name.upper()}") for name in delam.CELLS}
+        self.assertEqual({name: number for name, (number, _) in delam.CELLS.items()}, numbers)
+        self.assertEqual(delam.CELLS["hex20"][1], 20)
+        self.assertEqual({name: cell.corners for name, cell in CELL_TYPES.items() if cell.dimension == 2},
+                         {"tri3": 3, "quad4": 4, "tri6": 3, "quad8": 4, "quad9": 4})
+        self.assertEqual(set(NAMES.values()), set(delam.CELLS), "names in meshio")
 
     def test_cells_come_out_by_type(self):
         mesh = delam.Mesh(SQUARES)

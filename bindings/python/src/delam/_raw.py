@@ -69,6 +69,13 @@ FUNCTIONS = {
     "delam_context_set_progress": (c_int32, (
         ("context", POINTER(delam_context)), ("callback", delam_progress_callback), ("user", c_void_p))),
     "delam_context_cancel": (c_int32, (("context", POINTER(delam_context)),)),
+    "delam_cell_type_count": (c_int64, ()),
+    "delam_cell_type_info": (c_int32, (
+        ("index", c_int64), ("name", POINTER(c_char_p)), ("cell_type", POINTER(c_int32)),
+        ("dimension", POINTER(c_int32)), ("nodes", POINTER(c_int32)), ("corners", POINTER(c_int32)),
+        ("faces", POINTER(c_int32)), ("face_nodes", POINTER(c_int32)), ("face_corners", POINTER(c_int32)))),
+    "delam_cell_type_topology": (c_int32, (
+        ("index", c_int64), ("face", POINTER(c_int32)), ("middle", POINTER(c_int32)))),
     "delam_mesh_create": (c_int32, (
         ("context", POINTER(delam_context)), ("dimension", c_int32), ("node_count", c_int64),
         ("nodes", POINTER(c_double)), ("out", POINTER(POINTER(delam_mesh))))),

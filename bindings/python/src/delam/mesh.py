@@ -12,10 +12,30 @@ from ._call import Context, Object, integer, number
 from ._library import library
 from .errors import ArgumentError
 
-# Name: (type, nodes of a cell)
-CELLS = {"tri3": (_raw.DELAM_TRI3, 3), "quad4": (_raw.DELAM_QUAD4, 4), "tet4": (_raw.DELAM_TET4, 4),
-         "hex8": (_raw.DELAM_HEX8, 8), "tri6": (_raw.DELAM_TRI6, 6), "quad8": (_raw.DELAM_QUAD8, 8),
-         "quad9": (_raw.DELAM_QUAD9, 9), "tet10": (_raw.DELAM_TET10, 10), "hex20": (_raw.DELAM_HEX20, 20)}
+
+class CellType(NamedTuple):
+    """What the library says of a cell type."""
+
+    number: int
+    nodes: int
+    dimension: int
+    corners: int
+
+
+def cell_types():
+    """{name: CellType} of all types that the library has."""
+    found = {}
+    for index in range(library.delam_cell_type_count()):
+        name = ctypes.c_char_p()
+        type_, dimension, nodes, corners = (ctypes.c_int32() for _ in range(4))
+        library.delam_cell_type_info(index, name, type_, dimension, nodes, corners, None, None, None)
+        found[name.value.decode()] = CellType(type_.value, nodes.value, dimension.value, corners.value)
+    return found
+
+
+CELL_TYPES = cell_types()
+# Name: (number, nodes of a cell)
+CELLS = {name: (cell.number, cell.nodes) for name, cell in CELL_TYPES.items()}
 _CELL_NAMES = {number: name for name, (number, _) in CELLS.items()}
 
 

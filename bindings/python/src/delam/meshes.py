@@ -6,12 +6,11 @@ import os
 import numpy as np
 
 from .errors import ArgumentError, MeshError
-from .mesh import CELLS, Mesh
+from .mesh import CELL_TYPES, CELLS, Mesh
 
 # meshio's names of our cells.
 NAMES = {"triangle": "tri3", "quad": "quad4", "tetra": "tet4", "hexahedron": "hex8", "triangle6": "tri6",
          "quad8": "quad8", "quad9": "quad9", "tetra10": "tet10", "hexahedron20": "hex20"}
-PLANE = ("tri3", "quad4", "tri6", "quad8", "quad9")
 # Where meshers keep the labels of bodies.
 LABELS = ("bodies", "gmsh:physical", "medit:ref", "cell_tags", "gmsh:geometrical")
 
@@ -36,7 +35,7 @@ def read(source, bodies=None, interfaces=True):
     if isinstance(source, (str, os.PathLike)):
         source = _meshio().read(source)
     kinds = [NAMES.get(block.type) for block in source.cells]
-    solid = [i for i, kind in enumerate(kinds) if kind is not None and kind not in PLANE]
+    solid = [i for i, kind in enumerate(kinds) if kind is not None and CELL_TYPES[kind].dimension == 3]
     chosen = solid or [i for i, kind in enumerate(kinds) if kind is not None]
     if not chosen:
         there = ", ".join(sorted({block.type for block in source.cells})) or "none"
@@ -91,6 +90,8 @@ def write(mesh, point_data=None, cell_data=None):
     data = {"bodies": cells.bodies, **(cell_data or {})}
     blocks, rows = [], []
     for name in cells.names():
+        if name not in back:
+            raise ArgumentError(f"cells of type {name} have no name in meshio")
         blocks.append((back[name], cells.of(name)))
         rows.append(np.flatnonzero(cells.types == CELLS[name][0]))
     for name, values in data.items():

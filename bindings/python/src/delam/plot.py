@@ -3,10 +3,9 @@
 new axes, and returns them."""
 import numpy as np
 
-from .mesh import CELLS
+from .mesh import CELL_TYPES
 
 # Corners of plane cells, in order around.
-_CORNERS = {"tri3": 3, "tri6": 3, "quad4": 4, "quad8": 4, "quad9": 4}
 _BODIES = ("#f4f1e8", "#dde5ee", "#e6ebdf")
 _DAMAGE = ("#b3122a", "#f2a541", "#f5e9b8", "#2b6cb0", "#0b2e59")  # adhesion 0 ... 1
 
@@ -115,8 +114,8 @@ def bodies(solver, scale=1.0, ax=None):
     cells = mesh.cells
     labels = sorted(set(cells.bodies.tolist()))
     for name in cells.names():
-        corners = cells.of(name)[:, :_CORNERS[name]]
-        body = cells.bodies[cells.types == CELLS[name][0]]
+        corners = cells.of(name)[:, :CELL_TYPES[name].corners]
+        body = cells.bodies[cells.types == CELL_TYPES[name].number]
         colours = [_BODIES[labels.index(label) % len(_BODIES)] for label in body.tolist()]
         ax.add_collection(PolyCollection(places[corners], facecolors=colours, edgecolors="#00000022", linewidths=0.3))
     lines = None

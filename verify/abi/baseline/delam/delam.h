@@ -53,8 +53,13 @@ DELAM_API int32_t delam_context_cancel(delam_context *context);
 #define DELAM_QUAD9 7
 #define DELAM_TET10 8
 #define DELAM_HEX20 9
-DELAM_API int32_t delam_mesh_create(delam_context *context, int32_t dimension, int64_t node_count,
-                                    const double *nodes, delam_mesh **out);
+DELAM_API int64_t delam_cell_type_count(void);
+DELAM_API int32_t delam_cell_type_info(int64_t index, const char **name, int32_t *cell_type, int32_t *dimension,
+                                       int32_t *nodes, int32_t *corners, int32_t *faces, int32_t *face_nodes,
+                                       int32_t *face_corners);
+DELAM_API int32_t delam_cell_type_topology(int64_t index, int32_t *face, int32_t *middle);
+DELAM_API int32_t delam_mesh_create(delam_context *context, int32_t dimension, int64_t node_count, const double *nodes,
+                                    delam_mesh **out);
 DELAM_API int32_t delam_mesh_create_layers(delam_context *context, int32_t dimension, const double *lengths,
                                            const int64_t *divisions, int64_t layer_count, const double *thickness,
                                            const int64_t *layer_divisions, int32_t cell_type, delam_mesh **out);
@@ -157,6 +162,9 @@ DELAM_API int32_t delam_problem_set_text(delam_problem *problem, const char *key
 DELAM_API int64_t delam_option_count(void);
 DELAM_API int32_t delam_option_info(int64_t index, const char **key, const char **type, const char **unit,
                                     const char **initial, const char **range, const char **meaning);
+DELAM_API int32_t delam_option_alias(int64_t index, const char **alias);
+DELAM_API int32_t delam_option_bounds(int64_t index, double *lower, double *upper, int32_t *lower_open,
+                                      int32_t *upper_open);
 DELAM_API int32_t delam_problem_check(delam_problem *problem);
 DELAM_API int32_t delam_problem_hash(const delam_problem *problem, char *out);
 DELAM_API int32_t delam_problem_dofs(const delam_problem *problem, int64_t *primal, int64_t *dual);

@@ -46,9 +46,15 @@ struct Patch {
 
 namespace detail {
 
+// Nodes of a cell, as the library has them; 0 for a number that is no cell type.
 inline std::size_t nodes_of(std::int32_t cell_type) {
-    constexpr std::array<std::size_t, 10> nodes{0, 3, 4, 4, 8, 6, 8, 9, 10, 20};
-    return cell_type >= 1 && cell_type <= 9 ? nodes[static_cast<std::size_t>(cell_type)] : 0;
+    for (std::int64_t i = 0; i < delam_cell_type_count(); ++i) {
+        std::int32_t number = 0;
+        std::int32_t nodes = 0;
+        delam_cell_type_info(i, nullptr, &number, nullptr, &nodes, nullptr, nullptr, nullptr, nullptr);
+        if (number == cell_type) return static_cast<std::size_t>(nodes);
+    }
+    return 0;
 }
 
 }  // namespace detail
