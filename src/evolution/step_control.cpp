@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 namespace delam {
 
@@ -64,6 +65,162 @@ struct Goal {
     bool sharp = false;  // nearly all of the change in an interval about twice as long
 };
 
+// One step in parts: the instants yet to be reached lie on a stack, the next one on top.
+class Parts {
+public:
+    Parts(Stepper& stepper, const PairGraph& graph, const State& before, Stepper::Result whole, const Options& options)
+        : stepper_(stepper),
+          graph_(graph),
+          options_(options),
+          step_(before.step + 1),
+          asked_(whole.state.time - before.time),
+          first_(whole.state.counts),
+          at_(before) {
+        at_.step = whole.state.step - 1;
+        const double end = whole.state.time;
+        goals_.push_back({end, std::make_unique<Stepper::Result>(std::move(whole)), 0.0, 0});
+        effort_.add(first_);
+        goals_.back().change = change_in_pairs(stepper_.pairs(), at_, goals_.back().reached->state);
+    }
+
+    ControlledStep run() {
+        while (!goals_.empty()) {
+            if (!goals_.back().reached && compute())
+                accept_parent();
+            else if (!halve())
+                accept_goal();
+        }
+        return close();
+    }
+
+private:
+    Stepper& stepper_;
+    const PairGraph& graph_;
+    const Options& options_;
+    std::int64_t step_;
+    double asked_;  // length of the whole step
+    Counts first_;  // of the whole step in one part
+    State at_;      // end of the parts accepted so far
+    std::vector<Goal> goals_;
+    std::vector<JumpEvent> jumps_;
+    Counts effort_;
+    Ledger sum_;  // of the parts
+    bool converged_ = true;
+    std::int64_t parts_ = 0, refused_ = 0;
+
+    bool too_long(const Stepper::Result& result, double change) const;
+    bool compute();
+    bool halve();
+    bool jumps(const Goal& goal) const { return options_.jump_tolerance > 0.0 && goal.change >= options_.jump_size; }
+    void accept_parent();
+    void accept_goal();
+    void accept(Goal goal);
+    ControlledStep close();
+};
+
+// While nothing is damaged the work is exact, however wide the band.
+bool Parts::too_long(const Stepper::Result& result, double change) const {
+    const Ledger& l = result.state.ledger;
+    const double scale = std::max(std::abs(l.energy()), std::abs(l.work));
+    return (options_.step_control == "adaptive" &&
+            (!result.converged || (change > 0.0 && l.upper - l.lower > options_.step_tolerance * scale))) ||
+           (options_.mixity_step_tolerance > 0.0 && l.mixity_error > options_.mixity_step_tolerance);
+}
+
+// Computes the state at the next goal. True if the change is continuous up to the goal behind it, which is reached
+// already and short enough: then that one is accepted in one part.
+bool Parts::compute() {
+    Goal& goal = goals_.back();
+    goal.reached = std::make_unique<Stepper::Result>(stepper_.step(at_, goal.time));
+    effort_.add(goal.reached->state.counts);
+    const double longer = goal.change;  // to the same end, from an earlier start
+    goal.change = change_in_pairs(stepper_.pairs(), at_, goal.reached->state);
+    goal.sharp = goal.change > sharp_share * longer && longer > 0.0;
+    if (goals_.size() == 1) return false;
+    const Goal& parent = goals_[goals_.size() - 2];
+    const double share = parent.change > 0.0 ? goal.change / parent.change : 0.0;
+    goal.sharp = goal.sharp || (parent.reached && share > sharp_share);
+    goal.smooth = parent.reached && share > 0.25 && share < 0.75 ? parent.smooth + 1 : 0;
+    return goal.smooth >= smooth_levels && !too_long(*parent.reached, parent.change);
+}
+
+// Puts an instant halfway to the goal before it, if the interval must and can be halved.
+bool Parts::halve() {
+    const Goal& goal = goals_.back();
+    const double length = goal.time - at_.time;
+    const double smallest = options_.smallest_step * asked_;
+    const bool locate =
+        jumps(goal) && (length > options_.jump_tolerance * asked_ || (!goal.sharp && length > smallest));
+    if (!locate && !(too_long(*goal.reached, goal.change) && length > smallest)) return false;
+    const double middle = at_.time + 0.5 * length;
+    if (!(middle > at_.time && middle < goal.time)) return false;
+    goals_.push_back({middle, nullptr, 0.0, 0});
+    return true;
+}
+
+void Parts::accept_parent() {
+    goals_.pop_back();
+    Goal done = std::move(goals_.back());
+    goals_.pop_back();
+    ++refused_;
+    accept(std::move(done));
+}
+
+void Parts::accept_goal() {
+    Goal done = std::move(goals_.back());
+    goals_.pop_back();
+    if (jumps(done)) {
+        jumps_.push_back(describe(stepper_.pairs(), graph_, at_, done.reached->state));
+        jumps_.back().step = step_;
+    }
+    accept(std::move(done));
+}
+
+// Adds a part to the step.
+void Parts::accept(Goal goal) {
+    State& next = goal.reached->state;
+    sum_.lower += next.ledger.lower;
+    sum_.increment += next.ledger.increment;
+    sum_.upper += next.ledger.upper;
+    sum_.increment_lower += next.ledger.increment_lower;
+    sum_.mixity_error = std::max(sum_.mixity_error, next.ledger.mixity_error);
+    const double margin = next.counts.search_margin;
+    effort_.search_gap = std::max(effort_.search_gap, next.counts.search_gap);
+    effort_.search_margin = parts_ == 0 ? margin : std::min(effort_.search_margin, margin);
+    converged_ = converged_ && goal.reached->converged;
+    ++parts_;
+    at_ = std::move(next);
+    --at_.step;  // the parts of a step share its number
+    // What was computed from the start of this part is invalid from its end.
+    for (Goal& other : goals_) {
+        if (!other.reached) continue;
+        other.reached.reset();
+        ++refused_;
+    }
+}
+
+// The whole step: the last state, with the sums and the effort of all parts.
+ControlledStep Parts::close() {
+    ++at_.step;
+    ControlledStep out{{std::move(at_), converged_}, std::move(jumps_)};
+    State& state = out.result.state;
+    state.ledger.lower = sum_.lower;
+    state.ledger.increment = sum_.increment;
+    state.ledger.upper = sum_.upper;
+    state.ledger.increment_lower = sum_.increment_lower;
+    state.ledger.mixity_error = sum_.mixity_error;
+    effort_.damage_change = state.counts.damage_change;
+    effort_.backtracks = first_.backtracks;
+    effort_.revisions = first_.revisions;
+    effort_.revised_from = first_.revised_from;
+    effort_.substeps = parts_;
+    effort_.refused_steps = refused_;
+    effort_.jumps = static_cast<std::int64_t>(out.jumps.size());
+    for (const JumpEvent& jump : out.jumps) effort_.released += jump.released;
+    state.counts = effort_;
+    return out;
+}
+
 }  // namespace
 
 bool controls_steps(const Options& options) {
@@ -72,109 +229,7 @@ bool controls_steps(const Options& options) {
 
 ControlledStep controlled_step(Stepper& stepper, const PairGraph& graph, const State& before, Stepper::Result whole,
                                const Options& options) {
-    const double asked = whole.state.time - before.time;
-    const bool locate = options.jump_tolerance > 0.0;
-    // While nothing is damaged the work is exact, however wide the band.
-    const auto too_long = [&](const Stepper::Result& r, double change) {
-        const Ledger& l = r.state.ledger;
-        const double scale = std::max(std::abs(l.energy()), std::abs(l.work));
-        return (options.step_control == "adaptive" &&
-                (!r.converged || (change > 0.0 && l.upper - l.lower > options.step_tolerance * scale))) ||
-               (options.mixity_step_tolerance > 0.0 && r.state.ledger.mixity_error > options.mixity_step_tolerance);
-    };
-    ControlledStep out;
-    State at = before;
-    at.step = whole.state.step - 1;
-    const Counts first = whole.state.counts;
-    Counts effort;
-    Ledger sum;  // of the parts
-    bool converged = true;
-    std::int64_t parts = 0, refused = 0;
-
-    std::vector<Goal> goals;
-    const double end = whole.state.time;
-    goals.push_back({end, std::make_unique<Stepper::Result>(std::move(whole)), 0.0, 0});
-    effort.add(first);
-    goals.back().change = change_in_pairs(stepper.pairs(), at, goals.back().reached->state);
-    const auto accept = [&](Goal goal) {
-        State& next = goal.reached->state;
-        sum.lower += next.ledger.lower;
-        sum.increment += next.ledger.increment;
-        sum.upper += next.ledger.upper;
-        sum.increment_lower += next.ledger.increment_lower;
-        effort.search_gap = std::max(effort.search_gap, next.counts.search_gap);
-        effort.search_margin =
-            parts == 0 ? next.counts.search_margin : std::min(effort.search_margin, next.counts.search_margin);
-        sum.mixity_error = std::max(sum.mixity_error, next.ledger.mixity_error);
-        converged = converged && goal.reached->converged;
-        ++parts;
-        at = std::move(next);
-        --at.step;  // the parts of a step share its number
-        // What was computed from the start of this part is invalid from its end.
-        for (Goal& other : goals)
-            if (other.reached) {
-                other.reached.reset();
-                ++refused;
-            }
-    };
-    while (!goals.empty()) {
-        Goal& goal = goals.back();
-        if (!goal.reached) {
-            goal.reached = std::make_unique<Stepper::Result>(stepper.step(at, goal.time));
-            effort.add(goal.reached->state.counts);
-            const double longer = goal.change;  // to the same end, from an earlier start
-            goal.change = change_in_pairs(stepper.pairs(), at, goal.reached->state);
-            goal.sharp = goal.change > sharp_share * longer && longer > 0.0;
-            if (goals.size() > 1) {
-                Goal& parent = goals[goals.size() - 2];
-                const double share = parent.change > 0.0 ? goal.change / parent.change : 0.0;
-                goal.sharp = goal.sharp || (parent.reached && share > sharp_share);
-                goal.smooth = parent.reached && share > 0.25 && share < 0.75 ? parent.smooth + 1 : 0;
-                if (goal.smooth >= smooth_levels && !too_long(*parent.reached, parent.change)) {
-                    // The change over the parent's interval is continuous, so its end is reached in one part.
-                    goals.pop_back();
-                    Goal done = std::move(parent);
-                    goals.pop_back();
-                    ++refused;
-                    accept(std::move(done));
-                    continue;
-                }
-            }
-        }
-        const double length = goal.time - at.time;
-        const bool jumps = locate && goal.change >= options.jump_size;
-        const bool halve = (jumps && (length > options.jump_tolerance * asked ||
-                                      (!goal.sharp && length > options.smallest_step * asked))) ||
-                           (too_long(*goal.reached, goal.change) && length > options.smallest_step * asked);
-        const double middle = at.time + 0.5 * length;
-        if (halve && middle > at.time && middle < goal.time) {
-            goals.push_back({middle, nullptr, 0.0, 0});
-            continue;
-        }
-        if (jumps) out.jumps.push_back(describe(stepper.pairs(), graph, at, goal.reached->state));
-        if (jumps) out.jumps.back().step = before.step + 1;
-        Goal done = std::move(goal);
-        goals.pop_back();
-        accept(std::move(done));
-    }
-    ++at.step;
-    out.result = {std::move(at), converged};
-    State& state = out.result.state;
-    state.ledger.lower = sum.lower;
-    state.ledger.increment = sum.increment;
-    state.ledger.upper = sum.upper;
-    state.ledger.increment_lower = sum.increment_lower;
-    effort.damage_change = state.counts.damage_change;
-    state.ledger.mixity_error = sum.mixity_error;
-    effort.backtracks = first.backtracks;
-    effort.revisions = first.revisions;
-    effort.revised_from = first.revised_from;
-    effort.substeps = parts;
-    effort.refused_steps = refused;
-    effort.jumps = static_cast<std::int64_t>(out.jumps.size());
-    for (const JumpEvent& jump : out.jumps) effort.released += jump.released;
-    state.counts = effort;
-    return out;
+    return Parts(stepper, graph, before, std::move(whole), options).run();
 }
 
 }  // namespace delam
