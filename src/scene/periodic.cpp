@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
 #include "linalg/dense.hpp"
 
@@ -17,8 +20,6 @@ namespace delam {
 namespace {
 
 using Point = std::array<double, 3>;
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -78,7 +79,7 @@ private:
     Key cell(const Point& x) const {
         Key key{};
         constexpr std::int64_t most = std::int64_t{1} << 62;  // far nodes of a tiny grid share its last cells
-        for (std::size_t d = 0; d < at(dimension_); ++d) {
+        for (std::size_t d = 0; d < index(dimension_); ++d) {
             const double cells = std::floor(x[d] / width_);
             key[d] = cells >= 0x1p62 ? most : cells > -0x1p62 ? static_cast<std::int64_t>(cells) : -most;
         }
@@ -89,124 +90,177 @@ private:
     std::map<Key, std::vector<std::pair<std::int64_t, Point>>> cells_;
 };
 
-}  // namespace
+// The search for partners, face by face: nodes on the upper faces look for those one period below.
+class Matching {
+public:
+    Matching(const Mesh& mesh, std::span<const double> given, double tolerance)
+        : mesh_(mesh),
+          dimension_(mesh.dimension()),
+          periods_(vectors(given, dimension_)),
+          dual_(dual_basis(periods_)),
+          upper_(index(mesh.node_count()), 0),
+          met_(index(mesh.node_count()), 0) {
+        for (std::int64_t n = 0; n < mesh.node_count(); ++n)
+            if (mesh.node_body(n) >= 0) nodes_.push_back(n);
+        distance_ = tolerance * extent();
+        mark_upper();
+    }
 
-std::vector<PeriodicPair> periodic_pairs(const Mesh& mesh, std::span<const double> given, double tolerance) {
-    const int dim = mesh.dimension();
-    std::vector<Point> periods(given.size() / at(dim), Point{});
-    for (std::size_t k = 0; k < periods.size(); ++k)
-        for (std::size_t d = 0; d < at(dim); ++d) periods[k][d] = given[k * at(dim) + d];
-    const std::vector<Point> dual = dual_basis(periods);
-    const auto place = [&](std::int64_t node) {
+    std::vector<PeriodicPair> run() {
+        for (const auto& [faces, group] : gather()) match(faces.first, faces.second, group);
+        check_lower();
+        if (missing_count_ > 0)
+            fail(DELAM_ERROR_MESH, "periods: no partner for ", missing_,
+                 missing_count_ > 8 ? text("; and ", missing_count_ - 8, " more") : "");
+        std::sort(pairs_.begin(), pairs_.end(),
+                  [](const PeriodicPair& a, const PeriodicPair& b) { return a.node < b.node; });
+        return std::move(pairs_);
+    }
+
+private:
+    using Nodes = std::vector<std::int64_t>;
+    // By the upper faces that nodes lie on, as bits, and the lower nodes at their shifted place.
+    using Gathered = std::map<std::pair<unsigned, Nodes>, Nodes>;
+
+    const Mesh& mesh_;
+    int dimension_;
+    std::vector<Point> periods_, dual_;
+    Nodes nodes_;  // of bodies: control nodes may lie anywhere
+    double distance_ = 0.0;
+    std::vector<unsigned> upper_;    // which upper faces each node lies on, as bits
+    std::vector<std::uint8_t> met_;  // from which faces each lower node was met, as bits
+    std::vector<PeriodicPair> pairs_;
+    std::string missing_;
+    std::int64_t missing_count_ = 0;
+
+    static std::vector<Point> vectors(std::span<const double> given, int dimension) {
+        std::vector<Point> list(given.size() / index(dimension), Point{});
+        for (std::size_t k = 0; k < list.size(); ++k)
+            for (std::size_t d = 0; d < index(dimension); ++d) list[k][d] = given[k * index(dimension) + d];
+        return list;
+    }
+    Point place(std::int64_t node) const {
         Point x{};
-        for (std::size_t d = 0; d < at(dim); ++d) x[d] = mesh.node(node)[d];
+        for (std::size_t d = 0; d < index(dimension_); ++d) x[d] = mesh_.node(node)[d];
         return x;
-    };
+    }
+    // dual . x changes by |dual| per length.
+    double margin(std::size_t k) const { return 2.0 * distance_ * std::sqrt(dot(dual_[k], dual_[k])); }
 
-    // The upper faces on which each node lies, as bits.
-    std::vector<std::int64_t> nodes;
-    for (std::int64_t n = 0; n < mesh.node_count(); ++n)
-        if (mesh.node_body(n) >= 0) nodes.push_back(n);
-    double size = 0.0;  // largest extent of the cells: control nodes may lie anywhere
-    for (std::size_t d = 0; d < at(dim); ++d) {
-        const auto [low, high] = std::minmax_element(nodes.begin(), nodes.end(), [&](std::int64_t a, std::int64_t b) {
-            return mesh.node(a)[d] < mesh.node(b)[d];
+    double extent() const;
+    void mark_upper();
+    Gathered gather();
+    void match(unsigned directions, Nodes left, const Nodes& group);
+    void join(std::int64_t node, std::int64_t base, unsigned directions);
+    void check_lower();
+    void miss(std::int64_t node, const char* why);
+};
+
+double Matching::extent() const {
+    double size = 0.0;
+    for (std::size_t d = 0; d < index(dimension_); ++d) {
+        const auto [low, high] = std::minmax_element(nodes_.begin(), nodes_.end(), [&](std::int64_t a, std::int64_t b) {
+            return mesh_.node(a)[d] < mesh_.node(b)[d];
         });
-        if (!nodes.empty()) size = std::max(size, mesh.node(*high)[d] - mesh.node(*low)[d]);
+        if (!nodes_.empty()) size = std::max(size, mesh_.node(*high)[d] - mesh_.node(*low)[d]);
     }
-    const double distance = tolerance * size;
-    std::vector<unsigned> upper(at(mesh.node_count()), 0);
-    for (std::size_t k = 0; k < periods.size(); ++k) {
-        double low = INFINITY, high = -INFINITY;
-        for (const std::int64_t n : nodes) {
-            poll_cancel("loads");
-            low = std::min(low, dot(dual[k], place(n)));
-            high = std::max(high, dot(dual[k], place(n)));
-        }
-        // dual . x changes by |dual| per length
-        const double margin = 2.0 * distance * std::sqrt(dot(dual[k], dual[k]));
-        if (std::abs(high - low - 1.0) > margin)
-            fail(DELAM_ERROR_MESH, "periods: the mesh is ", high - low, " periods long in direction ", k, ", not 1");
-        for (const std::int64_t n : nodes)
-            if (dot(dual[k], place(n)) >= high - margin) upper[at(n)] |= 1u << k;
-    }
+    return size;
+}
 
-    Places lower(4.0 * std::max(distance, 1e-300), dim);
-    for (const std::int64_t n : nodes) {
-        poll_cancel("loads");
-        if (upper[at(n)] == 0) lower.add(n, place(n));
+void Matching::mark_upper() {
+    for (std::size_t k = 0; k < periods_.size(); ++k) {
+        double low = INFINITY, high = -INFINITY;
+        for (const std::int64_t n : nodes_) {
+            poll_cancel("loads");
+            low = std::min(low, dot(dual_[k], place(n)));
+            high = std::max(high, dot(dual_[k], place(n)));
+        }
+        if (std::abs(high - low - 1.0) > margin(k))
+            fail(DELAM_ERROR_MESH, "periods: the mesh is ", high - low, " periods long in direction ", k, ", not 1");
+        for (const std::int64_t n : nodes_)
+            if (dot(dual_[k], place(n)) >= high - margin(k)) upper_[index(n)] |= 1u << k;
     }
-    const auto shifted = [&](std::int64_t node) {
-        Point x = place(node);
-        for (std::size_t k = 0; k < periods.size(); ++k)
-            if ((upper[at(node)] >> k & 1u) != 0)
-                for (std::size_t d = 0; d < 3; ++d) x[d] -= periods[k][d];
-        return x;
-    };
-    // Nodes at one position on one face find their partners together.
-    std::map<std::pair<unsigned, std::vector<std::int64_t>>, std::vector<std::int64_t>> gathered;
-    std::string missing;
-    std::int64_t missing_count = 0;
-    const auto miss = [&](std::int64_t node, const char* why) {
-        if (++missing_count > 8) return;
-        missing += text(missing_count == 1 ? "" : "; ", "node ", node, " of body ",
-                        mesh.body_label(mesh.node_body(node)), " at ", words(place(node), dim), why);
-    };
-    std::vector<std::uint8_t> met(at(mesh.node_count()), 0);
-    for (const std::int64_t n : nodes) {
-        if (upper[at(n)] == 0) continue;
+}
+
+// Nodes at one position on one face find their partners together.
+Matching::Gathered Matching::gather() {
+    Places lower(4.0 * std::max(distance_, 1e-300), dimension_);
+    for (const std::int64_t n : nodes_) {
+        poll_cancel("loads");
+        if (upper_[index(n)] == 0) lower.add(n, place(n));
+    }
+    Gathered gathered;
+    for (const std::int64_t n : nodes_) {
+        const unsigned faces = upper_[index(n)];
+        if (faces == 0) continue;
         poll_cancel("loads", 4);
-        std::vector<std::int64_t> candidates = lower.near(shifted(n), distance);
+        Point shifted = place(n);
+        for (std::size_t k = 0; k < periods_.size(); ++k)
+            if ((faces >> k & 1u) != 0)
+                for (std::size_t d = 0; d < 3; ++d) shifted[d] -= periods_[k][d];
+        Nodes candidates = lower.near(shifted, distance_);
         if (candidates.empty())
             miss(n, "");
         else
-            gathered[{upper[at(n)], std::move(candidates)}].push_back(n);
+            gathered[{faces, std::move(candidates)}].push_back(n);
     }
-    std::vector<PeriodicPair> pairs;
-    for (const auto& [key, group] : gathered) {
-        poll_cancel("loads");
-        const auto directions = key.first;  // lambdas of clang cannot capture parts of a structured binding
-        std::vector<std::int64_t> left = key.second, rest;
-        const auto join = [&](std::int64_t node, std::int64_t base) {
-            PeriodicPair pair{node, base, {}};
-            for (std::size_t k = 0; k < periods.size(); ++k)
-                if ((directions >> k & 1u) != 0) pair.directions.push_back(k);
-            pairs.push_back(std::move(pair));
-            met[at(base)] |= static_cast<std::uint8_t>(1u << directions);
-            std::erase(left, base);
-        };
-        for (const std::int64_t node : group) {
-            std::vector<std::int64_t> own;
-            for (const std::int64_t base : left)
-                if (mesh.node_body(base) == mesh.node_body(node)) own.push_back(base);
-            const auto twins = std::count_if(group.begin(), group.end(),
-                                             [&](std::int64_t n) { return mesh.node_body(n) == mesh.node_body(node); });
-            if (own.size() > 1 || twins > 1)
-                miss(node, " (several nodes of this body at one place)");
-            else if (own.empty())
-                rest.push_back(node);
-            else
-                join(node, own.front());
+    return gathered;
+}
+
+// left: the lower nodes at the place of the group. Partners belong to one body, unless one node is left on each side.
+void Matching::match(unsigned directions, Nodes left, const Nodes& group) {
+    poll_cancel("loads");
+    Nodes rest;
+    for (const std::int64_t node : group) {
+        const auto same_body = [&](std::int64_t n) { return mesh_.node_body(n) == mesh_.node_body(node); };
+        Nodes own;
+        std::copy_if(left.begin(), left.end(), std::back_inserter(own), same_body);
+        if (own.size() > 1 || std::count_if(group.begin(), group.end(), same_body) > 1) {
+            miss(node, " (several nodes of this body at one place)");
+        } else if (own.empty()) {
+            rest.push_back(node);
+        } else {
+            join(node, own.front(), directions);
+            std::erase(left, own.front());
         }
-        if (rest.size() == 1 && left.size() == 1)
-            join(rest.front(), std::int64_t{left.front()});
-        else
-            for (const std::int64_t node : rest) miss(node, " (only other bodies)");
     }
-    // And conversely: every node of a lower face must have been reached from each upper face opposite to it.
-    for (std::size_t k = 0; k < periods.size(); ++k) {
+    if (rest.size() == 1 && left.size() == 1)
+        join(rest.front(), left.front(), directions);
+    else
+        for (const std::int64_t node : rest) miss(node, " (only other bodies)");
+}
+
+void Matching::join(std::int64_t node, std::int64_t base, unsigned directions) {
+    PeriodicPair pair{node, base, {}};
+    for (std::size_t k = 0; k < periods_.size(); ++k)
+        if ((directions >> k & 1u) != 0) pair.directions.push_back(k);
+    pairs_.push_back(std::move(pair));
+    met_[index(base)] |= static_cast<std::uint8_t>(1u << directions);
+}
+
+// Every node of a lower face must have been reached from each upper face opposite to it.
+void Matching::check_lower() {
+    for (std::size_t k = 0; k < periods_.size(); ++k) {
         double low = INFINITY;
-        for (const std::int64_t n : nodes) low = std::min(low, dot(dual[k], place(n)));
-        const double margin = 2.0 * distance * std::sqrt(dot(dual[k], dual[k]));
-        for (const std::int64_t n : nodes)
-            if (upper[at(n)] == 0 && dot(dual[k], place(n)) <= low + margin && (met[at(n)] >> (1u << k) & 1u) == 0)
+        for (const std::int64_t n : nodes_) low = std::min(low, dot(dual_[k], place(n)));
+        for (const std::int64_t n : nodes_)
+            if (upper_[index(n)] == 0 && dot(dual_[k], place(n)) <= low + margin(k) &&
+                (met_[index(n)] >> (1u << k) & 1u) == 0)
                 miss(n, "");
     }
-    if (missing_count > 0)
-        fail(DELAM_ERROR_MESH, "periods: no partner for ", missing,
-             missing_count > 8 ? text("; and ", missing_count - 8, " more") : "");
-    std::sort(pairs.begin(), pairs.end(), [](const PeriodicPair& a, const PeriodicPair& b) { return a.node < b.node; });
-    return pairs;
+}
+
+// The message names the first eight.
+void Matching::miss(std::int64_t node, const char* why) {
+    if (++missing_count_ > 8) return;
+    missing_ += text(missing_count_ == 1 ? "" : "; ", "node ", node, " of body ",
+                     mesh_.body_label(mesh_.node_body(node)), " at ", words(place(node), dimension_), why);
+}
+
+}  // namespace
+
+std::vector<PeriodicPair> periodic_pairs(const Mesh& mesh, std::span<const double> given, double tolerance) {
+    return Matching(mesh, given, tolerance).run();
 }
 
 }  // namespace delam
