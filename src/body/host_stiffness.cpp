@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "body/rigid_modes.hpp"
 #include "delam/delam.h"
 #include "linalg/cholesky.hpp"
@@ -20,8 +21,6 @@ constexpr double rounding = 1e-12, resisted = 1e-9;
 constexpr double told_tolerance = 1e-6;
 // Smaller ratios of pivots are rounding.
 constexpr double mechanism = 1e-14;
-
-std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 // Connected components of nodes joined by non-zero entries, each ascending.
 std::vector<std::vector<std::int64_t>> components(const SparseMatrix& k, std::int64_t dim) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "base/numbers.hpp"
 #include "capi/handles.hpp"
 #include "scene/periodic.hpp"
 #include "scene/problem.hpp"
@@ -34,8 +35,7 @@ void require_name(const char* name) {
 Direction require_direction(const Mesh& mesh, const double* direction) {
     require_pointer(direction, "direction");
     require_finite(direction, mesh.dimension(), "direction");
-    double largest = 0.0;
-    for (int d = 0; d < mesh.dimension(); ++d) largest = std::max(largest, std::abs(direction[d]));
+    const double largest = max_abs({direction, index(mesh.dimension())});
     if (largest == 0.0) fail(DELAM_ERROR_ARGUMENT, "direction has length 0");
     Direction unit{};
     double length = 0.0;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/numbers.hpp"
+
 namespace delam {
 
 namespace {
@@ -11,9 +13,8 @@ constexpr double cancelled = 1e-10;
 }
 
 double SparseElimination::reduce(Row& row) const {
-    double largest = 0.0, right = 0.0;
+    double largest = 0.0, right = max_abs(row.right);
     for (const auto& [variable, c] : row.terms) largest = std::max(largest, std::abs(c));
-    for (const double b : row.right) right = std::max(right, std::abs(b));
     std::vector<std::pair<std::int64_t, double>> known;
     while (true) {
         known.clear();

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
 
 namespace delam {
@@ -18,8 +19,6 @@ constexpr double asymmetry = 1e-9;
 
 // Energies of motions, and their squares, must stay finite.
 constexpr double largest_stiffness = 1e150;
-
-std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 struct Place {
     std::int32_t body = -1;

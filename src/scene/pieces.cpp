@@ -4,15 +4,10 @@
 #include <algorithm>
 
 #include "base/cancel_scope.hpp"
+#include "base/numbers.hpp"
 #include "mesh/partition.hpp"
 
 namespace delam {
-
-namespace {
-
-std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 std::vector<std::uint8_t> given_by_host(const Problem& problem) {
     std::vector<std::uint8_t> given;

@@ -15,6 +15,7 @@
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "scene/carriers.hpp"
 #include "scene/pieces.hpp"
 
@@ -24,8 +25,6 @@ namespace {
 // Relative pivot below which a motion counts as unresisted. Rows enter squared: supports closer together than 1e-5 of
 // the size of the supported part do not count as holding its rotation.
 constexpr double pivot_tolerance = 1e-10;
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 class Sets {
 public:
@@ -108,7 +107,7 @@ public:
         : problem_(problem),
           mesh_(*problem.mesh),
           carriers_(problem),
-          dimension_(at(mesh_.dimension())),
+          dimension_(index(mesh_.dimension())),
           modes_(dimension_ == 2 ? 3 : 6),
           pieces_(rigid_pieces(problem)),
           groups_(pieces_.count() + carriers_.controls().size()) {
@@ -136,7 +135,7 @@ private:
         for (std::size_t d = 0; d < dimension_; ++d) p[d] = mesh_.node(node)[d];
         return p;
     }
-    std::size_t group(std::int64_t node) { return groups_.find(at(node_piece_[at(node)])); }
+    std::size_t group(std::int64_t node) { return groups_.find(index(node_piece_[index(node)])); }
     bool control(std::int64_t node) const { return carriers_.kind(node) == Carriers::Kind::control; }
     bool control_group(std::size_t group) const { return group >= pieces_.count(); }
 
@@ -166,10 +165,10 @@ private:
 void Search::take_pieces() {
     node_piece_ = pieces_.of_node;
     for (const Pieces::Hinge& hinge : pieces_.hinges)
-        ties_.push_back({at(hinge.piece_a), at(hinge.piece_b), place(hinge.node)});
+        ties_.push_back({index(hinge.piece_a), index(hinge.piece_b), place(hinge.node)});
     rows_ = pieces_.resisted;
     for (std::size_t c = 0; c < carriers_.controls().size(); ++c)
-        node_piece_[at(carriers_.controls()[c])] = static_cast<std::int64_t>(pieces_.count() + c);
+        node_piece_[index(carriers_.controls()[c])] = static_cast<std::int64_t>(pieces_.count() + c);
 }
 
 // A tied node moves with the piece to which it is tied, because its combination is exact for rigid motions. A control
@@ -185,7 +184,7 @@ void Search::find_ties(bool tied) {
             const std::int64_t a = carriers_.of(face.node_a[p]).front().first,
                                b = carriers_.of(face.node_b[p]).front().first;
             if (glued && !control(a) && !control(b)) {
-                ties_.push_back({at(node_piece_[at(a)]), at(node_piece_[at(b)]), place(face.node_a[p])});
+                ties_.push_back({index(node_piece_[index(a)]), index(node_piece_[index(b)]), place(face.node_a[p])});
                 continue;
             }
             for (std::size_t c = 0; c < (glued ? dimension_ : 1); ++c) {
@@ -214,7 +213,7 @@ void Search::find_ties(bool tied) {
 void Search::measure() {
     std::map<std::size_t, std::array<Point, 2>> box;
     for (std::int64_t node = 0; node < mesh_.node_count(); ++node) {
-        if (node_piece_[at(node)] < 0) continue;
+        if (node_piece_[index(node)] < 0) continue;
         poll_cancel("check");
         const Point p = place(node);
         auto [entry, fresh] = box.try_emplace(group(node), std::array<Point, 2>{p, p});
@@ -308,7 +307,7 @@ std::vector<double> Search::gram(const std::vector<std::size_t>& cluster) {
     for (const Row& constraint : rows_) {
         if (offset.find(group(constraint.front().first / mesh_.dimension())) == offset.end()) continue;
         for (const auto& [dof, coefficient] : constraint)
-            add(group(dof / mesh_.dimension()), at(dof % mesh_.dimension()), place(dof / mesh_.dimension()),
+            add(group(dof / mesh_.dimension()), index(dof % mesh_.dimension()), place(dof / mesh_.dimension()),
                 coefficient);
         close();
     }
@@ -365,7 +364,7 @@ FreeMotion Search::describe(const std::vector<std::size_t>& cluster, const std::
     std::size_t mover = 0;
     std::vector<double> size(cluster.size(), 0.0);
     for (std::size_t i = 0; i < cluster.size(); ++i) {
-        for (std::size_t m = 0; m < modes_; ++m) size[i] = std::max(size[i], std::abs(motion[i * modes_ + m]));
+        size[i] = max_abs({motion.data() + i * modes_, modes_});
         largest = std::max(largest, size[i]);
         // Bodies are more informative than control nodes, which follow them.
         const bool tells = control_group(cluster[mover]) == control_group(cluster[i]) ? size[i] > size[mover]
@@ -395,11 +394,11 @@ FreeMotion Search::describe(const std::vector<std::size_t>& cluster, const std::
         if (found == cluster.end()) continue;
         const std::size_t first = static_cast<std::size_t>(found - cluster.begin()) * modes_;
         for (std::size_t m = 0; m < modes_; ++m) {
-            work[at(force.pattern)] +=
+            work[index(force.pattern)] +=
                 force.value * motion[first + m] / largest *
-                mode(frame_[*found], dimension_, m, at(force.dof % mesh_.dimension()), place(node));
+                mode(frame_[*found], dimension_, m, index(force.dof % mesh_.dimension()), place(node));
         }
-        scale[at(force.pattern)] += std::abs(force.value);
+        scale[index(force.pattern)] += std::abs(force.value);
     }
     for (std::size_t p = 0; p < work.size(); ++p) {
         const double relative = scale[p] > 0.0 ? std::abs(work[p]) / scale[p] : 0.0;
