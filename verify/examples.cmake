@@ -17,14 +17,14 @@ function(delam_example_test scene language)
              COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/verify/cases/same_history.py ${options}
                      $<TARGET_FILE:example_${name}> ${command})
   endif()
-  set_tests_properties(example/${scene}_${language} PROPERTIES LABELS "quick;example" TIMEOUT 300 SKIP_RETURN_CODE 77
+  set_tests_properties(example/${scene}_${language} PROPERTIES LABELS "quick;example" TIMEOUT ${DELAM_TEST_SECONDS} SKIP_RETURN_CODE 77
     ENVIRONMENT "DELAM_LIBRARY=$<TARGET_FILE:delam>;PYTHONPATH=${PROJECT_SOURCE_DIR}/bindings/python/src;PYTHONDONTWRITEBYTECODE=1;JULIA_DEPOT_PATH=${PROJECT_BINARY_DIR}/bindings/julia/depot:")
 endfunction()
 
 if(NOT DELAM_SANITIZE)
   add_test(NAME example/readme COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/verify/cases/readme_program.py
            ${PROJECT_SOURCE_DIR}/README.md $<TARGET_FILE:delam> ${PROJECT_SOURCE_DIR}/include ${CMAKE_C_COMPILER})
-  set_tests_properties(example/readme PROPERTIES LABELS "quick;example" TIMEOUT 120)
+  set_tests_properties(example/readme PROPERTIES LABELS "quick;example" TIMEOUT ${DELAM_TEST_SECONDS})
   foreach(scene enf dcb-host-law)
     string(REPLACE - _ name ${scene})
     delam_example_test(${scene} c)

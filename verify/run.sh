@@ -76,9 +76,6 @@ build() {
     cmake --preset "$preset" "$@" && cmake --build --preset "$preset"
 }
 
-# Cases that stay quick without optimisation and with every access checked; the long marches are not among them.
-light_cases='capi|callbacks|snapshot|single_pair|spring|floating|patch|dofs|reference|symmetry_units'
-
 # valgrind does not know AVX-512.
 memory_checked() {
     OPENBLAS_CORETYPE=Haswell CK_FORK=no CK_DEFAULT_TIMEOUT=0 valgrind --quiet --error-exitcode=9 --leak-check=full \
@@ -112,7 +109,7 @@ if ((failed == 0)); then
 fi
 check "build with sanitizers" build asan -DDELAM_BUILD_CLI=OFF -DDELAM_BUILD_EXAMPLES=OFF
 if [[ -f build/asan/verify/CTestTestfile.cmake ]]; then
-    CK_FORK=no tests asan -j2 --label-exclude long --tests-regex "^(unit/.*|case/test_($light_cases)|fuzz/replay_.*)\$"
+    CK_FORK=no tests asan -j2 --label-regex '^sanitized$'
 fi
 if [[ -f build/release/lib/libdelam.so ]]; then
     check "quick report" /usr/bin/python3 verify/report/make.py --build build/release --out out/report-quick --quick

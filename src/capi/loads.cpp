@@ -18,8 +18,6 @@ namespace {
 using namespace delam;
 using Direction = std::array<double, 3>;
 
-std::size_t size(std::int64_t count) { return static_cast<std::size_t>(count); }
-
 void require_name(const char* name) {
     require_pointer(name, "name");
     const std::string word = name;
@@ -40,8 +38,8 @@ Direction require_direction(const Mesh& mesh, const double* direction) {
     Direction unit{};
     double length = 0.0;
     for (int d = 0; d < mesh.dimension(); ++d) {
-        unit[size(d)] = direction[d] / largest;
-        length += unit[size(d)] * unit[size(d)];
+        unit[index(d)] = direction[d] / largest;
+        length += unit[index(d)] * unit[index(d)];
     }
     for (double& value : unit) value /= std::sqrt(length);
     return unit;
@@ -112,11 +110,11 @@ std::vector<std::int64_t> require_patterns(const Problem& problem, std::int64_t 
                                            std::int32_t index_base, Pattern::Drives drives) {
     require_count(count, "pattern_count");
     require_array(patterns, count, "patterns");
-    std::vector<std::int64_t> list(size(count));
+    std::vector<std::int64_t> list(index(count));
     for (std::int64_t i = 0; i < count; ++i) {
-        list[size(i)] = require_index(patterns[i], static_cast<std::int64_t>(problem.patterns.size()), index_base,
-                                      text("patterns[", i, "]"));
-        const Pattern& pattern = problem.patterns[size(list[size(i)])];
+        list[index(i)] = require_index(patterns[i], static_cast<std::int64_t>(problem.patterns.size()), index_base,
+                                       text("patterns[", i, "]"));
+        const Pattern& pattern = problem.patterns[index(list[index(i)])];
         if (pattern.drives != Pattern::Drives::nothing && pattern.drives != drives) {
             fail(DELAM_ERROR_PROBLEM, "pattern '", pattern.name, "' drives ", name_of(pattern.drives),
                  " already, it cannot drive both");
@@ -129,7 +127,7 @@ std::vector<double> prescribed(const Problem& problem, const std::vector<std::in
                                const double* coefficients) {
     std::vector<double> list(problem.patterns.size(), 0.0);
     for (std::size_t p = 0; p < patterns.size(); ++p) {
-        double& sum = list[size(patterns[p])];
+        double& sum = list[index(patterns[p])];
         sum += coefficients[p];
         require_no_overflow(sum, "the coefficient of pattern ", patterns[p]);
     }
@@ -147,7 +145,7 @@ std::unordered_map<std::int64_t, std::vector<Direction>> held_directions(const P
         double length = 0.0;
         for (const double c : constraint.coefficient) length = std::hypot(length, c);
         for (std::size_t i = 0; i < constraint.dof.size(); ++i) {
-            direction[size(constraint.dof[i] % dimension)] = constraint.coefficient[i] / length;
+            direction[index(constraint.dof[i] % dimension)] = constraint.coefficient[i] / length;
         }
         held[constraint.dof.front() / dimension].push_back(direction);
     }
@@ -174,7 +172,7 @@ bool depends(std::vector<Direction> others, Direction direction) {
 }
 
 void mark(Problem& problem, const std::vector<std::int64_t>& patterns, Pattern::Drives drives) noexcept {
-    for (const std::int64_t p : patterns) problem.patterns[size(p)].drives = drives;
+    for (const std::int64_t p : patterns) problem.patterns[index(p)].drives = drives;
 }
 
 }  // namespace
@@ -228,7 +226,7 @@ int32_t delam_problem_prescribe_nodes(delam_problem* problem, int64_t count, con
             }
             others.push_back(unit);
             Terms terms(*core.mesh);
-            for (std::int64_t d = 0; d < dimension; ++d) terms.add(node, d, unit[size(d)]);
+            for (std::int64_t d = 0; d < dimension; ++d) terms.add(node, d, unit[index(d)]);
             added.push_back(terms.constraint(prescribed(core, list, coefficients + i * pattern_count)));
         }
         core.constraints.insert(core.constraints.end(), std::make_move_iterator(added.begin()),
@@ -270,7 +268,7 @@ int32_t delam_problem_prescribe_mean(delam_problem* problem, int64_t count, cons
             }
             poll_cancel("loads");
             for (std::int64_t d = 0; d < dimension; ++d)
-                terms.add(members[i].first, d, members[i].second / sum * unit[size(d)]);
+                terms.add(members[i].first, d, members[i].second / sum * unit[index(d)]);
         }
         core.constraints.push_back(terms.constraint(prescribed(core, list, coefficients)));
         mark(core, list, Pattern::Drives::displacement);
@@ -339,7 +337,7 @@ int32_t delam_problem_add_periodic(delam_problem* problem, int64_t period_count,
             controls.push_back(node);
         }
         const auto pairs =
-            periodic_pairs(*core.mesh, {periods, size(period_count * dimension)}, tolerance == 0.0 ? 1e-6 : tolerance);
+            periodic_pairs(*core.mesh, {periods, index(period_count * dimension)}, tolerance == 0.0 ? 1e-6 : tolerance);
         std::vector<Constraint> added;
         for (const PeriodicPair& pair : pairs)
             for (std::int64_t d = 0; d < dimension; ++d) {

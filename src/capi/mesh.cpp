@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/numbers.hpp"
 #include "capi/handles.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/selection.hpp"
@@ -12,11 +13,9 @@ namespace {
 
 using namespace delam;
 
-std::size_t size(std::int64_t count) { return static_cast<std::size_t>(count); }
-
 template <class T>
 std::span<const T> view(const T* data, std::int64_t count) {
-    return {data, size(count)};
+    return {data, index(count)};
 }
 
 CellType require_cell_type(std::int32_t type, std::int32_t dimension) {
@@ -57,9 +56,9 @@ std::int32_t require_body(const Mesh& mesh, std::int32_t label, const char* name
     return body;
 }
 
-const InterfaceGeometry& require_interface(const Mesh& mesh, std::int64_t index) {
+const InterfaceGeometry& require_interface(const Mesh& mesh, std::int64_t interface) {
     const auto count = static_cast<std::int64_t>(mesh.interfaces().size());
-    return mesh.interfaces()[size(require_index(index, count, 0, "interface_index"))];
+    return mesh.interfaces()[index(require_index(interface, count, 0, "interface_index"))];
 }
 
 struct Cells {
@@ -75,18 +74,18 @@ Cells take_cells(const Mesh& mesh, std::int32_t cell_type, std::int64_t cell_cou
     require_array(connectivity, cell_count, "connectivity");
     require_base(index_base);
     const std::int64_t per_cell = topology(cells.type).nodes;
-    cells.nodes.resize(size(cell_count * per_cell));
+    cells.nodes.resize(index(cell_count * per_cell));
     for (std::int64_t i = 0; i < cell_count * per_cell; ++i) {
         if (connectivity[i] < index_base || connectivity[i] - index_base >= mesh.node_count()) {
             fail(DELAM_ERROR_ARGUMENT, "connectivity: cell ", i / per_cell + index_base, " has node ", connectivity[i],
                  ", outside ", index_base, " .. ", mesh.node_count() - 1 + index_base);
         }
-        cells.nodes[size(i)] = connectivity[i] - index_base;
+        cells.nodes[index(i)] = connectivity[i] - index_base;
     }
-    cells.labels.assign(size(cell_count), 0);
+    cells.labels.assign(index(cell_count), 0);
     for (std::int64_t c = 0; c < cell_count && bodies != nullptr; ++c) {
         if (bodies[c] < 0) fail(DELAM_ERROR_ARGUMENT, "bodies[", c, "] = ", bodies[c], " must be >= 0");
-        cells.labels[size(c)] = bodies[c];
+        cells.labels[index(c)] = bodies[c];
     }
     return cells;
 }

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tests the scanner of functions on code whose lengths are known, and plants what sizes.py and words.py must refuse."""
+
+import sys
+
+import scanner
+import sizes
+import words
+
+CODE = r'''#include <vector>
+#define SHORT(x) \
+    { x }
+namespace delam {
+namespace {
+constexpr int table[] = {1, 2}, other[] = {3};  // a comment with {
+constexpr Row rows[] = {
+    {"a", 1},
+    {"b{", 2},
+};
+const char* text() { return "}"; }
+}  // namespace
+extern "C" {
+int one(void) { return 1; }
+int two(void) {
+    return '{' + 1'000;
+}
+}
+Thing::Thing(int a)
+    : a_{a},
+      b_(make([](int i) { return i; })),
+      c_{std::vector<int>{1, 2}} {
+    if (a) {
+        b_ = 0;
+    }
+}
+template <class T, class U = Pair<int, int>>
+struct Holder {
+    struct Inner {
+        int x{0};
+    };
+    explicit Holder(T t) : t_(t) {}
+public:
+    int get() const noexcept {
+        return t_;
+    }
+    std::function<int(int)> call = [](int i) {
+        return i;
+    };
+    T t_;
+};
+int long_signature(int a,
+                   int b) {
+    return a + b;
+}
+}  // namespace delam
+'''
+# First line and number of lines, counted by hand.
+EXPECTED = [(11, 1), (14, 1), (15, 3), (19, 8), (32, 1), (34, 3), (37, 3), (42, 4)]
+
+
+def lengthy(lines):
+    return "int f() {\n" + "    g();\n" * (lines - 2) + "}\n"
+
+
+def main():
+    found = list(scanner.functions(CODE))
+    assert found == EXPECTED, f"found {found}, expected {EXPECTED}"
+    refused = {
+        "a wide line": ("verify/a.jl", "x" * 121 + "\n"),
+        "a long function": ("src/a/b.cpp", lengthy(81)),
+        "a long function after a constructor": ("src/a/b.cpp", "A::A() : a_{1} {}\n" + lengthy(81)),
+        "a long function in a class": ("src/a/b.hpp", "class A {\n" + lengthy(81) + "};\n"),
+        "a long function for C": ("src/a/b.cpp", 'extern "C" {\n' + lengthy(81) + "}\n"),
+        "a long file": ("src/a/b.cpp", "int a;\n" * 501),
+    }
+    for what, (name, text) in refused.items():
+        assert len(list(sizes.problems(name, text))) == 1, f"{what} was not refused"
+    fine = {
+        "a full line": ("verify/a.jl", "x" * 120 + "\n"),
+        "a full function": ("src/a/b.cpp", lengthy(80)),
+        "two functions": ("src/a/b.cpp", lengthy(80) + lengthy(80)),
+        "a long function elsewhere": ("verify/b.cpp", lengthy(200)),
+        "a full file": ("src/a/b.cpp", "int a;\n" * 500),
+    }
+    for what, (name, text) in fine.items():
+        assert not list(sizes.problems(name, text)), f"{what} was refused"
+    planted = {
+        "a cast": "auto* c = dynamic_cast<Condensed*>(op);\n",
+        "a copy of index()": "std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }\n",
+        "a copy of index() under another name": "inline size_t at(Index i) { return static_cast<size_t>(i); }\n",
+        "a copy of max_abs()": "double m = 0.0;\nfor (const double v : values) m = std::max(m, std::abs(v));\n",
+    }
+    for what, text in planted.items():
+        assert list(words.problems("src/a/b.cpp", text, words.RULES)), f"{what} was not refused"
+        assert not list(words.problems("src/a/b.cpp", "// " + text.replace("\n", " "), words.RULES)), f"{what} in a comment was refused"
+    print(f"{len(EXPECTED)} functions, {len(refused) + len(planted)} planted")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

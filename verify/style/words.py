@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checks that src says some things in their own files only, and some nowhere.
+
+    python3 verify/style/words.py
+"""
+
+import pathlib
+import re
+import sys
+
+import scanner
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# What may stand in the files listed only, as an expression over the code without comments and literals.
+RULES = [
+    ("dynamic_cast", r"\bdynamic_cast\b", []),
+    ("a helper that makes an index of an integer, besides index() of base/numbers.hpp",
+     r"\b(?:std::)?size_t \w+\([\w:]+ (\w+)\) (?:noexcept )?\{\s*return static_cast<(?:std::)?size_t>\(\1\);",
+     ["base/numbers.hpp"]),
+    ("a loop for the largest absolute value of a list, besides max_abs() of base/numbers.hpp",
+     r"for \((?:const )?(?:double|auto)&? (\w+) : [\w.()\[\]]+\)\s*\{?\s*(\w+) = std::max\(\2, std::abs\(\1\)\);",
+     ["base/numbers.hpp"]),
+]
+
+
+def problems(name, text, rules):
+    """Each place of a file of src that a rule refuses."""
+    code = scanner.bare(text)
+    for what, pattern, files in rules:
+        if name.removeprefix("src/") in files:
+            continue
+        for m in re.finditer(pattern, code):
+            yield f"{name}:{code.count(chr(10), 0, m.start()) + 1}: {what}"
+
+
+def main():
+    paths = sorted((ROOT / "src").rglob("*.[ch]pp"))
+    wrong = [line for p in paths
+             for line in problems(p.relative_to(ROOT).as_posix(), p.read_text(encoding="utf-8"), RULES)]
+    print(f"{len(paths)} files, {len(RULES)} rules")
+    for line in wrong:
+        print(line, file=sys.stderr)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
