@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The program of the README, and the examples in every language: one history each, that of the host in C, and the values of
-# examples/reference.csv.
+# The program of the README, and the examples in every language: one history each, that of the host in C, and the
+# values of examples/reference.csv.
 
 # delam_example_test(SCENE LANGUAGE COMMAND...): what cannot run here is a test that says so and is skipped.
 function(delam_example_test scene language)
@@ -11,20 +11,23 @@ function(delam_example_test scene language)
   endif()
   set(command ${ARGN})
   if(NOT TARGET example_${name} OR (NOT command AND NOT language STREQUAL c))
-    add_test(NAME example/${scene}_${language} COMMAND sh -c "echo 'skipped: the host of ${scene} in ${language} is not built'; exit 77")
+    add_test(NAME example/${scene}_${language}
+             COMMAND sh -c "echo 'skipped: the host of ${scene} in ${language} is not built'; exit 77")
   else()
     add_test(NAME example/${scene}_${language}
              COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/verify/cases/same_history.py ${options}
                      $<TARGET_FILE:example_${name}> ${command})
   endif()
-  set_tests_properties(example/${scene}_${language} PROPERTIES LABELS "quick;example" TIMEOUT ${DELAM_TEST_SECONDS} SKIP_RETURN_CODE 77
-    ENVIRONMENT "DELAM_LIBRARY=$<TARGET_FILE:delam>;PYTHONPATH=${PROJECT_SOURCE_DIR}/bindings/python/src;PYTHONDONTWRITEBYTECODE=1;JULIA_DEPOT_PATH=${PROJECT_BINARY_DIR}/bindings/julia/depot:")
+  set_tests_properties(example/${scene}_${language} PROPERTIES LABELS "quick;example" TIMEOUT ${DELAM_LIMIT}
+    SKIP_RETURN_CODE 77
+    ENVIRONMENT "DELAM_LIBRARY=$<TARGET_FILE:delam>;PYTHONPATH=${PROJECT_SOURCE_DIR}/bindings/python/src;\
+PYTHONDONTWRITEBYTECODE=1;JULIA_DEPOT_PATH=${PROJECT_BINARY_DIR}/bindings/julia/depot:")
 endfunction()
 
 if(NOT DELAM_SANITIZE)
   add_test(NAME example/readme COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/verify/cases/readme_program.py
            ${PROJECT_SOURCE_DIR}/README.md $<TARGET_FILE:delam> ${PROJECT_SOURCE_DIR}/include ${CMAKE_C_COMPILER})
-  set_tests_properties(example/readme PROPERTIES LABELS "quick;example" TIMEOUT ${DELAM_TEST_SECONDS})
+  set_tests_properties(example/readme PROPERTIES LABELS "quick;example" TIMEOUT ${DELAM_LIMIT})
   foreach(scene enf dcb-host-law)
     string(REPLACE - _ name ${scene})
     delam_example_test(${scene} c)

@@ -7,7 +7,8 @@ install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/delam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
         FILES_MATCHING PATTERN "*.h")
 # The contract, and the documents that the header names, under the paths that it gives.
-install(FILES ${PROJECT_SOURCE_DIR}/include/GLOSSARY.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/include COMPONENT development)
+install(FILES ${PROJECT_SOURCE_DIR}/include/GLOSSARY.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/include
+        COMPONENT development)
 foreach(document capi/CONTRACT.md reduction/README.md reduction/condensed/README.md evolution/README.md)
   get_filename_component(folder src/${document} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/src/${document} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder}

@@ -7,7 +7,8 @@ function(run)
 endfunction()
 # Without section groups: a linker would take the host's group of the same name for ours, and ours for the host's.
 run(${LD} -r --force-group-allocation --whole-archive ${ARCHIVE} -o ${OBJECT})
-# objcopy makes names local that are global or weak, and leaves those that GNU calls unique; made weak, they are gone too.
+# objcopy makes names local that are global or weak, and leaves those that GNU calls unique; made weak, they are gone
+# too.
 execute_process(COMMAND ${NM} --defined-only ${OBJECT} OUTPUT_VARIABLE names COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL " u [^\n]+" unique "${names}")
 if(unique)

@@ -579,7 +579,8 @@ START_TEST(exports) {
 }
 END_TEST
 
-/* The plan: words and items say the same, each with a reason; a law of exponents 1 needs no mixity, a bonded interface no contact. */
+/* The plan: words and items say the same, each with a reason; a law of exponents 1 needs no mixity, a bonded
+ * interface no contact. */
 START_TEST(plans) {
     static const char *const exponents[] = {"onset_exponent_1", "onset_exponent_2", "toughness_exponent_1",
                                             "toughness_exponent_2"};
