@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stiffness, stresses and rigid motions against continuum formulas that need no finite elements.
+#include <gsl/gsl_eigen.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -68,38 +70,14 @@ std::vector<double> dense(const SparseMatrix& k) {
     return full;
 }
 
-// Eigenvalues of a symmetric matrix by Jacobi's rotations, ascending, to n times 1e-17 of the largest diagonal entry.
+// Eigenvalues of a symmetric matrix, ascending.
 std::vector<double> eigenvalues(std::vector<double> a, std::size_t n) {
-    double largest = 0.0;
-    for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, std::abs(a[i * n + i]));
-    bool turned = true;
-    for (int sweep = 0; sweep < 30 && turned; ++sweep) {
-        turned = false;
-        for (std::size_t p = 0; p < n; ++p) {
-            for (std::size_t q = p + 1; q < n; ++q) {
-                if (std::abs(a[p * n + q]) <= 1e-17 * largest) continue;
-                turned = true;
-                const double theta = (a[q * n + q] - a[p * n + p]) / (2.0 * a[p * n + q]);
-                const double t = (theta >= 0.0 ? 1.0 : -1.0) / (std::abs(theta) + std::hypot(theta, 1.0));
-                const double c = 1.0 / std::hypot(t, 1.0);
-                const double s = t * c;
-                for (std::size_t i = 0; i < n; ++i) {
-                    const double x = a[i * n + p];
-                    const double y = a[i * n + q];
-                    a[i * n + p] = c * x - s * y;
-                    a[i * n + q] = s * x + c * y;
-                }
-                for (std::size_t i = 0; i < n; ++i) {
-                    const double x = a[p * n + i];
-                    const double y = a[q * n + i];
-                    a[p * n + i] = c * x - s * y;
-                    a[q * n + i] = s * x + c * y;
-                }
-            }
-        }
-    }
     std::vector<double> values(n);
-    for (std::size_t i = 0; i < n; ++i) values[i] = a[i * n + i];
+    gsl_matrix_view matrix = gsl_matrix_view_array(a.data(), n, n);
+    gsl_vector_view list = gsl_vector_view_array(values.data(), n);
+    gsl_eigen_symm_workspace* const work = gsl_eigen_symm_alloc(n);
+    gsl_eigen_symm(&matrix.matrix, &list.vector, work);
+    gsl_eigen_symm_free(work);
     std::sort(values.begin(), values.end());
     return values;
 }
