@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Jump rows that supports bind to other rows: prescribing a mean over the nodes of one face while the other face is
-// held, say, fixes a combination of jumps, j_row = sum of n_k j_k + o(theta).
+// Jump rows that supports bind to other rows. For example, if the mean over the nodes of one face is prescribed and the
+// other face is fixed, a combination of jumps is prescribed: j_row = sum of n_k j_k + o(theta).
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,7 @@ struct BoundRow {
     std::vector<double> offset;        // [patterns] o
 };
 
-// One row of each independent equation among the jumps alone; rows that the device prescribes outright are not among
-// them.
+// One row for each independent equation among the jumps alone; excludes rows that the device prescribes completely.
 std::vector<BoundRow> bound_rows(const Problem& problem);
 
 }  // namespace delam

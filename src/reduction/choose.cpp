@@ -20,17 +20,19 @@ double number(std::int64_t n) { return static_cast<double>(n); }
 double square(double x) { return x * x; }
 double cube(double x) { return x * x * x; }
 
-// Fitted constants; what they are fitted to stands in README.md.
-constexpr double dense_copies = 4.0;  // m^2 matrices at the peak of a condensed march: S, its condensations, a release
-constexpr double condensed_start = 0.7;  // of m^3 operations until the first zone is there
-constexpr double condensed_step = 0.2;   // and a load step (0.06 to 0.4)
-constexpr double free_order = 0.65;    // entries of a free order, of those left of the trailing triangle (0.53 to 0.69)
+// Fitted constants; README.md describes the data.
+// m^2 matrices at the peak of a condensed analysis: S, its condensations, a release
+constexpr double dense_copies = 4.0;
+constexpr double condensed_start = 0.7;  // of m^3 operations until the first zone exists
+constexpr double condensed_step = 0.2;   // of m^3 operations per load step (0.06 to 0.4)
+// entries with a free ordering, relative to those left of the trailing triangle (0.53 to 0.69)
+constexpr double free_order = 0.65;
 constexpr double supernodes = 1.25;    // numbers stored per entry of a factor
 constexpr double series_bytes = 32.0;  // per square of a subdomain's jumps: the series preconditioner while it is built
-constexpr double feti_solves = 16.0;   // displacement solves a load step
-constexpr double feti_iterations = 20.0;  // Krylov iterations a solve
-constexpr double from_memory =
-    5.0;  // a matrix-vector product waits for memory: so many times slower than a factorisation
+constexpr double feti_solves = 16.0;   // displacement solves per load step
+constexpr double feti_iterations = 20.0;  // Krylov iterations per solve
+// A matrix-vector product waits for memory: its operations are this many times slower than a factorisation's.
+constexpr double from_memory = 5.0;
 
 std::string mebibytes(double bytes) { return text(std::round(bytes / 1048576.0), " MiB"); }
 std::string seconds(double operations) {
@@ -38,7 +40,7 @@ std::string seconds(double operations) {
     return text(s < 0.01 ? std::round(s * 1e5) / 1e5 : std::round(s * 100.0) / 100.0, " s");
 }
 
-// Nodes on the cuts through a box of `nodes` nodes in so many parts: the longest side is cut again and again.
+// Nodes on the cuts through a box of `nodes` nodes in that many parts: the longest side is cut repeatedly.
 double cut_nodes(const std::array<double, 3>& side, int dimension, double nodes, double parts) {
     double volume = 1.0;
     for (int i = 0; i < dimension; ++i) volume *= side[static_cast<std::size_t>(i)];
@@ -71,7 +73,7 @@ ReductionCost predict_condensed(const Bulk& bulk) {
     cost.setup = bulk.size().flops + (2.0 / 3.0 + condensed_start) * cube(m);
     cost.longest = std::max(bulk.size().flops, 2.0 / 3.0 * cube(m));
     cost.step = condensed_step * cube(m);
-    // While it is factored, T^T K T and CHOLMOD's permuted copy of it; in the march the dense matrices.
+    // During the factorisation, T^T K T and CHOLMOD's permuted copy of it; during the analysis, the dense matrices.
     cost.bytes = stiffness + factor + std::max(2.0 * transformed, 8.0 * dense_copies * m * m);
     return cost;
 }
@@ -125,7 +127,7 @@ ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, doub
     boundary = std::min(copies, dofs) / parts;
     const double jumps = 2.0 * number(problem.jump_count()) / parts;
     const double inside = std::max(dofs / parts, 2.0);
-    // Of a factor of so many unknowns inside, its coupling to the boundary included.
+    // For a factor with that many interior unknowns, including its coupling to the boundary.
     const double entries = dim == 2 ? 5.0 * inside * std::log2(inside) : 17.0 * std::pow(inside, 4.0 / 3.0);
     const double sparse = 3.0 * entries * entries / inside + cube(boundary) / 3.0;
     const bool series = problem.options.preconditioner == "series";

@@ -21,7 +21,7 @@ namespace delam {
 class Bulk;
 class Zone;
 
-// What an interface row is at the moment.
+// The present state of the interface rows.
 struct Springs {
     std::vector<double> stiffness;  // [rows] s = weight k zeta >= 0, F/L; 0: debonded (no force)
     std::vector<std::uint8_t>
@@ -53,31 +53,31 @@ public:
     virtual std::vector<double> reaction(std::span<const double> theta, const Response& response) const = 0;
     // Displacements [mesh DOFs] of a response of this operator.
     virtual std::vector<double> displacement(std::span<const double> theta, const Response& response) const = 0;
-    // Largest out-of-balance force at a node of the displacements above, with the response's interface forces and
-    // reactions, F.
+    // Largest out-of-balance force, F, at a node for the displacements above, with the response's interface forces and
+    // reactions.
     virtual double equilibrium_defect(std::span<const double> theta, const Response& response) const = 0;
-    // Energy, F L, that rounding may add or take where the stiffness of the response is a small difference of large
-    // ones; an estimate from what is at hand. 0: none, or one that the solver's own residual shows.
+    // Estimate of the energy error, F L, due to rounding where the stiffness of the response is a small difference of
+    // large ones. 0: none, or one that the solver's own residual shows.
     virtual double rounding_energy(std::span<const double> /*theta*/, const Response& /*response*/) const {
         return 0.0;
     }
-    // Rows whose jump the prescribed displacements alone determine, [rows].
+    // Rows whose jump is determined by the prescribed displacements alone, [rows].
     virtual std::span<const std::uint8_t> prescribed_rows() const = 0;
-    // What of the past the last digits of the next solve depend on (empty: nothing); a recalled memory gives them
-    // again.
+    // The part of the history that affects the last digits of the next solve (empty: none); recalling it reproduces
+    // these digits.
     virtual std::vector<double> memory() const { return {}; }
     virtual void recall(std::span<const double> /*memory*/) {}
-    // Throws Error(DELAM_ERROR_SNAPSHOT) for what memory() cannot have given.
+    // Throws Error(DELAM_ERROR_SNAPSHOT) for numbers that memory() cannot have returned.
     virtual void require_memory(std::span<const double> memory) const {
         if (!memory.empty())
             fail(DELAM_ERROR_SNAPSHOT, "a memory of ", memory.size(), " numbers, this operator has none");
     }
-    // Another operator over the same condensed bodies, with a memory of its own; null: there is none that is cheap.
+    // Another operator over the same condensed bodies, with a memory of its own; null: there is no cheap one.
     virtual std::unique_ptr<JumpOperator> twin() const { return nullptr; }
     // A local dense system about the wanted rows [rows], with everything else minimised out at these springs, for
-    // minimisers that change springs and contact there. It holds until the next call of zone(), solve() or recall().
-    // Null: none this time, or never (offers_zone() is false). tight: a zone at hand that is much larger than what is
-    // wanted is not used.
+    // minimisers that change springs and contact there. It is valid until the next call of zone(), solve() or recall().
+    // Null: none this time, or never (offers_zone() is false). tight: do not use an existing zone that is much larger
+    // than necessary.
     virtual bool offers_zone() const { return false; }
     virtual Zone* zone(const Springs& /*springs*/, std::span<const std::uint8_t> /*wanted*/, bool /*tight*/) {
         return nullptr;
@@ -87,7 +87,7 @@ public:
     // Sparse factorisations of the bodies since the operator was made, and how often displacements were recovered.
     virtual std::int64_t factorisations() const { return 0; }
     virtual std::int64_t recoveries() const { return 0; }
-    // For people: what was built, at what size.
+    // Description for people: what was built, and its size.
     virtual std::string description() const = 0;
 };
 

@@ -13,13 +13,13 @@ namespace delam {
 
 namespace {
 
-// A constraint on more variables than this is left to the dense stage.
+// Constraints on more variables than this are left to the dense stage.
 constexpr std::size_t short_equation = 32;
 
 using Row = SparseElimination::Row;
 
-// Modulus of a body as far as it ranks bodies; 0 where nothing is given. Entries of a given matrix are about E, in
-// space E times an edge; its diagonal may hold supports of the host's, of any size.
+// Modulus of a body, precise enough to rank bodies; 0 if nothing is given. Entries of a given matrix are about E, in
+// space E times an edge; its diagonal may contain supports of the host of any size.
 double modulus(const Problem& problem, std::int32_t body) {
     const auto b = static_cast<std::size_t>(body);
     if (problem.stiffness[b] != nullptr) {
@@ -40,7 +40,7 @@ double modulus(const Problem& problem, std::int32_t body) {
 
 constexpr std::int64_t steps_per_poll = 1024;
 
-// Variables while they are found: ids below the number of mesh DOFs are displacements, the others jump rows.
+// Variables before numbering: ids below the number of mesh DOFs are displacements, the others jump rows.
 class Builder {
 public:
     Builder(const Problem& problem, const Poll& poll)
@@ -72,7 +72,7 @@ private:
     std::vector<Pair> pairs_;
     std::vector<std::size_t> closing_;  // pairs outside the spanning trees: they close rings, or have a tied node
     SparseElimination solved_;
-    std::vector<std::int64_t> bound_;  // jump rows that constraints solve for
+    std::vector<std::int64_t> bound_;  // jump rows for which constraints are solved
     std::vector<Row> open_;            // long constraints
 
     bool displacement(std::int64_t id) const { return id < dofs_; }
@@ -96,9 +96,9 @@ void Builder::find_pairs() {
                 {face.node_a[p], face.node_b[p], row, &face.frame[p * static_cast<std::size_t>(dim_ * dim_)]});
 }
 
-// Control nodes are roots first, so that what they move hangs on them; then the stiffest bodies' nodes. Where soft
-// meets stiff the jump thus moves the soft side alone: on the stiff side its condensed stiffness, that of the soft
-// body, would be a small difference of large numbers.
+// Control nodes are the first roots, so that the nodes they move depend on them; then nodes of the stiffest bodies.
+// Where soft meets stiff, the jump then moves only the soft side: on the stiff side its condensed stiffness, that of
+// the soft body, would be a small difference of large numbers.
 void Builder::hang_nodes() {
     std::map<std::int64_t, std::vector<std::size_t>> pairs_of;
     const auto tied = [this](std::int64_t node) { return carriers_.kind(node) == Carriers::Kind::tied; };
@@ -156,8 +156,9 @@ void Builder::hang_nodes() {
         if (in_tree[p] == 0) closing_.push_back(p);
 }
 
-// What is left of u_b - u_a - Q^T j = 0 once hanging nodes are replaced: where displacements are left (tied nodes,
-// control nodes) one of them hangs on the rest; where none is, the jump of this pair is made up of the ring's others.
+// The remainder of u_b - u_a - Q^T j = 0 after dependent nodes are replaced. If displacements are left (tied nodes,
+// control nodes), one of them is expressed by the rest; otherwise the jump of this pair is a combination of the ring's
+// others.
 void Builder::close_ring(const Pair& pair) {
     std::vector<Row> apart;
     for (std::int64_t k = 0; k < dim_; ++k) {
@@ -189,7 +190,7 @@ void Builder::close_ring(const Pair& pair) {
 }
 
 // The largest coefficient among displacements of bodies, else of control nodes, else of jumps. The preferred node comes
-// first where its coefficient is no small one.
+// first unless its coefficient is small.
 std::int64_t Builder::choose_pivot(const Row& row, std::int64_t preferred_node) const {
     const auto rank = [this](std::int64_t id) {
         if (!displacement(id)) return 2;
@@ -211,8 +212,8 @@ std::int64_t Builder::choose_pivot(const Row& row, std::int64_t preferred_node) 
     return pivot;
 }
 
-// Constraints on one displacement each are resolved first, since they leave others with fewer; then short ones; what is
-// long stays open.
+// Constraints on a single displacement are resolved first, because they shorten others; then short ones; long ones stay
+// open.
 void Builder::take_constraints() {
     for (const Constraint& constraint : problem_.constraints) {
         Row row{{}, constraint.prescribed};

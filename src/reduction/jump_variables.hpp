@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Displacements in variables of which the jumps are a part: u = T v + U theta.
+// Displacements expressed in variables that include the jumps: u = T v + U theta.
 //
-// The two nodes of a pair become one displacement and one jump, u_b = u_a + Q^T j (Q: the pair's frame). Nodes that
-// several pairs join (a triple junction) hang on one root along a spanning tree; the jump of a pair that closes a ring
-// depends on the ring's others. Tied nodes are what they are tied to. A constraint on few variables hangs one of them
-// on the others, exactly and sparsely: a displacement where there is one (u_p = sum of c u + U theta), else a jump. So
-// thousands of periodic pairs cost no unknown. Variables of longer constraints (means over a patch) are kept for the
-// dense stage, and so are control nodes, on which many others hang.
+// The two nodes of a pair become one displacement and one jump, u_b = u_a + Q^T j (Q: the pair's frame). Nodes
+// connected by several pairs (a triple junction) depend on one root along a spanning tree; the jump of a pair that
+// closes a ring depends on the ring's others. Tied nodes are replaced by the nodes to which they are tied. A constraint
+// on few variables expresses one of them by the others, exactly and sparsely: a displacement if there is one (u_p = sum
+// of c u + U theta), else a jump. Thousands of periodic pairs therefore need no unknown. Variables of longer
+// constraints (means over a patch) are kept for the dense stage, and so are control nodes, on which many others depend.
 //
-// With all jumps and kept displacements zero this is the structure bonded everywhere, whose stiffness is definite: so
+// With all jumps and kept displacements zero this is the structure bonded everywhere, whose stiffness is definite, so
 // they can be eliminated last.
 #pragma once
 
@@ -30,14 +30,15 @@ struct JumpVariables {
     std::int64_t count() const { return leading + kept + jumps; }
     std::int64_t trailing() const { return kept + jumps; }
 
-    SparseMatrix transform;                       // T, [mesh DOFs][count]
-    std::vector<std::vector<double>> lift;        // U, [patterns][mesh DOFs]
-    std::vector<SparseVector> row;                // [jump rows] each in independent jumps, 0-based among the jumps
-    std::vector<std::vector<double>> row_offset;  // [jump rows][patterns] what the device adds to them; empty: nothing
-    std::vector<std::int64_t> bound;              // jump rows that constraints, not rings, express by others
+    SparseMatrix transform;                 // T, [mesh DOFs][count]
+    std::vector<std::vector<double>> lift;  // U, [patterns][mesh DOFs]
+    std::vector<SparseVector> row;          // [jump rows] each in independent jumps, 0-based among the jumps
+    // [jump rows][patterns] the device's contribution to them; empty: nothing
+    std::vector<std::vector<double>> row_offset;
+    std::vector<std::int64_t> bound;  // jump rows that constraints, not rings, express by others
 
-    // Constraints left for the dense stage: sum over trailing variables (kept first, then jumps) = sum_p prescribed[p]
-    // theta_p.
+    // Constraints left for the dense stage: sum over trailing variables (kept ones first, then jumps) = sum_p
+    // prescribed[p] theta_p.
     struct Equation {
         SparseVector entries;
         std::vector<double> prescribed;  // [patterns]
@@ -45,7 +46,7 @@ struct JumpVariables {
     std::vector<Equation> equations;
 };
 
-// Coefficients of equations below this are rounding.
+// Smaller coefficients of equations are rounding.
 inline constexpr double dependent_equation = 1e-10;
 
 JumpVariables make_jump_variables(const Problem& problem, const Poll& poll = {});
@@ -57,7 +58,7 @@ struct SolvedEquation {
     SparseVector entries;
     std::vector<double> prescribed;  // [patterns]
 };
-// Equations that follow from others are gone.
+// Drops dependent equations.
 std::vector<SolvedEquation> solve_equations(const JumpVariables& variables);
 
 }  // namespace delam

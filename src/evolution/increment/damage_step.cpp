@@ -47,8 +47,8 @@ std::vector<double> spring_stiffness(const PairLaws& pairs, std::span<const doub
     std::vector<double> s(pairs.law.size() * dim, 0.0);
     for (std::size_t p = 0; p < pairs.law.size(); ++p) {
         if (pairs.law[p] == nullptr) continue;
-        const double scale =
-            pairs.weight[p] * adhesion[p] + 0.0;  // never -0: springs that are equal have the same bits
+        // Never -0: springs that are equal have the same bits.
+        const double scale = pairs.weight[p] * adhesion[p] + 0.0;
         s[p * dim] = scale * pairs.law[p]->normal_stiffness;
         for (std::size_t c = 1; c < dim; ++c) s[p * dim + c] = scale * pairs.law[p]->tangential_stiffness;
     }

@@ -24,15 +24,15 @@ struct Ledger {
     double lower = 0.0;
     double increment = 0.0;  // E_k - E_{k-1} + D_k
     double upper = 0.0;
-    double increment_lower =
-        0.0;  // increment with the mixity of the step before (the one the lower bound is provable with)
+    // Increment with the mixity of the step before (the one the lower bound is provable with).
+    double increment_lower = 0.0;
 
     // Energies of the state from which the cumulative columns count; a state that is set rather than marched to moves
     // them along.
     double initial = 0.0;
     double initial_slides = 0.0;
-    double mixity_error =
-        0.0;  // of the step: by how much the toughness in use misses that of the iterates' own mixities
+    // Of the step: by how much the toughness in use misses that of the iterates' own mixities.
+    double mixity_error = 0.0;
 
     double energy_slides() const { return stored_bulk + stored_interface_slides + load_potential; }
     // What does not close, in either split.
@@ -57,8 +57,8 @@ struct Counts {
     std::int64_t revised_from = 0;       // first step that these returns replaced
     std::int64_t search_candidates = 0;  // states whose energy a search has compared
     double search_margin = 0.0;          // lowest candidate minus the state kept, F L
-    double search_gap =
-        0.0;  // state kept minus what bounds the candidates left out, F L; 0: nothing left out can be lower
+    // State kept minus what bounds the candidates left out, F L; 0: nothing left out can be lower.
+    double search_gap = 0.0;
     std::int64_t substeps = 1;       // steps that this one was cut into
     std::int64_t refused_steps = 0;  // that were too long and not kept
     std::int64_t jumps = 0;          // instants of this step at which the state jumps

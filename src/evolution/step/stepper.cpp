@@ -16,8 +16,8 @@ namespace {
 
 constexpr double rounding = 1e-10;      // of the larger of energy and work: two states that differ by less are as good
 constexpr std::size_t most_starts = 2;  // candidates of a search that a step is minimised from
-constexpr double promising =
-    0.5;  // of its dissipation: by how much a candidate may lie above the step and still be relaxed
+// Of its dissipation: by how much a candidate may lie above the step and still be relaxed.
+constexpr double promising = 0.5;
 
 double scale_of(const Ledger& ledger) { return std::max(std::abs(ledger.energy()), std::abs(ledger.work)); }
 

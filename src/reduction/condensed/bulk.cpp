@@ -75,10 +75,10 @@ SparseMatrix jump_matrix(const Problem& problem) {
     return from_triplets(row, problem.mesh->node_count() * dim, std::move(triplets));
 }
 
-// Groups of constraints up to this size are solved densely.
+// Groups of at most this many constraints are solved densely.
 constexpr std::size_t dense_reactions = 200;
 
-// On rows of unit length, whatever the units of control nodes.
+// For rows of unit length, whatever the units of control nodes.
 std::vector<double> direct_reactions(std::span<const Constraint* const> list, std::span<const double> left) {
     const auto n = static_cast<std::int64_t>(list.size());
     std::vector<std::map<std::int64_t, double>> row(list.size());
@@ -146,8 +146,7 @@ std::vector<double> iterated_reactions(std::span<const Constraint* const> list, 
     return rho;
 }
 
-// A control node that only long constraints refer to has no stiffness at all: its diagonal entry is to be there all the
-// same.
+// A control node used only by long constraints has no stiffness at all; its diagonal entry must exist all the same.
 SparseMatrix with_diagonal(SparseMatrix k, std::int64_t first) {
     std::vector<Triplet> missing;
     for (std::int64_t r = first; r < k.rows; ++r) {
@@ -209,8 +208,8 @@ void Bulk::condense(Monitor& monitor) {
     energy_.stiffness = lower_times_transpose(factor_->trailing_factor(), condensing);
     for (std::int64_t t = 0; t < trailing; ++t) energy_.stiffness(t, t) -= shift[index(t)];
 
-    // Loads: with t = 0 each pattern has the displacements u_p; the forces K u_p - f_p that are left act on the
-    // trailing variables.
+    // Loads: at t = 0 each pattern has the displacements u_p; the remaining forces K u_p - f_p act on the trailing
+    // variables.
     force_.assign(patterns, {});
     for (const NodalForce& f : problem_.forces) {
         auto& force = force_[index(f.pattern)];
@@ -222,7 +221,7 @@ void Bulk::condense(Monitor& monitor) {
         if (!strained.force[p].empty()) force_[p] = std::move(strained.force[p]);
     energy_.load = DenseMatrix(trailing, static_cast<std::int64_t>(patterns));
     std::vector<double> nodal(index(dofs())), carried(index(variables_.count()));
-    std::vector<std::vector<double>> bonded;  // displacements of the patterns with t = 0
+    std::vector<std::vector<double>> bonded;  // displacements of the patterns at t = 0
     for (std::size_t p = 0; p < patterns; ++p) {
         std::vector<double> u = variables_.lift[p];
         multiply(stiffness_, u, nodal);
@@ -245,7 +244,7 @@ void Bulk::condense(Monitor& monitor) {
     call_if_set(condensing);
 
     // A_pq = u_p^T K u_q - f_p^T u_q - f_q^T u_p + W_pq, W of the eigenstrains: no difference of large numbers,
-    // whatever the lift was.
+    // whatever the lift is.
     const std::vector<double> closed(index(energy().rows()), 0.0);
     std::vector<std::vector<double>> stressed;
     for (std::size_t p = 0; p < patterns; ++p) {
@@ -281,8 +280,8 @@ double Bulk::rounding_energy(std::span<const double> theta) const {
     return sum;
 }
 
-// Eigenstrains do no work on rigid motions. Where nothing resists them their load may be all rounding, of which this
-// leaves nothing on a motion that is free.
+// Eigenstrains do no work in rigid motions. If nothing resists these, the load along them is only rounding, and this
+// removes it.
 void Bulk::balance_strains() {
     const auto rows = index(rigid_.rows);
     for (std::size_t p = 0; p < problem_.patterns.size(); ++p) {
@@ -296,13 +295,13 @@ void Bulk::balance_strains() {
     }
 }
 
-// Equations fix some trailing variables by the rest; the displacements among the rest are minimised out.
+// Equations express some trailing variables by the rest; the displacements among the rest are minimised out.
 void Bulk::resolve_equations(const Poll& poll) {
     const std::int64_t trailing = variables_.trailing(), kept = variables_.kept;
     const auto patterns = static_cast<std::int64_t>(problem_.patterns.size());
     const std::vector<SolvedEquation> solved = solve_equations(variables_);
     for (const SolvedEquation& equation : solved) pivot_.push_back(equation.pivot);
-    std::vector<std::int64_t> place(index(trailing), -1);  // in rest, or -2 - place in pivot
+    std::vector<std::int64_t> place(index(trailing), -1);  // position in rest, or -2 - position in pivot
     for (std::size_t i = 0; i < pivot_.size(); ++i) place[index(pivot_[i])] = -2 - static_cast<std::int64_t>(i);
     for (std::int64_t t = 0; t < trailing; ++t) {
         if (place[index(t)] < -1) continue;
@@ -352,7 +351,7 @@ void Bulk::resolve_equations(const Poll& poll) {
         energy_ = DenseEnergy();
     }
 
-    // Rows of the jumps in unknowns.
+    // Rows of the jumps as functions of the unknowns.
     for (std::size_t r = 0; r < variables_.row.size(); ++r) {
         const SparseVector& in_jumps = variables_.row[r];
         JumpRow row;
@@ -438,10 +437,10 @@ std::vector<double> Bulk::residual(std::span<const double> theta, std::span<cons
     return r;
 }
 
-// D^T rho = residual on the DOFs of the constraints, in the least-squares sense with the smallest forces where they
-// depend on each other. Constraints that share DOFs of bodies are solved together, densely. A control node joins
-// thousands: those it joins are solved by conjugate gradients on D D^T, which has few distinct eigenvalues then (rows
-// of few nodes, and one direction a control DOF).
+// D^T rho = residual on the DOFs of the constraints, in the least-squares sense, with the smallest forces if the
+// constraints are dependent. Constraints that share DOFs of bodies are solved together, densely. A control node may
+// connect thousands of them; these are solved by conjugate gradients on D D^T, which then has few distinct eigenvalues
+// (rows of few nodes, and one direction for each control DOF).
 std::vector<double> Bulk::reaction(std::span<const double> theta, std::span<const double> displacement,
                                    std::span<const double> force) const {
     const std::vector<double> left = residual(theta, displacement, force);

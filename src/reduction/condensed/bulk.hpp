@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // All bodies condensed onto the jumps, once.
 //
-// In the variables of jump_variables.hpp the stiffness is T^T K T. Its factor, with the jumps eliminated last, holds
+// In the variables of jump_variables.hpp the stiffness is T^T K T. Its factor, with the jumps eliminated last, contains
 // the Schur complement in its trailing block: S = L_tt L_tt^T - tau, where a shift tau on the trailing diagonal keeps
-// the factor definite for bodies that float. Constraints that bind several unknowns are resolved in the dense stage.
-// What remains is an energy of the unknown jumps x,
+// the factor definite for floating bodies. Constraints that bind several unknowns are resolved in the dense stage. The
+// result is an energy of the unknown jumps x,
 //
-//   E(theta, x) = 1/2 x^T S x - theta^T L^T x + 1/2 theta^T A theta,      jump rows  j = N x + O theta
+//     E(theta, x) = 1/2 x^T S x - theta^T L^T x + 1/2 theta^T A theta,      jump rows  j = N x + O theta
 //
-// (N: the identity but for rows that close a ring of bodies or that a constraint binds; O: jumps that the device
+// (N: the identity except for rows that close a ring of bodies or that a constraint binds; O: jumps that the device
 // prescribes).
 #pragma once
 
@@ -28,12 +28,12 @@ namespace delam {
 
 class Bulk {
 public:
-    // Assembles and analyses; condense() does the numbers.
+    // Assembles and analyses; condense() computes the numbers.
     Bulk(const Problem& problem, Monitor& monitor);
     void condense(Monitor& monitor);
 
     const std::vector<JumpRow>& rows() const { return rows_; }
-    // The first jump row that is nothing but unknown i. Others may be (on opposite faces of a periodic cell).
+    // The first jump row that equals unknown i. Others may equal it too (on opposite faces of a periodic cell).
     const std::vector<std::int64_t>& row_of_unknown() const { return row_of_unknown_; }
     const DenseEnergy& energy() const { return base_ ? base_->energy() : energy_; }
     const DenseMatrix& pattern_stiffness() const { return pattern_stiffness_; }
@@ -44,18 +44,18 @@ public:
     // Forces of the device along the constraints from displacements and interface forces [rows].
     std::vector<double> reaction(std::span<const double> theta, std::span<const double> displacement,
                                  std::span<const double> force) const;
-    // Largest force that nothing balances, F.
+    // Largest unbalanced force, F.
     double defect(std::span<const double> theta, std::span<const double> displacement, std::span<const double> force,
                   std::span<const double> reaction) const;
 
-    // Energy that the factor's rounding leaves in the displacements of the loads themselves, with the unknowns at rest,
-    // F L.
+    // Energy error, F L, that the factor's rounding leaves in the displacements of the loads themselves, with the
+    // unknowns at rest.
     double rounding_energy(std::span<const double> theta) const;
 
     std::int64_t dofs() const { return stiffness_.rows; }
     const FactorSize& size() const { return size_; }  // of the factor with the jumps last
-    // Before condense(): unknowns that are eliminated last, entries of K and T^T K T, numbers that the factor will
-    // hold.
+    // Before condense(): number of unknowns eliminated last, entries of K and T^T K T, numbers that the factor will
+    // store.
     std::int64_t trailing() const { return variables_.trailing(); }
     std::int64_t stiffness_entries() const { return stiffness_.entries(); }
     std::int64_t transformed_entries() const { return transformed_.entries(); }
@@ -67,7 +67,7 @@ public:
 private:
     void resolve_equations(const Poll& poll);
     void balance_strains();
-    // What no element balances: K u - f + B^T force.
+    // The forces that no element balances: K u - f + B^T force.
     std::vector<double> residual(std::span<const double> theta, std::span<const double> displacement,
                                  std::span<const double> force) const;
     std::vector<double> leading_solve(std::span<const double> nodal) const;
@@ -82,21 +82,22 @@ private:
     FactorSize size_;
     std::int64_t factorisations_ = 0;
     mutable std::int64_t recoveries_ = 0;
-    std::vector<std::vector<double>> force_;  // [patterns][mesh DOFs], empty: none; dead ones and those of eigenstrains
+    // [patterns][mesh DOFs], empty: none; dead forces and those of eigenstrains
+    std::vector<std::vector<double>> force_;
 
-    // Trailing variables: t = M r + d theta, r = [kept ones that no equation fixes | unknown jumps].
+    // Trailing variables: t = M r + d theta, r = [kept ones that no equation determines | unknown jumps].
     std::vector<std::int64_t> rest_;   // trailing index of r
-    std::vector<std::int64_t> pivot_;  // trailing index of what equations fix
+    std::vector<std::int64_t> pivot_;  // trailing index of variables determined by equations
     DenseMatrix bound_;                // [pivots][rest]
     DenseMatrix prescribed_;           // [pivots][patterns]
-    std::int64_t kept_rest_ = 0;       // of r, the displacements
+    std::int64_t kept_rest_ = 0;       // number of displacements in r
 
     DenseEnergy energy_;
     std::unique_ptr<Condensation> base_;
     std::vector<JumpRow> rows_;
     std::vector<std::int64_t> row_of_unknown_;
     DenseMatrix pattern_stiffness_;
-    std::vector<double> left_over_;  // [patterns] work of the forces that leading_solve() left, of signs at random
+    std::vector<double> left_over_;  // [patterns] work of the forces that leading_solve() left, with random signs
     DenseMatrix rigid_;
 };
 

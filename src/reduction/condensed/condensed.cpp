@@ -13,13 +13,13 @@ namespace {
 
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-// A spring weaker than this part of the bodies' stiffness is no hold to factor with: such rows stay in the zone, which
-// can.
+// A spring weaker than this fraction of the bodies' stiffness cannot support a factorisation; such rows stay in the
+// zone.
 constexpr double weak = 1e-9;
 // A spring stiffer than this multiple of the bodies' own stiffness hides it.
 constexpr double stiff = 1e3;
 
-// So many choices of a zone later an unknown that has not changed may leave it.
+// An unknown that has not changed may leave the zone after this many choices of a zone.
 constexpr std::uint8_t forgotten = 3;
 
 std::size_t count(const std::vector<std::uint8_t>& set) {
@@ -51,7 +51,7 @@ Condensed::Condensed(std::shared_ptr<Bulk> bulk, const Problem& problem, Monitor
     const PivotedColumns pivots = pivoted_columns(std::move(across), 1e-10);
     for (std::int64_t k = 0; k < pivots.rank; ++k) always_[index(pivots.order[index(k)])] = 1;
 
-    // Unknowns are neighbours when their pairs share a face of the interface, or are one pair.
+    // Unknowns are neighbours if their pairs share a face of the interface, or if they belong to one pair.
     const std::int64_t dim = problem_.mesh->dimension();
     std::vector<std::int64_t> unknown_of(bulk_->rows().size(), -1);
     for (std::size_t i = 0; i < unknowns; ++i)
@@ -121,7 +121,7 @@ std::vector<std::uint8_t> Condensed::grown(std::vector<std::uint8_t> set, std::s
     return set;
 }
 
-// Rings of neighbours between each unknown and a set; what no ring reaches is farthest.
+// Number of rings of neighbours between each unknown and a set; unreachable unknowns are farthest.
 std::vector<std::int64_t> Condensed::distance(std::span<const std::uint8_t> set) const {
     const auto farthest = static_cast<std::int64_t>(set.size());
     std::vector<std::int64_t> away(set.size(), farthest), ring;
@@ -144,7 +144,7 @@ std::vector<std::int64_t> Condensed::distance(std::span<const std::uint8_t> set)
     return away;
 }
 
-// Margins: so that a front may move on for a while before the zone has to follow.
+// Margins, so that a front may advance for a while before the zone has to follow.
 void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wanted) {
     const std::size_t unknowns = always_.size();
     std::vector<std::uint8_t> set(always_);
@@ -167,19 +167,18 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
     for (std::size_t i = 0; i < unknowns && far; ++i) {
         if (near_[i] != 0 || (ahead[i] == 0 && spring_[i] == now[i])) continue;
         back.push_back(static_cast<std::int64_t>(i));
-        // What a stiff spring hides cannot be got back by subtracting it.
+        // Subtracting a stiff spring cannot recover what it hides.
         renew = renew || outer_spring_[i] > stiff * bulk_->energy().stiffness(static_cast<std::int64_t>(i),
                                                                               static_cast<std::int64_t>(i));
     }
-    // Releases, and second steps over what they have piled up, go on until they have cost as much as a new first step
-    // would.
+    // Releases, and second steps over the unknowns they have added, continue until they have cost as much as a new
+    // first step.
     const std::vector<std::uint8_t> near = grown(set, count(set) + std::max<std::size_t>(64, unknowns / 10));
     std::size_t far_ones = 0;
     for (std::size_t i = 0; i < unknowns; ++i) far_ones += near[i] == 0 && now[i] >= 0.0 ? 1 : 0;
     if (!renew)
         renew = spent_ + (back.empty() ? 0.0 : outer_->release_cost(back)) > Condensation::cost(far_ones, count(near));
-    // From here to the end of condense_inner there is no zone: what is interrupted half-way is never taken for a choice
-    // that holds.
+    // From here to the end of condense_inner there is no zone: an interrupted choice is never taken for a valid one.
     zone_.reset();
     spring_ = std::move(now);
     inside_ = std::move(set);
@@ -209,7 +208,8 @@ void Condensed::condense_outer(std::span<const std::uint8_t> near) {
             eliminated.push_back(static_cast<std::int64_t>(i));
         stiffness[i] = std::max(0.0, outer_spring_[i]);
     }
-    // Far ones first: what a front reaches next then lies at the end of the factor, where a release is cheap.
+    // Far ones first: the unknowns that a front reaches next are then at the end of the factor, where a release is
+    // cheap.
     const std::vector<std::int64_t> away = distance(near_);
     std::stable_sort(eliminated.begin(), eliminated.end(),
                      [&](std::int64_t a, std::int64_t b) { return away[index(a)] > away[index(b)]; });
@@ -221,7 +221,7 @@ void Condensed::release(std::vector<std::int64_t> unknowns) {
     spent_ += outer_->release_cost(unknowns);
     std::vector<double> stiffness(outer_spring_);
     for (double& s : stiffness) s = std::max(0.0, s);
-    // A release that fails half-way leaves nothing behind that could be used again.
+    // A release that fails leaves nothing behind that could be used again.
     std::unique_ptr<Condensation> outer = std::move(outer_);
     inner_.reset();
     zone_.reset();
@@ -266,14 +266,14 @@ void Condensed::condense_inner() {
     };
     for (std::size_t r = 0; r < bulk_->rows().size(); ++r) {
         const JumpRow& row = bulk_->rows()[r];
-        // A prescribed row comes with the others of its pair: who works in the zone needs whole pairs.
+        // A prescribed row comes with the others of its pair, because the minimisers in the zone need whole pairs.
         if (row.prescribed() ? !pair_inside(r / dim) : place[index(row.unknowns.front().first)] < 0) continue;
         JumpRow local{{}, row.offset};
         for (const auto& [i, n] : row.unknowns) local.unknowns.emplace_back(place[index(i)], n);
         zone_rows.push_back(static_cast<std::int64_t>(r));
         rows.push_back(std::move(local));
     }
-    // Rigid motions that no active row outside the zone holds.
+    // Rigid motions that no active row outside the zone resists.
     const DenseMatrix& rigid = bulk_->rigid();
     DenseMatrix floating(static_cast<std::int64_t>(zone_unknowns_.size()), 0);
     if (rigid.columns > 0) {
@@ -351,7 +351,7 @@ void Condensed::solve(const Springs& springs, std::span<const double> theta, Res
     std::vector<std::uint8_t> held(zone_->jump_rows().size());
     for (std::size_t z = 0; z < zone_->jump_rows().size(); ++z) {
         const auto r = index(zone_->jump_rows()[z]);
-        if (prescribed_[r] != 0) continue;  // constant: no unknown, whatever holds it
+        if (prescribed_[r] != 0) continue;  // constant: no unknown, whether held or not
         held[z] = springs.held[r];
         if (held[z] == 0 && springs.stiffness[r] > 0.0)
             couplings.push_back({static_cast<std::int64_t>(z), static_cast<std::int64_t>(z), springs.stiffness[r]});
@@ -425,7 +425,7 @@ void Condensed::respond(const Springs& springs, std::span<const double> theta, c
     for (std::size_t r = 0; r < rows; ++r) along -= 0.5 * response.force[r] * (response.jump[r] - offset[r]);
     response.load_potential = potential;
     response.stored_bulk = along - potential;
-    // Strains that are free to follow an eigenstrain store nothing but the rounding of what cancels.
+    // Strains that can freely follow an eigenstrain store only the rounding of terms that cancel.
     if (!problem_.eigenstrains.empty()) response.stored_bulk = std::max(0.0, response.stored_bulk);
     response.multipliers.clear();
     response.rigid.clear();
@@ -453,9 +453,9 @@ double Condensed::equilibrium_defect(std::span<const double> theta, const Respon
     return bulk_->defect(theta, u, response.force, bulk_->reaction(theta, u, response.force));
 }
 
-// Entries of S carry an error of the order of eps S_ii, and so does x^T S x, however little of it is left: plies bend
-// at a stiffness that is (thickness/length)^2 of that of their cells. What the factor itself has lost inside the bodies
-// shows where it is used for the loads.
+// Entries of S have an error of the order of eps S_ii, and so has x^T S x, however small it is: the bending stiffness
+// of plies is (thickness/length)^2 of that of their cells. The factor's own losses inside the bodies appear where it is
+// used for the loads.
 double Condensed::rounding_energy(std::span<const double> theta, const Response& response) const {
     const DenseMatrix& stiffness = bulk_->energy().stiffness;
     const std::vector<double> x = unknowns_of(response);
@@ -464,7 +464,7 @@ double Condensed::rounding_energy(std::span<const double> theta, const Response&
     return std::numeric_limits<double>::epsilon() * sum + bulk_->rounding_energy(theta);
 }
 
-// What was near before any release.
+// The near unknowns before any release.
 std::vector<std::uint8_t> Condensed::first_near() const {
     std::vector<std::uint8_t> near = near_;
     for (const auto& group : released_)
@@ -472,8 +472,8 @@ std::vector<std::uint8_t> Condensed::first_near() const {
     return near;
 }
 
-// Per unknown: springs (outer, now, last) and a code of age, inside and near before any release; then the groups that
-// were released.
+// Per unknown: springs (outer, now, last) and a code of age, inside, and near before any release; then the released
+// groups.
 std::vector<double> Condensed::memory() const {
     if (zone_ == nullptr) return {};
     const std::size_t unknowns = always_.size();
@@ -524,7 +524,7 @@ Condensed::Choice Condensed::parse(std::span<const double> memory) const {
         damaged(inside[i] != 0 && reached[i] == 0);
         damaged(inside[i] == 0 && always_[i] != 0);
     }
-    // A zero with a sign equals one without, but would be saved with it.
+    // Negative zero equals zero, but would be saved with its sign.
     std::size_t at = unknowns;
     for (auto* springs : {&outer_spring, &spring, &last})
         for (std::size_t i = 0; i < unknowns; ++i, ++at) {

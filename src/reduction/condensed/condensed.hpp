@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The jump operator with the bodies condensed onto the jumps once, dense.
 //
-// Between two solves only the process zone and the contact set change. So most unknowns are minimised out at the
-// springs they have (dense_energy.hpp), in two nested steps: far ones rarely, near ones more often; what is left, the
-// zone, is factored in each solve. An unknown whose spring changes although it was minimised out makes the zone be
-// chosen anew; a far one is released by a low-rank update while that is cheaper than minimising all far ones again.
+// Between two solves only the process zone and the contact set change. Most unknowns are therefore minimised out at
+// their present springs (dense_energy.hpp), in two nested steps: far ones rarely, near ones more often. The rest, the
+// zone, is factored in each solve. If the spring of an unknown changes although it was minimised out, the zone is
+// chosen again; a far unknown is released by a low-rank update as long as that is cheaper than minimising all far ones
+// again.
 #pragma once
 
 #include <memory>
@@ -39,19 +40,19 @@ public:
 
     bool offers_zone() const override { return true; }
     Zone* zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) override;
-    // All rows, forces and energies from a zone solution under these springs; none: no unknown moves.
+    // All rows, forces and energies from a zone solution with these springs; none: no unknown moves.
     void respond(const Springs& springs, std::span<const double> theta, const Zone::Solution* solution,
                  Response& response) const;
 
 private:
-    // What memory() says.
+    // The content of memory().
     struct Choice {
         std::vector<std::uint8_t> age, inside, near;
         std::vector<double> outer_spring, spring, last;
         double spent = 0.0;
         std::vector<std::vector<std::int64_t>> released;
     };
-    // Throws Error(DELAM_ERROR_SNAPSHOT) where it contradicts itself or this operator.
+    // Throws Error(DELAM_ERROR_SNAPSHOT) if it contradicts itself or this operator.
     Choice parse(std::span<const double> memory) const;
     Poll poll();
     bool covers(const Springs& springs) const;
@@ -74,13 +75,13 @@ private:
     std::vector<std::int64_t> neighbour_start_, neighbour_;  // of unknowns
     std::vector<std::vector<std::int64_t>> rows_of_;         // [unknowns]
 
-    // The choice that holds, [unknowns]. Springs: -1 is held.
+    // The present choice, [unknowns]. Springs: -1 is held.
     std::vector<std::uint8_t> near_;    // not minimised out in the first step
     std::vector<std::uint8_t> inside_;  // in the zone
     std::vector<double> outer_spring_;  // at the time of the first step
     std::vector<double> spring_;        // at which they are minimised out now
-    std::vector<double> last_;          // of the solve before; all 0: none, or nothing held then
-    std::vector<std::uint8_t> age_;     // choices since it last changed or was asked for, up to `forgotten`
+    std::vector<double> last_;          // of the previous solve; all 0: there was none, or nothing was held
+    std::vector<std::uint8_t> age_;     // number of choices since it last changed or was requested, up to `forgotten`
     std::vector<std::vector<std::int64_t>> released_;  // from the first step, group after group
     double spent_ = 0.0;                               // multiplications since the first step
     std::unique_ptr<Condensation> outer_, inner_;

@@ -33,7 +33,7 @@ std::vector<std::int64_t> sorted(std::span<const std::int64_t> rows) {
     return s;
 }
 
-// The matrix in the upper left corner of a larger one.
+// The upper left corner of a larger matrix.
 DenseMatrix enlarged(const DenseMatrix& a, std::int64_t rows, std::int64_t columns) {
     DenseMatrix b(rows, columns);
     for (std::int64_t c = 0; c < a.columns; ++c)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A quadratic energy of dense unknowns, and what is left of it when some of them are minimised out.
+// A quadratic energy of dense unknowns, and the energy that remains when some of them are minimised out.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace delam {
 
-// E(theta, x) = 1/2 x^T S x - theta^T L^T x  (+ a part of theta alone, which nobody here needs)
+// E(theta, x) = 1/2 x^T S x - theta^T L^T x  (+ a part that depends on theta alone and is not needed here)
 struct DenseEnergy {
     DenseMatrix stiffness;  // S, full symmetric
     DenseMatrix load;       // L, [rows][patterns]
@@ -27,16 +27,16 @@ struct DenseEnergy {
 class Condensation {
 public:
     Condensation() = default;
-    // eliminated: in the order in which they go. stiffness: [parent rows] springs. Throws Error(DELAM_ERROR_NUMERICAL)
-    // when the eliminated rows are not held.
+    // eliminated: in the order of elimination. stiffness: [parent rows] springs. Throws Error(DELAM_ERROR_NUMERICAL) if
+    // nothing holds the eliminated rows.
     Condensation(const DenseEnergy& parent, std::vector<std::int64_t> kept, std::vector<std::int64_t> eliminated,
                  std::span<const double> stiffness, const Poll& poll = {});
-    // Takes parent rows back among the kept ones; `parent` and `stiffness` as they were given.
+    // Returns parent rows to the kept ones; `parent` and `stiffness` must be the original arguments.
     void release(const DenseEnergy& parent, std::span<const std::int64_t> rows, std::span<const double> stiffness,
                  const Poll& poll = {});
-    // Multiplications of a release of these parent rows. Those that were eliminated last are the cheapest.
+    // Multiplications needed to release these parent rows. Those eliminated last are the cheapest.
     double release_cost(std::span<const std::int64_t> rows) const;
-    // Multiplications of minimising out so many and keeping so many.
+    // Multiplications needed to minimise out so many and keep so many.
     static double cost(std::size_t eliminated, std::size_t kept);
 
     const DenseEnergy& energy() const { return energy_; }

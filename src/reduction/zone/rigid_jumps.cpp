@@ -13,14 +13,14 @@ namespace delam {
 
 namespace {
 
-// Eigenvalues of a Gram matrix below this part of the largest one are zero: singular values below 1e-6. Lever arms of
-// supports are longer.
+// Eigenvalues of a Gram matrix below this fraction of the largest one are zero: singular values below 1e-6. Lever arms
+// of supports are longer.
 constexpr double zero = 1e-12;
 
 using Row = std::map<std::int64_t, double>;
 
-// Eigenvectors of A^T A, small eigenvalues (up to `limit`) first: squared, rows tell null vectors to half the digits or
-// less, and what these still do to the rows themselves, image(v) = A^T (A v), tells the rest.
+// Eigenvectors of A^T A, small eigenvalues (up to `limit`) first. Squared rows determine null vectors to half the
+// digits or fewer; the remaining effect on the rows themselves, image(v) = A^T (A v), determines the rest.
 template <class Image>
 DenseMatrix null_vectors(const Eigen& eigen, double limit, const Image& image) {
     const std::int64_t size = eigen.vector.rows;
@@ -42,8 +42,8 @@ DenseMatrix null_vectors(const Eigen& eigen, double limit, const Image& image) {
     return null;
 }
 
-// Motions that no row resists. Control nodes have units of their own: a strain, a length, by what the rows make of
-// them.
+// Motions that no row resists. Control nodes have units of their own (a strain, a length), scaled by their coefficients
+// in the rows.
 DenseMatrix unresisted(std::vector<Row> rows, std::int64_t count, std::int64_t first_control) {
     std::vector<double> unit(static_cast<std::size_t>(count), 0.0);
     for (const Row& row : rows)
@@ -73,7 +73,7 @@ DenseMatrix unresisted(std::vector<Row> rows, std::int64_t count, std::int64_t f
     return null;
 }
 
-// A piece that hangs together through whole faces moves rigidly: translations, and rotations about its centre with unit
+// A piece connected through whole faces moves rigidly: translations, and rotations about its centre with unit
 // displacement at its edge. A control node moves by translations.
 struct Piece {
     std::array<double, 3> centre{};
@@ -108,7 +108,7 @@ public:
             if (!(piece.size > 0.0)) piece.size = 1.0;
     }
 
-    // Of the pieces, then the translations of each control node.
+    // For the pieces, then the translations of each control node.
     std::int64_t first_control() const { return static_cast<std::int64_t>(pieces_.size()) * modes_; }
     std::int64_t count() const {
         return first_control() + static_cast<std::int64_t>(carriers_.controls().size()) * dim_;
@@ -141,7 +141,7 @@ public:
 
     const std::vector<Pieces::Hinge>& hinges() const { return hinges_; }
     const std::vector<Pieces::Row>& resisted() const { return resisted_; }
-    // What holds pieces that cannot move at all.
+    // Rows that hold pieces that cannot move at all.
     void hold(std::vector<Row>& rows) const {
         for (std::size_t p = 0; p < fixed_.size(); ++p)
             for (std::int64_t m = 0; fixed_[p] != 0 && m < modes_; ++m)
@@ -221,7 +221,7 @@ Combinations split_motions(const DenseMatrix& z, std::span<const std::uint8_t> a
         for (std::int64_t j = 0; j < z.columns; ++j)
             for (std::int64_t i = 0; i < z.columns; ++i) gram(i, j) += z(r, i) * z(r, j);
     }
-    // A single active row may be all that holds a motion.
+    // A single active row may be the only one that resists a motion.
     const Eigen eigen = eigen_symmetric(gram);
     const auto image = [&](std::span<const double> v) {
         std::vector<double> off(v.size(), 0.0);

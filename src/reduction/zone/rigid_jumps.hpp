@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Jumps without strain: what the rigid motions that the supports leave free do to the interfaces.
+// Jumps without strain: the effect on the interfaces of the rigid motions that the supports leave free.
 #pragma once
 
 #include "linalg/dense.hpp"
@@ -7,8 +7,8 @@
 
 namespace delam {
 
-// Orthonormal columns, [jump rows][motions]; no column when the supports hold every part by themselves. These are the
-// motions in which a part floats once its interfaces have come apart.
+// Orthonormal columns, [jump rows][motions]; no column if the supports hold every part by themselves. These are the
+// motions in which a part floats once its interfaces have separated.
 DenseMatrix rigid_jumps(const Problem& problem);
 
 // Combinations of the columns of z (of unit length over rows that include these) that vanish on all active rows, and

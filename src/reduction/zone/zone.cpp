@@ -14,8 +14,8 @@ namespace {
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 constexpr double dependent = 1e-10;  // coefficients of dependent rows below this are rounding
-constexpr double rounded = 1e-11;    // of motion times load, what is taken for rounding (measured: up to 5e-13)
-constexpr double unbalanced = 1e-8;  // largest part of a load that may be left on a free motion
+constexpr double rounded = 1e-11;    // of motion times load, which counts as rounding (measured: up to 5e-13)
+constexpr double unbalanced = 1e-8;  // largest part of a load that may remain on a free motion
 
 }  // namespace
 
@@ -48,8 +48,8 @@ Zone::Zone(const DenseEnergy& energy, std::vector<JumpRow> rows, std::vector<std
             for (std::int64_t i = 0; i < shifted_.rows; ++i) shifted_(i, j) += rho * rigid_(i, c) * rigid_(j, c);
 }
 
-// A held row that is an unknown of its own (the first such row of it) takes it out; other held rows fix one unknown
-// each by the rest.
+// The first held row that equals an unknown removes that unknown; each other held row expresses one unknown by the
+// rest.
 void Zone::hold(std::span<const std::uint8_t> held) {
     held_.assign(held.begin(), held.end());
     std::vector<std::uint8_t> out(index(energy_->rows()), 0);
@@ -102,7 +102,7 @@ std::vector<double> Zone::apply(std::span<const double> x) const {
     return y;
 }
 
-// E y: what the free unknowns do to all.
+// E y: the effect of the free unknowns on all.
 std::vector<double> Zone::expand(std::span<const double> reduced) const {
     std::vector<double> x(index(energy_->rows()), 0.0), bound(bound_.size());
     multiply(binding_, reduced, bound);
@@ -259,8 +259,8 @@ Zone::Solution Zone::solve(std::span<const double> theta, std::span<const double
             motion += z * z;
             pull_size += g[index(i)] * g[index(i)];
         }
-        // A load that is at right angles to the motion everywhere (a pressed fibre that may turn) leaves nothing but
-        // rounding in both sums.
+        // A load orthogonal to the motion everywhere (a pressed fibre that may rotate) leaves only rounding in both
+        // sums.
         if (std::abs(total) > std::max(unbalanced * size, rounded * std::sqrt(motion * pull_size))) {
             solution.balanced = false;
             return solution;

@@ -6,9 +6,9 @@
 //   minimise  1/2 x^T S x - theta^T L^T x + 1/2 sum_rq j_r C_rq j_q - sum_r h_r j_r      subject to j_r = 0 on held
 //   rows
 //
-// Rigid motions Z that nothing outside resists (S Z = 0) are unknowns alpha of their own, x = Z alpha + y, with S + rho
-// Z Z^T for y: however weak the springs that hold them are, nothing cancels. Which motions are held at all is read off
-// the active rows, not off pivots.
+// Rigid motions Z that nothing outside resists (S Z = 0) have unknowns alpha of their own, x = Z alpha + y, with S +
+// rho Z Z^T for y: however weak the springs that hold them are, nothing cancels. The active rows, not pivots, determine
+// which motions are held at all.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,8 @@ namespace delam {
 
 class Zone {
 public:
-    // rows: in unknowns of the zone; jump_rows: which jump row of the operator each of them is, ascending.
-    // rigid: [unknowns][motions], orthonormal. poll: called within factor(). `energy` must outlive the zone.
+    // rows: in unknowns of the zone; jump_rows: the operator's jump row of each of them, ascending. rigid:
+    // [unknowns][motions], orthonormal. poll: called within factor(). `energy` must outlive the zone.
     Zone(const DenseEnergy& energy, std::vector<JumpRow> rows, std::vector<std::int64_t> jump_rows, DenseMatrix rigid,
          Poll poll = {});
 
@@ -50,7 +50,7 @@ public:
     const DenseEnergy& energy() const { return *energy_; }
     // j of all rows.
     std::vector<double> jumps(std::span<const double> theta, std::span<const double> unknowns) const;
-    // Forces on all rows: those of rows that are not held are given, those of held rows are added.
+    // Forces on all rows: those of rows that are not held are given, and this adds those of held rows.
     void complete_forces(std::span<const double> theta, const Solution& solution, std::span<double> row_force) const;
     // 1/2 x^T S x - theta^T L^T x
     double energy_of(std::span<const double> theta, std::span<const double> unknowns) const;
