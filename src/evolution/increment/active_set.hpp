@@ -33,8 +33,8 @@ struct ContactRows {
     bool on(std::size_t i, std::uint8_t at) const { return level.empty() || level[i] >= at; }
 };
 
-// solve(closed): with these contact rows held, the others free. Afterwards jump() and force() are those of all rows,
-// and jump_floor() and force_floor() are sizes of jump and force below which rounding may hide (0: none known).
+// solve(closed): with these contact rows held, the others free. Afterwards jump() and force() return those of all rows,
+// and jump_floor() and force_floor() return sizes below which a jump or force may be rounding (0: unknown).
 template <class S>
 concept ContactSystem = requires(S system, const std::vector<std::uint8_t>& closed) {
     { system.solve(closed) } -> std::same_as<ContactSolve>;
@@ -54,7 +54,7 @@ struct ActiveSet {
 // Violations below this part of the largest jump or force are rounding of the solve.
 inline constexpr double contact_rounding = 1e-11;
 
-// Contact rows on the wrong side, as places in `rows`; only those on this level or above.
+// Contact rows on the wrong side, as positions in `rows`; only those on this level or above.
 template <ContactSystem S>
 std::vector<std::size_t> contact_violators(const S& system, const ContactRows& rows,
                                            const std::vector<std::uint8_t>& closed, std::uint8_t level) {
@@ -70,8 +70,8 @@ std::vector<std::size_t> contact_violators(const S& system, const ContactRows& r
     return found;
 }
 
-// closed: [contact rows], the start in, the contact set out. Where a loaded part floats, contact may hold it: with
-// close_once the search begins once more from everything closed.
+// closed: [contact rows], on entry the starting set, on return the contact set. Where a loaded part floats, contact may
+// hold it: with close_once the search begins once more with everything closed.
 template <ContactSystem S>
 ActiveSet find_active_set(S& system, const ContactRows& rows, std::vector<std::uint8_t>& closed, std::int64_t limit,
                           bool close_once) {

@@ -11,7 +11,7 @@ namespace delam {
 
 namespace {
 
-// Part of the largest jump by which a prescribed displacement may press two faces into each other: rounding.
+// Fraction of the largest jump by which a prescribed displacement may press two faces into each other: rounding.
 constexpr double pressed = 1e-9;
 
 void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> prescribed, const Response& response,

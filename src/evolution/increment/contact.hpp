@@ -26,10 +26,11 @@ struct ContactScene {
     // Pairs below this level are not tested and may pass through each other: less energy than any contact leaves.
     std::uint8_t least_level = 0;
     std::int64_t limit = 200;
-    // In every step, also test pairs whose normal jump the device prescribes: they cannot close, only be pressed.
+    // Also test, in every step, pairs whose normal jump the device prescribes: they cannot close, only be pressed.
     bool always = false;
-    // [patterns] What the eigenstrains at factor 1 move (L) and press (F) where they are not free: where they are free,
-    // jumps and forces are the rounding of these, and no contact can be read from them. Empty: no eigenstrains.
+    // [patterns] Motion (L) and force (F) of the eigenstrains at factor 1 if they were restrained. Where the strains
+    // are free, jumps and forces are only the rounding of these numbers and say nothing about contact. Empty: no
+    // eigenstrains.
     std::vector<double> strain_jump{}, strain_force{};
     double jump_floor(std::span<const double> theta) const { return floor(strain_jump, theta); }
     double force_floor(std::span<const double> theta) const { return floor(strain_force, theta); }
@@ -45,10 +46,10 @@ private:
 // Springs::held of a contact set: every row of a bonded pair and the normal row of a closed one. closed: [pairs].
 std::vector<std::uint8_t> held_rows(const ContactScene& scene, std::span<const std::uint8_t> closed);
 
-// stiffness: [rows] of the springs. closed: [pairs], the warm start in, the contact set out. row_force: Springs::force.
-// cold: the set is searched from coarse levels to fine ones, with all pairs open at first. Throws Error(DELAM_LIMIT)
-// when no contact set balances the loads, Error(DELAM_ERROR_PROBLEM) when prescribed displacements press faces into
-// each other.
+// stiffness: [rows] of the springs. closed: [pairs], on entry the warm start, on return the contact set. row_force:
+// Springs::force. cold: searches the set from coarse levels to fine ones, with all pairs open at first. Throws
+// Error(DELAM_LIMIT) if no contact set balances the loads, Error(DELAM_ERROR_PROBLEM) if prescribed displacements press
+// faces into each other.
 ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::span<const double> stiffness,
                             std::span<const double> theta, std::vector<std::uint8_t>& closed, Response& response,
                             bool cold, std::span<const double> row_force = {});

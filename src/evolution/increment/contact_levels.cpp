@@ -26,7 +26,7 @@ std::vector<std::uint8_t> contact_levels(std::span<const InterfaceGeometry> inte
         std::uint8_t top = 0;
         while ((pairs >> (top + 1)) >= coarsest) ++top;
 
-        // Level after level, a pair that no chosen one reaches within 2^l - 1 faces is chosen.
+        // Level after level, chooses each pair that no chosen one reaches within 2^l - 1 faces.
         std::vector<std::uint8_t> own(pairs, 0), chosen(pairs, 0), mark(pairs, 0);
         std::vector<std::size_t> seen;
         for (std::uint8_t l = top; l > 0; --l) {

@@ -10,8 +10,8 @@ namespace delam {
 
 namespace {
 
-// A mixity that swings to and fro goes half as far with each swing that does not shrink to half. It is held once the
-// share is down to `least_share`, or after so many turns, so that a step ends.
+// A mixity that oscillates moves half as far after each oscillation that does not shrink to half. It is held once the
+// fraction has fallen to `least_share`, or after so many reversals, so that a step terminates.
 constexpr double least_share = 1.0 / 64.0;
 constexpr std::int64_t most_turns = 100;
 constexpr double mixity_difference = 1e-6;  // of the derivative by B
@@ -26,7 +26,7 @@ std::unique_ptr<Increment> ConvergedIncrement::starting_at(std::span<const doubl
     return std::make_unique<ConvergedIncrement>(pairs_, before_, mixity, tolerance_);
 }
 
-// What a broken pair has kept is settled.
+// The mixity kept by a broken pair is final.
 void ConvergedIncrement::begin_observation() {
     for (Swing& s : swing_) s.open = 0.0;
 }

@@ -9,18 +9,18 @@ namespace delam {
 namespace {
 
 constexpr std::int64_t limit = 300;
-// Steps at a residual of rounding, for kappa so large that rounding hides the law (beyond some 1e10 times its
+// Steps with a residual of rounding, for kappa so large that rounding hides the law (beyond some 1e10 times its
 // curvature).
 constexpr std::int64_t idle_limit = 8;
-// Newton's method squares the error: after a whole step as small as this the next one would be rounding.
+// Newton's method squares the error: after a whole step this small the next one would only be rounding.
 constexpr double small_step = 1e-9;
-// A pair counts as pressed against a bound within this part of its range, or within the residual where that is less.
+// A pair counts as pressed against a bound within this fraction of its range, or within the residual if that is less.
 constexpr double near_bound = 1e-6;
-constexpr double sufficient = 1e-4;  // part of the predicted fall that a step has to reach
+constexpr double sufficient = 1e-4;  // fraction of the predicted decrease that a step must reach
 constexpr double rounding = 1e-14;   // of the energy of all pairs, or of an adhesion
 constexpr int halvings = 50;
-constexpr double least = 1e-12;  // adhesion below which a law that never debonds for good is not followed
-constexpr double tiny = 1e-12;   // of a diagonal entry: keeps a part that nothing curves definite
+constexpr double least = 1e-12;  // adhesion below which a law that never debonds completely is not followed
+constexpr double tiny = 1e-12;   // of a diagonal entry: keeps the matrix definite where nothing has curvature
 
 class Problem {
 public:
@@ -38,7 +38,7 @@ private:
     using Values = std::vector<double>;
 
     double clamped(std::size_t i, double z) const { return std::clamp(z, 0.0, upper_[i]); }
-    // Y(z), finite also where nothing suffices to debond for good.
+    // Y(z), finite even where no driving energy suffices to debond completely.
     double resistance(std::size_t i, double z) const {
         const double y = law_.driving(toughness_[i], z);
         return std::isfinite(y) ? y : law_.driving(toughness_[i], least);
@@ -87,8 +87,8 @@ double Problem::curvature(std::size_t i, double z, double slope) const {
     return -weight * law_.driving_slope(toughness_[i], std::max(z, least));
 }
 
-// The pointwise solution blurred over the length that balances kappa against the law's own curvature: it lies between
-// the bounds nearly everywhere, so that the first Newton steps see all pairs.
+// The pointwise solution smoothed over the length that balances kappa against the law's own curvature: it lies between
+// the bounds nearly everywhere, so that the first Newton steps involve all pairs.
 Problem::Values Problem::smoothed(std::span<const double> pointwise) const {
     Values diag(pointwise.size(), 0.0), right(pointwise.size(), 0.0), z(pointwise.begin(), pointwise.end());
     std::vector<std::uint8_t> held(pointwise.size(), 1);
@@ -181,7 +181,7 @@ CoupledDamage Problem::solve(std::span<const double> pointwise, std::span<const 
         for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, std::abs(z[i] - before[i]));
         result.converged = largest <= small_step && (part == 1.0 || result.residual <= rounding);
     }
-    // What is pressed against a bound and as good as there belongs exactly on it.
+    // A pair that is pressed against a bound and nearly there is set exactly to it.
     const Values d = slope(z);
     for (std::size_t i = 0; i < n; ++i) {
         if (free_[i] == 0) continue;

@@ -9,12 +9,11 @@
 // decides (approximate Wolfe condition; Hager and Zhang, SIAM J. Optim. 16, 2005): along a segment a convex energy
 // falls as long as its slope does not change sign.
 //
-// g'' of a brittle law ranges over (Gc/Go)^3, that of a Griffith law is zero. So instead of the tangent -dY/dz each
-// pair brings the secant between z and the z* that the pointwise law would choose under the present load q = Y + kappa
+// g'' of a brittle law ranges over (Gc/Go)^3, that of a Griffith law is zero. Instead of the tangent -dY/dz each pair
+// therefore uses the secant between z and the z* that the pointwise law would choose at the present load q = Y + kappa
 // (A z)/w,
 //   c = (Y(z) - q) / (z* - z),
-// which tends to the tangent at the solution, solves an uncoupled pair in one step, and never vanishes before it is
-// solved.
+// which tends to the tangent at the solution, solves an uncoupled pair in one step, and vanishes only at the solution.
 #pragma once
 
 #include <cstdint>
@@ -29,13 +28,13 @@ namespace delam {
 struct CoupledDamage {
     std::vector<double> adhesion;  // [pairs of the interface]
     std::int64_t iterations = 0;   // factorisations
-    // By how much a pair alone would still move along the projected gradient, the largest; a pure number.
+    // The largest amount by which a single pair would still move along the projected gradient; a pure number.
     double residual = 0.0;
     bool converged = false;
 };
 
 // All arrays over the interface's pairs. driving: Y. adhesion_old: upper bounds. pointwise: the minimiser without the
-// gradient term, which pairs that it does not couple keep. start: where an earlier solution is.
+// gradient term, which uncoupled pairs keep. start: an earlier solution nearby.
 CoupledDamage coupled_damage(const GradientTerm& term, const Law& law, std::span<const Toughness> toughness,
                              std::span<const double> driving, std::span<const double> adhesion_old,
                              std::span<const double> pointwise, std::span<const double> start);

@@ -13,12 +13,12 @@ namespace {
 
 constexpr int most_steps = 200;
 constexpr double tolerance = 1e-10;  // of the largest force
-constexpr double acceptable = 1e-8;  // where rounding or the limit ends the steps
+constexpr double acceptable = 1e-8;  // if rounding or the limit ends the steps
 constexpr double rounding = 1e-13;   // of an energy of the whole scene
 
 double bulk(const Response& r) { return r.stored_bulk + r.load_potential; }
 
-// Two admissible answers and what lies between them.
+// Two admissible displacements and the segment between them.
 class Segment {
 public:
     Segment(const Response& from, const Response& to) : from_(from), to_(to) {
@@ -116,7 +116,7 @@ bool CurvedDisplacement::run(const DisplacementSolve& solve, std::vector<std::ui
         converged = solve(m.stiffness, m.force, closed, response);
     }
     std::vector<double> at = response.jump;  // where the next model touches
-    bool ahead = false;                      // further than the answer at hand, by what the last steps have shown
+    bool ahead = false;                      // beyond the present displacements, extrapolated from the last steps
     Extrapolation extrapolation;
     double left = mismatch(closed, response);
     for (int step = 0; step < most_steps && left > tolerance; ++step) {
@@ -136,7 +136,7 @@ bool CurvedDisplacement::run(const DisplacementSolve& solve, std::vector<std::ui
         if (s >= 1.0) {
             closed = std::move(to_closed);
             response = std::move(to);
-        } else if (s > 1e-3) {  // between an open and a closed answer a pair is open
+        } else if (s > 1e-3) {  // between an open and a closed displacement a pair is open
             for (std::size_t p = 0; p < closed.size(); ++p) closed[p] = closed[p] != 0 && to_closed[p] != 0 ? 1 : 0;
             Response between = segment.at(s);
             response = std::move(between);

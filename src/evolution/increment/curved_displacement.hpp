@@ -2,14 +2,15 @@
 // The displacement step of the variational rule: at frozen damage, f(B(u), zeta) is no quadratic form of u.
 //
 // Around the last jumps it is replaced by its linear part and a spring that bounds its curvature from above
-// (variational.hpp), which leaves an ordinary step with springs w k (zeta + mu) and forces of their own. Each solution
-// is a search direction: along the segment between two admissible answers of the operator the bulk energy is exactly
+// (variational.hpp). This leaves an ordinary step with springs w k (zeta + mu) and additional forces. Each solution is
+// a search direction: along the segment between two admissible displacements of the operator the bulk energy is exactly
+// quadratic,
 // quadratic,
 //
 //   E(s) = (1-s) E_0 + s E_1 - s (1-s)/2 Q,     Q = (u_1-u_0)^T K (u_1-u_0) = -(j_1-j_0).(lambda_1-lambda_0),
 //
-// so the energy of every point on it is known without a solve, and none that raises it is taken. The end is where the
-// traction of the law is that of the bodies.
+// so the energy of every point on it is known without a solve, and no point that increases it is taken. The iteration
+// ends when the traction of the law equals that of the bodies.
 #pragma once
 
 #include <span>
@@ -25,9 +26,10 @@ public:
     CurvedDisplacement(const PairLaws& pairs, std::span<const double> adhesion, std::span<const double> mixity)
         : pairs_(pairs), adhesion_(adhesion), mixity_(mixity) {}
 
-    // Is the energy a quadratic form after all, because no adhesion lies between 0 and 1?
+    // Whether the energy is a quadratic form after all, because no adhesion lies between 0 and 1.
     bool plain() const;
-    // closed, response: the start in (an empty or zero jump says nothing), the answer out. False: a limit.
+    // closed, response: the start on entry (ignored if the jump is empty or zero), the solution on return. False: a
+    // limit was reached.
     bool run(const DisplacementSolve& solve, std::vector<std::uint8_t>& closed, Response& response) const;
 
 private:
@@ -37,7 +39,7 @@ private:
     Model model(std::span<const double> jump) const;
     // w f(B, zeta) + springs; without the bulk.
     double interface_energy(std::span<const double> jump) const;
-    // Largest difference between the forces of the law and those of the answer, over the largest force.
+    // Largest difference between the forces of the law and those of the solution, over the largest force.
     double mismatch(const std::vector<std::uint8_t>& closed, const Response& response) const;
     VariationalPair pair(std::size_t p, double largest) const { return {*pairs_.law[p], mixity_[p], 0.0, largest}; }
 

@@ -37,15 +37,15 @@ double largest_driving(const PairLaws& pairs, std::span<const double> jump);
 // B of every pair, [pairs]. A pair whose jump is rounding (below 1e-10 of the onset's or of the largest one) keeps its
 // `known` B, and so does one whose mixity is not computed.
 std::vector<double> mixities(const PairLaws& pairs, std::span<const double> jump, std::span<const double> known);
-// Does any pair have a jump that is more than rounding of its onset?
+// Whether any pair has a jump larger than the rounding of its onset.
 bool any_jump(const PairLaws& pairs, std::span<const double> jump);
 // s = weight k zeta of every row, [rows].
 std::vector<double> spring_stiffness(const PairLaws& pairs, std::span<const double> adhesion);
 // Go and Gc at the mixities, [pairs]; zero where there is no law.
 std::vector<Toughness> toughnesses(const PairLaws& pairs, std::span<const double> mixity);
 // zeta = argmin over 0 <= zeta <= adhesion_old at the frozen mixity of `toughness`; returns [pairs]. adhesion: [pairs]
-// where coupled interfaces start their search (coupled_damage.hpp); the problem is convex, so it decides no more than
-// the last digits.
+// where coupled interfaces start their iteration (coupled_damage.hpp); the problem is convex, so it only affects the
+// last digits.
 std::vector<double> damage_step(const PairLaws& pairs, std::span<const Toughness> toughness,
                                 std::span<const double> adhesion_old, std::span<const double> adhesion,
                                 std::span<const double> jump);

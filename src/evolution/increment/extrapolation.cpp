@@ -8,7 +8,7 @@ namespace delam {
 namespace {
 
 constexpr std::size_t depth = 5;
-// Differences that are nearly parallel tell nothing new: a ridge of this part keeps the small system solvable.
+// Nearly parallel differences carry no new information: a ridge of this size keeps the small system solvable.
 constexpr double ridge = 1e-10;
 
 }  // namespace

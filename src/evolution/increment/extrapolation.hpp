@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Over-relaxation of a fixed-point iteration z -> g(z) by what its last steps have shown (Anderson, J. ACM 12, 1965;
-// Walker and Ni, SIAM J. Numer. Anal. 49, 2011): the combination of the last iterates whose residual g(z) - z is least,
-// taken one step further.
+// Over-relaxation of a fixed-point iteration z -> g(z), based on its last steps (Anderson, J. ACM 12, 1965; Walker and
+// Ni, SIAM J. Numer. Anal. 49, 2011): the combination of the last iterates with the smallest residual g(z) - z, moved
+// one step further.
 #pragma once
 
 #include <deque>

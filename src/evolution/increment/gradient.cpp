@@ -17,7 +17,7 @@ namespace {
 using Node = std::array<double, 3>;
 using Local = std::array<double, most_face_nodes * most_face_nodes>;
 
-// A face as an element of its own: its pairs without the entries that only fill the list up (interface_geometry.hpp).
+// A face as a separate element: its pairs without padding entries (interface_geometry.hpp).
 struct Face {
     std::vector<std::int64_t> pair;  // corners, then mid-sides
 };

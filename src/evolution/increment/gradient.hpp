@@ -29,14 +29,14 @@ SparseMatrix surface_stiffness(const Mesh& mesh, const InterfaceGeometry& interf
 // Of one interface; all arrays are over its own pairs.
 class GradientTerm {
 public:
-    // stiffness: A. weight: [pairs]. first: place of the interface's first pair among all. kappa > 0, F L.
+    // stiffness: A. weight: [pairs]. first: index of the interface's first pair among all. kappa > 0, F L.
     GradientTerm(double kappa, const SparseMatrix& stiffness, std::vector<double> weight, std::size_t first);
 
     double kappa() const { return kappa_; }
     std::size_t first() const { return first_; }
     std::size_t pairs() const { return weight_.size(); }
     std::span<const double> weight() const { return weight_; }
-    // Does any face that counts touch the pair? The others obey the pointwise law.
+    // Whether an included face touches the pair. All other pairs obey the pointwise law.
     bool coupled(std::size_t pair) const { return diagonal_[pair] > 0.0; }
     std::int64_t coupled_pairs() const;
     double diagonal(std::size_t pair) const { return diagonal_[pair]; }  // kappa A_ii
@@ -47,8 +47,8 @@ public:
     // kappa A zeta. From differences of zeta, so that a uniform adhesion has none, to the last digit.
     std::vector<double> force(std::span<const double> zeta) const;
 
-    // x = (kappa A + diag)^-1 b over the pairs that are not held; x = b/(kappa A_ii + diag) at those that are. diag >=
-    // 0. The pattern is that of A whatever is held: one symbolic analysis serves all. False: not positive definite to
+    // x = (kappa A + diag)^-1 b over the pairs that are not held; x = b/(kappa A_ii + diag) for held ones. diag >= 0.
+    // The pattern is that of A whatever is held, so one symbolic analysis serves all. False: not positive definite, to
     // rounding.
     bool solve(std::span<const double> diag, std::span<const std::uint8_t> held, std::span<const double> b,
                std::span<double> x) const;

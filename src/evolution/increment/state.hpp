@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The state of a march after a step, complete: what the next step needs, and what the history records.
+// The complete state of an analysis after a step: what the next step needs, and what the history records.
 #pragma once
 
 #include <algorithm>
@@ -88,13 +88,13 @@ struct State {
     double time = 0.0;
     std::vector<double> theta;          // [patterns]
     std::vector<double> adhesion;       // [pairs]
-    std::vector<double> mixity;         // [pairs] B that this step's damage was computed with
+    std::vector<double> mixity;         // [pairs] B used for this step's damage
     std::vector<double> mixity_before;  // [pairs] B of the step before
     std::vector<std::uint8_t> closed;   // [pairs]
-    std::uint8_t loaded = 0;            // 1 once any pair has had a jump: the mixities mean something
+    std::uint8_t loaded = 0;            // 1 once any pair has had a jump, so that the mixities are meaningful
     Response response;
     std::vector<double> memory;         // of the jump operator
-    std::vector<double> search_memory;  // of the one that a search uses
+    std::vector<double> search_memory;  // of the operator that a search uses
     Ledger ledger;
     Counts counts;
 };

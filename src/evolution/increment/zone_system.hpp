@@ -16,7 +16,7 @@ namespace delam {
 
 class ZoneSystem {
 public:
-    // held: [jump rows] of the whole scene, as the zone is entered. poll: called in every solve. The zone, the scene
+    // held: [jump rows] of the whole scene, when the zone is entered. poll: called in every solve. The zone, the scene
     // and theta must outlive the system.
     ZoneSystem(Zone& zone, const ContactScene& scene, std::span<const std::uint8_t> prescribed,
                std::span<const std::uint8_t> held, std::span<const double> theta, Poll poll = {});

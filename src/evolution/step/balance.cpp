@@ -12,8 +12,8 @@ namespace delam {
 
 namespace {
 
-constexpr double doubtful = 1e-7;  // of the energies: an estimate of rounding from which on forces are summed
-constexpr double rigid = 1e-8;     // of the displacements: what is left of a motion without strain
+constexpr double doubtful = 1e-7;  // of the energies: forces are summed if the estimated rounding exceeds this
+constexpr double rigid = 1e-8;     // of the displacements: what remains of a motion without strain
 constexpr double tiny = std::numeric_limits<double>::min();
 
 std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
@@ -24,7 +24,7 @@ double largest(std::span<const double> values) {
     return most;
 }
 
-// Largest displacement once each piece is without its own rigid motion.
+// Largest displacement after subtracting each piece's own rigid motion.
 double strained(const Problem& problem, std::span<const double> displacement) {
     const Mesh& mesh = *problem.mesh;
     const auto dim = index(mesh.dimension());
@@ -50,8 +50,8 @@ double largest_reaction(const JumpOperator& op, const State& state, double force
     return std::max(force_floor, largest(op.reaction(state.theta, state.response)));
 }
 
-// Parts that have come off move without strain, energy or reaction; all that is left there is rounding, rightly. Else
-// the forces are held against reactions, and their work against the energies, whichever they are less of.
+// Parts that have come off move without strain, energy or reaction; everything there is rightly rounding. Otherwise the
+// forces are compared with reactions, and their work with the energies, and the smaller ratio counts.
 double out_of_balance(const Problem& problem, const JumpOperator& op, const State& state, double force_floor) {
     const Ledger& ledger = state.ledger;
     const double energies =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is what was found in equilibrium? Rounding can take all digits of a stiffness that is a small difference of large
-// ones (plies thousands of times longer than thick), and neither minimisation nor its tolerances would notice.
+// Checks whether a state is in equilibrium. Rounding can destroy all digits of a stiffness that is a small difference
+// of large ones (plies thousands of times longer than thick), and neither minimisation nor its tolerances would notice.
 #pragma once
 
 #include "evolution/increment/state.hpp"
@@ -9,15 +9,15 @@
 
 namespace delam {
 
-// Of the largest reaction, or force_floor (F) where that is larger:
-inline constexpr double poor_balance = 1e-6;  // worth a word
-inline constexpr double no_balance = 1e-3;    // nothing to go by
+// Relative to the largest reaction, or to force_floor (F) if that is larger:
+inline constexpr double poor_balance = 1e-6;  // worth a warning
+inline constexpr double no_balance = 1e-3;    // the state is useless
 
 // F: of the device, or force_floor where that is larger (stresses of eigenstrains may need no reactions).
 double largest_reaction(const JumpOperator& op, const State& state, double force_floor);
 
-// Largest force that no force balances, over the largest reaction; 0 where the operator's estimate sees no reason to
-// look, which costs nothing.
+// Largest unbalanced force over the largest reaction; 0 if the operator's estimate gives no reason to compute it, which
+// takes no time.
 double out_of_balance(const Problem& problem, const JumpOperator& op, const State& state, double force_floor);
 
 }  // namespace delam

@@ -14,7 +14,7 @@ Lift::Lift(JumpOperator& op, std::span<const std::uint8_t> bonded_rows, std::spa
     : a_(static_cast<std::int64_t>(patterns), static_cast<std::int64_t>(patterns)) {
     const std::size_t rows = bonded_rows.size();
     std::vector<std::uint8_t> moving(op.prescribed_rows().begin(), op.prescribed_rows().end());
-    // Of each equation among jumps one row has to give way: its own, or one that is not bonded.
+    // In each equation among jumps one row must give way: its own, or one that is not bonded.
     for (const BoundRow& equation : bound) {
         std::int64_t gives = bonded_rows[static_cast<std::size_t>(equation.row)] == 0 ? equation.row : -1;
         for (const std::int64_t other : equation.others)

@@ -14,24 +14,24 @@
 namespace delam {
 
 struct CandidateEnergy {
-    double value;                     // at the unit load; infinite: nothing balances the load
+    double value;                     // at the unit load; infinite: no equilibrium
     std::vector<std::int64_t> next;   // pairs that may break next
-    std::vector<double> next_mixity;  // which they show; empty where the mixity does not follow the iterates
+    std::vector<double> next_mixity;  // the mixities that they show; empty if the mixity does not follow the iterates
 };
 
 class CandidateEnergies {
 public:
-    // The load of `from`: a direction whose largest entry is 1 in size, and its size.
+    // The load of `from`: a direction whose largest entry has size 1, and its size.
     CandidateEnergies(JumpOperator& op, const ContactScene& contact, Monitor& monitor, ZoneEnergies* zone,
                       const Increment& increment, const State& from);
 
     double size() const { return size_; }
     const std::vector<double>& direction() const { return direction_; }
     bool has_zones() const { return zone_ != nullptr; }
-    // Lets energies of states come from a zone about these pairs, [pairs], and those that the step has damaged.
+    // Allows energies to come from a zone about these pairs, [pairs], and those that the step has damaged.
     void focus(std::span<const std::uint8_t> wanted);
     void lose_focus() { focused_ = false; }
-    // known: B of the pairs. candidates: so many have been compared (progress).
+    // known: B of the pairs. candidates: number compared so far (progress).
     const CandidateEnergy& at(const std::vector<double>& adhesion, std::span<const std::int64_t> next,
                               std::span<const double> known, std::int64_t candidates);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where cracks may grow: the fronts of debonded regions, and places in intact ones where a new crack may begin.
+// Where cracks may grow: the fronts of debonded regions, and places in intact regions where a new crack may begin.
 //
 // Pairs are neighbours when they share a face of an interface. A front is a connected set of adhering pairs next to
 // debonded ones; its n-th ring are the adhering pairs n - 1 faces away from it. In 2D rings are single pairs, and the
@@ -36,18 +36,18 @@ private:
 struct Front {
     std::int64_t interface;
     bool nucleation;                  // a new crack, not the advance of one
-    std::vector<std::int64_t> pairs;  // where it starts, the first ring
+    std::vector<std::int64_t> pairs;  // the first ring, where it starts
 };
 
-// Adhesion below this counts as debonded in what is reported.
+// Smaller adhesion counts as debonded in reports.
 inline constexpr double debonded_below = 1e-3;
 
-// [pairs] 1 where anything worth mentioning is left to dissipate. The adhesion itself does not tell: at k = 1e17 N/m3 a
+// [pairs] 1 if a significant amount is left to dissipate. The adhesion itself does not show this: at k = 1e17 N/m3 a
 // thousandth of it still bridges a crack.
 std::vector<std::uint8_t> adhering_pairs(const PairLaws& pairs, std::span<const double> adhesion,
                                          std::span<const Toughness> toughness);
 // Fronts of the debonded regions; then, in adhering regions, the ends of lines and up to `seeds` pairs per interface
-// whose driving energy is the largest part of their onset among their neighbours.
+// whose driving energy is the largest fraction of their onset among their neighbours.
 std::vector<Front> find_fronts(const PairGraph& graph, const PairLaws& pairs, std::span<const std::uint8_t> adhering,
                                std::span<const Toughness> toughness, std::span<const double> jump, std::size_t seeds);
 // Rings of adhering pairs around a front, the front itself first.

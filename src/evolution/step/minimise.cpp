@@ -80,7 +80,7 @@ void Minimiser::extrapolate(State& state, const Increment& increment, std::span<
         along += (state.adhesion[p] - from[p]) * (plain[p] - from[p]);
     }
     if (along > 0.0) return;
-    // Where plain steps grow, the fixed point at which extrapolation aims lies behind them.
+    // Where plain steps grow, the fixed point of the extrapolation lies behind them.
     state.adhesion.assign(plain.begin(), plain.end());
     extrapolation.forget();
 }

@@ -23,7 +23,7 @@ constexpr int rounds = 3;                     // of sweeps with the other fronts
 
 bool lower(const Candidate& a, const Candidate& b) { return a.incremental < b.incremental; }
 
-// What is tried in one search, with the words that say so.
+// The candidates of one search, with the words that describe them.
 class Trials {
 public:
     Trials(SearchRun& search, const State& from, Candidate start)
@@ -115,8 +115,8 @@ void Trials::sweep_from_the_lowest() {
     }
 }
 
-// One interface debonded altogether, and all of them: whatever their length, which bounds the cracks that begin
-// somewhere.
+// One interface completely debonded, and all of them, whatever their length: this bounds the cracks that begin
+// anywhere.
 void Trials::debond_interfaces() {
     const PairLaws& pairs = search_.pairs();
     std::int64_t interfaces = 0;

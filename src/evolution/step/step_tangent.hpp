@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the forces of the device change with the load factors at a state, its contact set held.
+// Change of the device's forces with the load factors at a state, with its contact set held.
 //
-// With the adhesion held, all is linear: conjugates of unit factors are the columns of d2E/dtheta2. In a step the
-// adhesion follows. With J the jumps of unit factors at the springs s = w k zeta that the state has, each pair that
-// damages adds a force v_a dzeta_a, v_a = w k j, to which the bodies answer by jumps -U_a, and
+// With the adhesion fixed, everything is linear: conjugates of unit factors are the columns of d2E/dtheta2. In a step
+// the adhesion follows. With J the jumps of unit factors at the state's springs s = w k zeta, each pair that damages
+// adds a force v_a dzeta_a, v_a = w k j, to which the bodies respond by jumps -U_a, and
 //
 //   g''_a dzeta_a + (kappa A / w dzeta)_a = -(dY_a - D_B dB_a) =: -omega_a . dj,     dj = J dtheta - U dzeta
 //
@@ -26,13 +26,13 @@ namespace delam {
 class Linearised {
 public:
     Linearised(JumpOperator& op, const PairLaws& pairs, const ContactScene& contact, const State& state);
-    // From the state's own memory, so that the last digits are a function of the state; every other call that solves
-    // recalls that of its state likewise.
+    // From the state's own memory, so that the last digits depend on the state alone; every other call that solves
+    // recalls the memory of its state too.
 
-    // At the adhesion of the state, [patterns][patterns]. Error(DELAM_ERROR_STATE): a pattern acts along what nothing
-    // holds.
+    // At the adhesion of the state, [patterns][patterns]. Error(DELAM_ERROR_STATE): a pattern acts along a motion that
+    // nothing holds.
     std::vector<double> tangent(std::span<const Pattern> patterns);
-    // Of the step that `increment` is.
+    // For the step of `increment`.
     std::vector<double> step_tangent(std::span<const Pattern> patterns, const Increment& increment);
 
 private:

@@ -14,8 +14,8 @@ namespace delam {
 
 namespace {
 
-constexpr double rounding = 1e-10;      // of the larger of energy and work: two states that differ by less are as good
-constexpr std::size_t most_starts = 2;  // candidates of a search that a step is minimised from
+constexpr double rounding = 1e-10;      // of the larger of energy and work: states that differ by less are equivalent
+constexpr std::size_t most_starts = 2;  // candidates of a search from which a step is minimised
 // Of its dissipation: by how much a candidate may lie above the step and still be relaxed.
 constexpr double promising = 0.5;
 
@@ -88,7 +88,7 @@ Stepper::Result Stepper::initial(double time) {
     state.theta = problem_.factors(time);
     state.adhesion = initial_adhesion_;
     const auto dim = static_cast<std::size_t>(problem_.mesh->dimension());
-    // A notch starts closed: that is where it stays unless something opens it.
+    // A notch starts closed, and stays closed unless something opens it.
     for (std::size_t p = 0; p < state.adhesion.size(); ++p)
         state.closed.push_back(
             contact_.bonded[p] == 0 && state.adhesion[p] == 0.0 && operator_->prescribed_rows()[p * dim] == 0 ? 1 : 0);
@@ -124,7 +124,7 @@ void Stepper::book_step(State& next, const Increment& step) const {
     ledger.work = before.ledger.work + 0.5 * (ledger.lower + ledger.upper);
 }
 
-// From the adhesion and the mixity of `next`.
+// Starts from the adhesion and the mixity of `next`.
 bool Stepper::minimise(State& next, const Increment& step) const {
     const std::unique_ptr<Increment> own = step.starting_at(next.mixity);
     const bool converged = problem_.options.minimisation == "alternate" ? minimiser().alternate(next, *own)
@@ -136,9 +136,9 @@ bool Stepper::minimise(State& next, const Increment& step) const {
     return converged;
 }
 
-// Beyond the limit of a dead load alternation takes adhesion to zero by ever smaller steps, and displacements to
-// infinity: what holds a part by no more adhesion than the tolerance does not hold it. Without that adhesion the
-// displacement step finds nothing that balances (DELAM_LIMIT).
+// Beyond the limit of a dead load, alternation takes adhesion to zero by ever smaller steps and displacements to
+// infinity: adhesion below the tolerance does not hold a part. Without that adhesion the displacement step finds no
+// equilibrium (DELAM_LIMIT).
 void Stepper::refuse_runaway(const State& state, const Increment& step) const {
     bool dead = false, faint = false;
     for (std::size_t p = 0; p < state.theta.size(); ++p)
@@ -163,7 +163,7 @@ double Stepper::lower_excess(const State& state) const {
     return scale > 0.0 ? (state.ledger.lower - state.ledger.increment_lower) / scale : 0.0;
 }
 
-// Before the first load there is no jump to take the mixity from: the elastic solution of the step itself gives it.
+// Before the first load there is no jump that gives a mixity; the elastic solution of the step itself gives it.
 bool Stepper::start(State& next, const State& before, double time) const {
     next = before;
     begin(next, before, time);
@@ -200,7 +200,7 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
     return best;
 }
 
-// Minimises from another start and keeps what is lower. All effort is counted.
+// Minimises from another start and keeps the lower state. All effort is counted.
 void Stepper::keep_lower(Result& best, State other, const Increment& step) const {
     const bool converged = minimise(other, step);
     const Counts counts = other.counts, kept = best.state.counts;
@@ -212,8 +212,8 @@ void Stepper::keep_lower(Result& best, State other, const Increment& step) const
     best.state.counts.mixity_held = kept.mixity_held;
 }
 
-// A zone's energy takes the contact outside as it was and may be too low: candidates that seem to lie below the state
-// kept are held against it by displacements of their own. Returns the lowest candidate.
+// A zone's energy keeps the contact outside as it was and may be too low, so candidates that seem lower than the kept
+// state are checked by displacement steps of their own. Returns the lowest candidate.
 double Stepper::hold_against(Result& best, const SearchResult& found, const Increment& step) const {
     double lowest = std::numeric_limits<double>::infinity();
     bool held = false;
@@ -263,7 +263,7 @@ void Stepper::search(Result& best, const Increment& step) {
     const double kept = best.state.ledger.increment;
     counts.search_candidates += found.candidates;
     counts.search_margin = std::isfinite(lowest) ? lowest - kept : 0.0;
-    // Candidates under the variational rule are energies at the mixities of the start: no bound.
+    // Candidates under the variational rule have energies at the mixities of the start, which are no bound.
     counts.search_gap =
         step.bounds_candidates() ? std::max(0.0, kept - found.bound) : std::numeric_limits<double>::infinity();
     searched_ = text("step ", best.state.step, " at time ", best.state.time, ": ", found.candidates, " candidates, ",

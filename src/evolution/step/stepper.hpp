@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One load step: from the state before it to a state at a later time, under the solution concept asked for.
+// One load step: from the state before it to a state at a later time, under the requested solution concept.
 //
 // A step minimises  I(z, u) = E(t, u, z) + D(z_before, z)  over 0 <= z <= z_before from one or several starts and keeps
 // the lowest; `local` starts from z_before, `energetic` also from the best states of a search (search.hpp).
@@ -23,7 +23,7 @@ namespace delam {
 
 class Stepper {
 public:
-    // problem and monitor must outlive it. Checks the problem; cuts and factors the bodies.
+    // problem and monitor must outlive it. Checks the problem, and cuts and factors the bodies.
     Stepper(const Problem& problem, Monitor& monitor);
     Stepper(const Stepper&) = delete;
     Stepper& operator=(const Stepper&) = delete;
@@ -34,8 +34,8 @@ public:
     };
     // The initial state: displacements at the initial adhesion.
     Result initial(double time);
-    // Another state of the same scene to start from: its adhesion, clipped to `before`, and where pairs are broken the
-    // mixity with which they broke.
+    // Another state of the same scene as a start: its adhesion, clipped to `before`, and for broken pairs the mixity
+    // with which they broke.
     struct Start {
         std::vector<double> adhesion, mixity;  // [pairs]
     };
@@ -46,8 +46,8 @@ public:
     std::vector<double> tangent(const State& state) const;
     // d conjugate / d theta of a step from `before` to `state` (step_tangent.hpp).
     std::vector<double> step_tangent(const State& before, const State& state) const;
-    // Does the lower bound of a step fail by more than eta: is there a lower state than `before` at its own time?
-    // Relative excess over the larger of energy and work.
+    // Whether the lower bound of a step fails by more than eta, so that a state lower than `before` exists at its own
+    // time. Relative excess over the larger of energy and work.
     double lower_excess(const State& state) const;
 
     const PairLaws& pairs() const { return pairs_; }
@@ -55,16 +55,16 @@ public:
     JumpOperator& op() const { return *operator_; }
     const ReductionChoice& reduction() const { return reduction_; }
     const std::vector<double>& initial_adhesion() const { return initial_adhesion_; }
-    // To the host: what it should know about the mixity of a step that is kept.
+    // Warns the host about the mixity of a kept step.
     void warn(const State& state) const { rule_->warn_of_snap(monitor_, state); }
-    // What the last search looked at, in words; empty: none.
+    // Description of what the last search compared; empty: nothing.
     const std::string& searched() const { return searched_; }
 
 private:
     Minimiser minimiser() const;
     void begin(State& next, const State& before, double time) const;
     std::unique_ptr<Increment> increment(const State& before, std::span<const double> mixity) const;
-    // The state with which the minimisations of a step begin; false: its elastic displacements met a limit.
+    // The state from which the minimisations of a step begin; false: its elastic displacements reached a limit.
     bool start(State& next, const State& before, double time) const;
     bool minimise(State& next, const Increment& step) const;
     void refuse_runaway(const State& state, const Increment& step) const;
@@ -77,12 +77,12 @@ private:
     Monitor& monitor_;
     PairLaws pairs_;
     ContactScene contact_;
-    std::optional<MixityRule> rule_;  // set with the pairs
+    std::optional<MixityRule> rule_;  // set together with the pairs
     std::vector<double> initial_adhesion_;
     std::unique_ptr<JumpOperator> operator_;
     ReductionChoice reduction_;
     Lift lift_;
-    std::unique_ptr<JumpOperator> twin_;  // of the search, so that its zone does not disturb the march's
+    std::unique_ptr<JumpOperator> twin_;  // for the search, so that its zone does not disturb that of the analysis
     std::optional<Search> search_;
     std::string searched_;
 };

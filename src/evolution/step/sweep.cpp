@@ -35,7 +35,7 @@ double SearchRun::compare(Candidate& candidate, std::span<const std::int64_t> ne
     return candidate.incremental;
 }
 
-// A new crack that meets an older one is an advance of that one, with the mixity that its front brings.
+// A new crack that meets an older one is an advance of the older one, with the mixity of its front.
 bool Sweep::touches_debonded(std::span<const std::int64_t> ring) const {
     for (const std::int64_t p : ring)
         for (const std::int64_t q : search_.graph.neighbours(index(p)))
@@ -74,7 +74,7 @@ void Sweep::keep_rings() {
         ++keep;
     }
     if (keep < ring_.size())
-        for (const std::int64_t p : ring_[keep]) wanted[index(p)] = 1;  // whose mixity may be needed
+        for (const std::int64_t p : ring_[keep]) wanted[index(p)] = 1;  // pairs whose mixity may be needed
     ring_.resize(keep);
     mixity_.resize(ring_.size());
     search_.energies.focus(wanted);
@@ -115,7 +115,7 @@ void Sweep::sample(std::size_t n) {
 
 double Sweep::between(std::size_t low, std::size_t high) const {
     const double first = search_.cost(candidate(low + 1));
-    // The gradient energy is not monotone along the front: what is left of it in between is bounded by 0.
+    // The gradient energy is not monotone along the front; between samples its lower bound is 0.
     const double gradient =
         search_.pairs().gradient.empty() ? 0.0 : gradient_energy(search_.pairs(), candidate(high).adhesion);
     return value_.at(high).incremental - gradient - cost_.at(high) + first;
@@ -124,7 +124,7 @@ double Sweep::between(std::size_t low, std::size_t high) const {
 double Sweep::bound() const {
     double least = infinite;
     for (auto low = value_.begin(), high = std::next(low); high != value_.end(); low = high++) {
-        if (!std::isfinite(high->second.incremental))  // its energy is not known, or nothing balances its load
+        if (!std::isfinite(high->second.incremental))  // its energy is unknown, or it has no equilibrium
             least = std::min(least, search_.floor + cost_.at(low->first));
         else if (high->first > low->first + 1)
             least = std::min(least, between(low->first, high->first));
@@ -136,8 +136,8 @@ double Sweep::bound() const {
 // Halves the intervals on both sides of the lowest sample until its neighbours are sampled.
 void Sweep::refine_minimum() {
     while (search_.left > 0) {
-        // The lowest sample to which I falls: beyond the first pairs' resistance it may lie above the start and still
-        // be worth relaxing.
+        // The lowest sample down to which I decreases: beyond the first pairs' resistance it may lie above the start
+        // and still be worth relaxing.
         auto lowest = value_.end();
         for (auto it = std::next(value_.begin()); it != value_.end(); ++it)
             if (it->second.incremental < std::prev(it)->second.incremental &&
@@ -175,7 +175,7 @@ void Sweep::close_gap() {
     }
 }
 
-// Rings far apart, at places that do not move with the front; new cracks of sizes 1, 2, 4 ...
+// Rings far apart, at positions that do not move with the front; new cracks of sizes 1, 2, 4 ...
 void Sweep::sample_coarsely() {
     std::size_t stride = 1;
     while (ring_.size() / stride > fine) stride *= 2;

@@ -26,7 +26,7 @@ bool ZoneEnergies::focus(const State& known, std::span<const std::uint8_t> wante
     for (const ZoneSystem::Pair& p : system_->pairs()) place_[p.pair] = static_cast<std::int64_t>(p.first);
     const std::optional<double> energy = zone_energy(known.adhesion);
     if (!energy) return false;
-    // The gradient term, which does not depend on displacements, is the search's own business.
+    // The search itself handles the gradient term, which does not depend on displacements.
     offset_ = known.ledger.energy() - gradient_energy(pairs_, known.adhesion) - *energy;
     return true;
 }

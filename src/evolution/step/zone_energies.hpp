@@ -19,14 +19,14 @@ class ZoneEnergies {
 public:
     ZoneEnergies(JumpOperator& op, const PairLaws& pairs, const ContactScene& contact)
         : op_(op), pairs_(pairs), contact_(contact) {}
-    // known: a state with displacements and booked energy, which must outlive the calls that follow. wanted: [pairs]
-    // that may differ. False: there is no zone for them, or nothing balances the known load in it.
+    // known: a state with displacements and booked energy, which must outlive the following calls. wanted: [pairs] that
+    // may differ. False: there is no zone for them, or no equilibrium under the known load in it.
     bool focus(const State& known, std::span<const std::uint8_t> wanted);
-    // May this pair differ?
+    // Whether this pair may differ.
     bool inside(std::size_t pair) const { return place_[pair] >= 0; }
-    // E at the known state's load and another adhesion; none: nothing balances the load.
+    // E at the known state's load and another adhesion; none: no equilibrium.
     std::optional<double> energy(std::span<const double> adhesion);
-    // Local jump of a pair inside, of the last energy().
+    // Local jump of a pair inside the zone, in the last energy().
     std::span<const double> jump(std::size_t pair) const {
         return system_->jump().subspan(static_cast<std::size_t>(place_[pair]),
                                        static_cast<std::size_t>(pairs_.dimension));
@@ -39,7 +39,7 @@ private:
     const PairLaws& pairs_;
     const ContactScene& contact_;
     std::optional<ZoneSystem> system_;
-    std::vector<std::uint8_t> closed_;  // [contact rows] of the last energy, where the next begins
+    std::vector<std::uint8_t> closed_;  // [contact rows] of the last energy, from which the next begins
     std::vector<std::int64_t> place_;   // [pairs] first row within the zone, -1: outside
     double offset_ = 0.0;               // absolute energy less the zone's
 };

@@ -12,17 +12,17 @@ namespace delam {
 
 namespace {
 
-// Part of the terms of the zone's energy by which it changes when the jumps of one state are found from all bodies or
-// within the zone. A plain step never adds energy, but on a stiff interface an avalanche begins with steps that free
-// less than this. Rises cannot add up: the caller compares the energy of the whole before and after.
+// Relative change of the zone's energy between jumps computed from all bodies and within the zone. A plain step never
+// adds energy, but on a stiff interface an avalanche begins with steps that release less than this. Increases cannot
+// accumulate, because the caller compares the total energy before and after.
 constexpr double energy_rounding = 1e-11;
-constexpr std::int64_t longest_wait = 8;    // plain steps between two attempts of what has failed
-constexpr std::int64_t contact_steps = 30;  // active-set steps of one Newton step; beyond them it is not taken
-constexpr std::int64_t halvings = 7;        // of a line search, the full step included
-// A pair joins the zone when its driving energy is above this part of what damages it.
+constexpr std::int64_t longest_wait = 8;    // plain steps between two attempts of a failed method
+constexpr std::int64_t contact_steps = 30;  // active-set steps of one Newton step; beyond them the step is rejected
+constexpr std::int64_t halvings = 7;        // of a line search, including the full step
+// A pair joins the zone if its driving energy exceeds this fraction of the one that damages it.
 constexpr double nearly_loaded = 0.7;
 
-// What failed is tried again after 1, 2, 4, 8, 8 ... steps.
+// A failed method is tried again after 1, 2, 4, 8, 8 ... steps.
 class Patience {
 public:
     bool try_now() {
@@ -44,11 +44,11 @@ private:
 class Descent {
 public:
     Descent(const ZoneNewton& newton, State& state, Increment& increment, const Springs& springs, Zone& zone);
-    // Returns the energy that new mixities alone have added.
+    // Returns the energy added by new mixities alone.
     double run();
 
 private:
-    // Where an iterate stands: jumps of all zone rows, energy, adhesion of the members.
+    // An iterate: jumps of all zone rows, energy, adhesion of the members.
     struct Point {
         std::vector<double> unknowns;
         std::vector<double> jump;
@@ -56,7 +56,7 @@ private:
         double energy = 0.0;
         double size = 0.0;  // sum of the absolute terms of the energy
     };
-    // A step from one point to the next: how it went, and with which adhesions the displacements were computed.
+    // A step from one point to the next: its outcome, and the adhesions with which the displacements were computed.
     struct Move {
         bool taken = false;
         bool newton = false;
@@ -72,16 +72,16 @@ private:
     // Loads the system with models of the members about a point: their tangents between secant (0) and full (1), one
     // of them debonded (or none: -1).
     void model(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded);
-    // Minimiser of the model under contact; false: indefinite, unbalanced, or the contact set did not settle.
+    // Minimiser of the model with contact; false: indefinite, unbalanced, or the contact set did not converge.
     bool minimise(const Point& at, std::span<const double> adhesion, double fraction, std::int64_t debonded,
                   Point& out);
-    // The point between `at` and `to` on which the energy falls; false: none.
+    // A point between `at` and `to` with less energy; false: none.
     bool descend(const Point& at, Point& to) const;
     std::int64_t weakest(const Point& at) const;
     Move step(const Point& at);
     Move staggered_step(const Point& at, const std::vector<std::uint8_t>& closed);
-    // The point shows its mixities: those of the members whose adhesion `carried` was positive. True: the toughness in
-    // use, and with it energy and adhesions of the point, have changed.
+    // Shows the point's mixities: those of the members whose adhesion `carried` was positive. True: the toughness in
+    // use has changed, and with it the energy and adhesions of the point.
     bool observe(Point& at, std::span<const double> carried);
     void hand_over(const Point& at);
 
@@ -96,7 +96,7 @@ private:
     std::vector<std::uint8_t> closed_;       // [contact rows]
     double added_ = 0.0;
     Extrapolation extrapolation_;
-    std::vector<double> used_;  // adhesions from which the last extrapolation went
+    std::vector<double> used_;  // adhesions from which the last extrapolation started
     Patience newton_patience_, move_patience_;
 };
 
@@ -194,7 +194,7 @@ bool Descent::descend(const Point& at, Point& to) const {
     return false;
 }
 
-// The softening pair nearest to its end: the one that plain steps would break next.
+// The softening pair nearest to complete debonding: the one that plain steps would break next.
 std::int64_t Descent::weakest(const Point& at) const {
     std::int64_t found = -1;
     double least = 1.0;
@@ -207,7 +207,7 @@ std::int64_t Descent::weakest(const Point& at) const {
     return found;
 }
 
-// Newton's method; else one pair to its debonded branch; else a step of the staggered scheme.
+// Newton's method; otherwise moves one pair to its debonded branch; otherwise a step of the staggered scheme.
 Descent::Move Descent::step(const Point& at) {
     const std::vector<std::uint8_t> before = closed_;
     Move move;
@@ -231,7 +231,7 @@ Descent::Move Descent::step(const Point& at) {
     return move;
 }
 
-// Extrapolated from the steps before while that lowers the energy, else plain.
+// Extrapolated from the steps before as long as that lowers the energy, otherwise plain.
 Descent::Move Descent::staggered_step(const Point& at, const std::vector<std::uint8_t>& closed) {
     Move move;
     closed_ = closed;
@@ -266,7 +266,7 @@ bool Descent::observe(Point& at, std::span<const double> carried) {
     return changed;
 }
 
-// The jumps are where the next displacement step may start from.
+// Jumps from which the next displacement step may start.
 void Descent::hand_over(const Point& at) {
     for (std::size_t i = 0; i < members_.size(); ++i) state_.adhesion[members_[i].pair] = at.adhesion[i];
     const std::vector<std::uint8_t> held = system_.held(closed_);
