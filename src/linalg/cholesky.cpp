@@ -95,13 +95,13 @@ struct SparseCholesky::Impl {
     // own allocations.
     const double* solve(int system, cholmod_dense& rhs) const {
         const bool super = factor->is_super != 0;
-        const std::size_t n = factor->n, rows = super ? n : 4;
+        const std::size_t n = factor->n, rows = super ? n : 4, columns = rhs.ncol;
         common.status = CHOLMOD_OK;  // reset the status of an earlier call
-        cholmod_l_ensure_dense(&x_buffer, n, 1, n, CHOLMOD_REAL, &common);
+        cholmod_l_ensure_dense(&x_buffer, n, columns, n, CHOLMOD_REAL, &common);
         check("solve");
-        cholmod_l_ensure_dense(&y_work, rows, super ? 1 : n, rows, CHOLMOD_REAL, &common);
+        cholmod_l_ensure_dense(&y_work, rows, super ? columns : n, rows, CHOLMOD_REAL, &common);
         check("solve");
-        if (super) cholmod_l_ensure_dense(&e_work, 1, factor->maxesize, 1, CHOLMOD_REAL, &common);
+        if (super) cholmod_l_ensure_dense(&e_work, columns, factor->maxesize, columns, CHOLMOD_REAL, &common);
         check("solve");
         cholmod_l_solve2(system, factor, &rhs, nullptr, &x_buffer, nullptr, &y_work, &e_work, &common);
         check("solve");
@@ -215,6 +215,8 @@ void SparseCholesky::solve(std::span<const double> b, std::span<double> x) const
     if (impl.size == 0) return;
     const AsManyThreadsAsIdleCores threads;
     cholmod_dense rhs = view(b);
+    rhs.nrow = rhs.d = static_cast<std::size_t>(impl.size);
+    rhs.ncol = b.size() / rhs.nrow;
     std::memcpy(x.data(), impl.solve(CHOLMOD_A, rhs), b.size() * sizeof(double));
 }
 

@@ -30,6 +30,7 @@ public:
 
     // Numeric factorisation of a matrix with the analysed pattern. False: not positive definite.
     bool factorise(const SparseMatrix& matrix);
+    // One right-hand side after another, as many as fit into b.
     void solve(std::span<const double> b, std::span<double> x) const;
     // x = A_ll^-1 b for the leading variables only (all but the trailing ones): forward substitution, drop the trailing
     // part, backward substitution.

@@ -5,15 +5,16 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
+#include "linalg/block.hpp"
 
 namespace delam {
 
 namespace {
-
-std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 // K restricted to the boundary.
 SparseMatrix boundary_block(const Subdomain& s) {
@@ -201,6 +202,24 @@ void FetiPreconditioner::apply_scaled(Team& team, std::span<const double> r, std
             multiply_symmetric(subdomains_[s].schur, in, out);
     });
     multiply(scaling_.b_d, f, z);
+    add_dependencies(r, z);
+}
+
+void FetiPreconditioner::apply_scaled(Team& team, const DenseMatrix& r, DenseMatrix& z) const {
+    DenseMatrix u(rows_.boundary_count(), r.columns), f(u.rows, u.columns);
+    multiply_columns(scaled_transposed_, r, u);
+    team.run(static_cast<std::int64_t>(subdomains_.size()), [&](std::int64_t s) {
+        const std::size_t first = index(rows_.offset[index(s)]), size = subdomains_[index(s)].boundary.size();
+        if (kind_ != Kind::lumped) return multiply_rows(subdomains_[index(s)].schur, u, rows_.offset[index(s)], f);
+        for (std::int64_t c = 0; c < u.columns; ++c)
+            multiply(lumped_[index(s)], column(std::as_const(u), c).subspan(first, size),
+                     column(f, c).subspan(first, size));
+    });
+    multiply_columns(scaling_.b_d, f, z);
+    for (std::int64_t c = 0; c < r.columns; ++c) add_dependencies(column(r, c), column(z, c));
+}
+
+void FetiPreconditioner::add_dependencies(std::span<const double> r, std::span<double> z) const {
     for (std::size_t k = 0; k < dependency_weight_.size(); ++k) {
         const auto& d = scaling_.dependencies[k];
         double along = 0.0;
@@ -226,6 +245,27 @@ void FetiPreconditioner::apply(Team& team, std::span<const double> r, std::span<
     apply_scaled(team, rest, z);
     for (std::size_t i = 0; i < x.size(); ++i)
         if (in_e_[i] != 0) z[i] = current_.stiffness[i] * x[i];
+}
+
+void FetiPreconditioner::apply(Team& team, const DenseMatrix& r, DenseMatrix& z) const {
+    if (kind_ == Kind::none) {
+        z.value = r.value;
+        return;
+    }
+    apply_scaled(team, r, z);
+    if (kind_ != Kind::series) return;
+    DenseMatrix y(rows_.jump_count, r.columns), x = y;
+    for (std::int64_t c = 0; c < r.columns; ++c)
+        for (std::int64_t i = 0; i < y.rows; ++i) y(i, c) = in_e_[index(i)] != 0 ? z(i, c) : 0.0;
+    t_factor_->solve(y.value, x.value);
+    DenseMatrix rest = r;
+    for (std::int64_t c = 0; c < r.columns; ++c)
+        for (std::int64_t i = 0; i < y.rows; ++i)
+            if (in_e_[index(i)] != 0) rest(i, c) -= x(i, c);
+    apply_scaled(team, rest, z);
+    for (std::int64_t c = 0; c < r.columns; ++c)
+        for (std::int64_t i = 0; i < y.rows; ++i)
+            if (in_e_[index(i)] != 0) z(i, c) = current_.stiffness[index(i)] * x(i, c);
 }
 
 }  // namespace delam

@@ -29,10 +29,14 @@ public:
     void update(const Springs& springs);
     // z = M r; both over all rows; entries of rows without force are ignored in r and not meaningful in z.
     void apply(Team& team, std::span<const double> r, std::span<double> z) const;
+    // The same for several columns at once.
+    void apply(Team& team, const DenseMatrix& r, DenseMatrix& z) const;
 
 private:
     enum class Kind { none, lumped, dirichlet, series };
     void apply_scaled(Team& team, std::span<const double> r, std::span<double> z) const;
+    void apply_scaled(Team& team, const DenseMatrix& r, DenseMatrix& z) const;
+    void add_dependencies(std::span<const double> r, std::span<double> z) const;
     void build_pattern(const Poll& poll);
     void factorise(const Springs& springs);
 
