@@ -15,8 +15,7 @@ DualOperator::DualOperator(DualRows rows, const std::vector<Subdomain>& subdomai
     b_transposed_ = transpose(rows_.b);
     scaling_ = make_scaling(rows_, subdomains_, options.scaling);
     call_if_set(poll);
-    preconditioner_ =
-        std::make_unique<FetiPreconditioner>(rows_, subdomains_, scaling_, options.preconditioner, poll);
+    preconditioner_ = std::make_unique<FetiPreconditioner>(rows_, subdomains_, scaling_, options.preconditioner, poll);
     call_if_set(poll);
     coarse_ = std::make_unique<CoarseProblem>(rows_, subdomains_);
     find_diagonal(poll);
@@ -108,9 +107,8 @@ void DualOperator::precondition(Team& team, std::span<const double> jumps, std::
 void DualOperator::flexibility(Team& team, const DenseMatrix& lambda, DenseMatrix& jumps) const {
     DenseMatrix f(rows_.boundary_count(), lambda.columns), u(f.rows, f.columns);
     multiply_columns(b_transposed_, lambda, f);
-    team.run(static_cast<std::int64_t>(subdomains_.size()), [&](std::int64_t s) {
-        multiply_rows(subdomains_[index(s)].flexibility, f, rows_.offset[index(s)], u);
-    });
+    team.run(static_cast<std::int64_t>(subdomains_.size()),
+             [&](std::int64_t s) { multiply_rows(subdomains_[index(s)].flexibility, f, rows_.offset[index(s)], u); });
     multiply_columns(rows_.b, u, jumps);
 }
 

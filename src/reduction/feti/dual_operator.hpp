@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The dual operator F + C at the springs of the moment, with all that conjugate gradients need of it: the projector onto
-// balanced forces and the preconditioner. F = B K^+ B^T comes from the subdomains' boundary blocks, C is the compliance
-// 1/s of the springs; a row with s = 0 carries no force and is left out.
+// The dual operator F + C at the springs of the moment, with all that conjugate gradients need of it: the projector
+// onto balanced forces and the preconditioner. F = B K^+ B^T comes from the subdomains' boundary blocks, C is the
+// compliance 1/s of the springs; a row with s = 0 carries no force and is left out.
 #pragma once
 
 #include <memory>

@@ -14,15 +14,13 @@
 
 #include "base/monitor.hpp"
 #include "base/team.hpp"
-#include "reduction/feti/coarse.hpp"
-#include "reduction/feti/preconditioner.hpp"
+#include "reduction/feti/dual_loads.hpp"
+#include "reduction/feti/dual_operator.hpp"
+#include "reduction/feti/parts.hpp"
 #include "reduction/jump_operator.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {
-
-// How many subdomains the scene is cut into: what the options ask for, or chosen by size.
-std::int64_t feti_subdomains(const Problem& problem);
 
 class Feti final : public JumpOperator {
 public:
@@ -31,40 +29,36 @@ public:
     std::vector<double> reaction(std::span<const double> theta, const Response& response) const override;
     std::vector<double> displacement(std::span<const double> theta, const Response& response) const override;
     double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
-    std::span<const std::uint8_t> prescribed_rows() const override { return scaling_.prescribed; }
+    std::span<const std::uint8_t> prescribed_rows() const override { return dual_.scaling().prescribed; }
     std::int64_t factorisations() const override {
-        return static_cast<std::int64_t>(subdomains_.size()) - (subdomains_.back().body < 0 ? 1 : 0);
+        return static_cast<std::int64_t>(parts_.subdomains.size()) - (parts_.subdomains.back().body < 0 ? 1 : 0);
     }
     std::int64_t recoveries() const override { return recoveries_; }
     std::string description() const override;
 
 private:
-    std::vector<std::vector<std::int64_t>> cut();
-    void precompute_forces(std::span<const std::vector<std::int64_t>> cells, const Poll& poll);
-    void apply_flexibility(Team& team, std::span<const double> lambda, std::span<double> jumps) const;
+    Poll condensing();
+    // The phases of a solve, in feti_solve.cpp.
+    std::vector<double> right_side(const Springs& springs, const DualLoads::Sum& load) const;
+    std::vector<double> first_guess(const DualLoads::Sum& load, std::span<const double> right,
+                                    const Response& response) const;
+    void find_forces(Team& team, const DualLoads::Sum& load, double resultant, std::span<const double> right,
+                     std::span<double> lambda, Response& response);
+    void find_jumps(Team& team, const Springs& springs, const DualLoads::Sum& load, std::span<const double> right,
+                    std::span<const double> lambda, Response& response) const;
+    void share_prescribed(const Springs& springs, const DualLoads::Sum& load, std::span<double> lambda,
+                          Response& response) const;
+    void find_energies(std::span<const double> theta, const DualLoads::Sum& load, std::span<const double> lambda,
+                       Response& response) const;
     std::vector<double> local_displacement(std::size_t subdomain, std::span<const double> theta,
                                            const Response& response) const;
 
     const Problem problem_;
     Monitor& monitor_;
-    std::vector<Subdomain> subdomains_;
-    std::vector<std::vector<NodeCopy>> copies_;
-    DualRows rows_;
-    SparseMatrix b_transposed_;
-    Scaling scaling_;
-    std::unique_ptr<FetiPreconditioner> preconditioner_;
-    std::unique_ptr<CoarseProblem> coarse_;
-    std::vector<double> flexibility_diagonal_;  // of F, per row
-
+    FetiParts parts_;
+    DualOperator dual_;
+    DualLoads loads_;
     mutable std::int64_t recoveries_ = 0;
-
-    // Dead forces, per pattern, on the first copy of their nodes; those of eigenstrains, each on its own subdomain.
-    std::vector<double> prescribed_;                       // [constraints][patterns]
-    std::vector<std::vector<double>> force_jump_;          // B K^+ f, [rows]
-    std::vector<std::vector<double>> force_resultant_;     // R^T f, [coarse]
-    DenseMatrix force_work_;                               // f_p^T K^+ f_q
-    DenseMatrix strain_energy_;                            // W of 1/2 theta^T W theta, of the eigenstrains alone
-    std::vector<std::vector<std::vector<double>>> force_;  // [pattern][subdomain] local vector, empty where none
 };
 
 }  // namespace delam

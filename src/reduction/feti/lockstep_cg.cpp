@@ -11,11 +11,11 @@ namespace delam {
 
 namespace {
 
-constexpr int rounds = 4;                // descents, each from a freshly computed residual
-constexpr std::int64_t limit = 400;      // iterations of a descent
-constexpr int idle_limit = 25;           // iterations without a lower residual
-constexpr double slack = 100.0;          // times the tolerance: what a column that rounding has ended may have left
-constexpr double unbalanced = 1e-8;      // largest part of a resultant that may be left
+constexpr int rounds = 4;            // descents, each from a freshly computed residual
+constexpr std::int64_t limit = 400;  // iterations of a descent
+constexpr int idle_limit = 25;       // iterations without a lower residual
+constexpr double slack = 100.0;      // times the tolerance: what a column that rounding has ended may have left
+constexpr double unbalanced = 1e-8;  // largest part of a resultant that may be left
 
 // Of one column in a descent.
 struct Column {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Projected conjugate gradients for several right-hand sides at once: each column has its own step lengths, but all take
-// their steps together, so that the boundary blocks are read once for all of them. A block of columns gives the same
-// bits whenever it is solved.
+// Projected conjugate gradients for several right-hand sides at once: each column has its own step lengths, but all
+// take their steps together, so that the boundary blocks are read once for all of them. A block of columns gives the
+// same bits whenever it is solved.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A solve of total FETI: springs -> the dual operator; loads -> right-hand side; projected CG -> forces; forces ->
+// jumps, energies.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/numbers.hpp"
+#include "delam/delam.h"
+#include "reduction/feti/feti.hpp"
+#include "reduction/feti/projected_cg.hpp"
+
+namespace delam {
+
+namespace {
+
+// Largest part of a load's resultant that may be left unbalanced before the part counts as not held.
+constexpr double unbalanced = 1e-8;
+// Residuals below this part of the loads' own energy norm are rounding.
+constexpr double rounding = 1e-14;
+
+// The force of its own that a spring has.
+double pulled(const Springs& springs, std::size_t row) {
+    return springs.force.empty() || springs.held[row] != 0 ? 0.0 : springs.force[row];
+}
+
+bool any(std::span<const double> values) {
+    return std::any_of(values.begin(), values.end(), [](double v) { return v != 0.0; });
+}
+
+// A force of its own needs a spring to act on.
+void require_springs(const Springs& springs) {
+    for (std::size_t i = 0; i < springs.stiffness.size(); ++i)
+        if (pulled(springs, i) != 0.0 && !(springs.stiffness[i] > 0.0))
+            fail(DELAM_ERROR_NUMERICAL, "interface row ", i, " carries a force of its own but has no spring");
+}
+
+}  // namespace
+
+// Rows whose jump the device prescribes have a known force s j: the system is solved without them, and that force is
+// shared out between spring and device afterwards (B_i = sum_k y_k B_k).
+void Feti::solve(const Springs& springs, std::span<const double> theta, Response& response) {
+    monitor_.progress("displacement", 0, 0);
+    Team team(problem_.options.threads);
+    require_springs(springs);
+    dual_.set(springs);
+    const DualLoads::Sum load = loads_.at(theta);
+    const std::vector<double> right = right_side(springs, load);
+    std::vector<double> lambda = first_guess(load, right, response);
+    const double resultant = max_abs(load.resultant);
+    const double left = dual_.coarse().balance(load.resultant, lambda, resultant);
+    response.balanced = resultant == 0.0 || left <= unbalanced;
+    if (!response.balanced) return;
+    find_forces(team, load, resultant, right, lambda, response);
+    find_jumps(team, springs, load, right, lambda, response);
+    share_prescribed(springs, load, lambda, response);
+    find_energies(theta, load, lambda, response);
+    response.multipliers = std::move(lambda);
+}
+
+// A spring with a force of its own has the rest jump C h.
+std::vector<double> Feti::right_side(const Springs& springs, const DualLoads::Sum& load) const {
+    std::vector<double> right = load.jump;
+    for (std::size_t i = 0; i < springs.stiffness.size(); ++i) right[i] -= dual_.compliance()[i] * pulled(springs, i);
+    dual_.mask(right);
+    return right;
+}
+
+// Without a load nothing moves, exactly; a warm start would leave its rounding behind.
+std::vector<double> Feti::first_guess(const DualLoads::Sum& load, std::span<const double> right,
+                                      const Response& response) const {
+    const bool loaded = any(load.resultant) || any(load.jump) || any(right);
+    std::vector<double> lambda = loaded ? response.multipliers : std::vector<double>();
+    lambda.resize(right.size(), 0.0);
+    for (const Scaling::Prescribed& p : dual_.scaling().prescribed_jumps)
+        for (std::size_t i = 0; i < p.row.size(); ++i) lambda[index(p.row[i])] += p.y[i] * lambda[index(p.jump_row)];
+    dual_.mask(lambda);
+    return lambda;
+}
+
+void Feti::find_forces(Team& team, const DualLoads::Sum& load, double resultant, std::span<const double> right,
+                       std::span<double> lambda, Response& response) {
+    ProjectedSystem system;
+    system.apply = [&](std::span<const double> x, std::span<double> y) { dual_.apply(team, x, y); };
+    system.precondition = [&](std::span<const double> r, std::span<double> z) { dual_.precondition(team, r, z); };
+    system.balance = [&](std::span<double> x) { dual_.coarse().balance(load.resultant, x, resultant); };
+    system.project = [&](std::span<double> x) { dual_.coarse().project(x); };
+    system.project_transposed = [&](std::span<double> x) {
+        dual_.coarse().project_transposed(x);
+        dual_.mask(x);
+    };
+    double size = 0.0;  // energy of the loads if nothing could give way: the scale of rounding
+    for (std::size_t i = 0; i < right.size(); ++i) size += dual_.weight()[i] * right[i] * right[i];
+    // Eigenstrains that are free to act cancel in B u: their rounding is that of larger numbers.
+    const double floor = (problem_.eigenstrains.empty() ? 1.0 : 100.0) * rounding * std::sqrt(size);
+    const CgResult cg =
+        projected_cg(system, right, lambda, problem_.options.linear_tolerance, floor, problem_.options.linear_limit,
+                     [&](std::int64_t iteration) { monitor_.progress("linear solve", iteration, 0); });
+    response.iterations = cg.iterations;
+    response.residual = cg.residual;
+    response.converged = cg.converged;
+}
+
+// A lambda - b = G^T alpha, and B u = B K^+ f - F lambda + G^T alpha.
+void Feti::find_jumps(Team& team, const Springs& springs, const DualLoads::Sum& load, std::span<const double> right,
+                      std::span<const double> lambda, Response& response) const {
+    const std::span<const double> compliance = dual_.compliance();
+    std::vector<double> f_lambda(right.size()), residual(right.size());
+    dual_.flexibility(team, lambda, f_lambda);
+    for (std::size_t i = 0; i < residual.size(); ++i)
+        residual[i] = dual_.active(i) ? f_lambda[i] + compliance[i] * lambda[i] - right[i] : 0.0;
+    response.rigid = dual_.coarse().rigid_coefficients(residual);
+    const std::vector<double> rigid_jump = dual_.coarse().apply_transposed(response.rigid);
+    response.jump.assign(springs.stiffness.size(), 0.0);
+    for (std::size_t i = 0; i < response.jump.size(); ++i) {
+        // A stiff spring knows its jump best from its force, a soft one (or none) from the bodies.
+        if (!dual_.active(i) || compliance[i] > dual_.flexibility_diagonal()[i])
+            response.jump[i] = load.jump[i] - f_lambda[i] + rigid_jump[i];
+        else
+            response.jump[i] = compliance[i] * (lambda[i] + pulled(springs, i));
+    }
+}
+
+void Feti::share_prescribed(const Springs& springs, const DualLoads::Sum& load, std::span<double> lambda,
+                            Response& response) const {
+    const std::size_t first_constraint = lambda.size() - load.prescribed.size();
+    for (const Scaling::Prescribed& p : dual_.scaling().prescribed_jumps) {
+        const auto row = index(p.jump_row);
+        double jump = 0.0;
+        for (std::size_t i = 0; i < p.row.size(); ++i)
+            if (index(p.row[i]) >= first_constraint)
+                jump += p.y[i] * load.prescribed[index(p.row[i]) - first_constraint];
+        if (springs.held[row] == 0) lambda[row] = springs.stiffness[row] * jump - pulled(springs, row);
+        for (std::size_t i = 0; i < p.row.size(); ++i) lambda[index(p.row[i])] -= p.y[i] * lambda[row];
+        response.jump[row] = springs.held[row] == 0 ? jump : 0.0;
+    }
+    response.force.assign(lambda.begin(), lambda.begin() + dual_.rows().jump_count);
+}
+
+void Feti::find_energies(std::span<const double> theta, const DualLoads::Sum& load, std::span<const double> lambda,
+                         Response& response) const {
+    const std::size_t patterns = theta.size(), first_constraint = lambda.size() - load.prescribed.size();
+    double work_of_multipliers = dot(response.force, response.jump);
+    for (std::size_t d = 0; d < load.prescribed.size(); ++d)
+        work_of_multipliers += lambda[first_constraint + d] * load.prescribed[d];
+    response.conjugate.assign(patterns, 0.0);
+    response.load_potential = 0.0;
+    double stretched = 0.0;  // f.u of eigenstrains less theta^T W theta
+    for (std::size_t p = 0; p < patterns; ++p) {
+        const auto at = static_cast<std::int64_t>(p);
+        if (loads_.jump[p].empty()) {
+            for (std::size_t d = 0; d < load.prescribed.size(); ++d)
+                response.conjugate[p] -= loads_.prescribed[d * patterns + p] * lambda[first_constraint + d];
+            continue;
+        }
+        double displacement = dot(loads_.resultant[p], response.rigid) - dot(loads_.jump[p], lambda);
+        for (std::size_t q = 0; q < patterns; ++q)
+            displacement += loads_.work(at, static_cast<std::int64_t>(q)) * theta[q];
+        response.conjugate[p] = -displacement;
+        if (problem_.patterns[p].drives == Pattern::Drives::force) {
+            response.load_potential -= theta[p] * displacement;
+            continue;
+        }
+        for (std::size_t q = 0; q < patterns; ++q)
+            response.conjugate[p] += loads_.strain_energy(at, static_cast<std::int64_t>(q)) * theta[q];
+        stretched -= theta[p] * response.conjugate[p];
+    }
+    // 1/2 int (eps - e*) : C : (eps - e*) = 1/2 (f_dead - f_strain).u - 1/2 lambda.B u + 1/2 theta^T W theta; zero but
+    // for rounding where the strains are free to follow e*.
+    response.stored_bulk = 0.5 * (-response.load_potential - stretched - work_of_multipliers);
+    if (!problem_.eigenstrains.empty()) response.stored_bulk = std::max(0.0, response.stored_bulk);
+}
+
+}  // namespace delam
