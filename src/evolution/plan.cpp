@@ -159,7 +159,7 @@ std::vector<PlanItem> Solver::plan() const {
     const bool plain = options.minimisation == "alternate";
     items.push_back({"acceleration of the minimisation", plain ? left_out : used,
                      text(plain ? "option minimisation = alternate"
-                          : reduction().condensed && pairs().gradient.empty()
+                          : pairs().gradient.empty()
                               ? "Newton steps and debonding moves in the process zone, each checked by the energy"
                               : "extrapolated alternate minimisation, each step checked by the energy",
                           "; same stopping test: delta = ", options.damage_tolerance, ", at most ",

@@ -22,8 +22,8 @@ inline constexpr double nominal_rate = 20e9;  // operations/s of one core in a l
 inline constexpr double nominal_steps = 40.0;
 // The condensed march may need so many times the memory of one monolithic factorisation.
 inline constexpr double memory_ratio = 2.5;
-// Memory that every machine for such work has: below it the ratio decides nothing. A march by FETI takes 30 to 100
-// times as long (no Newton steps among all its alternations), so it is for what would not fit.
+// Memory that every machine for such work has: below it the ratio decides nothing. FETI solves each linear system by
+// iteration and takes longer, so it is for what would not fit.
 inline constexpr double memory_floor = 4096.0 * 1048576.0;
 // Rows of a dense matrix that LAPACK with 32-bit integers can address.
 inline constexpr std::int64_t dense_limit = 46340;

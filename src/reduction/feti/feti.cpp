@@ -22,6 +22,11 @@ Poll Feti::condensing() {
     return monitor_.poll_at("condense", parts, parts);
 }
 
+Zone* Feti::zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool) {
+    if (zone_ == nullptr) zone_ = std::make_unique<FetiZone>(problem_, dual_, loads_, monitor_);
+    return zone_->zone(springs, wanted);
+}
+
 std::vector<double> Feti::reaction(std::span<const double>, const Response& response) const {
     std::vector<double> force(response.multipliers.end() - dual_.rows().constraint_count, response.multipliers.end());
     for (double& f : force) f = -f;
@@ -118,8 +123,8 @@ std::string Feti::description() const {
     return text("total FETI: ", parts_.subdomains.size() - (controls ? 1 : 0), " subdomains",
                 controls ? " and control nodes, " : ", ", dual_.rows().jump_count, " jump + ", dual_.rows().glue_count,
                 " gluing + ", dual_.rows().constraint_count, " constraint multipliers, coarse problem ",
-                coarse_->size(), ", preconditioner ", problem_.options.preconditioner, ", largest boundary ", largest,
-                " DOFs, dense blocks ", bytes / 1048576.0, " MiB");
+                dual_.coarse().size(), ", preconditioner ", problem_.options.preconditioner, ", largest boundary ",
+                largest, " DOFs, dense blocks ", bytes / 1048576.0, " MiB");
 }
 
 }  // namespace delam

@@ -16,6 +16,7 @@
 #include "base/team.hpp"
 #include "reduction/feti/dual_loads.hpp"
 #include "reduction/feti/dual_operator.hpp"
+#include "reduction/feti/feti_zone.hpp"
 #include "reduction/feti/parts.hpp"
 #include "reduction/jump_operator.hpp"
 #include "scene/problem.hpp"
@@ -34,6 +35,8 @@ public:
         return static_cast<std::int64_t>(parts_.subdomains.size()) - (parts_.subdomains.back().body < 0 ? 1 : 0);
     }
     std::int64_t recoveries() const override { return recoveries_; }
+    bool offers_zone() const override { return true; }
+    Zone* zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) override;
     std::string description() const override;
 
 private:
@@ -58,6 +61,7 @@ private:
     FetiParts parts_;
     DualOperator dual_;
     DualLoads loads_;
+    std::unique_ptr<FetiZone> zone_;  // once it is asked for
     mutable std::int64_t recoveries_ = 0;
 };
 

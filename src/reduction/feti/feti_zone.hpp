@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The zone of total FETI: a dense energy of the jumps where springs change, found from the columns of the dual
+// operator.
+//
+// A set A of rows holds all whose springs differ from the base's and all that are wanted, rounded up to the groups in
+// which columns are found; outside A the springs are the base's, and the columns have them minimised out. Of A, the
+// groups of wanted rows are the zone, the others are minimised out at their springs of the moment. All of it depends on
+// the scene, the springs and what is wanted alone, never on an earlier zone: what is kept is what would be found again.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "reduction/feti/jump_columns.hpp"
+#include "reduction/zone/zone.hpp"
+
+namespace delam {
+
+class FetiZone {
+public:
+    FetiZone(const Problem& problem, DualOperator& dual, const DualLoads& loads, Monitor& monitor);
+    // Null: A is too large, its rows depend on each other, or its columns cannot be found well enough.
+    Zone* zone(const Springs& springs, std::span<const std::uint8_t> wanted);
+
+private:
+    // Unknowns of the zone and what the others are minimised out at, over A.
+    struct Split {
+        std::vector<std::int64_t> kept;
+        std::vector<double> spring;  // of the others, -1: held; 0 for those kept
+        bool operator==(const Split&) const = default;
+    };
+    std::vector<std::int64_t> changed(const Springs& springs, std::span<const std::uint8_t> wanted) const;
+    bool allowed(std::span<const std::int64_t> rows) const;
+    bool find_energy(std::vector<std::int64_t> rows);
+    void find_motions();
+    Split split(const Springs& springs, std::span<const std::uint8_t> wanted) const;
+    bool minimise_out(Split split);
+    std::vector<double> driven(std::size_t row) const;
+    DenseMatrix floating() const;
+
+    const Problem& problem_;
+    DualOperator& dual_;
+    const DualLoads& loads_;
+    Monitor& monitor_;
+    JumpColumns columns_;
+    DenseMatrix rigid_;  // jumps of the motions that no support holds, [jump rows][motions]
+
+    std::vector<std::int64_t> rows_;     // A; empty: none is known
+    DenseEnergy energy_;                 // of A
+    std::vector<std::int64_t> anchors_;  // of A: with these kept, the others hold every motion that A lets go
+    Split split_;
+    std::unique_ptr<Condensation> rest_;
+    std::unique_ptr<Zone> zone_;
+};
+
+}  // namespace delam

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The zone of total FETI against the zone of the condensed operator on the same scene: jumps, forces and energies at
+// the same springs and held rows; and that its bits do not depend on what was asked before.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "base/numbers.hpp"
+#include "flexure.hpp"
+#include "reduction/condensed/condensed.hpp"
+#include "reduction/feti/feti.hpp"
+#include "reduction/zone/zone.hpp"
+
+// Last: its macro fail() would break delam::fail().
+#include <check.h>
+
+using namespace delam;
+
+namespace {
+
+struct Case {
+    const char* name;
+    int dimension;
+    std::size_t layers;
+    std::int64_t subdomains;
+    double stiffness;       // of the law
+    bool floating = false;  // the layers come apart but for the zone
+    bool touching = false;  // the second interface only touches
+    bool loaded = false;    // dead forces and an eigenstrain
+    const char* preconditioner = "series";
+    double tolerance = 1e-7;
+};
+
+constexpr Case cases[] = {
+    {"two layers", 2, 2, 0, 125e9},
+    {"three layers in seven subdomains", 2, 3, 7, 125e9},
+    {"soft interface", 2, 2, 3, 1e9},
+    {"stiff interface", 2, 2, 3, 1e16},
+    {"space", 3, 2, 4, 125e9},
+    {"a layer that floats", 2, 3, 5, 125e9, true},
+    {"a layer that floats in space", 3, 3, 0, 125e9, true},
+    {"contact alone", 2, 3, 0, 125e9, false, true},
+    {"dead forces, eigenstrains", 2, 3, 4, 125e9, false, false, true},
+    {"lumped preconditioner", 2, 2, 4, 125e9, false, false, false, "lumped"},
+};
+
+Problem make(const Case& c) {
+    unit::Flexure f;
+    f.dimension = c.dimension;
+    f.layers = c.layers;
+    f.along = c.dimension == 2 ? 60 : 16;
+    f.across = 3;
+    f.through = 2;
+    f.law.normal_stiffness = f.law.tangential_stiffness = c.stiffness;
+    Problem problem = unit::make_flexure(f);
+    problem.options.subdomains = c.subdomains;
+    problem.options.preconditioner = c.preconditioner;
+    if (c.touching) {
+        problem.interfaces.back().law.reset();
+        problem.interfaces.back().contact = true;
+        std::fill(problem.interfaces.back().adhesion.begin(), problem.interfaces.back().adhesion.end(), 0.0);
+        // What lies above must not fall off sideways.
+        for (std::int64_t node = 0; node < problem.mesh->node_count(); ++node)
+            if (problem.mesh->node_body(node) == static_cast<std::int32_t>(c.layers) - 1 &&
+                problem.mesh->node(node)[0] < 1e-9)
+                problem.constraints.push_back({{c.dimension * node}, {1.0}, {}});
+    }
+    if (c.loaded) {
+        problem.patterns.push_back({"pull", {0.0, 1.0}, {0.0, 1.0}, Pattern::Drives::force});
+        problem.patterns.push_back({"heat", {0.0, 1.0}, {0.0, 1.0}, Pattern::Drives::strain});
+        problem.forces.push_back({1, c.dimension * (problem.mesh->node_count() - 1) + 1, 3e3});
+        Strain strain{};
+        strain[0] = 1e-3;
+        problem.eigenstrains.push_back({2, 1, strain});
+    }
+    return problem;
+}
+
+// A state that a march may meet: a notch, some pairs damaged, some closed.
+struct Scene {
+    Problem problem;
+    Springs springs;
+    std::vector<std::uint8_t> wanted;
+    std::vector<double> theta;
+    std::size_t dim;
+
+    Scene(const Case& c, unsigned seed) : problem(make(c)), dim(static_cast<std::size_t>(c.dimension)) {
+        std::mt19937 random(seed);
+        const auto one_in = [&](unsigned n) { return random() % n == 0; };
+        springs.stiffness.assign(index(problem.jump_count()), 0.0);
+        springs.held.assign(springs.stiffness.size(), 0);
+        wanted.assign(springs.stiffness.size(), 0);
+        theta.assign(problem.patterns.size(), 1.0);
+        std::size_t pair = 0;
+        for (std::size_t i = 0; i < problem.interfaces.size(); ++i) {
+            const InterfaceGeometry& face = problem.mesh->interfaces()[i];
+            for (std::size_t p = 0; p < face.weight.size(); ++p, ++pair) {
+                const double x = problem.mesh->node(face.node_a[p])[0];
+                double zeta = problem.interfaces[i].adhesion[p];
+                const bool front = x > 0.025 && x<0.045, far = x> 0.1;
+                if (front && one_in(2)) zeta *= 0.1 + 0.8 * static_cast<double>(random() % 1000) / 1000.0;
+                if (c.floating) zeta = front && zeta > 0.0 ? zeta : 0.0;
+                const bool closed =
+                    problem.interfaces[i].contact ? one_in(2) : !c.floating && !front && !far && one_in(8);
+                for (std::size_t k = 0; k < dim; ++k) {
+                    springs.stiffness[pair * dim + k] =
+                        problem.interfaces[i].law ? face.weight[p] * zeta * c.stiffness : 0.0;
+                    wanted[pair * dim + k] = front ? 1 : 0;
+                }
+                springs.held[pair * dim] = closed ? 1 : 0;
+            }
+        }
+    }
+};
+
+struct Answer {
+    std::vector<double> jump, force;  // of the wanted rows
+    double energy = 0.0;
+};
+
+// The zone's minimiser where the wanted rows have `scale` of their springs and every fifth pair of them is closed.
+Answer ask(Zone& zone, const Scene& scene, double scale) {
+    const std::vector<std::int64_t>& rows = zone.jump_rows();
+    std::vector<Zone::Coupling> couplings;
+    std::vector<std::uint8_t> held(rows.size());
+    std::vector<double> spring(rows.size(), 0.0);
+    for (std::size_t z = 0; z < rows.size(); ++z) {
+        const std::size_t r = index(rows[z]);
+        held[z] = scene.springs.held[r];
+        if (scene.wanted[r] != 0) held[z] = r % scene.dim == 0 && r / scene.dim % 5 == 0 && scale < 1.0 ? 1 : 0;
+        spring[z] = (scene.wanted[r] != 0 ? scale : 1.0) * scene.springs.stiffness[r];
+        const auto at = static_cast<std::int64_t>(z);
+        if (held[z] == 0 && spring[z] > 0.0) couplings.push_back({at, at, spring[z]});
+    }
+    ck_assert(zone.factor(couplings, held));
+    const Zone::Solution solution = zone.solve(scene.theta, {});
+    ck_assert(solution.balanced);
+    const std::vector<double> jump = zone.jumps(scene.theta, solution.unknowns);
+    std::vector<double> force(rows.size());
+    for (std::size_t z = 0; z < rows.size(); ++z) force[z] = held[z] != 0 ? 0.0 : spring[z] * jump[z];
+    zone.complete_forces(scene.theta, solution, force);
+    Answer answer;
+    answer.energy = zone.energy_of(scene.theta, solution.unknowns);
+    for (std::size_t z = 0; z < rows.size(); ++z) {
+        if (held[z] == 0) answer.energy += 0.5 * spring[z] * jump[z] * jump[z];
+        if (scene.wanted[index(rows[z])] == 0) continue;
+        answer.jump.push_back(jump[z]);
+        answer.force.push_back(force[z]);
+    }
+    return answer;
+}
+
+void expect_close(std::span<const double> a, std::span<const double> b, double tolerance, const std::string& what) {
+    ck_assert_uint_eq(a.size(), b.size());
+    double off = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) off = std::max(off, std::abs(a[i] - b[i]));
+    std::printf("%s: off by %.2e of %.3g\n", what.c_str(), off, max_abs(b));
+    ck_assert_msg(off <= tolerance * max_abs(b), "%s: off by %.2e of %.3g", what.c_str(), off, max_abs(b));
+}
+
+}  // namespace
+
+START_TEST(answers_as_the_condensed_zone) {
+    const Case& c = cases[_i];
+    const Scene scene(c, static_cast<unsigned>(_i) + 1U);
+    Monitor monitor;
+    auto bulk = std::make_shared<Bulk>(scene.problem, monitor);
+    bulk->condense(monitor);
+    Condensed condensed(bulk, scene.problem, monitor);
+    Feti feti(scene.problem, monitor);
+    ck_assert(feti.offers_zone());
+    Zone* of_condensed = condensed.zone(scene.springs, scene.wanted, false);
+    Zone* of_feti = feti.zone(scene.springs, scene.wanted, false);
+    ck_assert(of_condensed != nullptr);
+    ck_assert_msg(of_feti != nullptr, "%s: no zone", c.name);
+    std::vector<Answer> a, b;
+    for (const double scale : {1.0, 0.3}) {
+        a.push_back(ask(*of_feti, scene, scale));
+        b.push_back(ask(*of_condensed, scene, scale));
+        const std::string where = std::string(c.name) + ", scale " + std::to_string(scale);
+        expect_close(a.back().jump, b.back().jump, c.tolerance, where + ", jumps");
+        expect_close(a.back().force, b.back().force, c.tolerance, where + ", forces");
+    }
+    // Each zone has an energy of its own up to a constant.
+    const double off = (a[1].energy - a[0].energy) - (b[1].energy - b[0].energy), size = b[1].energy - b[0].energy;
+    std::printf("%s: energies off by %.2e of %.3g\n", c.name, off, size);
+    ck_assert_msg(std::abs(off) <= c.tolerance * std::abs(size), "%s: energies off by %.2e of %.3g", c.name, off, size);
+}
+END_TEST
+
+// Another zone first, a solve between, another operator: the same bits.
+START_TEST(does_not_depend_on_the_past) {
+    const Case& c = cases[_i];
+    const Scene scene(c, 7), other(c, 8);
+    Monitor monitor;
+    Feti fresh(scene.problem, monitor), used(scene.problem, monitor);
+    std::vector<std::uint8_t> elsewhere(scene.wanted.size(), 0);
+    std::fill(elsewhere.end() - static_cast<std::ptrdiff_t>(scene.dim) * 20, elsewhere.end(), std::uint8_t{1});
+    ck_assert(used.zone(other.springs, elsewhere, false) != nullptr);
+    Response before, after;
+    used.solve(scene.springs, scene.theta, before);
+    ck_assert(used.zone(scene.springs, elsewhere, false) != nullptr);
+    Zone* of_used = used.zone(scene.springs, scene.wanted, false);
+    Zone* of_fresh = fresh.zone(scene.springs, scene.wanted, false);
+    ck_assert(of_used->jump_rows() == of_fresh->jump_rows());
+    ck_assert(of_used->energy().stiffness.value == of_fresh->energy().stiffness.value);
+    ck_assert(of_used->energy().load.value == of_fresh->energy().load.value);
+    // Nor does a solve depend on the zones before it.
+    fresh.solve(scene.springs, scene.theta, after);
+    ck_assert(before.jump == after.jump && before.force == after.force);
+    ck_assert(before.stored_bulk == after.stored_bulk);
+}
+END_TEST
+
+int main() {
+    Suite* suite = suite_create("FETI zone");
+    TCase* zones = tcase_create("zones");
+    tcase_set_timeout(zones, 300);
+    tcase_add_loop_test(zones, answers_as_the_condensed_zone, 0, static_cast<int>(std::size(cases)));
+    tcase_add_loop_test(zones, does_not_depend_on_the_past, 0, 6);
+    suite_add_tcase(suite, zones);
+    SRunner* runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? 0 : 1;
+}
