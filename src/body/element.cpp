@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t strain_count(std::size_t dim) { return dim == 2 ? 3 : 6; }
 
-// Place of the strain component ij in the order xx, yy, 2xy and xx, yy, zz, 2xy, 2yz, 2zx.
+// Position of the strain component ij in the order xx, yy, 2xy and xx, yy, zz, 2xy, 2yz, 2zx.
 constexpr std::size_t voigt(std::size_t dim, std::size_t i, std::size_t j) {
     if (i == j) return i;
     return dim == 2 ? 2 : i + j == 1 ? 3 : i + j == 3 ? 4 : 5;
@@ -55,8 +55,8 @@ Matrix<dim> tangent(const double* x, const double* gradient) {
 template <std::size_t nodes, std::size_t dim>
 using Products = std::array<double, nodes * dim * nodes * dim>;
 
-// The displacement modes 1 - xi_i^2 of Wilson (1973), which bend, in the form of Taylor, Beresford and Wilson (Int. J.
-// Numer. Meth. Eng. 10, 1976): their gradients are those at the centre, scaled,
+// The displacement modes 1 - xi_i^2 of Wilson (1973), which represent bending, in the form of Taylor, Beresford and
+// Wilson (Int. J. Numer. Meth. Eng. 10, 1976): their gradients are those at the centre, scaled,
 //     dM_i/dx = (det J_0 / det J) J_0^-T dM_i/dxi,
 // so that int dM_i/dx dx = 0: a constant stress does no work on them, and the patch test holds on distorted cells.
 template <std::size_t nodes, std::size_t dim, std::size_t modes>
@@ -91,7 +91,8 @@ void gradient_products(CellType type, const double* coordinates, Products<nodes 
     }
 }
 
-// Whether normal strains make shear stresses or one shear strain another's stress: not in isotropic materials.
+// Whether normal strains cause shear stresses or one shear strain causes another's stress, which isotropic materials
+// exclude.
 template <std::size_t dim>
 bool coupled(const double* elasticity) {
     constexpr std::size_t strains = strain_count(dim);
@@ -101,9 +102,9 @@ bool coupled(const double* elasticity) {
     return false;
 }
 
-// K_ai,bm = sum_rl D_(ir)(ml) T_ar,bl : the elasticity enters once for each pair of nodes. Pairs a <= b are computed
-// and copied, so that K equals its transpose bit for bit. block(t, k) makes the dim x dim entries of a pair from those
-// of T.
+// K_ai,bm = sum_rl D_(ir)(ml) T_ar,bl : the elasticity is applied once for each pair of nodes. Pairs a <= b are
+// computed and copied, so that K equals its transpose bit for bit. block(t, k) computes the dim x dim entries of a pair
+// from those of T.
 template <std::size_t nodes, std::size_t dim, class PairBlock>
 void each_pair(const Products<nodes, dim>& product, PairBlock&& block, double* k) {
     constexpr std::size_t size = nodes * dim;
@@ -123,8 +124,7 @@ void each_pair(const Products<nodes, dim>& product, PairBlock&& block, double* k
     }
 }
 
-// Without coupling there are, beside D_(ii)(mm), only the terms of one shear strain, ir = ml: 15 instead of 81 in
-// space.
+// Without coupling, only D_(ii)(mm) and the terms of one shear strain, ir = ml, remain: 15 instead of 81 in space.
 template <std::size_t nodes, std::size_t dim>
 void contract(const Products<nodes, dim>& product, const double* elasticity, double* k) {
     constexpr std::size_t strains = strain_count(dim);

@@ -14,7 +14,7 @@
 namespace delam {
 
 // Stiffness of a cell, row-major into matrix[size*size], size = nodes*dimension; DOFs dimension*local node + component;
-// exactly symmetric. coordinates: [nodes][dimension]; elasticity as of elasticity_matrix(). Allocates nothing.
+// exactly symmetric. coordinates: [nodes][dimension]; elasticity as for elasticity_matrix(). Allocates nothing.
 void element_stiffness(CellType type, std::span<const double> coordinates, std::span<const double> elasticity,
                        Formulation formulation, std::span<double> matrix);
 
@@ -27,14 +27,14 @@ struct Dilatation {
 };
 void mean_dilatation_stiffness(CellType type, std::span<const double> coordinates, std::span<const double> elasticity,
                                const Dilatation& dilatation, std::span<double> matrix);
-// The projected dilatation at the centre less the displacement's own there.
+// The projected dilatation at the centre less the displacement's own dilatation there.
 double dilatation_correction(CellType type, std::span<const double> coordinates, std::span<const double> displacement);
 
 // int dN_a/dx_j dx into integral[nodes*dimension], and the cell's volume.
 double integrate_gradients(CellType type, std::span<const double> coordinates, std::span<double> integral);
 
 // Strains (engineering, order of elasticity_matrix) at the cell's centre from its nodal displacements
-// [nodes][dimension]. Internal modes are at rest there.
+// [nodes][dimension]. Internal modes have no strain there.
 std::vector<double> centre_strain(CellType type, std::span<const double> coordinates,
                                   std::span<const double> displacement);
 

@@ -13,11 +13,11 @@ namespace delam {
 
 namespace {
 
-constexpr double rounding = 1e-12;  // by how much, relatively, Gc may fall short of Go
+constexpr double rounding = 1e-12;  // relative amount by which Gc may fall short of Go
 
-// The natural coordinate of a mixity is x = ln(psi^2), B = 1/(1+exp(-x)): either toughness runs from one asymptote to
-// the other around its own crossing psi^2 = G_t/G_n, over a width of one over the exponents. The range is what
-// doubles can tell.
+// The natural coordinate of a mixity is x = ln(psi^2), B = 1/(1+exp(-x)): either toughness changes from one asymptote
+// to the other around its own crossing psi^2 = G_t/G_n, over a width of one over the exponents. The range is that of
+// doubles.
 double mixity_of(double x) { return 1.0 / (1.0 + std::exp(-x)); }
 double excess(const Law& law, double x) {
     const double b = mixity_of(x);
@@ -25,7 +25,7 @@ double excess(const Law& law, double x) {
     return std::log(toughness_at(law.criterion, law.total_modes(), b) / onset);
 }
 
-// Where a toughness passes from one of its modes to the other: for Benzeggagh and Kenane B^eta |G_t/G_n - 1| = 1.
+// Where a toughness changes from one of its modes to the other: for Benzeggagh and Kenane B^eta |G_t/G_n - 1| = 1.
 double crossing(Criterion criterion, const Modes& modes) {
     const double ratio = modes.tangential / modes.normal;
     if (criterion != Criterion::benzeggagh_kenane) return std::log(ratio);
@@ -33,9 +33,9 @@ double crossing(Criterion criterion, const Modes& modes) {
     return share - std::log(-std::expm1(std::min(share, -1e-16)));
 }
 
-// Smallest ln(Gc/Go) over the mixities between the pure modes: where, how much. Sampled evenly in B, and around both
-// crossings with a spacing that grows with the distance; the deepest dips of the samples are then refined by golden
-// sections.
+// Minimum of ln(Gc/Go) over the mixities between the pure modes: position and value. The samples are even in B, and
+// around both crossings their spacing grows with the distance; golden sections then refine the lowest minima of the
+// samples.
 std::pair<double, double> least_excess(const Law& law) {
     constexpr double lowest = -740.0;
     constexpr double highest = 36.5;

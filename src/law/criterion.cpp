@@ -10,13 +10,14 @@ namespace delam {
 
 namespace {
 
-// With g = G/a = exp(-t), a <= c the toughnesses that each mode alone would allow, the criterion reads
+// With g = G/a = exp(-t), and a <= c the toughnesses that each mode alone would allow, the criterion reads
 //
 //     phi(t) = exp(-p t) + rho exp(-q t) - 1 = 0,   rho = (a/c)^q in [0,1],   t >= 0.
 //
-// phi is convex and decreasing, so Newton's method started left of the root climbs to it and never passes it. Both
-// terms share the larger exponent's bound, (1+rho) exp(-max(p,q) t) <= 1 at the root, which gives the start; each of
-// them being at most 1/2 gives the right end of the bracket. Only ratios enter: the result does not know the units.
+// phi is convex and decreasing, so Newton's method started left of the root increases towards it and never passes it.
+// Both terms share the larger exponent's bound, (1+rho) exp(-max(p,q) t) <= 1 at the root, which gives the start; each
+// of them is at most 1/2 at the right end of the bracket. Only ratios enter, so the result does not depend on the
+// units.
 double decay(double rho, double p, double q) {
     if (!(rho > 0.0)) return 0.0;
     double left = std::log1p(rho) / std::max(p, q);
@@ -42,9 +43,9 @@ double decay(double rho, double p, double q) {
 }  // namespace
 
 double interaction(double normal_toughness, double tangential_toughness, double p, double q, double mixity) {
-    // Whatever the mixity, to the last digit.
+    // The same for every mixity, to the last digit.
     if (normal_toughness == tangential_toughness && p == 1.0 && q == 1.0) return normal_toughness;
-    // The total G at which one mode alone would reach its toughness; infinite for a mode that takes no part.
+    // The total G at which one mode alone would reach its toughness; infinite if the mode is absent.
     double a = normal_toughness / (1.0 - mixity);
     double c = tangential_toughness / mixity;
     if (a > c) {
@@ -58,7 +59,7 @@ double interaction(double normal_toughness, double tangential_toughness, double 
 
 namespace {
 
-constexpr double nearest = 1e-6;  // how close to a pure mode slopes are taken where they may be infinite
+constexpr double nearest = 1e-6;  // distance from a pure mode at which slopes that may be infinite are evaluated
 
 constexpr std::pair<const char*, Criterion> names[] = {{"valoroso-champaney", Criterion::valoroso_champaney},
                                                        {"power", Criterion::power},

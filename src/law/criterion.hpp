@@ -5,7 +5,7 @@
 //   power law                   the same with p = q: G = [((1-B)/G_n)^p + (B/G_t)^p]^(-1/p)
 //   Benzeggagh, Kenane (1996)   G = G_n + (G_t - G_n) B^eta
 //
-// All three grow with G_n and with G_t, and are G_n for every B where G_n = G_t and the exponents are 1.
+// All three increase with G_n and with G_t, and equal G_n for every B if G_n = G_t and the exponents are 1.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ namespace delam {
 
 enum class Criterion { valoroso_champaney, power, benzeggagh_kenane };
 
-// Known: valoroso-champaney, power, benzeggagh-kenane. false: none of them.
+// Known: valoroso-champaney, power, benzeggagh-kenane. false: an unknown name.
 bool criterion_of(const std::string& name, Criterion& criterion);
 const char* name_of(Criterion criterion);
 
@@ -26,10 +26,10 @@ struct Modes {
     double second;      // q; p = q for the power law, not used by Benzeggagh and Kenane
 };
 double toughness_at(Criterion criterion, const Modes& modes, double mixity);
-// dG/dB. Where it is infinite (an exponent below 1, at the pure mode whose share it is of) it is cut off at what it is
-// one part in a million away.
+// dG/dB. Where it is infinite (an exponent below 1, at the corresponding pure mode) it is replaced by its value at a
+// distance of one part in a million.
 double toughness_slope_at(Criterion criterion, const Modes& modes, double mixity);
-// False: G(B) is the same number for every B (nothing else keeps (1-B)^p + B^q = 1).
+// False: G(B) is the same number for every B (only then is (1-B)^p + B^q = 1 for all B).
 bool depends_on_mixity(Criterion criterion, const Modes& modes);
 
 // G solving ((1-B) G/G_n)^p + (B G/G_t)^q = 1. Closed form for p = q, else a bracketed root of this monotone equation.

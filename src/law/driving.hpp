@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What drives the damage of one point of an interface: Y_n = k_n u_n^2 / 2 and Y_t = k_t u_t^2 / 2.
+// The driving energies of one point of an interface: Y_n = k_n u_n^2 / 2 and Y_t = k_t u_t^2 / 2.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 namespace delam {
 
 struct Driving {
-    double normal;      // Y_n, F/L; 0 where contact closes the point
+    double normal;      // Y_n, F/L; 0 if contact closes the point
     double tangential;  // Y_t
     double total() const { return normal + tangential; }
 };
@@ -17,7 +17,8 @@ struct Driving {
 // local_jump: [dimension], the normal part first.
 Driving driving_energy(const Law& law, std::span<const double> local_jump);
 
-// Is the jump behind Y larger than rounding, so that it defines a mixity? largest: the largest Y of all pairs.
+// Whether the jump that causes Y is larger than rounding, so that it defines a mixity. largest: the largest Y of all
+// pairs.
 bool tells_mixity(const Law& law, const Driving& y, double largest);
 
 // Of an energy: the square of 1e-10 of a jump.

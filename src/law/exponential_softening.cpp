@@ -21,8 +21,8 @@ struct Place {
 //
 //     (exp(v) - 1)/lambda + v = -ln zeta,
 //
-// convex and growing in v, so Newton's method started right of the root falls to it and never passes it. Either term
-// alone bounds v.
+// convex and increasing in v, so Newton's method started right of the root decreases towards it and never passes it.
+// Either term alone bounds v.
 Place place_of(double lambda, double zeta) {
     const double logarithm = -std::log(zeta);
     if (!(lambda > 0.0)) return {0.0, logarithm};
@@ -78,8 +78,8 @@ double ExponentialSoftening::slope(const Toughness& t, double driving, double ze
     return -0.5 * zeta * (std::sqrt(driving / t.onset) / decay_length(t) + 1.0) / driving;
 }
 
-// g is the largest value of (energy under the curve up to x) - zeta Y over x, so its derivative at the same zeta is
-// that of the area at the same x: d/dGc of Go [1 + 2 lambda (1-s)].
+// g is the maximum over x of (energy under the curve up to x) - zeta Y, so its derivative at the same zeta is that of
+// the area at the same x: d/dGc of Go [1 + 2 lambda (1-s)].
 double ExponentialSoftening::total_share(const Toughness& t, double zeta) const {
     if (!(zeta > 0.0)) return 1.0;
     const double decays = place_of(decay_length(t), zeta).decays;

@@ -14,9 +14,9 @@ namespace {
 constexpr int mixities = 8;
 constexpr int adhesions = 64;
 constexpr int drivings = 96;
-constexpr double close = 1e-6;        // relative, of energies and of driving energies
+constexpr double close = 1e-6;        // relative, for energies and driving energies
 constexpr double step = 1e-4;         // of zeta, relative of Y, of B, for difference quotients
-constexpr double differences = 1e-2;  // relative accuracy of those
+constexpr double differences = 1e-2;  // relative accuracy of difference quotients
 
 class Samples {
 public:
@@ -59,7 +59,7 @@ private:
             refuse("g is not convex, or its slope is not its derivative", "zeta", high, right.slope, slope);
     }
 
-    // -g'(zeta) next to zeta on either side encloses Y; beyond the ends there is no bound.
+    // -g'(zeta) on either side of zeta encloses Y; beyond the ends there is no bound.
     void minimises(double y) const {
         const double zeta = law_.adhesion(b_, y).value;
         const double slack = close * y;
@@ -73,7 +73,7 @@ private:
         }
     }
 
-    // From below the onset to beyond the end: Y(0), or where the adhesion is a thousandth.
+    // From below the onset to beyond the end: Y(0), or the driving energy at which the adhesion is a thousandth.
     void minimisers() const {
         const double last = std::isfinite(at(0.0).slope) ? -at(0.0).slope : -at(1e-3).slope;
         const double ratio = 2.0 * std::max(1.0, last / onset_);

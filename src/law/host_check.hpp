@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Do the callbacks of a law that the host gives belong to one energy?
+// Checks whether the callbacks of a host law derive from one energy.
 #pragma once
 
 #include "law/host_softening.hpp"
 
 namespace delam {
 
-// Samples mixity, adhesion and driving energy: g(B, 1) = 0, g decreasing and convex, its derivatives those of g,
-// zeta*(B, Y) nonincreasing in Y and the minimiser of zeta Y + g, its slope its own. Throws Error(DELAM_ERROR_PROBLEM)
-// naming the law, what is wrong, the place and the values.
+// Samples mixity, adhesion and driving energy, and checks that g(B, 1) = 0, g is decreasing and convex, its derivatives
+// are those returned, zeta*(B, Y) is nonincreasing in Y and the minimiser of zeta Y + g, and its slope is the one
+// returned. Throws Error(DELAM_ERROR_PROBLEM) naming the law, the fault, the place and the values.
 void require_consistent(const HostSoftening& law);
 
 }  // namespace delam

@@ -11,8 +11,8 @@ namespace delam {
 namespace {
 
 constexpr double mixity_step = 1e-5;    // of the difference quotient of the onset
-constexpr double close = 1e-6;          // of the toughness: what g may miss 0 by, as in host_check.cpp
-constexpr double adhesion_step = 1e-6;  // of that of Y(zeta), where the callback's slope says nothing
+constexpr double close = 1e-6;          // of the toughness: the tolerance for g = 0, as in host_check.cpp
+constexpr double adhesion_step = 1e-6;  // of the difference quotient of Y(zeta), where the callback's slope is cut off
 
 [[noreturn]] void refuse(const HostSoftening& law, const std::string& what, double mixity, const char* variable,
                          double at) {
@@ -68,7 +68,8 @@ double HostSoftening::dissipated(const Toughness& t, double zeta) const {
 
 double HostSoftening::driving(const Toughness& t, double zeta) const { return -dissipation(t.mixity, zeta).slope; }
 
-// dY/dzeta is one over d zeta*/dY; where the latter is cut off, at the ends, by a difference towards the inside.
+// dY/dzeta is the reciprocal of d zeta*/dY; where the latter is cut off, at the ends, it is a difference towards the
+// inside.
 double HostSoftening::driving_slope(const Toughness& t, double zeta) const {
     const double y = driving(t, zeta);
     if (!std::isfinite(y)) return -y;

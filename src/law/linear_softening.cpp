@@ -28,7 +28,7 @@ double LinearSoftening::driving_slope(const Toughness& t, double zeta) const {
 //
 //     zeta = (Gc^2/Go - Y) Go^2 / (D Y (Gc s + Go)),     Gc^2/Go - Y = (Gc - Y) + Gc D/Go,
 //
-// in which the only difference, Gc - Y, is exact where it matters. Written in multiples of Go, free of units.
+// in which the only difference, Gc - Y, is exact where it matters. Written in multiples of Go, independent of units.
 double LinearSoftening::minimiser(const Toughness& t, double driving, double zeta_old) const {
     const double d = (t.total - t.onset) / t.onset;
     if (!(d > 0.0)) return driving < t.total ? zeta_old : 0.0;

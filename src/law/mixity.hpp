@@ -4,7 +4,7 @@
 
 namespace delam {
 
-// No jump at all is 0/0: mode I by convention. normal, tangential: Y_n, Y_t >= 0.
+// Zero jump means 0/0: mode I by convention. normal, tangential: Y_n, Y_t >= 0.
 double mode_mixity(double normal, double tangential);
 
 }  // namespace delam

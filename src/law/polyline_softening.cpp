@@ -31,8 +31,8 @@ void PolylineSoftening::set_corners(std::span<const double> xi, std::span<const 
     corners_ = std::move(corners);
 }
 
-// The segment that leads from zeta on to less, so at a corner the one behind it. On it the ray of slope zeta meets the
-// point at theta = (s_0 - zeta x_0) / ((s_0 - zeta x_0) + (zeta x_1 - s_1)), both parts >= 0 and not both 0.
+// The segment that leads from zeta to lower values, so at a corner the later one. The ray of slope zeta meets it at
+// theta = (s_0 - zeta x_0) / ((s_0 - zeta x_0) + (zeta x_1 - s_1)), both parts >= 0 and not both 0.
 PolylineSoftening::Place PolylineSoftening::place_of(const Toughness& t, double zeta) const {
     const double w = scale(t);
     const auto next = std::partition_point(corners_.begin(), corners_.end(),
@@ -95,8 +95,8 @@ double PolylineSoftening::slope(const Toughness& t, double driving, double zeta_
     return 0.5 * ((to.s - from.s) / (at.scale * (to.xi - from.xi)) - zeta) / driving;
 }
 
-// g is the largest value of (energy under the curve up to x) - zeta Y over x, so its derivative at the same zeta is
-// that of the area at the same x: with x = 1 + w xi, (A(xi) - xi s)/A.
+// g is the maximum over x of (energy under the curve up to x) - zeta Y, so its derivative at the same zeta is that of
+// the area at the same x: with x = 1 + w xi, (A(xi) - xi s)/A.
 double PolylineSoftening::total_share(const Toughness& t, double zeta) const {
     if (!(zeta > 0.0)) return 1.0;
     const Place at = place_of(t, zeta);

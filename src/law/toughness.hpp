@@ -7,7 +7,7 @@ namespace delam {
 struct Toughness {
     double onset;         // Go, 0 < Go <= Gc
     double total;         // Gc
-    double mixity = 0.0;  // B at which they hold: laws given by the host ask again with it
+    double mixity = 0.0;  // B for which they hold: host laws evaluate with it again
 };
 // Their derivatives by the mixity, F/L.
 struct ToughnessSlope {

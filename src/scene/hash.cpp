@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// FNV-1a, 64 bits (Fowler, Noll, Vo), over the scene. Every list goes in with its length, so that entries cannot move
-// from one list to its neighbour unnoticed.
+// FNV-1a, 64 bits (Fowler, Noll, Vo), over the scene. Every list is hashed with its length, so that entries cannot move
+// from one list to the next unnoticed.
 #include <bit>
 #include <span>
 
@@ -22,7 +22,7 @@ public:
     void add(std::int64_t number) { add(static_cast<std::uint64_t>(number)); }
     void add(std::int32_t number) { add(static_cast<std::int64_t>(number)); }
     void add(bool flag) { add(static_cast<std::int64_t>(flag)); }
-    // Zero has two signs, a scene has not.
+    // Negative zero is the same scene as zero.
     void add(double number) { add(std::bit_cast<std::uint64_t>(number == 0.0 ? 0.0 : number)); }
     void add(const std::string& words) {
         add(static_cast<std::int64_t>(words.size()));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is the scene complete, free of contradictions, and held?
+// Checks that the scene is complete, free of contradictions, and supported.
 //
-// Two questions are asked about supports. With every interface glued, notches included, nothing may be free: a rigid
-// motion left over then is a support that was forgotten. With the initial adhesion alone, parts may be free (a fully
-// debonded ply lies between its neighbours, held by contact or not at all) unless a dead force drives them.
+// Supports are checked twice. With every interface bonded, including notches, nothing may be free: a remaining rigid
+// motion is a forgotten support. With the initial adhesion alone, parts may be free (a fully debonded ply lies between
+// its neighbours, held by contact or not at all), unless a dead force drives them.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
