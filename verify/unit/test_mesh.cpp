@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <random>
 #include <set>
@@ -712,9 +713,10 @@ END_TEST
 
 namespace {
 
-using Faces = std::vector<std::set<std::int64_t>>;  // of a cell, as sets of nodes
+using Faces = std::vector<std::size_t>;  // of a cell, by numbers that cells share
 
 std::vector<Faces> cell_faces(const Mesh& mesh) {
+    std::map<std::set<std::int64_t>, std::size_t> number;  // of a face, by its nodes
     std::vector<Faces> list;
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
         const CellTopology& shape = topology(mesh.cell_type(c));
@@ -722,7 +724,7 @@ std::vector<Faces> cell_faces(const Mesh& mesh) {
         for (std::size_t f = 0; f < at(shape.faces); ++f) {
             std::set<std::int64_t> nodes;
             for (std::size_t k = 0; k < at(shape.face_nodes); ++k) nodes.insert(mesh.cell(c)[at(shape.face[f][k])]);
-            faces.push_back(nodes);
+            faces.push_back(number.emplace(nodes, number.size()).first->second);
         }
         list.push_back(std::move(faces));
     }
@@ -743,14 +745,14 @@ void check_partition(const Mesh& mesh, const std::vector<Faces>& faces, const Pa
     }
     for (const Indices& members : cells) {
         ck_assert(!members.empty());
-        std::set<std::set<std::int64_t>> reached;
+        std::set<std::size_t> reached;
         reached.insert(faces[at(members[0])].begin(), faces[at(members[0])].end());
         std::set<std::int64_t> left(members.begin() + 1, members.end());
         for (bool moved = true; moved;) {
             moved = false;
             for (auto c = left.begin(); c != left.end();) {
                 const Faces& own = faces[at(*c)];
-                if (std::any_of(own.begin(), own.end(), [&](const auto& f) { return reached.contains(f); })) {
+                if (std::any_of(own.begin(), own.end(), [&](std::size_t f) { return reached.contains(f); })) {
                     reached.insert(own.begin(), own.end());
                     c = left.erase(c);
                     moved = true;
