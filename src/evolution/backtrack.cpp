@@ -29,7 +29,7 @@ Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t la
     Stepper::Result next;
     std::int64_t i = k, returns = 0, revised_from = k;
     bool returning = true, same_before = false;
-    Counts effort;                          // of everything computed that is not kept as step k
+    Effort effort;                          // of everything computed that is not kept as step k
     std::map<std::int64_t, bool> settled;   // whether the replaced steps converged
     std::optional<Stepper::Start> carried;  // the state whose lower bound has failed
     while (true) {
@@ -40,7 +40,7 @@ Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t la
         if (i < k && same_before && !lower(found.state, chain.at(i))) {
             // Nothing lower: step i stays, and so do the later steps computed from it.
             returning = false;
-            effort.add(found.state.counts);
+            effort.add(found.state.effort);
             if (++i == k) break;
             ++i;
             same_before = false;
@@ -48,13 +48,13 @@ Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t la
         }
         const bool violated = stepper.lower_excess(found.state) > options.backtracking_tolerance;
         if (i < k) {
-            found.state.counts.revisions = chain.at(i).counts.revisions + 1;
+            found.state.history.revisions = chain.at(i).history.revisions + 1;
             revised_from = std::min(revised_from, i);
-            effort.add(found.state.counts);
+            effort.add(found.state.effort);
             settled[i] = found.converged;
             chain.revise(found.state);
         } else {
-            if (next.state.step == k) effort.add(next.state.counts);  // of an attempt before the return
+            if (next.state.step == k) effort.add(next.state.effort);  // of an attempt before the return
             next = found;
         }
         if (returning && violated && i - 1 > chain.first() && returns < options.backtracking_limit) {
@@ -68,15 +68,10 @@ Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t la
         ++i;
         same_before = false;
     }
-    Counts& counts = next.state.counts;
-    const Counts own = counts;
-    counts.add(effort);
-    // The data that describe the state itself, not how it was reached.
-    counts.damage_change = own.damage_change;
-    counts.mixity_held = own.mixity_held;
+    next.state.effort.add(effort);
     for (const auto& [step, converged] : settled) next.converged = next.converged && converged;
-    counts.backtracks = returns;
-    counts.revised_from = revised_from;
+    next.state.history.backtracks = returns;
+    next.state.history.revised_from = revised_from;
     return next;
 }
 

@@ -33,7 +33,7 @@ private:
 };
 
 // Computes the step after the chain's last, at `time`, and revises the chain if the estimate requires it.
-// counts.backtracks is the number of returns.
+// history.backtracks is the number of returns.
 Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t last_step, double time,
                                  const Options& options);
 

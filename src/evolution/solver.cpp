@@ -40,8 +40,8 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time)
 
 Outcome Solver::unconverged_displacement(const State& state) const {
     return {DELAM_NOT_CONVERGED, text("displacement step at time ", state.time, ": worst linear residual ",
-                                      state.counts.linear_residual, ", tolerance ", problem_.options.linear_tolerance,
-                                      "; ", state.counts.contact_iterations, " active-set steps")};
+                                      state.effort.linear_residual, ", tolerance ", problem_.options.linear_tolerance,
+                                      "; ", state.effort.contact_iterations, " active-set steps")};
 }
 
 void Solver::judge_balance(const State& state, Outcome& outcome) {
@@ -93,12 +93,12 @@ Outcome Solver::advance(double time) {
     if (!result.converged) {
         const State& next = pending.state;
         outcome.status = DELAM_NOT_CONVERGED;
-        outcome.text = text("step ", next.step, " at time ", time, ": not converged after ", next.counts.am_iterations,
-                            " alternations (last change of adhesion ", next.counts.damage_change, ", tolerance ",
-                            options.damage_tolerance, "; worst linear residual ", next.counts.linear_residual,
+        outcome.text = text("step ", next.step, " at time ", time, ": not converged after ", next.effort.am_iterations,
+                            " alternations (last change of adhesion ", next.outcome.damage_change, ", tolerance ",
+                            options.damage_tolerance, "; worst linear residual ", next.effort.linear_residual,
                             ", tolerance ", options.linear_tolerance, ")");
-        if (next.counts.mixity_held > 0)
-            outcome.text += text("; the mixity of ", next.counts.mixity_held, " pairs would not settle and was held");
+        if (next.outcome.mixity_held > 0)
+            outcome.text += text("; the mixity of ", next.outcome.mixity_held, " pairs would not settle and was held");
     }
     judge_balance(pending.state, outcome);
     std::string searched = stepper_.searched();
@@ -218,7 +218,7 @@ std::vector<double> Solver::step_tangent() const {
     if (!pending_->revised.empty())
         fail(DELAM_ERROR_STATE, "step tangent: a return has replaced steps from ", pending_->revised.front().step,
              " on");
-    if (const std::int64_t parts = pending_->state.counts.substeps; parts > 1)
+    if (const std::int64_t parts = pending_->state.history.substeps; parts > 1)
         fail(DELAM_ERROR_STATE, "step tangent: the step was walked in ", parts,
              " parts (step_control, jump_tolerance or mixity_step_tolerance), each from the one before");
     return stepper_.step_tangent(committed_, pending_->state);

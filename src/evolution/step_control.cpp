@@ -74,12 +74,12 @@ public:
           options_(options),
           step_(before.step + 1),
           asked_(whole.state.time - before.time),
-          first_(whole.state.counts),
+          history_(whole.state.history),
           at_(before) {
         at_.step = whole.state.step - 1;
         const double end = whole.state.time;
         goals_.push_back({end, std::make_unique<Stepper::Result>(std::move(whole)), 0.0, 0});
-        effort_.add(first_);
+        count(*goals_.back().reached);
         goals_.back().change = change_in_pairs(stepper_.pairs(), at_, goals_.back().reached->state);
     }
 
@@ -99,15 +99,17 @@ private:
     const Options& options_;
     std::int64_t step_;
     double asked_;  // length of the whole step
-    Counts first_;  // of the whole step in one part
-    State at_;      // end of the parts accepted so far
+    StepHistory history_;
+    State at_;  // end of the parts accepted so far
     std::vector<Goal> goals_;
     std::vector<JumpEvent> jumps_;
-    Counts effort_;
+    Effort effort_;
+    StepOutcome outcome_;
     Ledger sum_;  // of the parts
     bool converged_ = true;
     std::int64_t parts_ = 0, refused_ = 0;
 
+    void count(const Stepper::Result& computed);
     bool too_long(const Stepper::Result& result, double change) const;
     bool compute();
     bool halve();
@@ -127,12 +129,17 @@ bool Parts::too_long(const Stepper::Result& result, double change) const {
            (options_.mixity_step_tolerance > 0.0 && l.mixity_error > options_.mixity_step_tolerance);
 }
 
+void Parts::count(const Stepper::Result& computed) {
+    effort_.add(computed.state.effort);
+    outcome_.mixity_held += computed.state.outcome.mixity_held;
+}
+
 // Computes the state at the next goal. True if the change is continuous up to the goal behind it, which is reached
 // already and short enough: then that one is accepted in one part.
 bool Parts::compute() {
     Goal& goal = goals_.back();
     goal.reached = std::make_unique<Stepper::Result>(stepper_.step(at_, goal.time));
-    effort_.add(goal.reached->state.counts);
+    count(*goal.reached);
     const double longer = goal.change;  // to the same end, from an earlier start
     goal.change = change_in_pairs(stepper_.pairs(), at_, goal.reached->state);
     goal.sharp = goal.change > sharp_share * longer && longer > 0.0;
@@ -184,9 +191,9 @@ void Parts::accept(Goal goal) {
     sum_.upper += next.ledger.upper;
     sum_.increment_lower += next.ledger.increment_lower;
     sum_.mixity_error = std::max(sum_.mixity_error, next.ledger.mixity_error);
-    const double margin = next.counts.search_margin;
-    effort_.search_gap = std::max(effort_.search_gap, next.counts.search_gap);
-    effort_.search_margin = parts_ == 0 ? margin : std::min(effort_.search_margin, margin);
+    const double margin = next.outcome.search_margin;
+    outcome_.search_gap = std::max(outcome_.search_gap, next.outcome.search_gap);
+    outcome_.search_margin = parts_ == 0 ? margin : std::min(outcome_.search_margin, margin);
     converged_ = converged_ && goal.reached->converged;
     ++parts_;
     at_ = std::move(next);
@@ -209,15 +216,14 @@ ControlledStep Parts::close() {
     state.ledger.upper = sum_.upper;
     state.ledger.increment_lower = sum_.increment_lower;
     state.ledger.mixity_error = sum_.mixity_error;
-    effort_.damage_change = state.counts.damage_change;
-    effort_.backtracks = first_.backtracks;
-    effort_.revisions = first_.revisions;
-    effort_.revised_from = first_.revised_from;
-    effort_.substeps = parts_;
-    effort_.refused_steps = refused_;
-    effort_.jumps = static_cast<std::int64_t>(out.jumps.size());
-    for (const JumpEvent& jump : out.jumps) effort_.released += jump.released;
-    state.counts = effort_;
+    outcome_.damage_change = state.outcome.damage_change;
+    outcome_.jumps = static_cast<std::int64_t>(out.jumps.size());
+    for (const JumpEvent& jump : out.jumps) outcome_.released += jump.released;
+    history_.substeps = parts_;
+    history_.refused_steps = refused_;
+    state.effort = effort_;
+    state.outcome = outcome_;
+    state.history = history_;
     return out;
 }
 

@@ -128,18 +128,25 @@ START_TEST(bytes_keep_their_order) {
         append(expected, *v = energy += 1.0);
     ck_assert(bytes_of(l) == expected);
 
-    Counts c;
+    // Effort, outcome and history are the end of a state.
+    State state;
     std::int64_t count = 100;
     expected.clear();
     for (std::int64_t* v :
-         {&c.am_iterations, &c.displacement_solves, &c.contact_iterations, &c.contact_iterations_first,
-          &c.contact_iterations_max, &c.contact_fallbacks, &c.linear_iterations, &c.newton_solves, &c.debond_moves,
-          &c.mixity_held, &c.backtracks, &c.revisions, &c.revised_from, &c.search_candidates})
+         {&state.effort.am_iterations, &state.effort.displacement_solves, &state.effort.contact_iterations,
+          &state.effort.contact_iterations_first, &state.effort.contact_iterations_max, &state.effort.contact_fallbacks,
+          &state.effort.linear_iterations, &state.effort.newton_solves, &state.effort.debond_moves,
+          &state.outcome.mixity_held, &state.history.backtracks, &state.history.revisions, &state.history.revised_from,
+          &state.effort.search_candidates})
         append(expected, *v = ++count);
-    for (double* v : {&c.search_margin, &c.search_gap}) append(expected, *v = energy += 1.0);
-    for (std::int64_t* v : {&c.substeps, &c.refused_steps, &c.jumps}) append(expected, *v = ++count);
-    for (double* v : {&c.released, &c.damage_change, &c.linear_residual}) append(expected, *v = energy += 1.0);
-    ck_assert(bytes_of(c) == expected);
+    for (double* v : {&state.outcome.search_margin, &state.outcome.search_gap}) append(expected, *v = energy += 1.0);
+    for (std::int64_t* v : {&state.history.substeps, &state.history.refused_steps, &state.outcome.jumps})
+        append(expected, *v = ++count);
+    for (double* v : {&state.outcome.released, &state.outcome.damage_change, &state.effort.linear_residual})
+        append(expected, *v = energy += 1.0);
+    const std::vector<std::uint8_t> bytes = bytes_of(state);
+    ck_assert_uint_gt(bytes.size(), expected.size());
+    ck_assert(std::equal(expected.begin(), expected.end(), bytes.end() - static_cast<std::ptrdiff_t>(expected.size())));
 
     JumpEvent j{};
     expected.clear();

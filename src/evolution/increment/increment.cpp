@@ -85,7 +85,7 @@ void Increment::record(State& state) const {
     }
     state.mixity = recorded();
     state.ledger.mixity_error = all > 0.0 ? missed / all : 0.0;
-    state.counts.mixity_held = held();
+    state.outcome.mixity_held = held();
 }
 
 void Increment::restore(const Memory& memory) {

@@ -41,8 +41,9 @@ struct Ledger {
     double energy() const { return stored_bulk + stored_interface + load_potential; }
 };
 
-struct Counts {
-    std::int64_t am_iterations = 0;
+// What a step cost; the effort of several minimisations adds up.
+struct Effort {
+    std::int64_t am_iterations = 0;  // alternations of the staggered scheme
     std::int64_t displacement_solves = 0;
     std::int64_t contact_iterations = 0;
     std::int64_t contact_iterations_first = 0;
@@ -51,23 +52,10 @@ struct Counts {
     std::int64_t linear_iterations = 0;
     std::int64_t newton_solves = 0;      // dense solves within the process zone
     std::int64_t debond_moves = 0;       // unstable pairs taken to their debonded branch
-    std::int64_t mixity_held = 0;        // pairs whose mixity would not settle and was held
-    std::int64_t backtracks = 0;         // returns to an earlier step
-    std::int64_t revisions = 0;          // how often this step was computed anew after a return
-    std::int64_t revised_from = 0;       // first step that these returns replaced
     std::int64_t search_candidates = 0;  // states whose energy a search has compared
-    double search_margin = 0.0;          // lowest candidate minus the state kept, F L
-    // State kept minus what bounds the candidates left out, F L; 0: nothing left out can be lower.
-    double search_gap = 0.0;
-    std::int64_t substeps = 1;       // steps that this one was cut into
-    std::int64_t refused_steps = 0;  // that were too long and not kept
-    std::int64_t jumps = 0;          // instants of this step at which the state jumps
-    double released = 0.0;           // energy that these set free and nothing stores or dissipates, F L
-    double damage_change = 0.0;
-    double linear_residual = 0.0;
+    double linear_residual = 0.0;        // worst
 
-    // The effort of both.
-    void add(const Counts& more) {
+    void add(const Effort& more) {
         am_iterations += more.am_iterations;
         contact_iterations_first = displacement_solves == 0 ? more.contact_iterations_first : contact_iterations_first;
         displacement_solves += more.displacement_solves;
@@ -77,10 +65,29 @@ struct Counts {
         linear_iterations += more.linear_iterations;
         newton_solves += more.newton_solves;
         debond_moves += more.debond_moves;
-        mixity_held += more.mixity_held;
         search_candidates += more.search_candidates;
         linear_residual = std::max(linear_residual, more.linear_residual);
     }
+};
+
+// How the step ended.
+struct StepOutcome {
+    double damage_change = 0.0;    // what a further damage step would change of an adhesion
+    std::int64_t mixity_held = 0;  // pairs whose mixity would not settle and was held
+    double search_margin = 0.0;    // lowest candidate minus the state kept, F L
+    // State kept minus what bounds the candidates left out, F L; 0: nothing left out can be lower.
+    double search_gap = 0.0;
+    std::int64_t jumps = 0;  // instants of this step at which the state jumps
+    double released = 0.0;   // energy that these set free and nothing stores or dissipates, F L
+};
+
+// How the step came about.
+struct StepHistory {
+    std::int64_t backtracks = 0;     // returns to an earlier step
+    std::int64_t revisions = 0;      // how often this step was computed anew after a return
+    std::int64_t revised_from = 0;   // first step that these returns replaced
+    std::int64_t substeps = 1;       // steps that this one was cut into
+    std::int64_t refused_steps = 0;  // that were too long and not kept
 };
 
 struct State {
@@ -96,7 +103,9 @@ struct State {
     std::vector<double> memory;         // of the jump operator
     std::vector<double> search_memory;  // of the operator that a search uses
     Ledger ledger;
-    Counts counts;
+    Effort effort;
+    StepOutcome outcome;
+    StepHistory history;
 };
 
 }  // namespace delam

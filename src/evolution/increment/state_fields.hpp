@@ -46,31 +46,6 @@ inline constexpr auto saved_fields<Ledger> = saved_since(5,
     &Ledger::mixity_error);
 
 template <>
-inline constexpr auto saved_fields<Counts> = saved_since(5,
-    &Counts::am_iterations,
-    &Counts::displacement_solves,
-    &Counts::contact_iterations,
-    &Counts::contact_iterations_first,
-    &Counts::contact_iterations_max,
-    &Counts::contact_fallbacks,
-    &Counts::linear_iterations,
-    &Counts::newton_solves,
-    &Counts::debond_moves,
-    &Counts::mixity_held,
-    &Counts::backtracks,
-    &Counts::revisions,
-    &Counts::revised_from,
-    &Counts::search_candidates,
-    &Counts::search_margin,
-    &Counts::search_gap,
-    &Counts::substeps,
-    &Counts::refused_steps,
-    &Counts::jumps,
-    &Counts::released,
-    &Counts::damage_change,
-    &Counts::linear_residual);
-
-template <>
 inline constexpr auto saved_fields<State> = saved_since(5,
     &State::step,
     &State::time,
@@ -84,11 +59,32 @@ inline constexpr auto saved_fields<State> = saved_since(5,
     &State::memory,
     &State::search_memory,
     &State::ledger,
-    &State::counts);
+    member_of(&State::effort, &Effort::am_iterations),
+    member_of(&State::effort, &Effort::displacement_solves),
+    member_of(&State::effort, &Effort::contact_iterations),
+    member_of(&State::effort, &Effort::contact_iterations_first),
+    member_of(&State::effort, &Effort::contact_iterations_max),
+    member_of(&State::effort, &Effort::contact_fallbacks),
+    member_of(&State::effort, &Effort::linear_iterations),
+    member_of(&State::effort, &Effort::newton_solves),
+    member_of(&State::effort, &Effort::debond_moves),
+    member_of(&State::outcome, &StepOutcome::mixity_held),
+    member_of(&State::history, &StepHistory::backtracks),
+    member_of(&State::history, &StepHistory::revisions),
+    member_of(&State::history, &StepHistory::revised_from),
+    member_of(&State::effort, &Effort::search_candidates),
+    member_of(&State::outcome, &StepOutcome::search_margin),
+    member_of(&State::outcome, &StepOutcome::search_gap),
+    member_of(&State::history, &StepHistory::substeps),
+    member_of(&State::history, &StepHistory::refused_steps),
+    member_of(&State::outcome, &StepOutcome::jumps),
+    member_of(&State::outcome, &StepOutcome::released),
+    member_of(&State::outcome, &StepOutcome::damage_change),
+    member_of(&State::effort, &Effort::linear_residual));
 // clang-format on
 
 static_assert(complete<Response>(saved_fields<Response>) && complete<Ledger>(saved_fields<Ledger>) &&
-                  complete<Counts>(saved_fields<Counts>) && complete<State>(saved_fields<State>),
+                  complete<State>(saved_fields<State>),
               "a member of a saved struct has no row");
 
 }  // namespace delam

@@ -26,18 +26,18 @@ double largest_change(std::span<const double> from, std::span<const double> to) 
 }  // namespace
 
 bool Minimiser::displace(State& state, const Increment& increment, bool cold) const {
-    Counts& counts = state.counts;
+    Effort& effort = state.effort;
     const auto solve = [&](std::span<const double> stiffness, std::span<const double> row_force,
                            std::vector<std::uint8_t>& closed, Response& response) {
         const ContactResult result =
             solve_contact(op, contact, stiffness, state.theta, closed, response, cold, row_force);
-        if (counts.displacement_solves == 0) counts.contact_iterations_first = result.solves;
-        ++counts.displacement_solves;
-        counts.contact_iterations += result.solves;
-        counts.contact_iterations_max = std::max(counts.contact_iterations_max, result.solves);
-        counts.contact_fallbacks += result.fallback ? 1 : 0;
-        counts.linear_iterations += result.linear_iterations;
-        counts.linear_residual = std::max(counts.linear_residual, result.linear_residual);
+        if (effort.displacement_solves == 0) effort.contact_iterations_first = result.solves;
+        ++effort.displacement_solves;
+        effort.contact_iterations += result.solves;
+        effort.contact_iterations_max = std::max(effort.contact_iterations_max, result.solves);
+        effort.contact_fallbacks += result.fallback ? 1 : 0;
+        effort.linear_iterations += result.linear_iterations;
+        effort.linear_residual = std::max(effort.linear_residual, result.linear_residual);
         return result.converged;
     };
     return increment.displace(solve, state);
@@ -50,16 +50,16 @@ bool Minimiser::end(State& state, const Increment& increment, bool converged) co
 
 bool Minimiser::alternate(State& state, Increment& increment) const {
     while (true) {
-        monitor.progress("minimise", state.counts.am_iterations, 0);
+        monitor.progress("minimise", state.effort.am_iterations, 0);
         const bool converged = displace(state, increment);
         increment.observe(state.adhesion, state.response.jump);
         std::vector<double> next = increment.damage_step(state.adhesion, state.response.jump);
-        state.counts.damage_change = largest_change(state.adhesion, next);
-        ++state.counts.am_iterations;
-        if (state.counts.damage_change <= tolerance && increment.settled(state))
+        state.outcome.damage_change = largest_change(state.adhesion, next);
+        ++state.effort.am_iterations;
+        if (state.outcome.damage_change <= tolerance && increment.settled(state))
             return end(state, increment, converged);
         state.adhesion = std::move(next);
-        if (state.counts.am_iterations < limit) continue;
+        if (state.effort.am_iterations < limit) continue;
         displace(state, increment);
         return end(state, increment, false);
     }
@@ -99,14 +99,14 @@ bool Minimiser::accelerate(State& state, Increment& increment) const {
     Extrapolation extrapolation;
     double level = 0.0;
     while (true) {
-        monitor.progress("minimise", state.counts.am_iterations, 0);
+        monitor.progress("minimise", state.effort.am_iterations, 0);
         const bool converged = displace(state, increment);
         const double reached = energy(state, increment);
         if (!std::isfinite(reached)) fail(DELAM_ERROR_NUMERICAL, "the energy of a displacement step is not finite");
         if (ahead && reached > level + rounding * std::abs(level)) {
-            const Counts counts = state.counts;
+            const Effort effort = state.effort;
             state = std::move(*before);
-            state.counts = counts;
+            state.effort = effort;
             state.adhesion = plain;
             increment.restore(*mixity_before);
             ahead = false;
@@ -115,11 +115,11 @@ bool Minimiser::accelerate(State& state, Increment& increment) const {
         }
         level = increment.observe(state.adhesion, state.response.jump) ? energy(state, increment) : reached;
         plain = increment.damage_step(state.adhesion, state.response.jump);
-        state.counts.damage_change = largest_change(state.adhesion, plain);
-        ++state.counts.am_iterations;
-        if (state.counts.damage_change <= tolerance && increment.settled(state))
+        state.outcome.damage_change = largest_change(state.adhesion, plain);
+        ++state.effort.am_iterations;
+        if (state.outcome.damage_change <= tolerance && increment.settled(state))
             return end(state, increment, converged);
-        if (state.counts.am_iterations >= limit) {
+        if (state.effort.am_iterations >= limit) {
             state.adhesion = plain;
             displace(state, increment);
             return end(state, increment, false);

@@ -107,8 +107,10 @@ Stepper::Result Stepper::initial(double time) {
 void Stepper::begin(State& next, const State& before, double time) const {
     next.time = time;
     next.theta = problem_.factors(time);
-    next.counts = Counts{};
-    next.counts.revised_from = before.step;
+    next.effort = {};
+    next.outcome = {};
+    next.history = {};
+    next.history.revised_from = before.step;
     operator_->recall(before.memory);
 }
 
@@ -168,14 +170,14 @@ bool Stepper::start(State& next, const State& before, double time) const {
     next = before;
     begin(next, before, time);
     ++next.step;
-    next.counts.revised_from = next.step;
+    next.history.revised_from = next.step;
     if (before.loaded != 0) {
         rule_->begin(pairs_, before, next);
         return true;
     }
     State elastic = next;
     const bool converged = minimiser().displace(elastic, *increment(before, next.mixity), true);
-    next.counts = elastic.counts;
+    next.effort = elastic.effort;
     rule_->begin(pairs_, before, elastic.response, next);
     next.response = std::move(elastic.response);
     next.closed = std::move(elastic.closed);
@@ -190,7 +192,7 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
     best.converged = minimise(best.state, *step) && converged;
     for (const Start& from : also) {
         State other = first;
-        other.counts = best.state.counts;
+        other.effort = best.state.effort;
         for (std::size_t p = 0; p < other.adhesion.size(); ++p)
             other.adhesion[p] = std::min(from.adhesion[p], before.adhesion[p]);
         step->adopt(from.mixity, other);
@@ -203,13 +205,10 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
 // Minimises from another start and keeps the lower state. All effort is counted.
 void Stepper::keep_lower(Result& best, State other, const Increment& step) const {
     const bool converged = minimise(other, step);
-    const Counts counts = other.counts, kept = best.state.counts;
-    const bool taken = other.ledger.increment < best.state.ledger.increment - rounding * scale_of(best.state.ledger);
-    if (taken) best = {std::move(other), converged};
-    best.state.counts = counts;
-    if (taken) return;
-    best.state.counts.damage_change = kept.damage_change;
-    best.state.counts.mixity_held = kept.mixity_held;
+    const Effort effort = other.effort;
+    if (other.ledger.increment < best.state.ledger.increment - rounding * scale_of(best.state.ledger))
+        best = {std::move(other), converged};
+    best.state.effort = effort;
 }
 
 // A zone's energy keeps the contact outside as it was and may be too low, so candidates that seem lower than the kept
@@ -229,7 +228,7 @@ double Stepper::hold_against(Result& best, const SearchResult& found, const Incr
         own.mixity = step.shown(own.response.jump, std::move(own.mixity));
         book_step(own, step);
         lowest = std::min(lowest, own.ledger.increment);
-        best.state.counts = own.counts;
+        best.state.effort = own.effort;
         if (own.ledger.increment < kept) keep_lower(best, std::move(own), step);
     }
     return held ? lowest : found.lowest;
@@ -259,16 +258,16 @@ void Stepper::search(Result& best, const Increment& step) {
     }
     const double lowest = hold_against(best, found, step);
     if (twin_) best.state.search_memory = twin_->memory();
-    Counts& counts = best.state.counts;
+    StepOutcome& outcome = best.state.outcome;
     const double kept = best.state.ledger.increment;
-    counts.search_candidates += found.candidates;
-    counts.search_margin = std::isfinite(lowest) ? lowest - kept : 0.0;
+    best.state.effort.search_candidates += found.candidates;
+    outcome.search_margin = std::isfinite(lowest) ? lowest - kept : 0.0;
     // Candidates under the variational rule have energies at the mixities of the start, which are no bound.
-    counts.search_gap =
+    outcome.search_gap =
         step.bounds_candidates() ? std::max(0.0, kept - found.bound) : std::numeric_limits<double>::infinity();
-    searched_ = text("step ", best.state.step, " at time ", best.state.time, ": ", found.candidates, " candidates, ",
-                     minimised, " of them minimised from; lowest candidate less the state kept: ", counts.search_margin,
-                     "\n", found.words);
+    searched_ = text(
+        "step ", best.state.step, " at time ", best.state.time, ": ", found.candidates, " candidates, ", minimised,
+        " of them minimised from; lowest candidate less the state kept: ", outcome.search_margin, "\n", found.words);
 }
 
 Stepper::Result Stepper::equilibrate(const State& before, double time, std::span<const double> adhesion) {

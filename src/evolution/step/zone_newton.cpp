@@ -107,7 +107,7 @@ Descent::Descent(const ZoneNewton& newton, State& state, Increment& increment, c
       dim_(static_cast<std::size_t>(newton.contact.dimension)),
       zone_(zone),
       system_(zone, newton.contact, newton.op.prescribed_rows(), springs.held, state.theta,
-              [this] { newton_.monitor.progress("minimise", state_.counts.am_iterations, 0); }),
+              [this] { newton_.monitor.progress("minimise", state_.effort.am_iterations, 0); }),
       closed_(system_.entered_closed()) {
     for (const std::int64_t row : zone.jump_rows()) spring_.push_back(springs.stiffness[index(row)]);
     for (const ZoneSystem::Pair& p : system_.pairs()) {
@@ -173,7 +173,7 @@ bool Descent::minimise(const Point& at, std::span<const double> adhesion, double
     model(at, adhesion, fraction, debonded);
     std::vector<std::uint8_t> closed = closed_;
     const ActiveSet found = find_active_set(system_, system_.contact_rows(), closed, contact_steps, false);
-    state_.counts.newton_solves += found.solves;
+    state_.effort.newton_solves += found.solves;
     if (!found.settled) return false;
     closed_ = std::move(closed);
     out = point(system_.unknowns());
@@ -221,7 +221,7 @@ Descent::Move Descent::step(const Point& at) {
         move.taken = move_patience_.report(pair >= 0 && minimise(at, at.adhesion, 0.0, pair, move.to) &&
                                            move.to.energy < at.energy);
         if (move.taken) {
-            ++state_.counts.debond_moves;
+            ++state_.effort.debond_moves;
             move.carried[index(pair)] = 0.0;
         }
     }
