@@ -21,6 +21,11 @@ RULES = [
     ("a loop for the largest absolute value of a list, besides max_abs() of base/numbers.hpp",
      r"for \((?:const )?(?:double|auto)&? (\w+) : [\w.()\[\]]+\)\s*\{?\s*(\w+) = std::max\(\2, std::abs\(\1\)\);",
      ["base/numbers.hpp"]),
+    ("a rule for the mode mixity, besides its own files and where a step is constructed",
+     r"\b(?:MixityRule|(?:Frozen|Converged|Variational)Increment)\b",
+     [f"evolution/increment/{name}.{kind}" for kind in ("hpp", "cpp")
+      for name in ("mixity_rule", "frozen_increment", "converged_increment", "variational_increment")]
+     + ["evolution/step/stepper.hpp", "evolution/step/stepper.cpp"]),
 ]
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Saved structs, field by field: fields that a later version adds are absent from older bytes and read with their
 // defaults; the bytes of a state keep their order.
+#include <algorithm>
 #include <cstring>
 #include <string>
 #include <vector>
