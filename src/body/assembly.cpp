@@ -72,7 +72,7 @@ struct NodeGraph {
 NodeGraph node_graph(const LocalCells& cells, std::size_t nodes) {
     // The cells of each node, as positions in the list of their nodes.
     std::vector<std::size_t> begin(nodes + 1, 0);
-    for (const std::int32_t i : cells.node) ++begin[at(i) + 1];
+    for (const std::int32_t i : cells.node) ++begin[index(i) + 1];
     for (std::size_t i = 0; i < nodes; ++i) begin[i + 1] += begin[i];
     struct Corner {
         std::int32_t cell, local;
@@ -85,8 +85,8 @@ NodeGraph node_graph(const LocalCells& cells, std::size_t nodes) {
     for (std::size_t c = 0; c + 1 < cells.start.size(); ++c) {
         const std::size_t n = cells.start[c + 1] - cells.start[c];
         for (std::size_t a = 0; a < n; ++a)
-            corner[next[at(cells.node[cells.start[c] + a])]++] = {static_cast<std::int32_t>(c),
-                                                                  static_cast<std::int32_t>(a)};
+            corner[next[index(cells.node[cells.start[c] + a])]++] = {static_cast<std::int32_t>(c),
+                                                                     static_cast<std::int32_t>(a)};
         graph.cell_start.push_back(places);
         places += n * n;
     }
@@ -98,11 +98,11 @@ NodeGraph node_graph(const LocalCells& cells, std::size_t nodes) {
     for (std::size_t i = 0; i < nodes; ++i) {
         poll_cancel("assemble");
         for (std::size_t e = begin[i]; e < begin[i + 1]; ++e) {
-            const auto c = at(corner[e].cell);
+            const auto c = index(corner[e].cell);
             for (std::size_t k = cells.start[c]; k < cells.start[c + 1]; ++k) {
                 const std::int32_t j = cells.node[k];
-                if (mark[at(j)] == static_cast<std::int32_t>(i)) continue;
-                mark[at(j)] = static_cast<std::int32_t>(i);
+                if (mark[index(j)] == static_cast<std::int32_t>(i)) continue;
+                mark[index(j)] = static_cast<std::int32_t>(i);
                 met.push_back(j);
             }
         }
@@ -112,20 +112,20 @@ NodeGraph node_graph(const LocalCells& cells, std::size_t nodes) {
     next.assign(graph.start.begin(), graph.start.end() - 1);
     for (std::size_t i = 0; i < nodes; ++i)
         for (std::size_t e = graph.start[i]; e < graph.start[i + 1]; ++e)
-            graph.neighbour[next[at(met[e])]++] = static_cast<std::int32_t>(i);
+            graph.neighbour[next[index(met[e])]++] = static_cast<std::int32_t>(i);
 
     graph.place.resize(places);
     for (std::size_t i = 0; i < nodes; ++i) {
         poll_cancel("assemble");
         const std::size_t first = graph.start[i];
         for (std::size_t k = first; k < graph.start[i + 1]; ++k)
-            mark[at(graph.neighbour[k])] = static_cast<std::int32_t>(k - first);
+            mark[index(graph.neighbour[k])] = static_cast<std::int32_t>(k - first);
         for (std::size_t e = begin[i]; e < begin[i + 1]; ++e) {
-            const auto c = at(corner[e].cell);
+            const auto c = index(corner[e].cell);
             const std::int32_t* node = &cells.node[cells.start[c]];
             const std::size_t n = cells.start[c + 1] - cells.start[c];
-            std::int32_t* place = &graph.place[graph.cell_start[c] + at(corner[e].local) * n];
-            for (std::size_t b = 0; b < n; ++b) place[b] = mark[at(node[b])];
+            std::int32_t* place = &graph.place[graph.cell_start[c] + index(corner[e].local) * n];
+            for (std::size_t b = 0; b < n; ++b) place[b] = mark[index(node[b])];
         }
     }
     return graph;
@@ -146,7 +146,7 @@ SparseMatrix empty_matrix(const NodeGraph& graph, std::size_t dim) {
         for (std::size_t row = 0; row < dim; ++row) {
             for (std::size_t e = graph.start[i]; e < graph.start[i + 1]; ++e)
                 for (std::size_t j = 0; j < dim; ++j)
-                    k.column[entry++] = static_cast<std::int64_t>(at(graph.neighbour[e]) * dim + j);
+                    k.column[entry++] = static_cast<std::int64_t>(index(graph.neighbour[e]) * dim + j);
             k.start[i * dim + row + 1] = static_cast<std::int64_t>(entry);
         }
     }
@@ -167,10 +167,10 @@ void add(const Block& block, SparseMatrix& k) {
     const std::size_t n = block.node.size();
     for (std::size_t a = 0; a < n; ++a) {
         for (std::size_t i = 0; i < dim; ++i) {
-            double* row = &k.value[at(k.start[at(block.node[a]) * dim + i])];
+            double* row = &k.value[index(k.start[index(block.node[a]) * dim + i])];
             const double* own = &block.matrix[(a * dim + i) * n * dim];
             for (std::size_t b = 0; b < n; ++b) {
-                double* to = row + at(block.place[a * n + b]) * dim;
+                double* to = row + index(block.place[a * n + b]) * dim;
                 for (std::size_t j = 0; j < dim; ++j) to[j] += own[b * dim + j];
             }
         }
@@ -184,10 +184,10 @@ void add(const Block& block, SparseMatrix& k) {
 // the same order.
 SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> cells,
                                 std::span<const std::int64_t> nodes, const BodyModel& model, const Poll& poll) {
-    if (std::max(nodes.size(), cells.size()) > at(std::numeric_limits<std::int32_t>::max()))
+    if (std::max(nodes.size(), cells.size()) > index(std::numeric_limits<std::int32_t>::max()))
         fail(DELAM_ERROR_ARGUMENT, nodes.size(), " nodes, ", cells.size(),
              " cells in one part of a body: at most 2^31 - 1");
-    const std::size_t dim = at(mesh.dimension());
+    const std::size_t dim = index(mesh.dimension());
     const LocalCells local = local_cells(mesh, cells, nodes);
     call_if_set(poll);
     const NodeGraph graph = node_graph(local, nodes.size());
@@ -214,20 +214,20 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, std::span<const std::int64_t> 
 // Without eigenstrains the in-plane rows suffice, and isotropic bodies have their zz from the others.
 std::vector<double> centre_stress(const Mesh& mesh, std::span<const BodyModel> models,
                                   std::span<const double> displacement, std::span<const Strain> eigenstrain) {
-    const std::size_t dim = at(mesh.dimension());
+    const std::size_t dim = index(mesh.dimension());
     std::vector<CellElasticity> elasticity;
     for (const BodyModel& model : models) elasticity.emplace_back(model, mesh.dimension());
 
     std::vector<double> stress;
-    stress.reserve(at(mesh.cell_count()) * (dim == 2 ? 4 : 6));
+    stress.reserve(index(mesh.cell_count()) * (dim == 2 ? 4 : 6));
     std::vector<double> u;
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
         poll_cancel("recover");
         u.clear();
         for (const std::int64_t n : mesh.cell(c))
-            for (std::size_t i = 0; i < dim; ++i) u.push_back(displacement[at(n) * dim + i]);
+            for (std::size_t i = 0; i < dim; ++i) u.push_back(displacement[index(n) * dim + i]);
         std::vector<double> strain = centre_strain(mesh.cell_type(c), cell_coordinates(mesh, c).view(), u);
-        const std::size_t body = at(mesh.cell_body(c));
+        const std::size_t body = index(mesh.cell_body(c));
         const BodyModel& model = models[body];
         const std::span<const double> matrix = elasticity[body].matrix(c);
         const bool projected = model.formulation == Formulation::mean_dilatation;

@@ -19,7 +19,7 @@ std::size_t shear(std::size_t i, std::size_t j) { return i + j == 1 ? 3 : i + j 
 // Integral of the strain over a cell, and its volume.
 double integrate(const Mesh& mesh, std::int64_t c, std::span<const double> displacement,
                  std::array<double, 6>& strain) {
-    const std::size_t dim = at(mesh.dimension());
+    const std::size_t dim = index(mesh.dimension());
     const auto cell = mesh.cell(c);
     std::vector<double> x;
     for (const std::int64_t n : cell) x.insert(x.end(), mesh.node(n).begin(), mesh.node(n).end());
@@ -33,7 +33,7 @@ double integrate(const Mesh& mesh, std::int64_t c, std::span<const double> displ
             for (std::size_t i = 0; i < dim; ++i)
                 for (std::size_t j = 0; j < dim; ++j)
                     strain[i == j ? i : shear(i, j)] +=
-                        part * g.gradient[a * dim + j] * displacement[at(cell[a]) * dim + i];
+                        part * g.gradient[a * dim + j] * displacement[index(cell[a]) * dim + i];
     }
     return volume;
 }
@@ -75,12 +75,12 @@ VolumeAverage volume_average(const Mesh& mesh, std::span<const BodyModel> models
         sum.volume += volume;
         Strain prescribed{};
         if (!eigenstrain.empty()) {
-            const Axes* axes = elasticity[at(own)].axes(c);
-            prescribed = axes == nullptr ? eigenstrain[at(own)] : rotated_strain(eigenstrain[at(own)], *axes);
+            const Axes* axes = elasticity[index(own)].axes(c);
+            prescribed = axes == nullptr ? eigenstrain[index(own)] : rotated_strain(eigenstrain[index(own)], *axes);
         }
         for (std::size_t i = 0; i < 6; ++i) strain[i] -= volume * prescribed[i];
-        const SpaceElasticity& space = elasticity[at(own)].space(c);
-        const bool free = mesh.dimension() == 2 && models[at(own)].plane == Plane::stress;
+        const SpaceElasticity& space = elasticity[index(own)].space(c);
+        const bool free = mesh.dimension() == 2 && models[index(own)].plane == Plane::stress;
         if (free) relax(space, strain);
         for (std::size_t i = 0; i < 6; ++i) {
             sum.strain[i] += strain[i] + volume * prescribed[i];

@@ -15,7 +15,7 @@ namespace delam {
 EigenstrainLoads eigenstrain_loads(const Mesh& mesh, std::span<const std::int64_t> cells,
                                    std::span<const std::int64_t> nodes, const BodyModel& model,
                                    std::span<const Strain> strains) {
-    const std::size_t dim = at(mesh.dimension()), count = strains.size();
+    const std::size_t dim = index(mesh.dimension()), count = strains.size();
     constexpr std::size_t plane_row[] = {0, 1, 3};  // of xx, yy, 2xy among all six
     EigenstrainLoads loads{{count, std::vector<double>(nodes.size() * dim, 0.0)},
                            std::vector<double>(count * count, 0.0)};

@@ -13,7 +13,7 @@ namespace delam {
 // makes the columns orthonormal: the second run gives full precision even for a slender body (Giraud, Langou,
 // Rozloznik, Comput. Math. Appl. 50, 2005).
 std::vector<double> rigid_modes(const Mesh& mesh, std::span<const std::int64_t> nodes) {
-    const std::size_t dim = at(mesh.dimension());
+    const std::size_t dim = index(mesh.dimension());
     const std::size_t rows = nodes.size() * dim;
     std::array<double, 3> centroid{};
     for (int pass = 0; pass < 2; ++pass) {  // the second pass removes the rounding of a body far from the origin

@@ -12,9 +12,9 @@
 namespace delam {
 
 std::vector<double> centre_rotation(const Mesh& mesh, std::span<const double> displacement) {
-    const std::size_t dim = at(mesh.dimension());
+    const std::size_t dim = index(mesh.dimension());
     std::vector<double> rotation, x;
-    rotation.reserve(at(mesh.cell_count()) * (dim == 2 ? 1 : 3));
+    rotation.reserve(index(mesh.cell_count()) * (dim == 2 ? 1 : 3));
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
         poll_cancel("recover");
         const auto cell = mesh.cell(c);
@@ -25,7 +25,7 @@ std::vector<double> centre_rotation(const Mesh& mesh, std::span<const double> di
         for (std::size_t a = 0; a < cell.size(); ++a)
             for (std::size_t i = 0; i < dim; ++i)
                 for (std::size_t j = 0; j < dim; ++j)
-                    slope[i][j] += g.gradient[a * dim + j] * displacement[at(cell[a]) * dim + i];
+                    slope[i][j] += g.gradient[a * dim + j] * displacement[index(cell[a]) * dim + i];
         for (std::size_t axis = dim == 2 ? 2 : 0; axis < 3; ++axis) {
             const std::size_t i = (axis + 1) % 3, j = (axis + 2) % 3;
             rotation.push_back(0.5 * (slope[j][i] - slope[i][j]));

@@ -24,11 +24,12 @@ double mixity_of(const CrackedInterface& interface, std::int64_t pair) {
 }  // namespace
 
 bool in_process_zone(const CrackedInterface& interface, std::int64_t pair) {
-    return interface.adhesion[at(pair)] < (1.0 - zone_ends) * interface.initial[at(pair)] && !spent(interface, pair);
+    return interface.adhesion[index(pair)] < (1.0 - zone_ends) * interface.initial[index(pair)] &&
+           !spent(interface, pair);
 }
 
 bool spent(const CrackedInterface& interface, std::int64_t pair) {
-    const double adhesion = interface.adhesion[at(pair)];
+    const double adhesion = interface.adhesion[index(pair)];
     if (!(adhesion > 0.0)) return true;
     const Toughness toughness = interface.law.toughness(mixity_of(interface, pair));
     return interface.law.dissipated(toughness, adhesion) >= (1.0 - zone_ends) * toughness.total;
@@ -48,9 +49,9 @@ std::vector<PairPiece> pair_pieces(const InterfaceGeometry& geometry, int dimens
         for (const FacePiece& piece : face_pieces(dimension, per_face)) {
             PairPiece own{0, {}};
             for (int k = 0; k < piece.nodes; ++k) {
-                const std::int64_t pair = geometry.face[f + at(piece.node[at(k)])];
+                const std::int64_t pair = geometry.face[f + index(piece.node[index(k)])];
                 const auto end = own.pair.begin() + own.pairs;
-                if (std::find(own.pair.begin(), end, pair) == end) own.pair[at(own.pairs++)] = pair;
+                if (std::find(own.pair.begin(), end, pair) == end) own.pair[index(own.pairs++)] = pair;
             }
             if (own.pairs >= dimension) pieces.push_back(own);
         }
@@ -58,19 +59,19 @@ std::vector<PairPiece> pair_pieces(const InterfaceGeometry& geometry, int dimens
 }
 
 Vector3 place_of(const CrackedInterface& interface, std::int64_t pair) {
-    const auto node = interface.mesh.node(interface.geometry.node_b[at(pair)]);
+    const auto node = interface.mesh.node(interface.geometry.node_b[index(pair)]);
     Vector3 place{};
     std::copy(node.begin(), node.end(), place.begin());
     return place;
 }
 
 SpaceJump jump_of(const CrackedInterface& interface, std::int64_t pair) {
-    const std::size_t dim = at(interface.mesh.dimension());
-    const double* frame = &interface.geometry.frame[at(pair) * dim * dim];
-    SpaceJump jump{interface.jump[at(pair) * dim], {}};
+    const std::size_t dim = index(interface.mesh.dimension());
+    const double* frame = &interface.geometry.frame[index(pair) * dim * dim];
+    SpaceJump jump{interface.jump[index(pair) * dim], {}};
     for (std::size_t t = 1; t < dim; ++t)
         for (std::size_t i = 0; i < dim; ++i)
-            jump.tangential[i] += frame[t * dim + i] * interface.jump[at(pair) * dim + t];
+            jump.tangential[i] += frame[t * dim + i] * interface.jump[index(pair) * dim + t];
     return jump;
 }
 
@@ -82,8 +83,8 @@ namespace {
 
 double measure(const CrackedInterface& interface, const PairPiece& piece) {
     std::array<std::int64_t, 4> node{};
-    for (int k = 0; k < piece.pairs; ++k) node[at(k)] = interface.geometry.node_b[at(piece.pair[at(k)])];
-    const auto area = area_vector(interface.mesh, std::span<const std::int64_t>(node).first(at(piece.pairs)));
+    for (int k = 0; k < piece.pairs; ++k) node[index(k)] = interface.geometry.node_b[index(piece.pair[index(k)])];
+    const auto area = area_vector(interface.mesh, std::span<const std::int64_t>(node).first(index(piece.pairs)));
     return std::hypot(area[0], area[1], area[2]);
 }
 
@@ -97,8 +98,9 @@ double crack_length(const CrackedInterface& interface) {
         if (interface.initial[p] > 0.0) length += weight * (1.0 - interface.adhesion[p]);
     }
     for (const PairPiece& piece : pair_pieces(interface.geometry, interface.mesh.dimension())) {
-        const auto pairs = std::span(piece.pair).first(at(piece.pairs));
-        if (std::any_of(pairs.begin(), pairs.end(), [&](std::int64_t p) { return !(interface.initial[at(p)] > 0.0); }))
+        const auto pairs = std::span(piece.pair).first(index(piece.pairs));
+        if (std::any_of(pairs.begin(), pairs.end(),
+                        [&](std::int64_t p) { return !(interface.initial[index(p)] > 0.0); }))
             length += measure(interface, piece);
     }
     return std::min(length, all);

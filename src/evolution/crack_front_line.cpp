@@ -26,24 +26,24 @@ std::vector<Chain> chains(const CrackedInterface& interface) {
     const std::size_t count = interface.adhesion.size();
     std::vector<std::vector<std::int64_t>> next(count);
     for (const PairPiece& piece : pair_pieces(interface.geometry, 2)) {
-        next[at(piece.pair[0])].push_back(piece.pair[1]);
-        next[at(piece.pair[1])].push_back(piece.pair[0]);
+        next[index(piece.pair[0])].push_back(piece.pair[1]);
+        next[index(piece.pair[1])].push_back(piece.pair[0]);
     }
     const auto take = [&](std::int64_t from, std::int64_t to) {  // an edge, from either end
-        std::erase(next[at(from)], to);
-        std::erase(next[at(to)], from);
+        std::erase(next[index(from)], to);
+        std::erase(next[index(to)], from);
     };
     std::vector<std::size_t> degree(count);
     for (std::size_t p = 0; p < count; ++p) degree[p] = next[p].size();
     std::vector<Chain> found;
     const auto walk = [&](std::int64_t first) {
         Chain chain{{first}, {}, false};
-        for (std::int64_t p = first; !next[at(p)].empty();) {
-            const std::int64_t q = next[at(p)].front();
+        for (std::int64_t p = first; !next[index(p)].empty();) {
+            const std::int64_t q = next[index(p)].front();
             take(p, q);
             chain.pair.push_back(q);
             p = q;
-            if (degree[at(q)] != 2) break;
+            if (degree[index(q)] != 2) break;
         }
         chain.ring = chain.pair.size() > 2 && chain.pair.back() == first;
         found.push_back(std::move(chain));
@@ -54,10 +54,10 @@ std::vector<Chain> chains(const CrackedInterface& interface) {
         if (!next[p].empty()) walk(static_cast<std::int64_t>(p));
 
     for (Chain& chain : found) {
-        if (chain.ring && degree[at(chain.pair.front())] == 2) {
+        if (chain.ring && degree[index(chain.pair.front())] == 2) {
             chain.pair.pop_back();
             const auto less = [&](std::int64_t p, std::int64_t q) {
-                return interface.adhesion[at(p)] < interface.adhesion[at(q)];
+                return interface.adhesion[index(p)] < interface.adhesion[index(q)];
             };
             std::rotate(chain.pair.begin(), std::max_element(chain.pair.begin(), chain.pair.end(), less),
                         chain.pair.end());
@@ -77,7 +77,7 @@ class Walk {
 public:
     // corner: of quadratic faces, [pairs]
     Walk(const CrackedInterface& interface, const Chain& chain, std::span<const std::uint8_t> corner)
-        : interface_(interface), chain_(chain), first_corner_(corner[at(chain.pair.front())] != 0 ? 0 : 1) {}
+        : interface_(interface), chain_(chain), first_corner_(corner[index(chain.pair.front())] != 0 ? 0 : 1) {}
 
     struct Found {
         std::int64_t open, adhering;  // the two pairs that it separates
@@ -98,7 +98,7 @@ public:
         const std::int64_t end = run_end(front.open, front.open - front.adhering);
         for (const Found& other : all)
             if (other.open == end && other.adhering != front.adhering) return other.arc;
-        return chain_.arc[at(end)];
+        return chain_.arc[index(end)];
     }
 
     FrontPoint point(const Found& front) const {
@@ -126,12 +126,12 @@ public:
 
 private:
     std::int64_t size() const { return static_cast<std::int64_t>(chain_.pair.size()); }
-    std::int64_t pair(std::int64_t i) const { return chain_.pair[at(i)]; }
-    double adhesion(std::int64_t i) const { return interface_.adhesion[at(pair(i))]; }
-    double initial(std::int64_t i) const { return interface_.initial[at(pair(i))]; }
+    std::int64_t pair(std::int64_t i) const { return chain_.pair[index(i)]; }
+    double adhesion(std::int64_t i) const { return interface_.adhesion[index(pair(i))]; }
+    double initial(std::int64_t i) const { return interface_.initial[index(pair(i))]; }
     bool below(std::int64_t i) const { return adhesion(i) < front_adhesion; }
     double weight(std::int64_t i) const {
-        const double whole = interface_.geometry.weight[at(pair(i))];
+        const double whole = interface_.geometry.weight[index(pair(i))];
         return chain_.ring && (i == 0 || i == size() - 1) ? 0.5 * whole : whole;
     }
     Vector3 place(std::int64_t i) const { return place_of(interface_, pair(i)); }
@@ -179,7 +179,7 @@ private:
             spent += weight(i) * (1.0 - adhesion(i));
             if (i == found.to) break;
         }
-        found.arc = std::clamp(chain_.arc[at(anchor)] + static_cast<double>(step) * spent, 0.0, chain_.arc.back());
+        found.arc = std::clamp(chain_.arc[index(anchor)] + static_cast<double>(step) * spent, 0.0, chain_.arc.back());
         return found;
     }
 
@@ -215,7 +215,7 @@ std::vector<CrackFront> crack_fronts_on_lines(const CrackedInterface& interface)
     const InterfaceGeometry& geometry = interface.geometry;
     std::vector<std::uint8_t> corner(interface.adhesion.size(), 1);
     for (std::size_t f = 2; geometry.nodes_per_face == 3 && f < geometry.face.size(); f += 3)
-        corner[at(geometry.face[f])] = 0;
+        corner[index(geometry.face[f])] = 0;
     std::vector<CrackFront> fronts;
     for (const Chain& chain : chains(interface)) {
         const Walk walk(interface, chain, corner);

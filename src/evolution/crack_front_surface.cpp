@@ -45,7 +45,7 @@ public:
     std::vector<Crossing> crossings;
 
 private:
-    double adhesion(std::int64_t pair) const { return interface_.adhesion[at(pair)]; }
+    double adhesion(std::int64_t pair) const { return interface_.adhesion[index(pair)]; }
     bool below(std::int64_t pair) const { return adhesion(pair) < front_adhesion; }
 
     void add(const PairPiece& piece) {
@@ -53,14 +53,14 @@ private:
         std::vector<std::size_t> found;  // sides that are crossed, ascending
         std::vector<int> side;
         for (int k = 0; k < n; ++k)
-            if (below(piece.pair[at(k)]) != below(piece.pair[at((k + 1) % n)])) {
-                found.push_back(crossing(piece.pair[at(k)], piece.pair[at((k + 1) % n)]));
+            if (below(piece.pair[index(k)]) != below(piece.pair[index((k + 1) % n)])) {
+                found.push_back(crossing(piece.pair[index(k)], piece.pair[index((k + 1) % n)]));
                 side.push_back(k);
             }
         if (found.size() == 2) return join(found[0], found[1], piece);
         if (found.size() != 4) return;
         double mean = 0.0;
-        for (int k = 0; k < n; ++k) mean += adhesion(piece.pair[at(k)]) / n;
+        for (int k = 0; k < n; ++k) mean += adhesion(piece.pair[index(k)]) / n;
         // Corner 0 lies between the sides 3 and 0, corner 1 between 0 and 1.
         const bool cut_first = below(piece.pair[0]) != (mean < front_adhesion);
         join(found[0], found[cut_first ? 3 : 1], piece);
@@ -77,7 +77,8 @@ private:
             made.place = x + share * (y - x);
             made.between = y - x;
             for (std::size_t i = 0; i < 3; ++i)
-                made.normal[i] = interface_.geometry.frame[at(p) * 9 + i] + interface_.geometry.frame[at(q) * 9 + i];
+                made.normal[i] =
+                    interface_.geometry.frame[index(p) * 9 + i] + interface_.geometry.frame[index(q) * 9 + i];
             crossings.push_back(std::move(made));
         }
         return entry->second;
@@ -91,8 +92,8 @@ private:
         const Vector3 middle = 0.5 * (crossings[a].place + crossings[b].place);
         Vector3 ahead{};
         for (int k = 0; k < piece.pairs; ++k)
-            ahead =
-                ahead + (below(piece.pair[at(k)]) ? -1.0 : 1.0) * (place_of(interface_, piece.pair[at(k)]) - middle);
+            ahead = ahead +
+                    (below(piece.pair[index(k)]) ? -1.0 : 1.0) * (place_of(interface_, piece.pair[index(k)]) - middle);
         crossings[a].ahead = crossings[a].ahead + ahead;
         crossings[b].ahead = crossings[b].ahead + ahead;
     }
@@ -233,7 +234,7 @@ public:
         for (std::size_t i = 0; i < 3; ++i) {
             if (!works(i)) continue;
             const std::int64_t p = pair_[i], q = pair_[(i + 1) % 3];
-            const double change = interface_.adhesion[at(q)] - interface_.adhesion[at(p)];
+            const double change = interface_.adhesion[index(q)] - interface_.adhesion[index(p)];
             const double c = share * area_ / 6.0 * change * dot(gradient_[(i + 1) % 3] - gradient_[i], n);
             const SpaceJump u = jump_of(interface_, p), v = jump_of(interface_, q);
             const double ahead = dot(u.tangential, n) * dot(v.tangential, n);
@@ -245,7 +246,7 @@ public:
 
 private:
     bool works(std::size_t side) const {
-        const std::size_t p = at(pair_[side]), q = at(pair_[(side + 1) % 3]);
+        const std::size_t p = index(pair_[side]), q = index(pair_[(side + 1) % 3]);
         return interface_.adhesion[p] != interface_.adhesion[q] &&
                !(undamaged(interface_.initial[p], interface_.adhesion[p]) &&
                  undamaged(interface_.initial[q], interface_.adhesion[q]));
@@ -282,8 +283,8 @@ std::vector<CrackFront> crack_fronts_on_faces(const CrackedInterface& interface)
     constexpr std::array<std::array<int, 3>, 4> split{{{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {1, 2, 3}}};
     for (const PairPiece& piece : pieces)
         for (std::size_t s = 0; s < (piece.pairs == 3 ? 1U : 4U); ++s) {
-            const Triangle triangle(
-                interface, {piece.pair[at(split[s][0])], piece.pair[at(split[s][1])], piece.pair[at(split[s][2])]});
+            const Triangle triangle(interface, {piece.pair[index(split[s][0])], piece.pair[index(split[s][1])],
+                                                piece.pair[index(split[s][2])]});
             if (!triangle.works()) continue;
             const double part = piece.pairs == 3 ? 1.0 : 0.5;
             give(triangle.centre(), [&](FrontPoint& point, double share) { triangle.add_to(point, part * share); });

@@ -24,7 +24,7 @@ std::vector<std::size_t> spatial_order(const Mesh& mesh, std::span<const NodePai
     std::vector<std::size_t> order(pairs.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::vector<std::array<std::int64_t, 3>> rank(pairs.size(), {0, 0, 0});
-    for (std::size_t axis = 0; axis < at(mesh.dimension()); ++axis) {
+    for (std::size_t axis = 0; axis < index(mesh.dimension()); ++axis) {
         const auto x = [&](std::size_t i) {
             return mesh.node(side == FaceSide::a ? pairs[i].first : pairs[i].second)[axis];
         };
@@ -101,7 +101,7 @@ void write_frame(int dimension, const Point& along, double* frame) {
 
 BoundaryFace turned(const BoundaryFace& face) {
     BoundaryFace result = face;
-    const auto n = at(face.corners);
+    const auto n = index(face.corners);
     for (std::size_t k = 0; k < n; ++k) result.node[k] = face.node[n - 1 - k];
     const std::size_t sides = face.middle().size();
     for (std::size_t k = 0; k < sides; ++k) result.node[n + k] = face.node[n + (2 * sides - 2 - k) % sides];
@@ -111,8 +111,8 @@ BoundaryFace turned(const BoundaryFace& face) {
 std::vector<Point> lay_faces(const Mesh& mesh, std::span<const BoundaryFace> faces_of_nodes, FaceSide side,
                              InterfaceGeometry& interface) {
     const std::vector<std::int64_t>& on_faces = side == FaceSide::a ? interface.node_a : interface.node_b;
-    std::map<std::int64_t, std::int64_t> index;  // pair of a node of the faces
-    for (std::size_t p = 0; p < on_faces.size(); ++p) index.emplace(on_faces[p], static_cast<std::int64_t>(p));
+    std::map<std::int64_t, std::int64_t> pair_of;  // pair of a node of the faces
+    for (std::size_t p = 0; p < on_faces.size(); ++p) pair_of.emplace(on_faces[p], static_cast<std::int64_t>(p));
     std::size_t corners = 2;
     bool quadratic = false;
     std::vector<PairFace> faces;
@@ -131,11 +131,11 @@ std::vector<Point> lay_faces(const Mesh& mesh, std::span<const BoundaryFace> fac
     for (const PairFace& face : faces) {
         poll_cancel("pairs", 2);
         std::array<std::int64_t, most_face_nodes> nodes{};
-        for (std::size_t k = 0; k < face.pair.size(); ++k) nodes[k] = on_faces[at(face.pair[k])];
+        for (std::size_t k = 0; k < face.pair.size(); ++k) nodes[k] = on_faces[index(face.pair[k])];
         const NodalRule rule = nodal_rule(mesh, std::span<const std::int64_t>(nodes).first(face.pair.size()));
         for (std::size_t k = 0; k < face.pair.size(); ++k) {
-            interface.weight[at(face.pair[k])] += rule.weight[k];
-            for (std::size_t i = 0; i < 3; ++i) area[at(face.pair[k])][i] += rule.area[k][i];
+            interface.weight[index(face.pair[k])] += rule.weight[k];
+            for (std::size_t i = 0; i < 3; ++i) area[index(face.pair[k])][i] += rule.area[k][i];
         }
         append_padded(face, corners, nodes_per_face, interface.face);
     }
@@ -150,7 +150,7 @@ InterfaceGeometry assemble_interface(const Mesh& mesh, std::span<const NodePair>
         result.node_b.push_back(pairs[i].second);
     }
     const std::vector<Point> area = lay_faces(mesh, faces, side, result);
-    const auto dim = at(mesh.dimension());
+    const auto dim = index(mesh.dimension());
     result.frame.resize(result.node_a.size() * dim * dim);
     for (std::size_t p = 0; p < result.node_a.size(); ++p) {
         if (!(length(area[p]) > 1e-6 * result.weight[p]))

@@ -36,9 +36,9 @@ BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxe
 
 void BoxTree::grow(std::int64_t begin, std::int64_t end) {
     poll_cancel("mesh", 1 + (end - begin) / 16);
-    Box hull = boxes_[at(order_[at(begin)])];
+    Box hull = boxes_[index(order_[index(begin)])];
     for (std::int64_t k = begin; k < end; ++k) {
-        const Box& box = boxes_[at(order_[at(k)])];
+        const Box& box = boxes_[index(order_[index(k)])];
         for (std::size_t i = 0; i < 3; ++i) {
             hull.low[i] = std::min(hull.low[i], box.low[i]);
             hull.high[i] = std::max(hull.high[i], box.high[i]);
@@ -51,7 +51,7 @@ void BoxTree::grow(std::int64_t begin, std::int64_t end) {
     std::size_t axis = 0;
     for (std::size_t i = 1; i < 3; ++i)
         if (hull.high[i] - hull.low[i] > hull.high[axis] - hull.low[axis]) axis = i;
-    const auto middle_of = [&](std::int64_t k) { return boxes_[at(k)].low[axis] + boxes_[at(k)].high[axis]; };
+    const auto middle_of = [&](std::int64_t k) { return boxes_[index(k)].low[axis] + boxes_[index(k)].high[axis]; };
     const std::int64_t half = begin + (end - begin) / 2;
     std::nth_element(
         order_.begin() + begin, order_.begin() + half, order_.begin() + end,
@@ -74,12 +74,12 @@ void BoxTree::meeting(const Box& box, const std::function<void(std::int64_t)>& v
         open.pop_back();
         if (!meet(branch.box, box)) continue;
         if (branch.right != 0) {
-            open.push_back(at(branch.right));
+            open.push_back(index(branch.right));
             open.push_back(self + 1);
             continue;
         }
         for (std::int64_t k = branch.begin; k < branch.end; ++k)
-            if (meet(boxes_[at(order_[at(k)])], box)) visit(order_[at(k)]);
+            if (meet(boxes_[index(order_[index(k)])], box)) visit(order_[index(k)]);
     }
 }
 
@@ -93,7 +93,7 @@ BoxTree::Nearest BoxTree::nearest(const Point& point, double limit) const {
         open.pop_back();
         if (distance(branch.box, point) > best.distance) continue;
         if (branch.right != 0) {
-            std::size_t far = at(branch.right);
+            std::size_t far = index(branch.right);
             std::size_t near = self + 1;
             if (distance(branches_[far].box, point) < distance(branches_[near].box, point)) std::swap(far, near);
             open.push_back(far);
@@ -101,8 +101,8 @@ BoxTree::Nearest BoxTree::nearest(const Point& point, double limit) const {
             continue;
         }
         for (std::int64_t k = branch.begin; k < branch.end; ++k) {
-            const std::int64_t i = order_[at(k)];
-            const double d = distance(boxes_[at(i)], point);
+            const std::int64_t i = order_[index(k)];
+            const double d = distance(boxes_[index(i)], point);
             if (d < best.distance || (d == best.distance && (best.index < 0 || i < best.index))) best = {i, d};
         }
     }

@@ -15,28 +15,28 @@ namespace delam {
 
 // The node that represents this one in a body: itself, an existing copy, or a new one.
 std::int64_t Mesh::node_for(std::int64_t node, std::int32_t label, std::vector<std::int64_t>& taken) {
-    const std::int64_t origin = node_origin_[at(node)];
-    if (node_label_[at(origin)] == -1) {
+    const std::int64_t origin = node_origin_[index(node)];
+    if (node_label_[index(origin)] == -1) {
         taken.push_back(origin);
-        node_label_[at(origin)] = label;
+        node_label_[index(origin)] = label;
     }
     std::int64_t last = origin;
-    for (std::int64_t n = origin; n >= 0; n = next_copy_[at(n)]) {
-        if (node_label_[at(n)] == label) return n;
+    for (std::int64_t n = origin; n >= 0; n = next_copy_[index(n)]) {
+        if (node_label_[index(n)] == label) return n;
         last = n;
     }
     const std::int64_t copy = node_count();
-    for (int k = 0; k < dimension_; ++k) nodes_.push_back(nodes_[at(origin * dimension_ + k)]);
+    for (int k = 0; k < dimension_; ++k) nodes_.push_back(nodes_[index(origin * dimension_ + k)]);
     node_label_.push_back(label);
     node_origin_.push_back(origin);
     next_copy_.push_back(-1);
-    next_copy_[at(last)] = copy;
+    next_copy_[index(last)] = copy;
     return copy;
 }
 
 void Mesh::add_conforming_cells(CellType type, std::span<const std::int64_t> connectivity,
                                 std::span<const std::int32_t> labels) {
-    const std::size_t per_cell = at(topology(type).nodes);
+    const std::size_t per_cell = index(topology(type).nodes);
     const std::int64_t before = node_count();
     std::vector<std::int64_t> taken;  // nodes that had no body before
     std::vector<std::int64_t> own(connectivity.begin(), connectivity.end());
@@ -50,15 +50,15 @@ void Mesh::add_conforming_cells(CellType type, std::span<const std::int64_t> con
             if (own[i] < 0 || own[i] >= before)
                 fail(DELAM_ERROR_ARGUMENT, "cell ", cell_type_.size() + c, " (body ", label, "): node ", own[i],
                      ": must be in 0..", before - 1);
-            if (node_label_[at(own[i])] != reserved) own[i] = node_for(own[i], label, taken);
+            if (node_label_[index(own[i])] != reserved) own[i] = node_for(own[i], label, taken);
         }
         add_cells(type, own, labels);
     } catch (...) {
-        for (const std::int64_t node : taken) node_label_[at(node)] = -1;
-        node_label_.resize(at(before));
-        node_origin_.resize(at(before));
-        next_copy_.resize(at(before));
-        nodes_.resize(at(before * dimension_));
+        for (const std::int64_t node : taken) node_label_[index(node)] = -1;
+        node_label_.resize(index(before));
+        node_origin_.resize(index(before));
+        next_copy_.resize(index(before));
+        nodes_.resize(index(before * dimension_));
         for (std::int64_t& next : next_copy_)
             if (next >= before) next = -1;
         throw;

@@ -28,7 +28,7 @@ public:
     }
 
     bool edge() const { return edge_; }
-    std::size_t corners() const { return at(face_.corners); }
+    std::size_t corners() const { return index(face_.corners); }
     std::size_t nodes() const { return node_.size(); }
     Parameters node(std::size_t k) const {
         if (edge_) return {k == 2 ? 0.0 : k == 1 ? 1.0 : -1.0, 0.0};

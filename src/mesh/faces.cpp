@@ -34,15 +34,15 @@ double shortest_edge(const Mesh& mesh, std::int64_t c) {
     };
     const CellTopology& shape = topology(mesh.cell_type(c));
     const auto cell = mesh.cell(c);
-    const auto corners = at(shape.face_corners);
-    for (std::size_t f = 0; f < at(shape.faces); ++f) {
+    const auto corners = index(shape.face_corners);
+    for (std::size_t f = 0; f < index(shape.faces); ++f) {
         for (std::size_t k = 0; k < corners; ++k) {
-            const std::int64_t here = cell[at(shape.face[f][k])];
-            const std::int64_t next = cell[at(shape.face[f][(k + 1) % corners])];
+            const std::int64_t here = cell[index(shape.face[f][k])];
+            const std::int64_t next = cell[index(shape.face[f][(k + 1) % corners])];
             if (shape.face_nodes == shape.face_corners) {
                 measure(here, next);
             } else {
-                const std::int64_t between = cell[at(shape.face[f][corners + (corners == 2 ? 0 : k)])];
+                const std::int64_t between = cell[index(shape.face[f][corners + (corners == 2 ? 0 : k)])];
                 measure(here, between);
                 measure(between, next);
             }
@@ -55,9 +55,9 @@ double shortest_edge(const Mesh& mesh, std::int64_t c) {
 
 std::array<std::int64_t, most_face_nodes> face_nodes(const Mesh& mesh, std::int64_t cell, int face) {
     const CellTopology& shape = topology(mesh.cell_type(cell));
-    const auto& local = shape.face[at(face)];
+    const auto& local = shape.face[index(face)];
     std::array<std::int64_t, most_face_nodes> nodes{};
-    for (std::size_t k = 0; k < at(shape.face_nodes); ++k) nodes[k] = mesh.cell(cell)[at(local[k])];
+    for (std::size_t k = 0; k < index(shape.face_nodes); ++k) nodes[k] = mesh.cell(cell)[index(local[k])];
     return nodes;
 }
 
@@ -69,7 +69,7 @@ std::array<double, 3> area_vector(const Mesh& mesh, std::span<const std::int64_t
     }
     std::array<double, 3> sum{};
     for (const FacePiece& piece : face_pieces(3, nodes.size())) {
-        const auto corner = [&](std::size_t k) { return mesh.node(nodes[at(piece.node[k])]); };
+        const auto corner = [&](std::size_t k) { return mesh.node(nodes[index(piece.node[k])]); };
         const auto p = corner(0);
         const auto q = corner(1);
         const auto r = corner(2);
@@ -89,9 +89,9 @@ std::array<double, 3> area_vector(const Mesh& mesh, std::span<const std::int64_t
 FaceTable match_faces(const Mesh& mesh, std::span<const std::int64_t> cells) {
     constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
     FaceTable table;
-    table.neighbour.assign(cells.size() * at(FaceTable::stride), -1);
+    table.neighbour.assign(cells.size() * index(FaceTable::stride), -1);
 
-    std::vector<std::int64_t> begin(at(mesh.node_count()) + 1, 0);
+    std::vector<std::int64_t> begin(index(mesh.node_count()) + 1, 0);
     const auto each_face = [&](auto&& visit) {
         for (std::size_t i = 0; i < cells.size(); ++i) {
             poll_cancel("mesh");
@@ -105,37 +105,37 @@ FaceTable match_faces(const Mesh& mesh, std::span<const std::int64_t> cells) {
             }
         }
     };
-    each_face([&](const Key& key) { ++begin[at(key.node[0]) + 1]; });
+    each_face([&](const Key& key) { ++begin[index(key.node[0]) + 1]; });
     for (std::size_t n = 0; n + 1 < begin.size(); ++n) begin[n + 1] += begin[n];
-    std::vector<Key> sorted(at(begin.back()));
+    std::vector<Key> sorted(index(begin.back()));
     {
         std::vector<std::int64_t> next(begin.begin(), begin.end() - 1);
-        each_face([&](const Key& key) { sorted[at(next[at(key.node[0])]++)] = key; });
+        each_face([&](const Key& key) { sorted[index(next[index(key.node[0])]++)] = key; });
     }
 
     const auto face_of = [&](std::int64_t place) {
-        const std::int64_t cell = cells[at(place / FaceTable::stride)];
+        const std::int64_t cell = cells[index(place / FaceTable::stride)];
         const CellTopology& shape = topology(mesh.cell_type(cell));
         return BoundaryFace{cell, shape.face_nodes, shape.face_corners,
                             face_nodes(mesh, cell, static_cast<int>(place % FaceTable::stride))};
     };
     for (std::size_t n = 0; n + 1 < begin.size(); ++n) {
         if (begin[n] != begin[n + 1]) poll_cancel("mesh");
-        for (std::size_t i = at(begin[n]); i < at(begin[n + 1]); ++i) {
-            for (std::size_t j = i + 1; j < at(begin[n + 1]); ++j) {
+        for (std::size_t i = index(begin[n]); i < index(begin[n + 1]); ++i) {
+            for (std::size_t j = i + 1; j < index(begin[n + 1]); ++j) {
                 if (!(sorted[i] == sorted[j])) continue;
-                std::int64_t& here = table.neighbour[at(sorted[i].place)];
-                std::int64_t& there = table.neighbour[at(sorted[j].place)];
+                std::int64_t& here = table.neighbour[index(sorted[i].place)];
+                std::int64_t& there = table.neighbour[index(sorted[j].place)];
                 const std::int64_t a = sorted[i].place / FaceTable::stride;
                 const std::int64_t b = sorted[j].place / FaceTable::stride;
                 const BoundaryFace face = face_of(sorted[i].place);
                 const BoundaryFace other = face_of(sorted[j].place);
                 if (here >= 0 || there >= 0 || !opposite(face.corner(), other.corner()))
-                    fail(DELAM_ERROR_MESH, "cells ", cells[at(a)], " and ", cells[at(b)],
+                    fail(DELAM_ERROR_MESH, "cells ", cells[index(a)], " and ", cells[index(b)],
                          " lie on the same side of the face they share: they overlap");
                 if (face.nodes != other.nodes ||
                     !std::is_permutation(face.middle().begin(), face.middle().end(), other.middle().begin()))
-                    fail(DELAM_ERROR_MESH, "cells ", cells[at(a)], " and ", cells[at(b)],
+                    fail(DELAM_ERROR_MESH, "cells ", cells[index(a)], " and ", cells[index(b)],
                          " share the face with corner ", face.node[0],
                          " but not its mid-side nodes: they do not fit together");
                 here = b;

@@ -7,13 +7,11 @@
 #include <span>
 #include <vector>
 
+#include "base/numbers.hpp"
 #include "mesh/box_tree.hpp"
 #include "mesh/mesh.hpp"
 
 namespace delam {
-
-// Position of a signed index in a standard container.
-constexpr std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 // Neighbours across faces among some cells of a mesh: the neighbour of cells[i] across its local face f is
 // cells[neighbour[i*stride + f]]; negative: none.

@@ -27,11 +27,11 @@ void Mesh::add_host_body(std::int32_t label, std::span<const std::int64_t> nodes
         if (node < 0 || node >= node_count())
             fail(DELAM_ERROR_ARGUMENT, "nodes[", i, "] = ", node, ": must be in 0..", node_count() - 1);
         if (!listed.insert(node).second) fail(DELAM_ERROR_ARGUMENT, "nodes[", i, "] = ", node, " occurs twice");
-        if (node_label_[at(node)] == reserved)
+        if (node_label_[index(node)] == reserved)
             fail(DELAM_ERROR_MESH, "nodes[", i, "] = ", node,
                  " is tied to an interface or the control node of an obstacle");
-        if (node_label_[at(node)] >= 0)
-            fail(DELAM_ERROR_MESH, "nodes[", i, "] = ", node, " belongs to body ", node_label_[at(node)]);
+        if (node_label_[index(node)] >= 0)
+            fail(DELAM_ERROR_MESH, "nodes[", i, "] = ", node, " belongs to body ", node_label_[index(node)]);
     }
     std::vector<std::int32_t> labels = labels_, host = host_labels_;
     labels.insert(std::lower_bound(labels.begin(), labels.end(), label), label);
@@ -40,13 +40,13 @@ void Mesh::add_host_body(std::int32_t label, std::span<const std::int64_t> nodes
     rename_bodies(labels);
     labels_.swap(labels);
     host_labels_.swap(host);
-    for (const std::int64_t node : nodes) node_label_[at(node)] = label;
+    for (const std::int64_t node : nodes) node_label_[index(node)] = label;
 }
 
 std::int64_t Mesh::add_pairs(std::int32_t label_a, std::int32_t label_b, std::span<const std::int64_t> nodes_a,
                              std::span<const std::int64_t> nodes_b, std::span<const double> normals,
                              std::span<const double> weights, int nodes_per_face, std::span<const std::int64_t> face) {
-    const auto dim = at(dimension_);
+    const auto dim = index(dimension_);
     const auto [a, b] = require_unjoined(label_a, label_b);
     InterfaceGeometry made;
     made.body_a = a;

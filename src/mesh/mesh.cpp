@@ -16,16 +16,16 @@ namespace delam {
 
 Mesh::Mesh(int dimension, std::span<const double> nodes) : dimension_(dimension), nodes_(nodes.begin(), nodes.end()) {
     if (dimension != 2 && dimension != 3) fail(DELAM_ERROR_ARGUMENT, "dimension ", dimension, ": must be 2 or 3");
-    if (nodes.empty() || nodes.size() % at(dimension) != 0)
+    if (nodes.empty() || nodes.size() % index(dimension) != 0)
         fail(DELAM_ERROR_ARGUMENT, nodes.size(), " node coordinates: must be a positive multiple of ", dimension);
     for (std::size_t i = 0; i < nodes.size(); ++i)
         if (!std::isfinite(nodes[i]))
-            fail(DELAM_ERROR_ARGUMENT, "node ", i / at(dimension), ", coordinate ", i % at(dimension), ": ", nodes[i],
-                 " is not finite");
-    node_label_.assign(at(node_count()), -1);
-    node_origin_.resize(at(node_count()));
+            fail(DELAM_ERROR_ARGUMENT, "node ", i / index(dimension), ", coordinate ", i % index(dimension), ": ",
+                 nodes[i], " is not finite");
+    node_label_.assign(index(node_count()), -1);
+    node_origin_.resize(index(node_count()));
     std::iota(node_origin_.begin(), node_origin_.end(), std::int64_t{0});
-    next_copy_.assign(at(node_count()), -1);
+    next_copy_.assign(index(node_count()), -1);
 }
 
 namespace {
@@ -162,30 +162,30 @@ std::int32_t Mesh::body_of_label(std::int32_t label) const {
     return place == labels_.end() || *place != label ? -1 : static_cast<std::int32_t>(place - labels_.begin());
 }
 
-std::int32_t Mesh::cell_body(std::int64_t c) const { return body_of_label(cell_label_[at(c)]); }
+std::int32_t Mesh::cell_body(std::int64_t c) const { return body_of_label(cell_label_[index(c)]); }
 
 std::int32_t Mesh::node_body(std::int64_t node) const {
-    const std::int32_t label = node_label_[at(node)];
+    const std::int32_t label = node_label_[index(node)];
     return label < 0 ? -1 : body_of_label(label);
 }
 
 std::vector<std::int64_t> Mesh::body_nodes(std::int32_t body) const {
     std::vector<std::int64_t> nodes;
     for (std::int64_t n = 0; n < node_count(); ++n)
-        if (node_label_[at(n)] == body_label(body)) nodes.push_back(n);
+        if (node_label_[index(n)] == body_label(body)) nodes.push_back(n);
     return nodes;
 }
 
 std::vector<std::int64_t> Mesh::body_cells(std::int32_t body) const {
     std::vector<std::int64_t> cells;
     for (std::int64_t c = 0; c < cell_count(); ++c)
-        if (body < 0 || cell_label_[at(c)] == body_label(body)) cells.push_back(c);
+        if (body < 0 || cell_label_[index(c)] == body_label(body)) cells.push_back(c);
     return cells;
 }
 
 double Mesh::size() const {
     double largest = 0.0;
-    const std::size_t dim = at(dimension_);
+    const std::size_t dim = index(dimension_);
     for (std::size_t axis = 0; axis < dim; ++axis) {
         double low = nodes_[axis];
         double high = low;
@@ -206,7 +206,7 @@ std::vector<BoundaryFace> boundary_faces(const Mesh& mesh, std::int32_t body) {
         poll_cancel("mesh");
         const CellTopology& shape = topology(mesh.cell_type(cells[i]));
         for (int f = 0; f < shape.faces; ++f)
-            if (table.neighbour[i * at(FaceTable::stride) + at(f)] < 0)
+            if (table.neighbour[i * index(FaceTable::stride) + index(f)] < 0)
                 faces.push_back({cells[i], shape.face_nodes, shape.face_corners, face_nodes(mesh, cells[i], f)});
     }
     return faces;

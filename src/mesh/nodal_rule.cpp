@@ -101,12 +101,12 @@ NodalRule nodal_rule(const Mesh& mesh, std::span<const std::int64_t> nodes) {
     NodalRule rule;
     for (const FacePiece& piece : face_pieces(mesh.dimension(), nodes.size())) {
         std::array<std::int64_t, 4> own{};
-        for (std::size_t k = 0; k < at(piece.nodes); ++k) own[k] = nodes[at(piece.node[k])];
-        const auto corner = std::span<const std::int64_t>(own).first(at(piece.nodes));
+        for (std::size_t k = 0; k < index(piece.nodes); ++k) own[k] = nodes[index(piece.node[k])];
+        const auto corner = std::span<const std::int64_t>(own).first(index(piece.nodes));
         const std::array<double, 4> weight = linear_weights(mesh, corner);
         const Vector area = area_vector(mesh, corner);
-        for (std::size_t k = 0; k < at(piece.nodes); ++k) {
-            const auto node = at(piece.node[k]);
+        for (std::size_t k = 0; k < index(piece.nodes); ++k) {
+            const auto node = index(piece.node[k]);
             rule.weight[node] += weight[k];
             for (std::size_t i = 0; i < 3; ++i) rule.area[node][i] += area[i];
         }

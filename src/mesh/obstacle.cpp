@@ -18,15 +18,15 @@ namespace delam {
 
 std::int64_t Mesh::add_obstacle(std::span<const std::int64_t> nodes, std::span<const double> normals,
                                 std::span<const double> weights, std::int64_t control) {
-    const auto dim = at(dimension_);
+    const auto dim = index(dimension_);
     if (nodes.empty()) fail(DELAM_ERROR_ARGUMENT, "nodes: an obstacle needs at least one");
     if (normals.size() != nodes.size() * dim || (!weights.empty() && weights.size() != nodes.size()))
         fail(DELAM_ERROR_ARGUMENT, normals.size(), " components of normals and ", weights.size(), " weights for ",
              nodes.size(), " nodes");
     if (control < 0 || control >= node_count())
         fail(DELAM_ERROR_ARGUMENT, "control_node ", control, ": must be in 0..", node_count() - 1);
-    if (node_label_[at(control)] >= 0)
-        fail(DELAM_ERROR_MESH, "control_node ", control, " belongs to body ", node_label_[at(control)],
+    if (node_label_[index(control)] >= 0)
+        fail(DELAM_ERROR_MESH, "control_node ", control, " belongs to body ", node_label_[index(control)],
              ": an obstacle needs a node without cells");
     if (std::any_of(ties_.begin(), ties_.end(), [&](const NodeTie& t) { return t.node == control; }))
         fail(DELAM_ERROR_MESH, "control_node ", control, " is tied to the faces of an interface");
@@ -83,7 +83,7 @@ std::int64_t Mesh::add_obstacle(std::span<const std::int64_t> nodes, std::span<c
                      "weights");
     }
     interfaces_.push_back(std::move(made));
-    node_label_[at(control)] = reserved;
+    node_label_[index(control)] = reserved;
     return static_cast<std::int64_t>(interfaces_.size()) - 1;
 }
 

@@ -44,7 +44,7 @@ bool on_face(const Mesh& mesh, const BoundaryFace& face, const Point& p, double 
     const auto pieces = face_pieces(mesh.dimension(), face.all().size());
     return std::any_of(pieces.begin(), pieces.end(), [&](const FacePiece& piece) {
         std::array<Point, 4> x{};
-        for (std::size_t k = 0; k < at(piece.nodes); ++k) x[k] = position(mesh, face.node[at(piece.node[k])]);
+        for (std::size_t k = 0; k < index(piece.nodes); ++k) x[k] = position(mesh, face.node[index(piece.node[k])]);
         if (piece.nodes == 2) return on_segment(p, x[0], x[1], distance);
         return on_triangle(p, x[0], x[1], x[2], distance) ||
                (piece.nodes == 4 && on_triangle(p, x[0], x[2], x[3], distance));
@@ -75,8 +75,8 @@ std::pair<std::int64_t, std::int64_t> find_covered(const Mesh& mesh, std::span<c
         std::int64_t found = -1;
         for (const Point& probe : probes) {
             tree.containing(probe, [&](std::int64_t g) {
-                if (found < 0 && dot(normal, unit_normal(mesh, under[at(g)])) < -0.7 &&
-                    on_face(mesh, under[at(g)], probe, distance))
+                if (found < 0 && dot(normal, unit_normal(mesh, under[index(g)])) < -0.7 &&
+                    on_face(mesh, under[index(g)], probe, distance))
                     found = g;
             });
             if (found >= 0) return {found, static_cast<std::int64_t>(f)};

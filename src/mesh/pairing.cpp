@@ -46,7 +46,7 @@ public:
         for (const std::int64_t node : b) {
             poll_cancel("pairs");
             if (const auto found = tree.nearest(position(mesh, node), distance); found.index >= 0)
-                list_.emplace_back(node, a[at(found.index)]);
+                list_.emplace_back(node, a[index(found.index)]);
         }
     }
     // -1: none.
@@ -142,8 +142,8 @@ Matching match_bodies(const Mesh& mesh, std::span<const BoundaryFace> faces_a, s
     Matching m = match_boundaries(mesh, faces_a, faces_b, partner);
     const auto [left_a, left_b] = find_overlap(mesh, m.left_a, m.left_b, distance);
     if (left_a >= 0) {
-        const BoundaryFace& face_a = m.left_a[at(left_a)];
-        const BoundaryFace& face_b = m.left_b[at(left_b)];
+        const BoundaryFace& face_a = m.left_a[index(left_a)];
+        const BoundaryFace& face_b = m.left_b[index(left_b)];
         const auto label = [&](const BoundaryFace& face) { return mesh.body_label(mesh.cell_body(face.cell)); };
         fail(DELAM_ERROR_MESH, "bodies ", label(face_a), " and ", label(face_b), ": a face of cell ", face_b.cell,
              " with a corner at ", place(mesh, face_b.node[0]), " lies on a face of cell ", face_a.cell,
@@ -220,9 +220,9 @@ std::int64_t Mesh::add_interface(std::int32_t label_a, std::int32_t label_b, dou
 // matched. The effort therefore grows with the number of faces, whatever the number of bodies.
 std::int64_t Mesh::add_all_interfaces(double tolerance) {
     require_tolerance(tolerance);
-    std::vector<Skin> skins(at(body_count()));
+    std::vector<Skin> skins(index(body_count()));
     for (std::int64_t c = 0; c < cell_count(); ++c) {
-        double& edge = skins[at(cell_body(c))].edge;
+        double& edge = skins[index(cell_body(c))].edge;
         edge = std::min(edge, shortest_edge(*this, std::span(&c, 1)));
     }
     const std::vector<BoundaryFace> faces = boundary_faces(*this, -1);
@@ -230,7 +230,7 @@ std::int64_t Mesh::add_all_interfaces(double tolerance) {
     std::vector<Box> boxes(faces.size());
     for (std::size_t f = 0; f < faces.size(); ++f) {
         body[f] = cell_body(faces[f].cell);
-        boxes[f] = box_of(*this, faces[f], relative(tolerance) * skins[at(body[f])].edge);
+        boxes[f] = box_of(*this, faces[f], relative(tolerance) * skins[index(body[f])].edge);
     }
     const BoxTree tree(boxes);
     struct Meeting {
@@ -241,7 +241,7 @@ std::int64_t Mesh::add_all_interfaces(double tolerance) {
     for (std::size_t f = 0; f < faces.size(); ++f) {
         poll_cancel("pairs", 2);
         tree.meeting(boxes[f], [&](std::int64_t g) {
-            if (body[f] < body[at(g)]) meetings.push_back({body[f], body[at(g)], f, at(g)});
+            if (body[f] < body[index(g)]) meetings.push_back({body[f], body[index(g)], f, index(g)});
         });
     }
     std::sort(meetings.begin(), meetings.end(),
@@ -267,7 +267,7 @@ std::int64_t Mesh::add_all_interfaces(double tolerance) {
             on_b.push_back(meetings[k].on_b);
         }
         if (joined.contains({a, b})) continue;
-        const double distance = relative(tolerance) * std::min(skins[at(a)].edge, skins[at(b)].edge);
+        const double distance = relative(tolerance) * std::min(skins[index(a)].edge, skins[index(b)].edge);
         const Matching m = match_bodies(*this, those(std::move(on_a)), those(std::move(on_b)), distance);
         if (!m.on_a.empty()) found.push_back(interface_of(*this, m, a, b, distance));
     }

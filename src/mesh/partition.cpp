@@ -32,7 +32,7 @@ struct Graph {
 
     std::size_t size() const { return start.size() - 1; }
     std::span<const idx_t> around(std::size_t i) const {
-        return std::span(neighbour).subspan(at(start[i]), at(start[i + 1] - start[i]));
+        return std::span(neighbour).subspan(index(start[i]), index(start[i + 1] - start[i]));
     }
 };
 
@@ -108,9 +108,9 @@ std::int32_t pieces(const Graph& graph, const Parts& part, std::vector<std::int3
             const std::size_t i = open.back();
             open.pop_back();
             for (const idx_t j : graph.around(i)) {
-                if (piece[at(j)] >= 0 || part[at(j)] != part[i]) continue;
-                piece[at(j)] = count;
-                open.push_back(at(j));
+                if (piece[index(j)] >= 0 || part[index(j)] != part[i]) continue;
+                piece[index(j)] = count;
+                open.push_back(index(j));
             }
         }
         ++count;
@@ -124,26 +124,26 @@ void mend(const Graph& graph, Parts& part, std::int32_t parts) {
     std::vector<std::int32_t> piece;
     for (;;) {
         const std::int32_t count = pieces(graph, part, piece);
-        std::vector<std::int64_t> size(at(count), 0);
-        std::vector<std::int32_t> owner(at(count), 0);
+        std::vector<std::int64_t> size(index(count), 0);
+        std::vector<std::int32_t> owner(index(count), 0);
         for (std::size_t i = 0; i < graph.size(); ++i) {
-            ++size[at(piece[i])];
-            owner[at(piece[i])] = part[i];
+            ++size[index(piece[i])];
+            owner[index(piece[i])] = part[i];
         }
-        std::vector<std::int32_t> main(at(parts), -1);
+        std::vector<std::int32_t> main(index(parts), -1);
         for (std::int32_t p = 0; p < count; ++p) {
-            std::int32_t& m = main[at(owner[at(p)])];
-            if (m < 0 || size[at(p)] > size[at(m)]) m = p;
+            std::int32_t& m = main[index(owner[index(p)])];
+            if (m < 0 || size[index(p)] > size[index(m)]) m = p;
         }
         std::int32_t loose = -1;  // the first small piece
         for (std::int32_t p = 0; p < count && loose < 0; ++p)
-            if (main[at(owner[at(p)])] != p) loose = p;
+            if (main[index(owner[index(p)])] != p) loose = p;
         if (loose < 0) return;
-        std::vector<std::int64_t> faces(at(parts), 0);
+        std::vector<std::int64_t> faces(index(parts), 0);
         for (std::size_t i = 0; i < graph.size(); ++i) {
             if (piece[i] != loose) continue;
             for (const idx_t j : graph.around(i))
-                if (piece[at(j)] != loose) ++faces[at(part[at(j)])];
+                if (piece[index(j)] != loose) ++faces[index(part[index(j)])];
         }
         const auto target = static_cast<std::int32_t>(std::max_element(faces.begin(), faces.end()) - faces.begin());
         for (std::size_t i = 0; i < graph.size(); ++i)
@@ -163,9 +163,9 @@ Tree breadth_first(const Graph& graph, const Parts& part, std::size_t root) {
     for (std::size_t k = 0; k < tree.order.size(); ++k) {
         const std::size_t i = tree.order[k];
         for (const idx_t j : graph.around(i)) {
-            if (part[at(j)] != part[root] || tree.parent[at(j)] != none) continue;
-            tree.parent[at(j)] = i;
-            tree.order.push_back(at(j));
+            if (part[index(j)] != part[root] || tree.parent[index(j)] != none) continue;
+            tree.parent[index(j)] = i;
+            tree.order.push_back(index(j));
         }
     }
     return tree;
@@ -196,13 +196,13 @@ void halve(const Graph& graph, Parts& part, std::int32_t old, std::int32_t fresh
 Parts cut(Graph& graph, std::int32_t parts) {
     constexpr std::size_t enough = 12;
     Parts part(graph.size(), 0);
-    if (parts > 1 && graph.size() >= enough * at(parts)) {
+    if (parts > 1 && graph.size() >= enough * index(parts)) {
         part = cut_with_metis(graph, parts);
         mend(graph, part, parts);
     }
     for (;;) {
-        std::vector<std::int64_t> size(at(parts), 0);
-        for (const std::int32_t p : part) ++size[at(p)];
+        std::vector<std::int64_t> size(index(parts), 0);
+        for (const std::int32_t p : part) ++size[index(p)];
         const auto empty = std::find(size.begin(), size.end(), 0);
         if (empty == size.end()) return part;
         const auto largest = std::max_element(size.begin(), size.end());
@@ -215,9 +215,9 @@ Graph graph_of(const FaceTable& table, std::span<const std::size_t> members, std
     Graph graph;
     for (const std::size_t i : members) {
         poll_cancel("partition");
-        for (std::size_t f = 0; f < at(FaceTable::stride); ++f) {
-            const std::int64_t j = table.neighbour[i * at(FaceTable::stride) + f];
-            if (j >= 0) graph.neighbour.push_back(number[at(j)]);
+        for (std::size_t f = 0; f < index(FaceTable::stride); ++f) {
+            const std::int64_t j = table.neighbour[i * index(FaceTable::stride) + f];
+            if (j >= 0) graph.neighbour.push_back(number[index(j)]);
         }
         graph.start.push_back(static_cast<idx_t>(graph.neighbour.size()));
     }
@@ -257,7 +257,7 @@ void share_out(std::vector<Component>& components, std::int64_t subdomains) {
 Partition partition(const Mesh& mesh, std::int64_t subdomains, std::span<const std::uint8_t> left_out) {
     std::vector<std::int64_t> all;
     for (std::int64_t c = 0; c < mesh.cell_count(); ++c)
-        if (left_out.empty() || left_out[at(mesh.cell_body(c))] == 0) all.push_back(c);
+        if (left_out.empty() || left_out[index(mesh.cell_body(c))] == 0) all.push_back(c);
     const auto cells = static_cast<std::int64_t>(all.size());
     if (subdomains < 0 || subdomains > std::max<std::int64_t>(cells, 1))
         fail(DELAM_ERROR_ARGUMENT, "subdomains ", subdomains, ": must be in 0..", cells, ", the number of cells");
@@ -265,22 +265,22 @@ Partition partition(const Mesh& mesh, std::int64_t subdomains, std::span<const s
         fail(DELAM_ERROR_ARGUMENT, cells, " cells: METIS was built for fewer");
 
     Partition result;
-    result.cell_subdomain.assign(at(mesh.cell_count()), -1);
+    result.cell_subdomain.assign(index(mesh.cell_count()), -1);
     if (all.empty()) return result;
-    Parts body(at(cells));
+    Parts body(index(cells));
     for (std::size_t c = 0; c < all.size(); ++c) body[c] = mesh.cell_body(all[c]);
     const FaceTable table = match_faces(mesh, all);  // bodies share no nodes, hence no faces
-    std::vector<std::size_t> members(at(cells));
-    std::vector<idx_t> number(at(cells));
-    for (std::size_t c = 0; c < at(cells); ++c) {
+    std::vector<std::size_t> members(index(cells));
+    std::vector<idx_t> number(index(cells));
+    for (std::size_t c = 0; c < index(cells); ++c) {
         members[c] = c;
         number[c] = static_cast<idx_t>(c);
     }
     std::vector<std::int32_t> piece;
     const std::int32_t count = pieces(graph_of(table, members, number), body, piece);
-    std::vector<Component> components(at(count));
-    for (std::size_t c = 0; c < at(cells); ++c) {
-        Component& component = components[at(piece[c])];
+    std::vector<Component> components(index(count));
+    for (std::size_t c = 0; c < index(cells); ++c) {
+        Component& component = components[index(piece[c])];
         component.body = body[c];
         number[c] = static_cast<idx_t>(component.cells.size());
         component.cells.push_back(c);
@@ -293,14 +293,14 @@ Partition partition(const Mesh& mesh, std::int64_t subdomains, std::span<const s
         Graph graph = graph_of(table, component.cells, number);
         const Parts part = cut(graph, static_cast<std::int32_t>(component.parts));
         // Parts are numbered in the order of their first cells.
-        std::vector<std::int32_t> name(at(component.parts), -1);
+        std::vector<std::int32_t> name(index(component.parts), -1);
         for (std::size_t k = 0; k < component.cells.size(); ++k) {
-            std::int32_t& n = name[at(part[k])];
+            std::int32_t& n = name[index(part[k])];
             if (n < 0) {
                 n = static_cast<std::int32_t>(result.subdomain_body.size());
                 result.subdomain_body.push_back(component.body);
             }
-            result.cell_subdomain[at(all[component.cells[k]])] = n;
+            result.cell_subdomain[index(all[component.cells[k]])] = n;
         }
     }
     return result;

@@ -21,7 +21,7 @@ constexpr double widening = 1e-9;
 void check(const Mesh& mesh, std::int32_t body, std::span<const double> lower, std::span<const double> upper) {
     if (body < -1 || body >= mesh.body_count())
         fail(DELAM_ERROR_ARGUMENT, "body index ", body, ": must be in -1..", mesh.body_count() - 1);
-    for (std::size_t i = 0; i < at(mesh.dimension()); ++i)
+    for (std::size_t i = 0; i < index(mesh.dimension()); ++i)
         if (!(lower[i] <= upper[i]))
             fail(DELAM_ERROR_ARGUMENT, "box along axis ", i, ": lower ", lower[i], " > upper ", upper[i]);
 }
@@ -69,7 +69,7 @@ public:
     // with the slack; so a box may be a mere plane, and slack adds nothing to a patch. False: the face is outside.
     bool look_at(std::span<const std::int64_t> nodes) {
         cut_.fill(false);
-        for (std::size_t i = 0; i < at(mesh_.dimension()); ++i) {
+        for (std::size_t i = 0; i < index(mesh_.dimension()); ++i) {
             double low = mesh_.node(nodes[0])[i];
             double high = low;
             for (const std::int64_t n : nodes) {
@@ -104,8 +104,8 @@ public:
         if (!(to - from > sliver)) return;
         const double length = (to - from) * std::hypot(q[0] - p[0], q[1] - p[1]);
         const double middle = from + (to - from) / 2.0;
-        weight[at(nodes[0])] += length * (1.0 - middle);
-        weight[at(nodes[1])] += length * middle;
+        weight[index(nodes[0])] += length * (1.0 - middle);
+        weight[index(nodes[1])] += length * middle;
     }
 
     // A 3-node edge x(xi) = m + c xi + d xi^2: where it crosses the sides of the box it is cut, and what lies inside is
@@ -148,9 +148,9 @@ public:
             for (std::size_t g = 0; g < 5; ++g) {
                 const double xi = middle + half * point[g];
                 const double ds = half * gauss[g] * std::hypot(c[0] + 2.0 * xi * d[0], c[1] + 2.0 * xi * d[1]);
-                weight[at(nodes[0])] += ds * 0.5 * xi * (xi - 1.0);
-                weight[at(nodes[1])] += ds * 0.5 * xi * (xi + 1.0);
-                weight[at(nodes[2])] += ds * (1.0 - xi * xi);
+                weight[index(nodes[0])] += ds * 0.5 * xi * (xi - 1.0);
+                weight[index(nodes[1])] += ds * 0.5 * xi * (xi + 1.0);
+                weight[index(nodes[2])] += ds * (1.0 - xi * xi);
             }
         }
     }
@@ -160,7 +160,7 @@ public:
     void add_triangle(const std::array<std::int64_t, 3>& nodes, double factor, std::span<double> weight) const {
         clipped_fan(nodes, [&](const Vertex& a, const Vertex& b, const Vertex& c, double area) {
             for (std::size_t i = 0; i < 3; ++i)
-                weight[at(nodes[i])] += factor * area * (a.share[i] + b.share[i] + c.share[i]) / 3.0;
+                weight[index(nodes[i])] += factor * area * (a.share[i] + b.share[i] + c.share[i]) / 3.0;
         });
     }
 
@@ -174,10 +174,11 @@ public:
             const auto at_share = [&](const std::array<double, 3>& share) {
                 ReferencePoint xi{};
                 for (std::size_t k = 0; k < 3; ++k)
-                    for (std::size_t i = 0; i < 2; ++i) xi[i] += share[k] * place[at(local[k])][i];
+                    for (std::size_t i = 0; i < 2; ++i) xi[i] += share[k] * place[index(local[k])][i];
                 return shape_values(type, xi);
             };
-            const std::array<std::int64_t, 3> corner{nodes[at(local[0])], nodes[at(local[1])], nodes[at(local[2])]};
+            const std::array<std::int64_t, 3> corner{nodes[index(local[0])], nodes[index(local[1])],
+                                                     nodes[index(local[2])]};
             clipped_fan(corner, [&](const Vertex& a, const Vertex& b, const Vertex& c, double area) {
                 // Exact to degree 3: 3/60 of each corner, 8/60 of each middle, 27/60 of the centre.
                 const double rule[7][4] = {{1, 0, 0, 3},
@@ -193,7 +194,7 @@ public:
                         share[i] = r[0] * a.share[i] + r[1] * b.share[i] + r[2] * c.share[i];
                     const ShapeValues value = at_share(share);
                     for (std::size_t n = 0; n < nodes.size(); ++n)
-                        weight[at(nodes[n])] += factor * area * r[3] / 60.0 * value[n];
+                        weight[index(nodes[n])] += factor * area * r[3] / 60.0 * value[n];
                 }
             });
         };
@@ -268,7 +269,7 @@ Patch find_patch(const Mesh& mesh, std::int32_t body, std::span<const double> lo
     if (body >= 0 && mesh.host_body(body))
         fail(DELAM_ERROR_ARGUMENT, "body ", mesh.body_label(body), " has no cells and so no faces");
 
-    std::vector<double> weight(at(mesh.node_count()), 0.0);
+    std::vector<double> weight(index(mesh.node_count()), 0.0);
     Window window(mesh, lower, upper);
     const double cosine = std::sqrt(0.5) - 1e-9;  // 45 degrees, the limit included
     for (std::int32_t b = body < 0 ? 0 : body; b < (body < 0 ? mesh.body_count() : body + 1); ++b) {
@@ -294,13 +295,12 @@ Patch find_patch(const Mesh& mesh, std::int32_t body, std::span<const double> lo
         }
     }
     // The corners of a 6-node triangle have no share at all, up to rounding.
-    double largest = 0.0;
-    for (const double w : weight) largest = std::max(largest, std::abs(w));
+    const double largest = max_abs(weight);
     Patch patch;
     for (std::int64_t n = 0; n < mesh.node_count(); ++n) {
-        if (!(std::abs(weight[at(n)]) > 1e-13 * largest)) continue;
+        if (!(std::abs(weight[index(n)]) > 1e-13 * largest)) continue;
         patch.nodes.push_back(n);
-        patch.weights.push_back(weight[at(n)]);
+        patch.weights.push_back(weight[index(n)]);
     }
     return patch;
 }

@@ -40,7 +40,7 @@ double volume_of(const Mesh& mesh, std::int32_t body) {
 
 ProcessZone predicted_process_zone(const Problem& problem, std::int64_t interface) {
     const Mesh& mesh = *problem.mesh;
-    const InterfaceProperties& properties = problem.interfaces[at(interface)];
+    const InterfaceProperties& properties = problem.interfaces[index(interface)];
     const InterfaceGeometry& geometry = mesh.interfaces()[at(interface)];
     ProcessZone zone;
     double area = 0.0, adhering = 0.0, pairs = 0.0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/numbers.hpp"
 #include "body/rigid_modes.hpp"
 #include "scene/pieces.hpp"
 
@@ -15,14 +16,6 @@ namespace {
 constexpr double doubtful = 1e-7;  // of the energies: forces are summed if the estimated rounding exceeds this
 constexpr double rigid = 1e-8;     // of the displacements: what remains of a motion without strain
 constexpr double tiny = std::numeric_limits<double>::min();
-
-std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-double largest(std::span<const double> values) {
-    double most = 0.0;
-    for (const double v : values) most = std::max(most, std::abs(v));
-    return most;
-}
 
 // Largest displacement after subtracting each piece's own rigid motion.
 double strained(const Problem& problem, std::span<const double> displacement) {
@@ -39,7 +32,7 @@ double strained(const Problem& problem, std::span<const double> displacement) {
             for (std::size_t i = 0; i < own.size(); ++i) share += modes[first + i] * own[i];
             for (std::size_t i = 0; i < own.size(); ++i) own[i] -= share * modes[first + i];
         }
-        most = std::max(most, largest(own));
+        most = std::max(most, max_abs(own));
     }
     return most;
 }
@@ -47,7 +40,7 @@ double strained(const Problem& problem, std::span<const double> displacement) {
 }  // namespace
 
 double largest_reaction(const JumpOperator& op, const State& state, double force_floor) {
-    return std::max(force_floor, largest(op.reaction(state.theta, state.response)));
+    return std::max(force_floor, max_abs(op.reaction(state.theta, state.response)));
 }
 
 // Parts that have come off move without strain, energy or reaction; everything there is rightly rounding. Otherwise the
@@ -58,7 +51,7 @@ double out_of_balance(const Problem& problem, const JumpOperator& op, const Stat
         std::max({std::abs(ledger.energy()), std::abs(ledger.work), std::abs(ledger.stored_bulk), ledger.dissipated});
     if (op.rounding_energy(state.theta, state.response) <= doubtful * energies) return 0.0;
     const std::vector<double> displacement = op.displacement(state.theta, state.response);
-    const double motion = largest(displacement);
+    const double motion = max_abs(displacement);
     if (strained(problem, displacement) <= rigid * motion) return 0.0;
     const double left = op.equilibrium_defect(state.theta, state.response);
     const double reaction = largest_reaction(op, state, force_floor);

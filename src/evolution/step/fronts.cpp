@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/numbers.hpp"
+
 namespace delam {
 
 namespace {
 
 constexpr double worth_mentioning = 1e-9;  // of the toughness
-
-std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 // Connected parts of a set of pairs, each ascending.
 std::vector<std::vector<std::int64_t>> components(const PairGraph& graph, const std::vector<std::uint8_t>& set) {

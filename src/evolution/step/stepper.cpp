@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "evolution/increment/contact_levels.hpp"
 #include "evolution/step/step_tangent.hpp"
 #include "scene/strain_loads.hpp"
@@ -63,8 +64,7 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
     for (const std::uint8_t b : contact_.bonded)
         bonded_rows.insert(bonded_rows.end(), static_cast<std::size_t>(mesh.dimension()), b);
     lift_ = Lift(*operator_, bonded_rows, bound_rows(problem_), problem_.patterns.size());
-    double largest = 0.0;
-    for (const double c : problem_.prescribed_matrix()) largest = std::max(largest, std::abs(c));
+    const double largest = max_abs(problem_.prescribed_matrix());
     for (const std::size_t row : lift_.driven_rows(1e-9 * largest)) {
         const std::size_t pair = row / static_cast<std::size_t>(mesh.dimension());
         if (contact_.bonded[pair] != 0)
