@@ -23,7 +23,7 @@ Poll Feti::condensing() {
 }
 
 Zone* Feti::zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool) {
-    if (zone_ == nullptr) zone_ = std::make_unique<FetiZone>(problem_, dual_, loads_, monitor_);
+    if (zone_ == nullptr) zone_ = std::make_unique<FetiZone>(problem_, parts_.subdomains, dual_, loads_, monitor_);
     return zone_->zone(springs, wanted);
 }
 

@@ -23,12 +23,13 @@ constexpr double weak = 1e-9;
 
 }  // namespace
 
-FetiZone::FetiZone(const Problem& problem, DualOperator& dual, const DualLoads& loads, Monitor& monitor)
+FetiZone::FetiZone(const Problem& problem, const std::vector<Subdomain>& subdomains, DualOperator& dual,
+                   const DualLoads& loads, Monitor& monitor)
     : problem_(problem),
       dual_(dual),
       loads_(loads),
       monitor_(monitor),
-      columns_(problem, dual, loads, monitor),
+      columns_(problem, subdomains, dual, loads, monitor),
       rigid_(rigid_jumps(problem)) {}
 
 // A.

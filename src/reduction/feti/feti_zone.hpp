@@ -20,7 +20,8 @@ namespace delam {
 
 class FetiZone {
 public:
-    FetiZone(const Problem& problem, DualOperator& dual, const DualLoads& loads, Monitor& monitor);
+    FetiZone(const Problem& problem, const std::vector<Subdomain>& subdomains, DualOperator& dual,
+             const DualLoads& loads, Monitor& monitor);
     // Null: A is too large, its rows depend on each other, or its columns cannot be found well enough.
     Zone* zone(const Springs& springs, std::span<const std::uint8_t> wanted);
 

@@ -13,7 +13,8 @@ namespace delam {
 namespace {
 
 constexpr std::int64_t pairs_a_group = 16;
-constexpr double tolerance = 1e-12;  // of the columns; soft motions of S are small differences of them
+constexpr std::int64_t few_rows = 4000;  // up to here a dense factor of F + C is cheaper than the iterations
+constexpr double tolerance = 1e-12;      // of the columns; soft motions of S are small differences of them
 
 // Every row of a law at its full stiffness, rows that only touch at the bodies' own, bonded rows held.
 Springs base_springs(const Problem& problem, std::span<const double> flexibility) {
@@ -38,8 +39,10 @@ Springs base_springs(const Problem& problem, std::span<const double> flexibility
 
 }  // namespace
 
-JumpColumns::JumpColumns(const Problem& problem, DualOperator& dual, const DualLoads& loads, Monitor& monitor)
+JumpColumns::JumpColumns(const Problem& problem, const std::vector<Subdomain>& subdomains, DualOperator& dual,
+                         const DualLoads& loads, Monitor& monitor)
     : problem_(problem),
+      subdomains_(subdomains),
       dual_(dual),
       loads_(loads),
       monitor_(monitor),
@@ -64,10 +67,18 @@ bool JumpColumns::solve(const DenseMatrix& right, const DenseMatrix& resultant, 
                         DenseMatrix& kept) {
     Team team(problem_.options.threads);
     dual_.set(base_);
-    DenseMatrix lambda(right.rows, right.columns), jumps(right.rows, right.columns);
-    if (!lockstep_cg(dual_, team, right, resultant, tolerance, lambda,
-                     [&](std::int64_t iteration) { monitor_.progress("zone", iteration, 0); }))
-        return false;
+    if (dense_ == nullptr && right.rows <= few_rows)
+        dense_ = std::make_unique<DenseDual>(dual_, subdomains_, [this] { monitor_.progress("zone", 0, 0); });
+    DenseMatrix lambda = dense_ != nullptr ? dense_->solve(right, resultant) : DenseMatrix(right.rows, right.columns);
+    DenseMatrix jumps(right.rows, right.columns);
+    const auto iterate = [&] {
+        return lockstep_cg(dual_, team, right, resultant, tolerance, lambda,
+                           [&](std::int64_t iteration) { monitor_.progress("zone", iteration, 0); });
+    };
+    if (!iterate()) {  // a guess at the limit of rounding may leave no way down
+        lambda = DenseMatrix(right.rows, right.columns);
+        if (!iterate()) return false;
+    }
     dual_.flexibility(team, lambda, jumps);
     kept = DenseMatrix(static_cast<std::int64_t>(root_.size()), right.columns);
     std::vector<double> residual(index(right.rows));

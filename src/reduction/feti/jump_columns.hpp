@@ -12,10 +12,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "base/monitor.hpp"
+#include "reduction/feti/dense_dual.hpp"
 #include "reduction/feti/dual_loads.hpp"
 #include "reduction/feti/dual_operator.hpp"
 #include "reduction/zone/dense_energy.hpp"
@@ -24,7 +26,8 @@ namespace delam {
 
 class JumpColumns {
 public:
-    JumpColumns(const Problem& problem, DualOperator& dual, const DualLoads& loads, Monitor& monitor);
+    JumpColumns(const Problem& problem, const std::vector<Subdomain>& subdomains, DualOperator& dual,
+                const DualLoads& loads, Monitor& monitor);
 
     const Springs& base() const { return base_; }
     // Rows that have a spring of their own: neither bonded nor prescribed by the device.
@@ -47,6 +50,7 @@ private:
     bool solve(const DenseMatrix& right, const DenseMatrix& resultant, const DenseMatrix& rest, DenseMatrix& kept);
 
     const Problem& problem_;
+    const std::vector<Subdomain>& subdomains_;
     DualOperator& dual_;
     const DualLoads& loads_;
     Monitor& monitor_;
@@ -57,6 +61,7 @@ private:
     std::vector<DenseMatrix> column_;  // [groups] of the rows of a group, [jump rows][width]; empty: not known
     DenseMatrix load_;                 // s^1/2 j of the patterns at the base, [jump rows][patterns]
     bool loaded_ = false;
+    std::unique_ptr<DenseDual> dense_;  // at the base, where rows are few: the first guess of every column
 };
 
 }  // namespace delam

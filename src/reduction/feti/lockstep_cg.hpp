@@ -12,7 +12,8 @@
 namespace delam {
 
 // (F + C) lambda = right + G^T alpha, G lambda = resultant, at the springs that `op` has. resultant: [coarse][columns];
-// lambda: [rows][columns], zero on entry. Each column ends at sqrt(r^T z) <= tolerance * sqrt(lambda^T (F + C) lambda)
+// lambda: [rows][columns], the first
+// guess on entry. Each column ends at sqrt(r^T z) <= tolerance * sqrt(lambda^T (F + C) lambda)
 // of its true residual. False: some column ends, by rounding or after too many iterations, above 100 times that, or
 // nothing can balance its resultant.
 bool lockstep_cg(const DualOperator& op, Team& team, const DenseMatrix& right, const DenseMatrix& resultant,
