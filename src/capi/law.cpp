@@ -46,10 +46,20 @@ const LawParameter& require_parameter(const Law& law, const std::string& key, co
         if (((p.kinds >> law.softening.index()) & 1u) != 0)
             fail(DELAM_ERROR_ARGUMENT, "law parameter '", key, "' does not belong to criterion ",
                  name_of(law.criterion), "; known are ", known);
-        fail(DELAM_ERROR_ARGUMENT, "law parameter '", key, "' does not belong to kind ", law.kind(), "; known are ",
-             known.empty() ? "none" : known);
+        fail(DELAM_ERROR_ARGUMENT, "law parameter '", key, "' does not belong to kind ", law.kind().name,
+             "; known are ", known.empty() ? "none" : known);
     }
     fail(DELAM_ERROR_ARGUMENT, "law parameter '", key, "' is not known; known are ", known.empty() ? "none" : known);
+}
+
+// Parameter `index` of a kind, all its criteria taken together; nullptr: there is none.
+const LawParameter* parameter_of(const char* kind, std::int64_t index) {
+    for (std::size_t k = 0; k < law_kinds.size() && kind != nullptr && index >= 0; ++k) {
+        if (std::strcmp(kind, law_kinds[k].name) != 0) continue;
+        for (const LawParameter& p : law_parameters())
+            if (((p.kinds >> k) & 1u) != 0 && index-- == 0) return &p;
+    }
+    return nullptr;
 }
 
 }  // namespace
@@ -62,7 +72,7 @@ int32_t delam_law_create(delam_context* context, const char* kind, delam_law** o
         Softening shape;
         if (!softening_of(kind, shape)) {
             std::string known;
-            for (const char* name : softening_names) known += (known.empty() ? "" : ", ") + std::string(name);
+            for (const LawKind& each : law_kinds) known += (known.empty() ? "" : ", ") + std::string(each.name);
             fail(DELAM_ERROR_ARGUMENT, "kind = '", kind, "' is not known; known are ", known);
         }
         if (std::holds_alternative<HostSoftening>(shape))
@@ -88,8 +98,8 @@ int32_t delam_law_set(delam_law* law, const char* key, double value) {
     return guard(law, [&] {
         require_pointer(key, "key");
         const LawParameter& parameter = require_parameter(*law->core, key, "real");
-        if (!parameter.allows(value))
-            fail(DELAM_ERROR_ARGUMENT, "law parameter '", key, "' = ", value, " must be ", parameter.range);
+        if (!parameter.range.allows(value))
+            fail(DELAM_ERROR_ARGUMENT, "law parameter '", key, "' = ", value, " must be ", parameter.range.words);
         Law changed = *law->core;
         changed.set(key, value);
         *law->core = std::move(changed);
@@ -103,7 +113,7 @@ int32_t delam_law_set_text(delam_law* law, const char* key, const char* value) {
         const LawParameter& parameter = require_parameter(*law->core, key, "text");
         Criterion criterion;
         if (!criterion_of(value, criterion))
-            fail(DELAM_ERROR_ARGUMENT, key, " = '", value, "' is not known; known are ", parameter.range);
+            fail(DELAM_ERROR_ARGUMENT, key, " = '", value, "' is not known; known are ", parameter.range.words);
         law->core->set_criterion(criterion);
     });
 }
@@ -115,32 +125,31 @@ int32_t delam_law_set_table(delam_law* law, int64_t count, const double* xi, con
         require_array(xi, count, "xi");
         require_array(s, count, "s");
         const auto size = static_cast<std::size_t>(count);
-        std::get<TabulatedSoftening>(law->core->softening).set_table({xi, size}, {s, size});
+        std::visit(
+            [&](auto& shape) {
+                if constexpr (requires { shape.set_table({xi, size}, {s, size}); })
+                    shape.set_table({xi, size}, {s, size});
+            },
+            law->core->softening);
     });
 }
 
 int64_t delam_law_parameter_count(const char* kind) {
     std::int64_t count = 0;
-    for (std::size_t k = 0; k < std::size(softening_names) && kind != nullptr; ++k)
-        if (std::strcmp(kind, softening_names[k]) == 0)
-            for (const LawParameter& p : law_parameters()) count += (p.kinds >> k) & 1u;
+    while (parameter_of(kind, count) != nullptr) ++count;
     return count;
 }
 
 int32_t delam_law_parameter_info(const char* kind, int64_t index, const char** key, const char** type,
                                  const char** unit, const char** initial, const char** range, const char** meaning) {
-    if (index < 0 || index >= delam_law_parameter_count(kind)) return DELAM_ERROR_ARGUMENT;
-    std::size_t k = 0;
-    while (std::strcmp(kind, softening_names[k]) != 0) ++k;
-    for (const LawParameter& p : law_parameters()) {
-        if (((p.kinds >> k) & 1u) == 0 || index-- != 0) continue;
-        if (key != nullptr) *key = p.key;
-        if (type != nullptr) *type = p.type;
-        if (unit != nullptr) *unit = p.unit;
-        if (initial != nullptr) *initial = p.initial;
-        if (range != nullptr) *range = p.range;
-        if (meaning != nullptr) *meaning = p.meaning;
-    }
+    const LawParameter* p = parameter_of(kind, index);
+    if (p == nullptr) return DELAM_ERROR_ARGUMENT;
+    if (key != nullptr) *key = p->key;
+    if (type != nullptr) *type = p->type;
+    if (unit != nullptr) *unit = p->unit;
+    if (initial != nullptr) *initial = p->initial;
+    if (range != nullptr) *range = p->range.words;
+    if (meaning != nullptr) *meaning = p->meaning;
     return DELAM_OK;
 }
 

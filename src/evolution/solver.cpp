@@ -294,7 +294,7 @@ void Solver::warn_of_unresolved_front(const State& before, const State& after) {
     if (warned_of_front_ || problem_.options.solution == "energetic") return;
     for (std::int64_t i = 0; i < static_cast<std::int64_t>(problem_.interfaces.size()); ++i) {
         const std::optional<CrackedInterface> then = cracked(before, i), now = cracked(after, i);
-        if (!now || std::holds_alternative<GriffithSoftening>(now->law.softening)) continue;
+        if (!now || !now->law.softens()) continue;
         bool grown = false;
         for (std::size_t p = 0; p < now->adhesion.size(); ++p)
             grown = grown || (!spent(*then, static_cast<std::int64_t>(p)) && spent(*now, static_cast<std::int64_t>(p)));

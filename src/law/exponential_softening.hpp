@@ -11,11 +11,16 @@
 // Adhesion never reaches 0: Y(0) and its slope are infinite. lambda = 0 is Griffith's law.
 #pragma once
 
+#include "law/law_kind.hpp"
 #include "law/toughness.hpp"
 
 namespace delam {
 
 struct ExponentialSoftening {
+    static constexpr LawKind kind{"exponential",
+                                  "traction decays over (Gc/Go - 1)/2 of the jump at the onset and never reaches zero",
+                                  Toughnesses::onset_and_total};
+
     double dissipated(const Toughness& t, double zeta) const;
     double driving(const Toughness& t, double zeta) const;
     double driving_slope(const Toughness& t, double zeta) const;

@@ -6,11 +6,14 @@
 #include <string>
 
 #include "delam/delam.h"
+#include "law/law_kind.hpp"
 #include "law/toughness.hpp"
 
 namespace delam {
 
 struct HostSoftening {
+    static constexpr LawKind kind{"host", "callbacks of the host give it (delam_law_create_host)", Toughnesses::none};
+
     std::string name;  // for messages, and for the hash of the scene
     delam_adhesion_callback adhesion_callback = nullptr;
     delam_dissipation_callback dissipation_callback = nullptr;
@@ -29,6 +32,8 @@ struct HostSoftening {
         double mixity_slope;  // dg/dB
     };
     Dissipation dissipation(double mixity, double zeta) const;
+
+    void hashed(auto&& add) const { add(name); }
 
     Toughness toughness(double mixity) const;
     ToughnessSlope toughness_slope(double mixity) const;  // of the onset by differences

@@ -18,8 +18,8 @@ bool Law::set(const std::string& key, double value) {
     if (p->value != nullptr) {
         this->*p->value = value;
         if (p->second != nullptr) this->*p->second = value;
-    } else if (auto* trapezium = std::get_if<TrapezoidalSoftening>(&softening)) {
-        trapezium->set_plateau(value);
+    } else if (p->write != nullptr) {
+        p->write(softening, value);
     }
     return p->type == std::string("real");
 }
@@ -33,15 +33,15 @@ void Law::set_criterion(Criterion chosen) {
 void Law::validate() const {
     for (const LawParameter& p : law_parameters()) {
         if (!applies(p, *this) || p.type != std::string("real")) continue;
-        double value = 0.0;
-        if (p.value != nullptr)
-            value = this->*p.value;
-        else if (const auto* trapezium = std::get_if<TrapezoidalSoftening>(&softening))
-            value = trapezium->plateau();
-        if (!p.allows(value)) fail(DELAM_ERROR_PROBLEM, "law: ", p.key, " ", value, ": must be ", p.range);
+        const double value = p.value != nullptr ? this->*p.value : p.read(softening);
+        if (!p.range.allows(value)) fail(DELAM_ERROR_PROBLEM, "law: ", p.key, " ", value, ": must be ", p.range.words);
     }
-    if (const auto* table = std::get_if<TabulatedSoftening>(&softening); table != nullptr && table->corners().empty())
-        fail(DELAM_ERROR_PROBLEM, "law: softening is missing: a tabulated law needs its table (delam_law_set_table)");
+    std::visit(
+        [](const auto& shape) {
+            if constexpr (requires { shape.missing(); })
+                if (const char* what = shape.missing()) fail(DELAM_ERROR_PROBLEM, "law: ", what);
+        },
+        softening);
     if (const HostSoftening* given = host())
         require_consistent(*given);
     else
@@ -54,7 +54,7 @@ bool Law::depends_on_mixity() const {
 }
 
 Modes Law::onset_modes() const {
-    if (std::holds_alternative<GriffithSoftening>(softening)) return total_modes();
+    if (!softens()) return total_modes();
     return {normal_onset, tangential_onset, onset_exponent_1, onset_exponent_2};
 }
 Modes Law::total_modes() const {

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <string>
+#include <type_traits>
 #include <variant>
 
 #include "law/criterion.hpp"
@@ -46,7 +47,22 @@ struct Law {
     void validate() const;
     // False: Go and Gc are the same at every mixity.
     bool depends_on_mixity() const;
-    const char* kind() const { return softening_names[softening.index()]; }
+    const LawKind& kind() const { return law_kinds[softening.index()]; }
+    // False: onset and end are one (Griffith's law), so that there is no process zone.
+    bool softens() const { return kind().toughnesses != Toughnesses::total; }
+    // Hands the numbers and texts that the shape alone holds to add(...), for the hash of a scene.
+    void hash_shape(auto&& add) const {
+        std::visit(
+            [&](const auto& shape) {
+                using Shape = std::remove_cvref_t<decltype(shape)>;
+                if constexpr (requires { shape.hashed(add); })
+                    shape.hashed(add);
+                else
+                    static_assert(
+                        !requires { Shape::parameters; }, "a shape with parameters hashes them");
+            },
+            softening);
+    }
     const HostSoftening* host() const { return std::get_if<HostSoftening>(&softening); }
     // Go and Gc as the criterion needs them; not for laws given by the host.
     Modes onset_modes() const;

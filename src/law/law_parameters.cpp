@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "law/law_parameters.hpp"
 
-#include <cmath>
+#include <array>
+#include <iterator>
+#include <type_traits>
+#include <utility>
+#include <variant>
 
 namespace delam {
 
@@ -9,55 +13,105 @@ namespace {
 
 constexpr unsigned bit(std::size_t index) { return 1u << index; }
 constexpr unsigned any = ~0u;
-constexpr unsigned trapezoidal = bit(2), tabulated = bit(3), griffith = bit(4), host = bit(5);
-constexpr unsigned own = any & ~host;  // all that the library computes
-constexpr unsigned softening = own & ~griffith;
+
+// The kinds whose toughnesses are one of the two.
+constexpr unsigned kinds_with(Toughnesses first, Toughnesses second) {
+    unsigned found = 0;
+    for (std::size_t i = 0; i < law_kinds.size(); ++i)
+        if (law_kinds[i].toughnesses == first || law_kinds[i].toughnesses == second) found |= bit(i);
+    return found;
+}
+constexpr unsigned computed = kinds_with(Toughnesses::total, Toughnesses::onset_and_total);
+constexpr unsigned softens = kinds_with(Toughnesses::onset_and_total, Toughnesses::onset_and_total);
 constexpr unsigned two_exponents = bit(static_cast<std::size_t>(Criterion::valoroso_champaney));
 constexpr unsigned one_exponent = any & ~two_exponents;
 
-bool positive(double v) { return v > 0.0 && std::isfinite(v); }
-bool not_negative(double v) { return v >= 0.0 && std::isfinite(v); }
-bool below_one(double v) { return v >= 0.0 && v < 1.0; }
-
 constexpr LawParameter number(const char* key, const char* unit, const char* initial, const char* meaning,
                               unsigned kinds, unsigned criteria, double Law::*value, double Law::*second = nullptr) {
-    return {key, "real", unit, initial, "finite and > 0", meaning, kinds, criteria, value, second, positive};
+    return {key, "real", unit, initial, positive, meaning, kinds, criteria, value, second};
 }
 
-constexpr LawParameter parameters[] = {
-    {"criterion", "text", "-", "valoroso-champaney", "valoroso-champaney, power, benzeggagh-kenane",
-     "how the toughness depends on the mixity B; setting another one sets the exponents to their defaults", own, any},
+// Of all shapes. The last row stands behind what the shapes add.
+constexpr LawParameter common[] = {
+    {"criterion",
+     "text",
+     "-",
+     "valoroso-champaney",
+     {"valoroso-champaney, power, benzeggagh-kenane", -no_bound, no_bound, true, true},
+     "how the toughness depends on the mixity B; setting another one sets the exponents to their defaults",
+     computed,
+     any},
     number("normal_stiffness", "F/L3", "", "k_n: traction over opening before any damage", any, any,
            &Law::normal_stiffness),
     number("tangential_stiffness", "F/L3", "", "k_t: traction over slip before any damage", any, any,
            &Law::tangential_stiffness),
-    number("normal_onset", "F/L", "", "G^o_n: driving energy at which damage begins in opening", softening, any,
+    number("normal_onset", "F/L", "", "G^o_n: driving energy at which damage begins in opening", softens, any,
            &Law::normal_onset),
-    number("tangential_onset", "F/L", "", "G^o_t: driving energy at which damage begins in sliding", softening, any,
+    number("tangential_onset", "F/L", "", "G^o_t: driving energy at which damage begins in sliding", softens, any,
            &Law::tangential_onset),
-    number("normal_toughness", "F/L", "", "G^c_n >= G^o_n: energy spent until debonded in opening", own, any,
+    number("normal_toughness", "F/L", "", "G^c_n >= G^o_n: energy spent until debonded in opening", computed, any,
            &Law::normal_toughness),
-    number("tangential_toughness", "F/L", "", "G^c_t >= G^o_t: energy spent until debonded in sliding", own, any,
+    number("tangential_toughness", "F/L", "", "G^c_t >= G^o_t: energy spent until debonded in sliding", computed, any,
            &Law::tangential_toughness),
-    number("onset_exponent_1", "-", "2", "p of the onset: ((1-B) G/G_n)^p + (B G/G_t)^q = 1", softening, two_exponents,
+    number("onset_exponent_1", "-", "2", "p of the onset: ((1-B) G/G_n)^p + (B G/G_t)^q = 1", softens, two_exponents,
            &Law::onset_exponent_1),
-    number("onset_exponent_2", "-", "2", "q of the onset", softening, two_exponents, &Law::onset_exponent_2),
-    number("toughness_exponent_1", "-", "2", "p of the toughness", own, two_exponents, &Law::toughness_exponent_1),
-    number("toughness_exponent_2", "-", "2", "q of the toughness", own, two_exponents, &Law::toughness_exponent_2),
-    number("onset_exponent", "-", "2", "of the onset: p = q of the power law, eta of G_n + (G_t - G_n) B^eta",
-           softening, one_exponent, &Law::onset_exponent_1, &Law::onset_exponent_2),
-    number("toughness_exponent", "-", "2", "likewise of the toughness", own, one_exponent, &Law::toughness_exponent_1,
-           &Law::toughness_exponent_2),
-    {"plateau", "real", "-", "", ">= 0 and < 1",
-     "part of the way from onset to end on which the traction stays at its peak", trapezoidal, any, nullptr, nullptr,
-     below_one},
-    {"softening", "table", "-", "", "from (0, 1) to (1, 0), first column not falling, second not rising",
-     "points (xi, s): jump beyond the onset over its largest, traction over its peak; scaled so that the area is the "
-     "toughness",
-     tabulated, any},
-    {"gradient", "real", "F L", "0", "finite and >= 0", "kappa of the gradient term kappa/2 |grad zeta|^2", any, any,
-     &Law::gradient, nullptr, not_negative},
+    number("onset_exponent_2", "-", "2", "q of the onset", softens, two_exponents, &Law::onset_exponent_2),
+    number("toughness_exponent_1", "-", "2", "p of the toughness", computed, two_exponents, &Law::toughness_exponent_1),
+    number("toughness_exponent_2", "-", "2", "q of the toughness", computed, two_exponents, &Law::toughness_exponent_2),
+    number("onset_exponent", "-", "2", "of the onset: p = q of the power law, eta of G_n + (G_t - G_n) B^eta", softens,
+           one_exponent, &Law::onset_exponent_1, &Law::onset_exponent_2),
+    number("toughness_exponent", "-", "2", "likewise of the toughness", computed, one_exponent,
+           &Law::toughness_exponent_1, &Law::toughness_exponent_2),
+    {"gradient", "real", "F L", "0", not_negative, "kappa of the gradient term kappa/2 |grad zeta|^2", any, any,
+     &Law::gradient},
 };
+
+// Numbers of a shape by their place in Shape::parameters.
+template <class Shape, std::size_t I>
+double read(const Softening& softening) {
+    return (std::get<Shape>(softening).*Shape::parameters[I].get)();
+}
+template <class Shape, std::size_t I>
+void write(Softening& softening, double value) {
+    (std::get<Shape>(softening).*Shape::parameters[I].set)(value);
+}
+
+template <class Shape>
+constexpr std::size_t own_count() {
+    if constexpr (requires { Shape::parameters; })
+        return std::size(Shape::parameters);
+    else
+        return 0;
+}
+
+template <class Shape, std::size_t I>
+constexpr LawParameter own(std::size_t kind) {
+    constexpr ShapeParameter<Shape> p = Shape::parameters[I];
+    LawParameter row{p.key, p.get != nullptr ? "real" : "table", p.unit, p.initial, p.range, p.meaning, bit(kind), any};
+    if constexpr (p.get != nullptr) {
+        row.read = read<Shape, I>;
+        row.write = write<Shape, I>;
+    }
+    return row;
+}
+
+// The common rows with those of every shape before the last one.
+template <class... Shapes>
+constexpr auto joined(std::type_identity<std::variant<Shapes...>>) {
+    constexpr std::size_t before = std::size(common) - 1;
+    std::array<LawParameter, std::size(common) + (own_count<Shapes>() + ...)> all{};
+    std::size_t next = 0, kind = 0;
+    for (; next < before; ++next) all[next] = common[next];
+    const auto add = [&]<class Shape, std::size_t... I>(std::type_identity<Shape>, std::index_sequence<I...>) {
+        ((all[next++] = own<Shape, I>(kind)), ...);
+        ++kind;
+    };
+    (add(std::type_identity<Shapes>{}, std::make_index_sequence<own_count<Shapes>()>{}), ...);
+    all[next] = common[before];
+    return all;
+}
+
+constexpr auto parameters = joined(std::type_identity<Softening>{});
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The parameters of laws: by key, with unit, default, range and meaning in one table.
+// The parameters of laws: by key, with unit, default, range and meaning in one table. Those of one shape alone stand in
+// the file of that shape.
 #pragma once
 
 #include <span>
@@ -13,14 +14,15 @@ struct LawParameter {
     const char* key;
     const char* type;  // real, text or table
     const char* unit;
-    const char* initial;  // "": must be given
-    const char* range;
+    const char* initial;   // "": must be given
+    ParameterRange range;  // of a table: of each number in it
     const char* meaning;
-    unsigned kinds;                 // bit i: softening i has it
-    unsigned criteria;              // bit i: criterion i has it
-    double Law::*value = nullptr;   // null: it belongs to the shape
-    double Law::*second = nullptr;  // set along with it
-    bool (*allows)(double) = nullptr;
+    unsigned kinds;                              // bit i: softening i has it
+    unsigned criteria;                           // bit i: criterion i has it
+    double Law::*value = nullptr;                // null: it belongs to the shape
+    double Law::*second = nullptr;               // set along with it
+    double (*read)(const Softening&) = nullptr;  // of a number of the shape
+    void (*write)(Softening&, double) = nullptr;
 };
 std::span<const LawParameter> law_parameters();
 // Has the law this parameter, with its kind and its criterion?

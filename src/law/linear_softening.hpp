@@ -8,11 +8,15 @@
 // D = 0 is Griffith's law: g = Gc (1-zeta), zeta_old while Y < Gc, else 0.
 #pragma once
 
+#include "law/law_kind.hpp"
 #include "law/toughness.hpp"
 
 namespace delam {
 
 struct LinearSoftening {
+    static constexpr LawKind kind{"piecewise-linear", "the bilinear law: traction falls on a straight line",
+                                  Toughnesses::onset_and_total};
+
     double dissipated(const Toughness& t, double zeta) const;
     double stored_slides(const Toughness& t, double zeta) const;
     double driving(const Toughness& t, double zeta) const;

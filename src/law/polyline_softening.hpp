@@ -22,6 +22,7 @@
 #include <span>
 #include <vector>
 
+#include "law/law_kind.hpp"
 #include "law/toughness.hpp"
 
 namespace delam {
@@ -42,6 +43,13 @@ public:
     double total_share(const Toughness& t, double zeta) const;  // dg/dGc at the same Go and zeta
 
     const std::vector<Corner>& corners() const { return corners_; }  // empty: not given yet
+    void hashed(auto&& add) const {
+        add(static_cast<std::int64_t>(corners_.size()));
+        for (const Corner& corner : corners_) {
+            add(corner.xi);
+            add(corner.s);
+        }
+    }
 
 protected:
     // xi, s: from (0, 1) to (1, 0), xi nondecreasing, s nonincreasing. Points beyond the first of s = 0 are left out.
@@ -67,12 +75,35 @@ class TrapezoidalSoftening : public PolylineSoftening {
 public:
     void set_plateau(double plateau);
     double plateau() const { return corners().empty() ? -1.0 : corners()[1].xi; }  // -1: not given yet
+
+    static constexpr LawKind kind{
+        "trapezoidal",
+        "traction stays at its peak on the part `plateau` of the way from onset to end, then falls on a straight line",
+        Toughnesses::onset_and_total};
+    static constexpr ShapeParameter<TrapezoidalSoftening> parameters[] = {
+        {"plateau", "-", "", below_one, "part of the way from onset to end on which the traction stays at its peak",
+         &TrapezoidalSoftening::plateau, &TrapezoidalSoftening::set_plateau}};
 };
 
 class TabulatedSoftening : public PolylineSoftening {
 public:
     // Throws Error(DELAM_ERROR_ARGUMENT) naming the point that is out of order.
     void set_table(std::span<const double> xi, std::span<const double> s);
+    const char* missing() const {
+        return corners().empty() ? "softening is missing: a tabulated law needs its table (delam_law_set_table)"
+                                 : nullptr;
+    }
+
+    static constexpr LawKind kind{"tabulated", "traction follows the points of delam_law_set_table",
+                                  Toughnesses::onset_and_total};
+    static constexpr ShapeParameter<TabulatedSoftening> parameters[] = {
+        {"softening",
+         "-",
+         "",
+         {"from (0, 1) to (1, 0), first column not falling, second not rising", 0.0, 1.0, false, false},
+         "points (xi, s): jump beyond the onset over its largest, traction over its peak; scaled so that the area is "
+         "the "
+         "toughness"}};
 };
 
 }  // namespace delam

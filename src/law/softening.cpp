@@ -3,15 +3,15 @@
 
 namespace delam {
 
-bool softening_of(const std::string& name, Softening& softening) {
-    const Softening shapes[] = {LinearSoftening{},    ExponentialSoftening{}, TrapezoidalSoftening{},
-                                TabulatedSoftening{}, GriffithSoftening{},    HostSoftening{}};
-    for (const Softening& shape : shapes)
-        if (name == softening_names[shape.index()]) {
-            softening = shape;
-            return true;
-        }
-    return false;
+namespace {
+
+template <class... Shapes>
+bool find(const std::string& name, std::variant<Shapes...>& softening) {
+    return ((name == Shapes::kind.name && (softening = Shapes{}, true)) || ...);
 }
+
+}  // namespace
+
+bool softening_of(const std::string& name, Softening& softening) { return find(name, softening); }
 
 }  // namespace delam

@@ -1,28 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shapes of softening between onset and end, by name: the kinds of laws.
+// The table of law kinds: one shape of softening between onset and end for each kind, one row for each shape. The file
+// of a shape says what its kind is called and which parameters it has (law_kind.hpp).
 #pragma once
 
+#include <array>
 #include <string>
+#include <type_traits>
 #include <variant>
 
 #include "law/exponential_softening.hpp"
+#include "law/griffith_softening.hpp"
 #include "law/host_softening.hpp"
+#include "law/law_kind.hpp"
 #include "law/linear_softening.hpp"
 #include "law/polyline_softening.hpp"
 
 namespace delam {
 
-// Onset and end are one: the law has a toughness only.
-struct GriffithSoftening : LinearSoftening {};
+using Softening = std::variant<  //
+    LinearSoftening,             //
+    ExponentialSoftening,        //
+    TrapezoidalSoftening,        //
+    TabulatedSoftening,          //
+    GriffithSoftening,           //
+    HostSoftening>;
 
-using Softening = std::variant<LinearSoftening, ExponentialSoftening, TrapezoidalSoftening, TabulatedSoftening,
-                               GriffithSoftening, HostSoftening>;
-// Names of the kinds in the order of Softening.
-inline constexpr const char* softening_names[] = {"piecewise-linear", "exponential", "trapezoidal",
-                                                  "tabulated",        "griffith",    "host"};
-static_assert(std::size(softening_names) == std::variant_size_v<Softening>);
+namespace detail {
+template <class... Shapes>
+constexpr std::array<LawKind, sizeof...(Shapes)> kinds_of(std::type_identity<std::variant<Shapes...>>) {
+    return {Shapes::kind...};
+}
+}  // namespace detail
 
-// The shape of a kind as it is at first; false: no kind has this name.
+// The kinds in the order of Softening.
+inline constexpr auto law_kinds = detail::kinds_of(std::type_identity<Softening>{});
+
+// The shape of a kind before its parameters are set; false: no kind has this name.
 bool softening_of(const std::string& name, Softening& softening);
 
 }  // namespace delam

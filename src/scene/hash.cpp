@@ -107,17 +107,8 @@ void add_law(Fnv& fnv, const Law& law) {
         fnv.add(parameter);
     }
     fnv.add(std::string(name_of(law.criterion)));
-    fnv.add(std::string(law.kind()));
-    const PolylineSoftening* polyline = std::get_if<TrapezoidalSoftening>(&law.softening);
-    if (polyline == nullptr) polyline = std::get_if<TabulatedSoftening>(&law.softening);
-    if (polyline != nullptr) {
-        fnv.add(static_cast<std::int64_t>(polyline->corners().size()));
-        for (const PolylineSoftening::Corner& corner : polyline->corners()) {
-            fnv.add(corner.xi);
-            fnv.add(corner.s);
-        }
-    }
-    if (const HostSoftening* host = law.host()) fnv.add(host->name);
+    fnv.add(std::string(law.kind().name));
+    law.hash_shape([&](const auto& held) { fnv.add(held); });
 }
 
 void add_loads(Fnv& fnv, const Problem& problem) {

@@ -51,8 +51,7 @@ ProcessZone predicted_process_zone(const Problem& problem, std::int64_t interfac
         pairs += 1.0;
     }
     if (pairs > 0.0) zone.spacing = mesh.dimension() == 2 ? adhering / pairs : std::sqrt(adhering / pairs);
-    if (properties.bonded || !properties.law || std::holds_alternative<GriffithSoftening>(properties.law->softening))
-        return zone;
+    if (properties.bonded || !properties.law || !properties.law->softens()) return zone;
 
     zone.length = std::numeric_limits<double>::infinity();
     for (const std::int32_t body : {geometry.body_a, geometry.body_b}) {

@@ -168,7 +168,7 @@ START_TEST(keys) {
             Law law = named.law;
             const bool has = delam::applies(p, law) && std::string(p.type) == "real";
             ck_assert_msg(law.set(p.key, -1.0) == has, "%s: %s", named.name.c_str(), p.key);
-            if (has) expect(refusal(law), std::string("law: ") + p.key + " -1: must be " + p.range);
+            if (has) expect(refusal(law), std::string("law: ") + p.key + " -1: must be " + p.range.words);
         }
     }
     Law law = laws::law("piecewise-linear", Criterion::valoroso_champaney, 2.0);
