@@ -140,7 +140,7 @@ int32_t delam_solver_recorded(const delam_solver* solver, const char* key, int64
     return guard(solver, [&] {
         require_pointer(key, "key");
         const Record& record = solver->core->recorded();
-        const Record::Column* column = record.find(key);
+        const Record::Column* column = record.find(value_key(key));
         if (column == nullptr) {
             std::string kept;
             for (const Record::Column& other : record.columns()) kept += (kept.empty() ? "" : ", ") + other.key;

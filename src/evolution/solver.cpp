@@ -128,8 +128,8 @@ void Solver::commit() {
     if (keeps) past_.reserve(past_.size() + 1);
     const std::vector<std::string> keys = record_.keys();
     std::vector<Record::Row> rows;
-    for (const State& state : pending_->revised) rows.push_back({state.step, values_of(state, keys)});
-    rows.push_back({pending_->state.step, values_of(pending_->state, keys)});
+    for (const State& state : pending_->revised) rows.push_back({state.step, values_of(*this, state, keys)});
+    rows.push_back({pending_->state.step, values_of(*this, pending_->state, keys)});
     record_.reserve_row();
     // From here on nothing can fail.
     for (const Record::Row& row : rows) record_.put(row);
@@ -180,27 +180,8 @@ void Solver::set_history(std::int64_t pattern, std::span<const double> times, st
 void Solver::record(const std::string& key) {
     if (pending_) fail(DELAM_ERROR_STATE, "a step is pending: commit it or roll it back before a value is recorded");
     if (const char* why = why_unrecorded(key)) fail(DELAM_ERROR_ARGUMENT, "value '", key, "' is not recorded: ", why);
-    if (record_.find(key) == nullptr) record_.add(key, committed_.step, values_of(committed_, {key}).front());
-}
-
-std::vector<double> Solver::values_of(const State& state, const std::vector<std::string>& keys) {
-    const State* const shown = looked_;
-    const auto show = [&](const State* next) {
-        if (next == looked_) return;
-        forget();
-        looked_ = next;
-    };
-    std::vector<double> values;
-    values.reserve(keys.size());
-    if (&state != &this->state()) show(&state);
-    try {
-        for (const std::string& key : keys) values.push_back(value(*this, key));
-    } catch (...) {
-        show(shown);
-        throw;
-    }
-    show(shown);
-    return values;
+    const std::string own = value_key(key);
+    if (record_.find(own) == nullptr) record_.add(own, committed_.step, values_of(*this, committed_, {own}).front());
 }
 
 std::vector<std::int64_t> Solver::changed_histories() const {
@@ -313,11 +294,11 @@ void Solver::warn_of_unresolved_front(const State& before, const State& after) {
     }
 }
 
-double Solver::largest_rotation() const {
+double Solver::largest_rotation(const State& state) const {
     if (problem_.mesh->cell_count() == 0) return unknown;
-    const double largest = delam::largest_rotation(*problem_.mesh, displacement());
+    const double largest = delam::largest_rotation(*problem_.mesh, displacement(state));
     if (largest > small_rotation && !warned_of_rotation_) {
-        monitor_.log(1, text("step ", state().step, " at time ", state().time, ": cells turn by up to ", largest,
+        monitor_.log(1, text("step ", state.step, " at time ", state.time, ": cells turn by up to ", largest,
                              " rad; strains are small ones, off by about half the square of that, ",
                              0.5 * largest * largest, " (said once)"));
         warned_of_rotation_ = true;
@@ -370,24 +351,18 @@ const std::vector<CrackFront>& Solver::crack_fronts(std::int64_t interface) cons
     return *kept;
 }
 
-double Solver::crack_length(std::int64_t interface) const {
-    const std::optional<CrackedInterface> of = cracked(state(), interface);
-    return of ? delam::crack_length(*of) : 0.0;
-}
-
-double Solver::process_zone(std::int64_t interface) const {
-    const std::optional<CrackedInterface> of = cracked(state(), interface);
-    return of ? delam::process_zone(*of) : 0.0;
-}
-
 const std::vector<double>& Solver::displacement() const {
     if (displacement_.empty()) displacement_ = stepper_.op().displacement(state().theta, state().response);
     return displacement_;
 }
 
-double Solver::equilibrium_defect() const {
-    const double reaction = largest_reaction(stepper_.op(), state(), stepper_.contact().force_floor(state().theta));
-    const double defect = stepper_.op().equilibrium_defect(state().theta, state().response);
+std::vector<double> Solver::displacement(const State& state) const {
+    return &state == &this->state() ? displacement() : stepper_.op().displacement(state.theta, state.response);
+}
+
+double Solver::equilibrium_defect(const State& state) const {
+    const double reaction = largest_reaction(stepper_.op(), state, stepper_.contact().force_floor(state.theta));
+    const double defect = stepper_.op().equilibrium_defect(state.theta, state.response);
     return reaction > 0.0 ? defect / reaction : defect;
 }
 

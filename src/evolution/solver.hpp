@@ -70,6 +70,8 @@ public:
     const ContactScene& contact() const { return stepper_.contact(); }
     // Recovered on request, [mesh DOFs]; kept until the state changes.
     const std::vector<double>& displacement() const;
+    // Of any state of this solver.
+    std::vector<double> displacement(const State& state) const;
     // Forces of the device, [constraints].
     std::vector<double> reaction() const { return stepper_.op().reaction(state().theta, state().response); }
     // d2E / dtheta2 at fixed adhesion and contact set of state(), [patterns][patterns].
@@ -81,18 +83,17 @@ public:
     const JumpOperator& jump_operator() const { return stepper_.op(); }
     const ReductionChoice& reduction() const { return stepper_.reduction(); }
     // Out-of-balance force over the largest reaction.
-    double equilibrium_defect() const;
+    double equilibrium_defect(const State& state) const;
     // What the scene needs and what was left out (plan.hpp).
     std::vector<PlanItem> plan() const;
     // Initial adhesion, [pairs].
     const std::vector<double>& initial_adhesion() const { return stepper_.initial_adhesion(); }
     // Fronts of the cracks of an interface; none if it has no law. Computed on request, kept until the state changes.
     const std::vector<CrackFront>& crack_fronts(std::int64_t interface) const;
-    // L or L2; 0 if it has no law.
-    double crack_length(std::int64_t interface) const;
-    double process_zone(std::int64_t interface) const;
+    // The interface with its law and its fields of a state; nothing if it has no law.
+    std::optional<CrackedInterface> cracked(const State& state, std::int64_t interface) const;
     // rad; recovers the displacements. Warns once if it exceeds 0.1.
-    double largest_rotation() const;
+    double largest_rotation(const State& state) const;
     // For a body (index), -1: for all; recovers the displacements.
     VolumeAverage average(std::int32_t body) const;
     // At the centres of the cells (centre_stress); NaN for bodies with a stiffness of the host and no material.
@@ -115,10 +116,7 @@ private:
     void require_nothing_pending(double time) const;
     // Discards results computed on request.
     void forget();
-    // For any state, not only state().
-    std::vector<double> values_of(const State& state, const std::vector<std::string>& keys);
     void warn_of_unresolved_front(const State& before, const State& after);
-    std::optional<CrackedInterface> cracked(const State& state, std::int64_t interface) const;
     Outcome unconverged_displacement(const State& state) const;
     void judge_balance(const State& state, Outcome& outcome);
 

@@ -3,49 +3,79 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <variant>
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "delam/delam.h"
+#include "evolution/step/fronts.hpp"
 
 namespace delam {
 
 namespace {
 
-double count(std::int64_t n) { return static_cast<double>(n); }
-std::int64_t count_of_interfaces(const Problem& problem) {
-    return static_cast<std::int64_t>(problem.interfaces.size());
-}
+// A state of a solver as the values see it. The fronts of an interface are sought when the first value asks for them.
+class Reading {
+public:
+    Reading(const Solver& solver, const State& state) : solver_(solver), state_(state) {}
 
-// Sum of weight * f(adhesion) over the initially adhering pairs.
+    const Solver& solver() const { return solver_; }
+    const State& state() const { return state_; }
+    std::int64_t interfaces() const { return static_cast<std::int64_t>(solver_.problem().interfaces.size()); }
+    std::size_t dimension() const { return index(solver_.pairs().dimension); }
+    // Its fields with its law; nothing where it has none.
+    std::optional<CrackedInterface> cracked(std::int64_t interface) const { return solver_.cracked(state_, interface); }
+    const std::vector<CrackFront>& fronts(std::int64_t interface) const {
+        if (&state_ == &solver_.state()) return solver_.crack_fronts(interface);
+        const auto known = fronts_.find(interface);
+        if (known != fronts_.end()) return known->second;
+        const std::optional<CrackedInterface> of = cracked(interface);
+        return fronts_[interface] = of ? crack_fronts(*of) : std::vector<CrackFront>{};
+    }
+
+private:
+    const Solver& solver_;
+    const State& state_;
+    mutable std::map<std::int64_t, std::vector<CrackFront>> fronts_;
+};
+
+double count(std::int64_t n) { return static_cast<double>(n); }
+
+// Sum of weight * f(adhesion) over the pairs that adhered at first.
 template <class F>
-double over_bond(const Solver& solver, F f) {
-    const State& state = solver.state();
+double over_bond(const Reading& r, F f) {
     double sum = 0.0;
-    for (std::size_t p = 0; p < state.adhesion.size(); ++p)
-        if (solver.pairs().law[p] != nullptr && solver.initial_adhesion()[p] > 0.0)
-            sum += solver.pairs().weight[p] * f(state.adhesion[p]);
+    for (std::size_t p = 0; p < r.state().adhesion.size(); ++p)
+        if (r.solver().pairs().law[p] != nullptr && r.solver().initial_adhesion()[p] > 0.0)
+            sum += r.solver().pairs().weight[p] * f(r.state().adhesion[p]);
     return sum;
 }
 
-double contact_pairs(const Solver& solver) {
-    const auto& closed = solver.state().closed;
-    return count(std::count(closed.begin(), closed.end(), std::uint8_t{1}));
+// Sum of f(interface) over the interfaces with a law; which: one of them alone, -1: all.
+template <class F>
+double over_interfaces(const Reading& r, std::int64_t which, F f) {
+    double sum = 0.0;
+    for (std::int64_t i = 0; i < r.interfaces(); ++i) {
+        if (which >= 0 && i != which) continue;
+        const std::optional<CrackedInterface> of = r.cracked(i);
+        sum += of ? f(*of) : 0.0;
+    }
+    return sum;
 }
 
-// Normal jumps of all pairs from the displacements of their nodes, as a host would compute them.
-std::vector<double> gaps(const Solver& solver) {
-    const std::vector<double> u = solver.displacement();
-    const Mesh& mesh = *solver.problem().mesh;
-    const auto dim = static_cast<std::size_t>(mesh.dimension());
+// Normal jumps of all pairs from the displacements at their nodes: what a host would measure.
+std::vector<double> gaps(const Reading& r) {
+    const std::vector<double> u = r.solver().displacement(r.state());
+    const Mesh& mesh = *r.solver().problem().mesh;
+    const std::size_t dim = index(mesh.dimension());
     std::vector<double> found;
     for (const InterfaceGeometry& interface : mesh.interfaces())
         for (std::size_t p = 0; p < interface.weight.size(); ++p) {
             double gap = 0.0;
             for (std::size_t c = 0; c < dim; ++c)
-                gap +=
-                    interface.frame[p * dim * dim + c] * (u[static_cast<std::size_t>(interface.node_b[p]) * dim + c] -
-                                                          u[static_cast<std::size_t>(interface.node_a[p]) * dim + c]);
+                gap += interface.frame[p * dim * dim + c] *
+                       (u[index(interface.node_b[p]) * dim + c] - u[index(interface.node_a[p]) * dim + c]);
             found.push_back(gap);
         }
     return found;
@@ -53,40 +83,41 @@ std::vector<double> gaps(const Solver& solver) {
 
 double ratio(double a, double b) { return b > 0.0 ? a / b : a; }
 
-double kkt_gap(const Solver& s) {
+double kkt_gap(const Reading& r) {
     double deepest = 0.0;
-    for (const double gap : gaps(s)) deepest = std::max(deepest, -gap);
-    return ratio(deepest, max_abs(s.state().response.jump));
+    for (const double gap : gaps(r)) deepest = std::max(deepest, -gap);
+    return ratio(deepest, max_abs(r.state().response.jump));
 }
 
-double kkt_pressure(const Solver& s) {
-    const State& state = s.state();
-    const auto dim = static_cast<std::size_t>(s.pairs().dimension);
+bool in_contact(const Reading& r, std::size_t pair) {
+    return r.solver().contact().bonded[pair] == 0 && r.state().closed[pair] != 0;
+}
+
+double kkt_pressure(const Reading& r) {
+    const std::vector<double>& force = r.state().response.force;
     double pull = 0.0;
-    for (std::size_t p = 0; p < state.closed.size(); ++p)
-        if (s.contact().bonded[p] == 0 && state.closed[p] != 0) pull = std::max(pull, state.response.force[p * dim]);
-    return ratio(pull, max_abs(state.response.force));
+    for (std::size_t p = 0; p < r.state().closed.size(); ++p)
+        if (in_contact(r, p)) pull = std::max(pull, force[p * r.dimension()]);
+    return ratio(pull, max_abs(force));
 }
 
-double kkt_complementarity(const Solver& s) {
-    const State& state = s.state();
-    const auto dim = static_cast<std::size_t>(s.pairs().dimension);
-    const std::vector<double> gap = gaps(s);
+double kkt_complementarity(const Reading& r) {
+    const Response& response = r.state().response;
+    const std::vector<double> gap = gaps(r);
     double product = 0.0;
-    for (std::size_t p = 0; p < state.closed.size(); ++p)
-        if (s.contact().bonded[p] == 0 && state.closed[p] != 0)
-            product = std::max(product, std::abs(gap[p] * state.response.force[p * dim]));
-    return ratio(product, max_abs(state.response.jump) * max_abs(state.response.force));
+    for (std::size_t p = 0; p < r.state().closed.size(); ++p)
+        if (in_contact(r, p)) product = std::max(product, std::abs(gap[p] * response.force[p * r.dimension()]));
+    return ratio(product, max_abs(response.jump) * max_abs(response.force));
 }
 
-// The point of an interface's fronts (-1: of all) with the largest energy release rate; a point of zeros if there is no
-// front.
-FrontPoint leading_point(const Solver& s, std::int64_t interface) {
+// The point of an interface's fronts (-1: of all) with the largest energy release rate; a point of zeros where there is
+// no front.
+FrontPoint leading_point(const Reading& r, std::int64_t interface) {
     FrontPoint leading;
     bool found = false;
-    for (std::int64_t i = 0; i < count_of_interfaces(s.problem()); ++i) {
+    for (std::int64_t i = 0; i < r.interfaces(); ++i) {
         if (interface >= 0 && i != interface) continue;
-        for (const CrackFront& front : s.crack_fronts(i))
+        for (const CrackFront& front : r.fronts(i))
             for (const FrontPoint& point : front.points) {
                 if (found && !(point.total() > leading.total())) continue;
                 leading = point;
@@ -96,132 +127,235 @@ FrontPoint leading_point(const Solver& s, std::int64_t interface) {
     return leading;
 }
 
-double crack_length(const Solver& s, std::int64_t interface) {
-    double sum = 0.0;
-    for (std::int64_t i = 0; i < count_of_interfaces(s.problem()); ++i)
-        if (interface < 0 || i == interface) sum += s.crack_length(i);
-    return sum;
-}
-
-// For all interfaces together (-1), and as KEY:I for one.
-struct FrontEntry {
-    const char* key;
-    double (*value)(const Solver&, std::int64_t);
-};
-constexpr FrontEntry front_table[] = {
-    {"crack_length", crack_length},
-    {"energy_release_rate", [](const Solver& s, std::int64_t i) { return leading_point(s, i).total(); }},
-    {"front_mixity", [](const Solver& s, std::int64_t i) { return leading_point(s, i).mixity(); }},
-    {"process_zone_length", [](const Solver& s, std::int64_t i) { return leading_point(s, i).zone; }},
-    {"process_zone_pairs", [](const Solver& s, std::int64_t i) { return leading_point(s, i).zone_pairs; }},
-};
-
-constexpr const char* recovers = "it recovers the displacements, a sparse solve each";
+constexpr const char* by_recovery = "it recovers the displacements, a sparse solve each";
 constexpr const char* counts_on = "it counts over the solver's life and is no part of a state";
 
-struct Entry {
-    const char* key;
-    double (*value)(const Solver&);
-    const char* unrecorded = nullptr;  // why it is not recorded; null: it is
+// The part is an interface (-1: all together) or a pattern.
+using OfState = double (*)(const State&);
+using OfReading = double (*)(const Reading&);
+using OfPart = double (*)(const Reading&, std::int64_t);
+
+struct Row {
+    ValueInfo info;
+    std::variant<OfState, OfReading, OfPart> read;
 };
 
-constexpr Entry table[] = {
-    {"step", [](const Solver& s) { return count(s.state().step); }},
-    {"time", [](const Solver& s) { return s.state().time; }},
-    {"stored_bulk", [](const Solver& s) { return s.state().ledger.stored_bulk; }},
-    {"stored_interface", [](const Solver& s) { return s.state().ledger.stored_interface; }},
-    {"dissipated", [](const Solver& s) { return s.state().ledger.dissipated; }},
-    {"stored_interface_slides", [](const Solver& s) { return s.state().ledger.stored_interface_slides; }},
-    {"dissipated_slides", [](const Solver& s) { return s.state().ledger.dissipated_slides; }},
-    {"load_potential", [](const Solver& s) { return s.state().ledger.load_potential; }},
-    {"work", [](const Solver& s) { return s.state().ledger.work; }},
-    {"lower", [](const Solver& s) { return s.state().ledger.lower; }},
-    {"increment", [](const Solver& s) { return s.state().ledger.increment; }},
-    {"upper", [](const Solver& s) { return s.state().ledger.upper; }},
-    {"increment_lower", [](const Solver& s) { return s.state().ledger.increment_lower; }},
-    {"defect", [](const Solver& s) { return s.state().ledger.defect(); }},
-    {"defect_slides", [](const Solver& s) { return s.state().ledger.defect_slides(); }},
-    {"mixity_error", [](const Solver& s) { return s.state().ledger.mixity_error; }},
-    {"am_iterations", [](const Solver& s) { return count(s.state().effort.am_iterations); }},
-    {"displacement_solves", [](const Solver& s) { return count(s.state().effort.displacement_solves); }},
-    {"contact_iterations", [](const Solver& s) { return count(s.state().effort.contact_iterations); }},
-    {"contact_iterations_first", [](const Solver& s) { return count(s.state().effort.contact_iterations_first); }},
-    {"contact_iterations_max", [](const Solver& s) { return count(s.state().effort.contact_iterations_max); }},
-    {"contact_fallbacks", [](const Solver& s) { return count(s.state().effort.contact_fallbacks); }},
-    {"linear_iterations", [](const Solver& s) { return count(s.state().effort.linear_iterations); }},
-    {"newton_solves", [](const Solver& s) { return count(s.state().effort.newton_solves); }},
-    {"debond_moves", [](const Solver& s) { return count(s.state().effort.debond_moves); }},
-    {"contact_pairs", contact_pairs},
-    {"debonded_length",
-     [](const Solver& s) { return over_bond(s, [](double zeta) { return zeta <= debonded_below ? 1.0 : 0.0; }); }},
-    {"front", [](const Solver& s) { return over_bond(s, [](double zeta) { return 1.0 - zeta; }); }},
-    {"process_zone",
-     [](const Solver& s) {
-         double sum = 0.0;
-         for (std::int64_t i = 0; i < count_of_interfaces(s.problem()); ++i) sum += s.process_zone(i);
-         return sum;
-     }},
-    {"backtracks", [](const Solver& s) { return count(s.state().history.backtracks); }},
-    {"revisions", [](const Solver& s) { return count(s.state().history.revisions); }},
-    {"revised_from", [](const Solver& s) { return count(s.state().history.revised_from); }},
-    {"search_candidates", [](const Solver& s) { return count(s.state().effort.search_candidates); }},
-    {"search_margin", [](const Solver& s) { return s.state().outcome.search_margin; }},
-    {"search_gap", [](const Solver& s) { return s.state().outcome.search_gap; }},
-    {"substeps", [](const Solver& s) { return count(s.state().history.substeps); }},
-    {"refused_steps", [](const Solver& s) { return count(s.state().history.refused_steps); }},
-    {"jumps", [](const Solver& s) { return count(s.state().outcome.jumps); }},
-    {"released", [](const Solver& s) { return s.state().outcome.released; }},
-    {"bulk_factorisations", [](const Solver& s) { return count(s.jump_operator().factorisations()); }, counts_on},
-    {"field_recoveries", [](const Solver& s) { return count(s.recoveries()); }, counts_on},
-    {"damage_change", [](const Solver& s) { return s.state().outcome.damage_change; }},
-    {"linear_residual", [](const Solver& s) { return s.state().effort.linear_residual; }},
-    {"kkt_gap", kkt_gap, recovers},
-    {"kkt_pressure", kkt_pressure, recovers},
-    {"kkt_complementarity", kkt_complementarity, recovers},
-    {"rotation_max", [](const Solver& s) { return s.largest_rotation(); }, recovers},
-    {"kkt_equilibrium", [](const Solver& s) { return s.equilibrium_defect(); }, recovers},
+constexpr Row row(const char* key, const char* unit, const char* meaning, OfState read, const char* alias = "") {
+    return {{key, alias, unit, ValueCost::free, ValueScope::whole, meaning}, read};
+}
+constexpr Row read_row(const char* key, const char* unit, const char* meaning, OfReading read) {
+    return {{key, "", unit, ValueCost::reads, ValueScope::whole, meaning}, read};
+}
+constexpr Row life_row(const char* key, const char* meaning, OfReading read) {
+    return {{key, "", "-", ValueCost::free, ValueScope::whole, meaning, counts_on}, read};
+}
+constexpr Row recovered_row(const char* key, const char* unit, const char* meaning, OfReading read) {
+    return {{key, "", unit, ValueCost::recovers, ValueScope::whole, meaning, by_recovery}, read};
+}
+constexpr Row front_row(const char* key, const char* unit, const char* meaning, OfPart read) {
+    return {{key, "", unit, ValueCost::reads, ValueScope::interface, meaning}, read};
+}
+constexpr Row pattern_row(const char* key, const char* unit, const char* meaning, OfPart read) {
+    return {{key, "", unit, ValueCost::free, ValueScope::pattern, meaning}, read};
+}
+
+// In the order of the list that hosts read; a new row goes to the end of its scope.
+constexpr Row table[] = {
+    row("step", "-", "number of the load step; the initial state is 0", [](const State& s) { return count(s.step); }),
+    row("time", "t", "time of the state", [](const State& s) { return s.time; }),
+    row("stored_bulk", "F L", "elastic energy of the bodies", [](const State& s) { return s.ledger.stored_bulk; }),
+    row("stored_interface", "F L", "energy stored in the interfaces, with the gradient term",
+        [](const State& s) { return s.ledger.stored_interface; }),
+    row("dissipated", "F L", "energy dissipated by damage since the start",
+        [](const State& s) { return s.ledger.dissipated; }),
+    row(
+        "stored_interface_slides", "F L", "stored_interface in the split whose dissipation is linear in the damage",
+        [](const State& s) { return s.ledger.stored_interface_slides; }, "stored_interface_linear"),
+    row(
+        "dissipated_slides", "F L", "dissipated in the split whose dissipation is linear in the damage",
+        [](const State& s) { return s.ledger.dissipated_slides; }, "dissipated_linear"),
+    row("load_potential", "F L", "potential of the dead forces",
+        [](const State& s) { return s.ledger.load_potential; }),
+    row("work", "F L", "work of the loads since the start, the mean of the bounds of every step",
+        [](const State& s) { return s.ledger.work; }),
+    row("lower", "F L", "lower bound of the two-sided estimate of the step",
+        [](const State& s) { return s.ledger.lower; }),
+    row("increment", "F L", "change of stored energy and potential in the step plus what it dissipated",
+        [](const State& s) { return s.ledger.increment; }),
+    row("upper", "F L", "upper bound of the two-sided estimate of the step",
+        [](const State& s) { return s.ledger.upper; }),
+    row("increment_lower", "F L", "increment at the mixities of the step before, which the lower bound holds for",
+        [](const State& s) { return s.ledger.increment_lower; }),
+    row("defect", "F L", "what does not close in the energy balance since the start",
+        [](const State& s) { return s.ledger.defect(); }),
+    row(
+        "defect_slides", "F L", "defect in the split whose dissipation is linear in the damage",
+        [](const State& s) { return s.ledger.defect_slides(); }, "defect_linear"),
+    row("mixity_error", "-", "toughness at the mixity of the result against the toughness used, relative, in the step",
+        [](const State& s) { return s.ledger.mixity_error; }),
+    row(
+        "am_iterations", "-", "iterations of the staggered scheme in the step",
+        [](const State& s) { return count(s.effort.am_iterations); }, "staggered_iterations"),
+    row("displacement_solves", "-", "displacement solves of the step",
+        [](const State& s) { return count(s.effort.displacement_solves); }),
+    row("contact_iterations", "-", "active-set steps of the step, over all displacement solves",
+        [](const State& s) { return count(s.effort.contact_iterations); }),
+    row("contact_iterations_first", "-", "active-set steps of the first displacement solve of the step",
+        [](const State& s) { return count(s.effort.contact_iterations_first); }),
+    row("contact_iterations_max", "-", "active-set steps of the worst displacement solve of the step",
+        [](const State& s) { return count(s.effort.contact_iterations_max); }),
+    row("contact_fallbacks", "-", "displacement solves that exchanged one pair at a time because active sets came back",
+        [](const State& s) { return count(s.effort.contact_fallbacks); }),
+    row("linear_iterations", "-", "Krylov iterations of the step",
+        [](const State& s) { return count(s.effort.linear_iterations); }),
+    row("newton_solves", "-", "dense solves within the process zone in the step",
+        [](const State& s) { return count(s.effort.newton_solves); }),
+    row(
+        "debond_moves", "-", "unstable pairs that the step took straight to their debonded branch",
+        [](const State& s) { return count(s.effort.debond_moves); }, "unstable_debonds"),
+    read_row("contact_pairs", "-", "pairs in contact",
+             [](const Reading& r) {
+                 return count(std::count(r.state().closed.begin(), r.state().closed.end(), std::uint8_t{1}));
+             }),
+    read_row("debonded_length", "L or L2", "weight of the pairs that adhered at first and have debonded",
+             [](const Reading& r) { return over_bond(r, [](double z) { return z <= debonded_below ? 1.0 : 0.0; }); }),
+    read_row("front", "L or L2",
+             "advance of the front: sum of weight (1 - adhesion) of the pairs that adhered at first",
+             [](const Reading& r) { return over_bond(r, [](double z) { return 1.0 - z; }); }),
+    read_row("process_zone", "L or L2", "weight of the pairs in the process zone",
+             [](const Reading& r) { return over_interfaces(r, -1, process_zone); }),
+    row("backtracks", "-", "returns to an earlier step that the step has made",
+        [](const State& s) { return count(s.history.backtracks); }),
+    row("revisions", "-", "how often the step has been replaced after a return",
+        [](const State& s) { return count(s.history.revisions); }),
+    row("revised_from", "-", "first step that the returns of the step have replaced; its own number: none",
+        [](const State& s) { return count(s.history.revised_from); }),
+    row("search_candidates", "-", "states that the energetic search compared",
+        [](const State& s) { return count(s.effort.search_candidates); }),
+    row("search_margin", "F L", "energy of the lowest of these states less that of the state kept",
+        [](const State& s) { return s.outcome.search_margin; }),
+    row("search_gap", "F L", "energy of the state kept less a lower bound of the front positions left out",
+        [](const State& s) { return s.outcome.search_gap; }),
+    row("substeps", "-", "parts that the step was cut into", [](const State& s) { return count(s.history.substeps); }),
+    row("refused_steps", "-", "parts that were computed and not kept",
+        [](const State& s) { return count(s.history.refused_steps); }),
+    row(
+        "jumps", "-", "instants within the step at which the state jumps",
+        [](const State& s) { return count(s.outcome.jumps); }, "state_jumps"),
+    row("released", "F L", "energy that these jumps set free and nothing stores or dissipates",
+        [](const State& s) { return s.outcome.released; }),
+    life_row("bulk_factorisations", "sparse factorisations of the bodies since the solver was made",
+             [](const Reading& r) { return count(r.solver().jump_operator().factorisations()); }),
+    life_row("field_recoveries", "how often displacements were recovered since the solver was made",
+             [](const Reading& r) { return count(r.solver().recoveries()); }),
+    row("damage_change", "-", "what a further damage step would change, max norm",
+        [](const State& s) { return s.outcome.damage_change; }),
+    row("linear_residual", "-", "worst relative residual of the iterative linear solves of the step",
+        [](const State& s) { return s.effort.linear_residual; }),
+    recovered_row("kkt_gap", "-", "deepest penetration of the recovered displacements over the largest jump", kkt_gap),
+    recovered_row("kkt_pressure", "-", "largest pull of a closed contact over the largest force of a pair",
+                  kkt_pressure),
+    recovered_row("kkt_complementarity", "-",
+                  "largest |gap * force| of a closed contact over the largest jump times the largest force",
+                  kkt_complementarity),
+    recovered_row("rotation_max", "rad", "largest rotation of a cell",
+                  [](const Reading& r) { return r.solver().largest_rotation(r.state()); }),
+    recovered_row("kkt_equilibrium", "-", "largest out-of-balance nodal force over the largest reaction",
+                  [](const Reading& r) { return r.solver().equilibrium_defect(r.state()); }),
+    front_row("crack_length", "L or L2", "part that was open at first and the advance of its fronts",
+              [](const Reading& r, std::int64_t i) { return over_interfaces(r, i, crack_length); }),
+    front_row("energy_release_rate", "F/L", "largest energy release rate of a front point; 0: there is no front",
+              [](const Reading& r, std::int64_t i) { return leading_point(r, i).total(); }),
+    front_row("front_mixity", "-", "share of the shearing modes in that energy release rate",
+              [](const Reading& r, std::int64_t i) { return leading_point(r, i).mixity(); }),
+    front_row("process_zone_length", "L", "length of the process zone at that point",
+              [](const Reading& r, std::int64_t i) { return leading_point(r, i).zone; }),
+    front_row("process_zone_pairs", "-", "pairs in the process zone at that point",
+              [](const Reading& r, std::int64_t i) { return leading_point(r, i).zone_pairs; }),
+    pattern_row("load", "-", "factor of the load pattern",
+                [](const Reading& r, std::int64_t p) { return r.state().theta[index(p)]; }),
+    pattern_row("reaction", "F L", "conjugate of the load pattern, positive when the loading device does work",
+                [](const Reading& r, std::int64_t p) { return r.state().response.conjugate[index(p)]; }),
 };
+
+const Row* find_row(const std::string& key) {
+    const std::string name = key.substr(0, key.find(':'));
+    for (const Row& row : table) {
+        if (row.info.scope == ValueScope::whole ? key == row.info.key : name == row.info.key) return &row;
+        if (*row.info.alias != '\0' && name == row.info.alias) return &row;
+    }
+    return nullptr;
+}
+
+// The interface or pattern of KEY:I or KEY:NAME; -1: of the key alone. false: there is none of this name.
+bool part_of(const Problem& problem, const ValueInfo& info, const std::string& key, std::int64_t& part) {
+    part = -1;
+    const std::size_t colon = key.find(':');
+    const std::string name = colon == std::string::npos ? "" : key.substr(colon + 1);
+    if (info.scope == ValueScope::pattern) {
+        for (std::size_t p = 0; p < problem.patterns.size(); ++p)
+            if (colon != std::string::npos && name == problem.patterns[p].name) part = static_cast<std::int64_t>(p);
+        return part >= 0;
+    }
+    if (colon == std::string::npos) return true;
+    const std::size_t interfaces = info.scope == ValueScope::interface ? problem.interfaces.size() : 0;
+    for (std::size_t i = 0; i < interfaces; ++i)
+        if (name == std::to_string(i)) part = static_cast<std::int64_t>(i);
+    return part >= 0;
+}
+
+double read(const Reading& r, const std::string& key) {
+    const Row* row = find_row(key);
+    std::int64_t part = -1;
+    if (row == nullptr || !part_of(r.solver().problem(), row->info, key, part)) {
+        std::string known;
+        for (const std::string& name : value_names(r.solver().problem())) known += (known.empty() ? "" : ", ") + name;
+        fail(DELAM_ERROR_ARGUMENT, "value '", key, "' is not known; known are ", known);
+    }
+    if (const OfState* of = std::get_if<OfState>(&row->read)) return (*of)(r.state());
+    if (const OfReading* of = std::get_if<OfReading>(&row->read)) return (*of)(r);
+    return std::get<OfPart>(row->read)(r, part);
+}
 
 }  // namespace
 
 std::vector<std::string> value_names(const Problem& problem) {
     std::vector<std::string> names;
-    for (const Entry& entry : table) names.emplace_back(entry.key);
-    for (std::int64_t i = -1; i < count_of_interfaces(problem); ++i)
-        for (const FrontEntry& entry : front_table) names.push_back(i < 0 ? entry.key : text(entry.key, ":", i));
-    for (const Pattern& pattern : problem.patterns) {
-        names.push_back("load:" + pattern.name);
-        names.push_back("reaction:" + pattern.name);
-    }
+    const auto add = [&](ValueScope scope, const std::string& part) {
+        for (const Row& row : table)
+            if (row.info.scope == scope) names.push_back(row.info.key + part);
+    };
+    add(ValueScope::whole, "");
+    add(ValueScope::interface, "");
+    for (std::size_t i = 0; i < problem.interfaces.size(); ++i) add(ValueScope::interface, text(":", i));
+    for (const Pattern& pattern : problem.patterns) add(ValueScope::pattern, ":" + pattern.name);
     return names;
 }
 
-const char* why_unrecorded(const std::string& key) {
-    for (const Entry& entry : table)
-        if (key == entry.key) return entry.unrecorded;
-    return nullptr;
+const ValueInfo* find_value(const std::string& key) {
+    const Row* row = find_row(key);
+    return row == nullptr ? nullptr : &row->info;
 }
 
-double value(const Solver& solver, const std::string& key) {
-    for (const Entry& entry : table)
-        if (key == entry.key) return entry.value(solver);
-    for (const FrontEntry& entry : front_table) {
-        if (key == entry.key) return entry.value(solver, -1);
-        if (key.rfind(text(entry.key, ":"), 0) != 0) continue;
-        for (std::int64_t i = 0; i < count_of_interfaces(solver.problem()); ++i)
-            if (key == text(entry.key, ":", i)) return entry.value(solver, i);
-    }
-    const auto& patterns = solver.problem().patterns;
-    for (std::size_t p = 0; p < patterns.size(); ++p) {
-        if (key == "load:" + patterns[p].name) return solver.state().theta[p];
-        if (key == "reaction:" + patterns[p].name) return solver.state().response.conjugate[p];
-    }
-    std::string known;
-    for (const std::string& name : value_names(solver.problem())) {
-        if (!known.empty()) known += ", ";
-        known += name;
-    }
-    fail(DELAM_ERROR_ARGUMENT, "value '", key, "' is not known; known are ", known);
+std::string value_key(const std::string& key) {
+    const ValueInfo* info = find_value(key);
+    const std::size_t colon = std::min(key.find(':'), key.size());
+    return info == nullptr ? key : info->key + key.substr(colon);
 }
+
+const char* why_unrecorded(const std::string& key) {
+    const ValueInfo* info = find_value(key);
+    return info == nullptr ? nullptr : info->unrecorded;
+}
+
+std::vector<double> values_of(const Solver& solver, const State& state, const std::vector<std::string>& keys) {
+    const Reading reading(solver, state);
+    std::vector<double> values;
+    values.reserve(keys.size());
+    for (const std::string& key : keys) values.push_back(read(reading, key));
+    return values;
+}
+
+double value(const Solver& solver, const std::string& key) { return read({solver, solver.state()}, key); }
 
 }  // namespace delam

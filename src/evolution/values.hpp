@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The scalars of a state by key: one table for the history, the tests and every host.
+// The scalars of a state by key: one table for the history, the record, the tests and every host.
 #pragma once
 
 #include <string>
@@ -9,11 +9,42 @@
 
 namespace delam {
 
-// Keys in the order of delam_solver_value, the patterns' load: and reaction: last.
+// What it takes to read a value.
+enum class ValueCost {
+    free,     // the state or the solver holds the number
+    reads,    // goes over the pairs or the crack fronts of the state
+    recovers  // recovers the displacements of the state: a sparse solve
+};
+// What a value belongs to.
+enum class ValueScope {
+    whole,      // the whole scene
+    interface,  // all interfaces with a law together; KEY:I is that of interface I
+    pattern     // one load pattern: KEY:NAME
+};
+
+struct ValueInfo {
+    const char* key;
+    const char* alias;  // another name for the key, accepted wherever the key is; "": none
+    const char* unit;   // "-": none
+    ValueCost cost;
+    ValueScope scope;
+    const char* meaning;
+    const char* unrecorded = nullptr;  // why it is not recorded, in words; null: it can be
+};
+
+// Keys in the order of delam_solver_value, those of the patterns last.
 std::vector<std::string> value_names(const Problem& problem);
-// Throws Error(DELAM_ERROR_ARGUMENT) for an unknown key.
-double value(const Solver& solver, const std::string& key);
-// The reason why a value is not recorded; nullptr if it can be.
+// The row of a key, KEY:I or KEY:NAME, or of its alias; nullptr: no row has this key.
+const ValueInfo* find_value(const std::string& key);
+// The key itself; of an alias, the key that it stands for.
+std::string value_key(const std::string& key);
+// Why a value is not recorded, in words; nullptr where it can be.
 const char* why_unrecorded(const std::string& key);
+
+// Values of a state of the solver, which need not be the one that it shows. Throws Error(DELAM_ERROR_ARGUMENT) for an
+// unknown key.
+std::vector<double> values_of(const Solver& solver, const State& state, const std::vector<std::string>& keys);
+// Of the state that the solver shows.
+double value(const Solver& solver, const std::string& key);
 
 }  // namespace delam
