@@ -434,6 +434,21 @@ DELAM_API int64_t delam_law_parameter_count(const char *kind);
 DELAM_API int32_t delam_law_parameter_info(const char *kind, int64_t index, const char **key, const char **type,
                                            const char **unit, const char **initial, const char **range,
                                            const char **meaning);
+/* Bounds of the same parameter, kind and index as there, so that a host can check a number before it sets it. A number
+ * is finite and lies between *lower and *upper; *lower_open and *upper_open are 1 where the bound itself is outside,
+ * else 0. Where there is no bound, *lower is -INFINITY or *upper is INFINITY. The bounds of a table hold for each of its
+ * numbers; a text has none.
+ * [unit lower of key, upper of key; null kind, lower, upper, lower_open, upper_open; status only argument; thread any;
+ * since 0.1] */
+DELAM_API int32_t delam_law_parameter_bounds(const char *kind, int64_t index, double *lower, double *upper,
+                                             int32_t *lower_open, int32_t *upper_open);
+/* How many kinds of laws there are.
+ * [status -; thread any; since 0.1] */
+DELAM_API int64_t delam_law_kind_count(void);
+/* One of them, by index from 0: its name *kind and its *meaning. *hosted: 1 for the kind that takes callbacks
+ * (delam_law_create_host), 0 for those that delam_law_create takes.
+ * [null kind, meaning, hosted; owns texts static; status only argument; thread any; since 0.1] */
+DELAM_API int32_t delam_law_kind_info(int64_t index, const char **kind, const char **meaning, int32_t *hosted);
 
 /* Callbacks of a law that the host computes. They run on the calling thread, inside calls that check or use the law.
  * They must not call the library (delam_context_cancel aside) and must always give the same results for the same
@@ -875,6 +890,19 @@ DELAM_API int32_t delam_solver_value_count(const delam_solver *solver, int64_t *
 /* Name of value `index`; NULL on error.
  * [null result; owns result the solver; status argument; since 0.1] */
 DELAM_API const char *delam_solver_value_name(const delam_solver *solver, int64_t index);
+/* What value `index` is, as delam_solver_value_name counts them.
+ *   alias     another name for its key, accepted wherever the key is; "": none
+ *   unit      "-": none
+ *   cost      what it takes to read the value: "free", the solver holds the number; "reads", it goes over the pairs or
+ *             the crack fronts of the state; "recovers", it recovers the displacements, a sparse solve for each state
+ *   scope     "whole", the whole scene; "interface", all interfaces or, with :I behind the key, one of them; "pattern",
+ *             one load pattern
+ *   meaning   a short text
+ *   recorded  *recorded is 1 where delam_solver_record takes the value, else 0
+ * [null alias, unit, cost, scope, meaning, recorded; owns texts static; status argument; since 0.1] */
+DELAM_API int32_t delam_solver_value_info(const delam_solver *solver, int64_t index, const char **alias,
+                                          const char **unit, const char **cost, const char **scope,
+                                          const char **meaning, int32_t *recorded);
 
 /* Records a value of the committed state now and of every later step at its delam_solver_commit, e.g. a load curve.
  * After backtracking, the record holds the values of the replacing steps. A committed delam_solver_equilibrate replaces

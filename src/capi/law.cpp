@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/numbers.hpp"
 #include "capi/handles.hpp"
 #include "law/law_parameters.hpp"
 
@@ -150,6 +151,28 @@ int32_t delam_law_parameter_info(const char* kind, int64_t index, const char** k
     if (initial != nullptr) *initial = p->initial;
     if (range != nullptr) *range = p->range.words;
     if (meaning != nullptr) *meaning = p->meaning;
+    return DELAM_OK;
+}
+
+int32_t delam_law_parameter_bounds(const char* kind, int64_t index, double* lower, double* upper, int32_t* lower_open,
+                                   int32_t* upper_open) {
+    const LawParameter* p = parameter_of(kind, index);
+    if (p == nullptr) return DELAM_ERROR_ARGUMENT;
+    if (lower != nullptr) *lower = p->range.lower;
+    if (upper != nullptr) *upper = p->range.upper;
+    if (lower_open != nullptr) *lower_open = p->range.lower_open ? 1 : 0;
+    if (upper_open != nullptr) *upper_open = p->range.upper_open ? 1 : 0;
+    return DELAM_OK;
+}
+
+int64_t delam_law_kind_count(void) { return static_cast<std::int64_t>(law_kinds.size()); }
+
+int32_t delam_law_kind_info(int64_t index, const char** kind, const char** meaning, int32_t* hosted) {
+    if (index < 0 || index >= delam_law_kind_count()) return DELAM_ERROR_ARGUMENT;
+    const LawKind& found = law_kinds[delam::index(index)];
+    if (kind != nullptr) *kind = found.name;
+    if (meaning != nullptr) *meaning = found.meaning;
+    if (hosted != nullptr) *hosted = found.toughnesses == Toughnesses::none ? 1 : 0;
     return DELAM_OK;
 }
 

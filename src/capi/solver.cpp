@@ -121,6 +121,22 @@ const char* delam_solver_value_name(const delam_solver* solver, int64_t index) {
     return name;
 }
 
+int32_t delam_solver_value_info(const delam_solver* solver, int64_t index, const char** alias, const char** unit,
+                                const char** cost, const char** scope, const char** meaning, int32_t* recorded) {
+    return guard(solver, [&] {
+        const auto count = static_cast<int64_t>(solver->value_names.size());
+        require_index(index, count, 0, "index");
+        const ValueInfo* info = find_value(solver->value_names[static_cast<std::size_t>(index)]);
+        if (info == nullptr) fail(DELAM_ERROR_INTERNAL, "value ", index, " has no row");
+        if (alias != nullptr) *alias = info->alias;
+        if (unit != nullptr) *unit = info->unit;
+        if (cost != nullptr) *cost = name_of(info->cost);
+        if (scope != nullptr) *scope = name_of(info->scope);
+        if (meaning != nullptr) *meaning = info->meaning;
+        if (recorded != nullptr) *recorded = info->unrecorded == nullptr ? 1 : 0;
+    });
+}
+
 int32_t delam_solver_record(delam_solver* solver, const char* key) {
     return guard(solver, [&] {
         require_pointer(key, "key");

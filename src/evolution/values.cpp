@@ -319,6 +319,15 @@ double read(const Reading& r, const std::string& key) {
 
 }  // namespace
 
+const char* name_of(ValueCost cost) {
+    constexpr const char* names[] = {"free", "reads", "recovers"};
+    return names[static_cast<std::size_t>(cost)];
+}
+const char* name_of(ValueScope scope) {
+    constexpr const char* names[] = {"whole", "interface", "pattern"};
+    return names[static_cast<std::size_t>(scope)];
+}
+
 std::vector<std::string> value_names(const Problem& problem) {
     std::vector<std::string> names;
     const auto add = [&](ValueScope scope, const std::string& part) {

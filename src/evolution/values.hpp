@@ -22,6 +22,10 @@ enum class ValueScope {
     pattern     // one load pattern: KEY:NAME
 };
 
+// As hosts read them.
+const char* name_of(ValueCost cost);
+const char* name_of(ValueScope scope);
+
 struct ValueInfo {
     const char* key;
     const char* alias;  // another name for the key, accepted wherever the key is; "": none

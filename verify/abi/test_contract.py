@@ -283,6 +283,8 @@ CALLS = {
     "law_set_text": (loose, lambda s: [s.law, words("criterion"), words("power")]),
     "law_set_table": (loose, table_law),
     "law_parameter_info": (loose, lambda s: [words("griffith"), 0] + [c_void_p() for _ in range(6)]),
+    "law_parameter_bounds": (loose, lambda s: [words("griffith"), 1, real(0), real(0), short(0), short(0)]),
+    "law_kind_info": (bare, lambda s: [0, c_void_p(), c_void_p(), short(0)]),
     "law_create_host": (loose, host_law),
     "law_check": (loose, lambda s: [s.law]),
     "law_toughness": (loose, lambda s: [s.law, 1, real(0.5), real(0), real(0)]),
@@ -333,6 +335,7 @@ CALLS = {
     "solver_equilibrate": (full, lambda s: [s.solver, 0.5, real(1, 1)]),
     "solver_value": (full, lambda s: [s.solver, words("kkt_gap"), real(0)]),
     "solver_value_count": (full, lambda s: [s.solver, whole(0)]),
+    "solver_value_info": (full, lambda s: [s.solver, 0] + [c_void_p() for _ in range(5)] + [short(0)]),
     "solver_record": (lambda: full().committed(), lambda s: [s.solver, words("time")]),
     "solver_recorded_size": (full, lambda s: [s.solver, whole(0), whole(0)]),
     "solver_recorded": (lambda: full().recorded(), lambda s: [s.solver, words("time"), 1, real(0)]),
@@ -362,7 +365,8 @@ CALLS = {
 # Functions that return no status: what they give for the right call and for a wrong one.
 TEXTS = {
     "version": lambda: [], "commit": lambda: [], "status_name": lambda: [99], "abi": lambda: [],
-    "option_count": lambda: [], "cell_type_count": lambda: [], "blas_threads": lambda: [], "law_parameter_count": lambda: [None], "context_message": None,
+    "option_count": lambda: [], "cell_type_count": lambda: [], "blas_threads": lambda: [],
+    "law_parameter_count": lambda: [None], "law_kind_count": lambda: [], "context_message": None,
     "problem_pattern_name": None, "solver_value_name": None, "solver_plan": None, "solver_option": None,
     "solver_searched": None,
 }
@@ -431,7 +435,8 @@ def probe(function):
         elif "*" in p.type or p.type in header.callbacks:
             if p.name in nullable:
                 # No kind is a kind of no parameters.
-                expected = ARGUMENT if (short_name, p.name) == ("law_parameter_info", "kind") else OK
+                of_no_kind = short_name.startswith("law_parameter_") and p.name == "kind"
+                expected = ARGUMENT if of_no_kind else OK
                 attempt(function, f"{p.name} NULL, as it may be", expected, put(None))
             elif not any(entry.startswith(f"{p.name} at ") for entry in nullable):
                 attempt(function, f"{p.name} NULL", ARGUMENT, put(None), named=p.name)
