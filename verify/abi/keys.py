@@ -7,7 +7,8 @@ A line of the baseline is one of
     option NAME; TYPE; unit UNIT; initial TEXT; range TEXT       as delam_option_info gives them
     law KIND NAME; TYPE; unit UNIT; initial TEXT; range TEXT     as delam_law_parameter_info does; kinds of the header
     cell NAME; number CONSTANT; shape [NODES][DIMENSION]         as delam_cell_type_info does
-    value NAME; unit UNIT; recorded yes          delam_solver_value_name; units by the table at delam_solver_value; of
+    value NAME; unit UNIT; recorded yes; alias OTHER     delam_solver_value_name; units by the table at
+                                                 delam_solver_value; alias by delam_solver_value_info, if any; of
                                                  those that delam_solver_record refuses: no
     field NAME; shape [ROWS][COLUMNS]; unit UNIT     the table at delam_solver_field_shape
     text FUNCTION; range TEXT | TEXT             those in quotation marks in the comment of a function of CHOOSING
@@ -97,9 +98,11 @@ def keys_of(library, header):
             found[f"law {kind} {name}"] = facts
     for name, number, nodes, dimension in cells_of(library):
         found[f"cell {name}"] = {"type": f"number {number}", "shape": f"[{nodes}][{dimension}]"}
-    recorded = recorded_of(library, header)
+    recorded, aliases = recorded_of(library, header)
     for name, unit in values_of(header).items():
         found[f"value {name}"] = {"unit": unit, "recorded": recorded.get(name, "no")}
+        if aliases.get(name):
+            found[f"value {name}"]["alias"] = aliases[name]
     for name, (shape, unit) in fields_of(header).items():
         found[f"field {name}"] = {"shape": shape, "unit": unit}
     for name in CHOOSING:
@@ -151,11 +154,13 @@ def texts_of(header, name):
 
 # ---- two beams that are peeled apart ----
 def recorded_of(library, header):
-    """key -> yes, or no if a march in the plane or in space refuses it."""
+    """key -> yes, or no if a march in the plane or in space refuses it; key -> its alias."""
     refused = int(header.constants["DELAM_ERROR_ARGUMENT"])
-    found = {}
+    found, aliases = {}, {}
     for dimension in (2, 3):
         march = March(library, header, dimension, SMALL)
+        for name, info in march.infos().items():
+            aliases[general(name)] = info["alias"]
         for name in march.values():
             status = library.delam_solver_record(march.solver, name.encode())
             if status not in (0, refused):
@@ -163,7 +168,7 @@ def recorded_of(library, header):
             key = general(name)
             found[key] = "yes" if status == 0 and found.get(key) != "no" else "no"
         march.end()
-    return found
+    return found, aliases
 
 
 def general(name):
@@ -262,6 +267,22 @@ class March:
             found[name.decode()] = value[0]
         return found
 
+    def infos(self):
+        """name -> what delam_solver_value_info says."""
+        found = {}
+        for index, name in enumerate(self.values()):
+            texts, recorded = [c_char_p() for _ in range(5)], c_int32()
+            self.call("solver_value_info", self.solver, index, *[byref(text) for text in texts], byref(recorded))
+            alias, unit, cost, scope, meaning = [text.value.decode() for text in texts]
+            found[name] = {"alias": alias, "unit": unit, "cost": cost, "scope": scope, "meaning": meaning,
+                           "recorded": "yes" if recorded.value else "no"}
+        return found
+
+    def of_alias(self, alias):
+        value = self.real([0])
+        self.call("solver_value", self.solver, alias.encode(), value)
+        return value[0]
+
     def field(self, name):
         """Shape, and the largest magnitude; None for the latter where there is no such field."""
         shape = self.whole([0, 0])
@@ -302,9 +323,25 @@ def measured(library, header):
         elif small != 0:
             seen.add(what)
 
+    kinds, name = [], c_char_p()
+    for index in range(library.delam_law_kind_count()):
+        library.delam_law_kind_info(index, byref(name), None, None)
+        kinds.append(name.value.decode())
+    if kinds != kinds_of(header):
+        wrong.append(f"kinds of laws: {', '.join(kinds)} by delam_law_kind_info, {', '.join(kinds_of(header))} in the "
+                     f"table of the header")
     for dimension in (2, 3):
         one, other = (March(library, header, dimension, units) for units in (SMALL, LARGE))
         before, after = one.values(), other.values()
+        for name, info in one.infos().items():
+            if values.get(general(name), info["unit"]).replace("-", "1") != info["unit"].replace("-", "1"):
+                wrong.append(f"value {general(name)}: unit {info['unit']} in the library, {values[general(name)]} in the "
+                             f"table of the header")
+            status = library.delam_solver_record(one.solver, name.encode())
+            if (status == 0) != (info["recorded"] == "yes"):
+                wrong.append(f"value {general(name)}: recorded {info['recorded']} says delam_solver_value_info")
+            if info["alias"] and one.of_alias(info["alias"]) != before[name]:
+                wrong.append(f"value {general(name)}: its alias {info['alias']} has another value")
         keys = {general(name): name for name in before}
         for name in values:
             if name not in keys:
@@ -337,8 +374,8 @@ def measured(library, header):
 # ---- against the baseline ----
 def line_of(head, facts):
     parts = [head] + ([facts["type"]] if "type" in facts else [])
-    return "; ".join(parts + [f"{key} {facts[key]}".strip() for key in ("shape", "unit", "recorded", "initial", "range")
-                              if key in facts])
+    return "; ".join(parts + [f"{key} {facts[key]}".strip() for key in ("shape", "unit", "recorded", "alias", "initial",
+                                                                   "range") if key in facts])
 
 
 def read_keys(path):
@@ -350,7 +387,7 @@ def read_keys(path):
                 facts = {}
                 for part in parts:
                     key, _, value = part.partition(" ")
-                    if key in ("shape", "unit", "recorded", "initial", "range"):
+                    if key in ("shape", "unit", "recorded", "alias", "initial", "range"):
                         facts[key] = value
                     else:
                         facts["type"] = part
@@ -377,6 +414,8 @@ def compare(baseline, today, new_defaults):
                 wrong.append(f"{head}: {key} {new.get(key)}, in the baseline {old.get(key)}")
         if old.get("recorded") == "yes" and new.get("recorded") != "yes":
             wrong.append(f"{head}: is not recorded any more")
+        if "alias" in old and old["alias"] != new.get("alias"):
+            wrong.append(f"{head}: alias {new.get('alias')}, in the baseline {old['alias']}")
         if "range" in old and not wider(old["range"], new["range"]):
             wrong.append(f"{head}: range '{new['range']}' does not allow all of '{old['range']}' of the baseline")
         if old.get("initial") != new.get("initial"):

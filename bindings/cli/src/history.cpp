@@ -13,12 +13,6 @@ namespace cli {
 
 namespace {
 
-// Counts, written without exponent or fraction; still exact as doubles.
-constexpr const char* counts[] = {"step",          "am_iterations", "linear_iterations",   "contact_iterations",
-                                  "contact_pairs", "backtracks",    "displacement_solves", "revisions",
-                                  "jumps",         "revised_from",  "search_candidates",   "substeps",
-                                  "refused_steps"};
-
 // Columns that exist if the library has the value.
 constexpr const char* where_known[] = {"revisions",   "search_candidates", "search_margin", "search_gap",
                                        "jumps",       "released",          "defect",        "defect_slides",
@@ -33,11 +27,17 @@ History::History(const Model& model, const delam_solver* solver, const Scene& sc
     : model_(model), scene_(scene), context_(model.context.get()) {
     std::int64_t count = 0;
     call(context_, delam_solver_value_count(solver, &count), std::string("history"));
-    std::vector<std::string> known;
-    for (std::int64_t i = 0; i < count; ++i)
+    std::vector<std::string> known, aliases;
+    for (std::int64_t i = 0; i < count; ++i) {
         if (const char* name = delam_solver_value_name(solver, i)) known.emplace_back(name);
-    const auto knows = [&known](const std::string& key) {
-        return std::find(known.begin(), known.end(), key) != known.end();
+        const char* alias = "";
+        call(context_, delam_solver_value_info(solver, i, &alias, nullptr, nullptr, nullptr, nullptr, nullptr),
+             std::string("history"));
+        if (*alias != '\0') aliases.emplace_back(alias);
+    }
+    const auto knows = [&](const std::string& key) {
+        return std::find(known.begin(), known.end(), key) != known.end() ||
+               std::find(aliases.begin(), aliases.end(), key) != aliases.end();
     };
 
     add("step", "step");
@@ -112,8 +112,7 @@ std::string History::row(delam_solver* solver) const {
             continue;
         }
         const double number = value(solver, key) + 0.0;  // turns -0 into 0
-        const bool counted = std::find(std::begin(counts), std::end(counts), key) != std::end(counts);
-        out += counted ? fmt::format("{:.0f}", number) : fmt::format("{:.17g}", number);
+        out += fmt::format("{:.17g}", number);           // a count has neither exponent nor fraction
     }
     return out + "\n";
 }

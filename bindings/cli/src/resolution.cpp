@@ -29,6 +29,17 @@ Prediction prediction(const Model& model, std::size_t index) {
     return out;
 }
 
+// Without an onset of its own a law has no process zone.
+bool has_onset(const std::string& kind) {
+    const std::int64_t count = delam_law_parameter_count(kind.c_str());
+    for (std::int64_t i = 0; i < count; ++i) {
+        const char* key = "";
+        delam_law_parameter_info(kind.c_str(), i, &key, nullptr, nullptr, nullptr, nullptr, nullptr);
+        if (std::string_view(key) == "normal_onset") return true;
+    }
+    return false;
+}
+
 bool energetic(const delam_solver* solver) {
     const char* solution = delam_solver_option(solver, "solution");
     return solution != nullptr && std::string_view(solution) == "energetic";
@@ -66,7 +77,7 @@ std::vector<std::int64_t> unresolved_steps(std::string_view history, const Model
                                            const Scene& scene) {
     std::vector<std::int64_t> out;
     const auto softens = [&scene](const InterfaceData& data) {
-        return !data.bonded && !data.contact && scene.laws[data.law].kind != "griffith";
+        return !data.bonded && !data.contact && has_onset(scene.laws[data.law].kind);
     };
     if (energetic(solver) || std::none_of(model.interfaces.begin(), model.interfaces.end(), softens)) return out;
     const std::vector<std::map<std::string, double>> rows = rows_of(history);

@@ -1,12 +1,14 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 ! Information about the library: version, options of problems, parameters of laws.
 module delam_descriptions
-  use, intrinsic :: iso_c_binding, only: c_ptr, c_int64_t, c_null_ptr
+  use, intrinsic :: iso_c_binding, only: c_ptr, c_int32_t, c_int64_t, c_null_ptr
   use delam_raw
+  use delam_kinds, only: delam_real
   use delam_texts, only: delam_text, zero_ended
   implicit none
   private
-  public :: delam_version_text, delam_describe_option, delam_parameter_count, delam_describe_parameter
+  public :: delam_version_text, delam_describe_option, delam_parameter_count, delam_describe_parameter, &
+            delam_parameter_bounds, delam_describe_kind
 
 contains
 
@@ -54,5 +56,39 @@ contains
     if (present(range)) range = delam_text(texts(5))
     if (present(meaning)) meaning = delam_text(texts(6))
   end subroutine delam_describe_parameter
+
+  ! Between what a number of that index lies; where open, the bound itself is outside. ok: there is such a parameter.
+  subroutine delam_parameter_bounds(kind, index, lower, upper, lower_open, upper_open, ok)
+    character(*), intent(in) :: kind
+    integer, intent(in) :: index
+    real(delam_real), intent(out) :: lower, upper
+    logical, intent(out) :: lower_open, upper_open
+    logical, intent(out), optional :: ok
+    integer(c_int32_t) :: below, above, status
+    lower = 0
+    upper = 0
+    below = 0
+    above = 0
+    status = delam_law_parameter_bounds(zero_ended(kind), index - 1_c_int64_t, lower, upper, below, above)
+    lower_open = below /= 0
+    upper_open = above /= 0
+    if (present(ok)) ok = status == DELAM_OK
+  end subroutine delam_parameter_bounds
+
+  ! A kind of law, counted from 1 to delam_law_kind_count(); '' where there is none of that number. hosted: it is made
+  ! by create_host.
+  subroutine delam_describe_kind(index, kind, meaning, hosted)
+    integer, intent(in) :: index
+    character(:), allocatable, intent(out), optional :: kind, meaning
+    logical, intent(out), optional :: hosted
+    type(c_ptr) :: texts(2)
+    integer(c_int32_t) :: own
+    texts = c_null_ptr
+    own = 0
+    if (delam_law_kind_info(index - 1_c_int64_t, texts(1), texts(2), own) /= DELAM_OK) texts = c_null_ptr
+    if (present(kind)) kind = delam_text(texts(1))
+    if (present(meaning)) meaning = delam_text(texts(2))
+    if (present(hosted)) hosted = own /= 0
+  end subroutine delam_describe_kind
 
 end module delam_descriptions

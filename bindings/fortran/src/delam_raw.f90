@@ -433,6 +433,30 @@ module delam_raw
       type(c_ptr), intent(inout), optional :: meaning
       integer(c_int32_t) :: status
     end function delam_law_parameter_info
+    function delam_law_parameter_bounds(kind, index, lower, upper, lower_open, upper_open) bind(c, &
+        name="delam_law_parameter_bounds") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      character(kind=c_char), intent(in) :: kind(*)
+      integer(c_int64_t), value :: index
+      real(c_double), intent(inout), optional :: lower
+      real(c_double), intent(inout), optional :: upper
+      integer(c_int32_t), intent(inout), optional :: lower_open
+      integer(c_int32_t), intent(inout), optional :: upper_open
+      integer(c_int32_t) :: status
+    end function delam_law_parameter_bounds
+    function delam_law_kind_count() bind(c, name="delam_law_kind_count") result(count_)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      integer(c_int64_t) :: count_
+    end function delam_law_kind_count
+    function delam_law_kind_info(index, kind, meaning, hosted) bind(c, name="delam_law_kind_info") &
+        result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      integer(c_int64_t), value :: index
+      type(c_ptr), intent(inout), optional :: kind
+      type(c_ptr), intent(inout), optional :: meaning
+      integer(c_int32_t), intent(inout), optional :: hosted
+      integer(c_int32_t) :: status
+    end function delam_law_kind_info
     function delam_law_create_host(context, name, adhesion, dissipation, user, out) bind(c, &
         name="delam_law_create_host") result(status)
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
@@ -868,6 +892,19 @@ module delam_raw
       integer(c_int64_t), value :: index
       type(c_ptr) :: text
     end function delam_solver_value_name
+    function delam_solver_value_info(solver, index, alias, unit, cost, scope, meaning, recorded) bind(c, &
+        name="delam_solver_value_info") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: solver
+      integer(c_int64_t), value :: index
+      type(c_ptr), intent(inout), optional :: alias
+      type(c_ptr), intent(inout), optional :: unit
+      type(c_ptr), intent(inout), optional :: cost
+      type(c_ptr), intent(inout), optional :: scope
+      type(c_ptr), intent(inout), optional :: meaning
+      integer(c_int32_t), intent(inout), optional :: recorded
+      integer(c_int32_t) :: status
+    end function delam_solver_value_info
     function delam_solver_record(solver, key) bind(c, name="delam_solver_record") result(status)
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
       type(c_ptr), value :: solver

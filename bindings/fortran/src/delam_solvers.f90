@@ -25,6 +25,7 @@ module delam_solvers
     procedure :: value => solver_value
     procedure :: value_count => solver_value_count
     procedure :: value_name => solver_value_name
+    procedure :: describe_value => solver_describe_value
     procedure :: record => solver_record
     procedure :: recorded_steps => solver_recorded_steps
     procedure :: recorded => solver_recorded
@@ -189,6 +190,31 @@ contains
     character(:), allocatable :: name
     name = delam_text(delam_solver_value_name(self%handle(), index - 1_c_int64_t))
   end function solver_value_name
+
+  ! A value, counted as value_name does. alias: another name for it, or ''; cost: 'free', 'reads' (goes over pairs or
+  ! fronts) or 'recovers' (recovers the displacements, a sparse solve); scope: 'whole', 'interface' or 'pattern';
+  ! recorded: record takes it.
+  subroutine solver_describe_value(self, index, alias, unit, cost, scope, meaning, recorded, status, message)
+    class(delam_solver), intent(in) :: self
+    integer, intent(in) :: index
+    character(:), allocatable, intent(out), optional :: alias, unit, cost, scope, meaning
+    logical, intent(out), optional :: recorded
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    type(c_ptr) :: texts(5)
+    integer(c_int32_t) :: taken, code
+    texts = c_null_ptr
+    taken = 0
+    code = delam_solver_value_info(self%handle(), index - 1_c_int64_t, texts(1), texts(2), texts(3), texts(4), &
+                                   texts(5), taken)
+    if (present(alias)) alias = delam_text(texts(1))
+    if (present(unit)) unit = delam_text(texts(2))
+    if (present(cost)) cost = delam_text(texts(3))
+    if (present(scope)) scope = delam_text(texts(4))
+    if (present(meaning)) meaning = delam_text(texts(5))
+    if (present(recorded)) recorded = taken /= 0
+    call settle(code, self, status, message)
+  end subroutine solver_describe_value
 
   ! Records this value for the committed state and, with each later commit, for every further step.
   subroutine solver_record(self, key, status, message)

@@ -39,12 +39,12 @@ export add_cells!, add_interface!, add_all_interfaces!, add_projected_interface!
     add_host_body!, add_pairs!, find_nodes, find_node,
     find_patch, interfaces, nodes, node_bodies, node_origins, node_ties, cells, dimension, node_count, cell_count,
     body_count, interface_count, pair_count, nodes_a, nodes_b, weights, frames, places, faces
-export host_law, parameters, set!, check, toughness, respond, options
+export host_law, law_kinds, parameters, bounds, Bounds, set!, check, toughness, respond, options
 export set_plane!, set_elastic!, set_orthotropic!, set_orientation!, set_formulation!, set_law!, set_bonded!,
     set_contact!, set_adhesion!, add_pattern!, prescribe!, prescribe_mean!, add_equation!, add_periodic!, add_forces!,
     add_eigenstrain!, set_stiffness!, patterns, problem_hash, dofs, process_zone, factors
 export advance!, commit!, rollback!, pending, equilibrate!, set_history!, march!, history, record!, recorded,
-    recorded_steps, write_csv, look!, save, load!, field, average, fronts, tangent, step_tangent, condensed, plan,
+    recorded_steps, write_csv, look!, value_infos, ValueInfo, save, load!, field, average, fronts, tangent, step_tangent, condensed, plan,
     plan_items, option, searched, jumps, profile, cancel
 
 __init__() = load_library()

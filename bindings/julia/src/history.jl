@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
-"These values require the recovery of all displacements; a history has them only on request."
-const COSTLY = ("rotation_max", "kkt_gap", "kkt_pressure", "kkt_complementarity", "kkt_equilibrium")
-
 """
     History(solver; values=nothing)
 
 Values of a solver over its steps, a vector by name: `history["reaction:load"]`. The first row is the state at which it
 was made; `record!(history)` appends the present one. Where a step has replaced earlier ones (option backtracking) their
-rows are read again. `values`: names, `nothing` for all but the costly ones.
+rows are read again. `values`: names, `nothing` for all but those that recover the
+displacements.
 """
 struct History
     solver::Solver
@@ -18,7 +16,8 @@ struct History
 end
 
 function History(solver::Solver; values=nothing)
-    names = values === nothing ? [name for name in keys(solver) if !(name in COSTLY)] : collect(String, values)
+    names = values === nothing ? [name for (name, info) in value_infos(solver) if info.cost != "recovers"] :
+            collect(String, values)
     return record!(History(solver, names, Int64[], Vector{Float64}[]))
 end
 

@@ -33,6 +33,48 @@ function parameters(kind)
 end
 
 """
+    law_kinds()
+
+Kinds of laws with their meaning, as pairs in the library's order; "host" is made by `host_law`.
+"""
+function law_kinds()
+    return map(0:Raw.delam_law_kind_count()-1) do i
+        name, meaning = Ref{Cstring}(C_NULL), Ref{Cstring}(C_NULL)
+        Raw.delam_law_kind_info(i, name, meaning, C_NULL)
+        unsafe_string(name[]) => unsafe_string(meaning[])
+    end
+end
+
+"Between what a number lies; where open, the bound itself is outside. Infinite: there is no bound, numbers are finite."
+struct Bounds
+    lower::Float64
+    upper::Float64
+    lower_open::Bool
+    upper_open::Bool
+end
+
+Base.in(value::Real, bounds::Bounds) =
+    (bounds.lower_open ? value > bounds.lower : value >= bounds.lower) &&
+    (bounds.upper_open ? value < bounds.upper : value <= bounds.upper)
+
+"""
+    bounds(kind)
+
+Bounds of the parameters of a kind of law, those of a table for each of its numbers: `Dict` by key.
+"""
+function bounds(kind)
+    found = Dict{String,Bounds}()
+    for i in 0:Raw.delam_law_parameter_count(kind)-1
+        key = Ref{Cstring}(C_NULL)
+        Raw.delam_law_parameter_info(kind, i, key, C_NULL, C_NULL, C_NULL, C_NULL, C_NULL)
+        lower, upper, lower_open, upper_open = Ref(0.0), Ref(0.0), Ref(Int32(0)), Ref(Int32(0))
+        Raw.delam_law_parameter_bounds(kind, i, lower, upper, lower_open, upper_open)
+        found[unsafe_string(key[])] = Bounds(lower[], upper[], lower_open[] != 0, upper_open[] != 0)
+    end
+    return found
+end
+
+"""
     options()
 
 What `problem[key] = value` sets: `Dict` by key.

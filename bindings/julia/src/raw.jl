@@ -251,6 +251,20 @@ function delam_law_parameter_info(kind, index, key, type, unit, initial, range, 
         unit::Ptr{Cstring}, initial::Ptr{Cstring}, range::Ptr{Cstring}, meaning::Ptr{Cstring})::Int32
 end
 
+function delam_law_parameter_bounds(kind, index, lower, upper, lower_open, upper_open)
+    @ccall libdelam.delam_law_parameter_bounds(kind::Cstring, index::Int64, lower::Ptr{Cdouble},
+        upper::Ptr{Cdouble}, lower_open::Ptr{Int32}, upper_open::Ptr{Int32})::Int32
+end
+
+function delam_law_kind_count()
+    @ccall libdelam.delam_law_kind_count()::Int64
+end
+
+function delam_law_kind_info(index, kind, meaning, hosted)
+    @ccall libdelam.delam_law_kind_info(index::Int64, kind::Ptr{Cstring}, meaning::Ptr{Cstring},
+        hosted::Ptr{Int32})::Int32
+end
+
 function delam_law_create_host(context, name, adhesion, dissipation, user, out)
     @ccall libdelam.delam_law_create_host(context::Ptr{delam_context}, name::Cstring,
         adhesion::delam_adhesion_callback, dissipation::delam_dissipation_callback, user::Ptr{Cvoid},
@@ -495,6 +509,11 @@ function delam_solver_value_name(solver, index)
     @ccall libdelam.delam_solver_value_name(solver::Ptr{delam_solver}, index::Int64)::Cstring
 end
 
+function delam_solver_value_info(solver, index, alias, unit, cost, scope, meaning, recorded)
+    @ccall libdelam.delam_solver_value_info(solver::Ptr{delam_solver}, index::Int64, alias::Ptr{Cstring},
+        unit::Ptr{Cstring}, cost::Ptr{Cstring}, scope::Ptr{Cstring}, meaning::Ptr{Cstring}, recorded::Ptr{Int32})::Int32
+end
+
 function delam_solver_record(solver, key)
     @ccall libdelam.delam_solver_record(solver::Ptr{delam_solver}, key::Cstring)::Int32
 end
@@ -620,20 +639,21 @@ const FUNCTIONS = (
     :delam_mesh_node_bodies, :delam_mesh_node_origins, :delam_mesh_node_ties, :delam_mesh_cells,
     :delam_mesh_interface_size, :delam_mesh_interface_pairs, :delam_mesh_interface_faces, :delam_mesh_find_nodes,
     :delam_mesh_find_patch, :delam_law_create, :delam_law_set, :delam_law_set_text, :delam_law_set_table,
-    :delam_law_parameter_count, :delam_law_parameter_info, :delam_law_create_host, :delam_law_check,
-    :delam_law_toughness, :delam_law_respond, :delam_law_destroy, :delam_problem_create, :delam_problem_destroy,
-    :delam_problem_set_plane, :delam_problem_set_elastic, :delam_problem_set_orthotropic,
-    :delam_problem_set_orientation, :delam_problem_set_formulation, :delam_problem_set_stiffness,
-    :delam_problem_set_law, :delam_problem_set_bonded, :delam_problem_set_contact, :delam_problem_set_adhesion,
-    :delam_problem_add_pattern, :delam_problem_prescribe_nodes, :delam_problem_prescribe_mean,
-    :delam_problem_add_equation, :delam_problem_add_periodic, :delam_problem_add_forces, :delam_problem_add_eigenstrain,
-    :delam_problem_set_number, :delam_problem_set_text, :delam_option_count, :delam_option_info, :delam_option_alias,
-    :delam_option_bounds, :delam_problem_check, :delam_problem_hash, :delam_problem_dofs, :delam_problem_process_zone,
-    :delam_problem_body_matrix, :delam_problem_constraints, :delam_problem_forces, :delam_problem_eigenstrain_energy,
-    :delam_problem_factors, :delam_problem_pattern_count, :delam_problem_pattern_name, :delam_solver_create,
-    :delam_solver_destroy, :delam_solver_advance, :delam_solver_commit, :delam_solver_rollback, :delam_solver_pending,
-    :delam_solver_set_history, :delam_solver_equilibrate, :delam_solver_value, :delam_solver_value_count,
-    :delam_solver_value_name, :delam_solver_record, :delam_solver_recorded_size, :delam_solver_recorded,
+    :delam_law_parameter_count, :delam_law_parameter_info, :delam_law_parameter_bounds, :delam_law_kind_count,
+    :delam_law_kind_info, :delam_law_create_host, :delam_law_check, :delam_law_toughness, :delam_law_respond,
+    :delam_law_destroy, :delam_problem_create, :delam_problem_destroy, :delam_problem_set_plane,
+    :delam_problem_set_elastic, :delam_problem_set_orthotropic, :delam_problem_set_orientation,
+    :delam_problem_set_formulation, :delam_problem_set_stiffness, :delam_problem_set_law, :delam_problem_set_bonded,
+    :delam_problem_set_contact, :delam_problem_set_adhesion, :delam_problem_add_pattern, :delam_problem_prescribe_nodes,
+    :delam_problem_prescribe_mean, :delam_problem_add_equation, :delam_problem_add_periodic, :delam_problem_add_forces,
+    :delam_problem_add_eigenstrain, :delam_problem_set_number, :delam_problem_set_text, :delam_option_count,
+    :delam_option_info, :delam_option_alias, :delam_option_bounds, :delam_problem_check, :delam_problem_hash,
+    :delam_problem_dofs, :delam_problem_process_zone, :delam_problem_body_matrix, :delam_problem_constraints,
+    :delam_problem_forces, :delam_problem_eigenstrain_energy, :delam_problem_factors, :delam_problem_pattern_count,
+    :delam_problem_pattern_name, :delam_solver_create, :delam_solver_destroy, :delam_solver_advance,
+    :delam_solver_commit, :delam_solver_rollback, :delam_solver_pending, :delam_solver_set_history,
+    :delam_solver_equilibrate, :delam_solver_value, :delam_solver_value_count, :delam_solver_value_name,
+    :delam_solver_value_info, :delam_solver_record, :delam_solver_recorded_size, :delam_solver_recorded,
     :delam_solver_field_shape, :delam_solver_field, :delam_solver_average, :delam_solver_front_count,
     :delam_solver_front, :delam_solver_tangent, :delam_solver_step_tangent, :delam_solver_condensed_size,
     :delam_solver_condensed, :delam_solver_plan, :delam_solver_plan_count, :delam_solver_plan_item,

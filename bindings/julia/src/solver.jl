@@ -154,7 +154,31 @@ function Base.keys(solver::Solver)
     return [ask_text(handle -> Raw.delam_solver_value_name(handle, i), solver) for i in 0:count[]-1]
 end
 
-Base.haskey(solver::Solver, key) = key in keys(solver)
+"""
+What the library says of a value. `cost`: "free", "reads" (goes over pairs or fronts) or "recovers" (recovers the
+displacements, a sparse solve); `scope`: "whole", "interface" or "pattern"; `alias`: another name for it, or "";
+`recorded`: `record!` takes it.
+"""
+struct ValueInfo
+    alias::String
+    unit::String
+    cost::String
+    scope::String
+    meaning::String
+    recorded::Bool
+end
+
+"What each value of a solver is, in the order of `keys(solver)`: pairs of key and `ValueInfo`."
+function value_infos(solver::Solver)
+    return map(enumerate(keys(solver))) do (i, key)
+        t = [Ref{Cstring}(C_NULL) for _ in 1:5]
+        recorded = Ref(Int32(0))
+        ask(handle -> Raw.delam_solver_value_info(handle, i - 1, t[1], t[2], t[3], t[4], t[5], recorded), solver)
+        key => ValueInfo((unsafe_string(text[]) for text in t)..., recorded[] != 0)
+    end
+end
+
+Base.haskey(solver::Solver, key) = any(name == key || info.alias == key for (name, info) in value_infos(solver))
 
 Base.show(io::IO, solver::Solver) =
     isopen(solver) ? print(io, "Solver at time $(solver["time"])", pending(solver) ? ", a step is pending" : "") :

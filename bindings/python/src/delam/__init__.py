@@ -14,19 +14,19 @@ from .errors import (ArgumentError, Cancelled, DelamError, FileError, HandleErro
                      MeshError, NotConverged, NotConvergedWarning, NumericalError, Outcome, OutOfMemory,
                      ProblemError, SnapshotError, StateError)
 from .history import History
-from .law import Law, Parameter
+from .law import Bounds, Law, Parameter
 from .mesh import CELLS, Cells, Interface, Mesh, Ties
 from .options import Options, options
 from .problem import Pattern, Problem, Sparse
-from .solver import Average, Condensed, Fronts, Jump, PlanItem, Solver, Values
+from .solver import Average, Condensed, Fronts, Jump, PlanItem, Solver, ValueInfo, Values
 
 __version__ = "0.1.0"
 
-__all__ = ["ArgumentError", "Average", "CELLS", "Cancelled", "Cells", "Condensed", "DelamError", "FileError", "Fronts",
+__all__ = ["ArgumentError", "Average", "Bounds", "CELLS", "Cancelled", "Cells", "Condensed", "DelamError", "FileError", "Fronts",
            "HandleError", "History", "Interface", "InternalError", "Jump", "Law", "LimitReached", "Mesh", "MeshError",
            "NotConverged", "NotConvergedWarning", "NumericalError", "Options", "OutOfMemory", "Outcome", "Parameter",
            "Pattern", "PlanItem", "Problem", "ProblemError", "SnapshotError", "Solver", "Sparse", "StateError", "Ties",
-           "Values", "blas_threads", "library_commit", "library_location", "library_version", "options"]
+           "ValueInfo", "Values", "blas_threads", "library_commit", "library_location", "library_version", "options"]
 
 
 def library_version():

@@ -153,6 +153,12 @@ FUNCTIONS = {
         ("kind", c_char_p), ("index", c_int64), ("key", POINTER(c_char_p)), ("type", POINTER(c_char_p)),
         ("unit", POINTER(c_char_p)), ("initial", POINTER(c_char_p)), ("range", POINTER(c_char_p)),
         ("meaning", POINTER(c_char_p)))),
+    "delam_law_parameter_bounds": (c_int32, (
+        ("kind", c_char_p), ("index", c_int64), ("lower", POINTER(c_double)), ("upper", POINTER(c_double)),
+        ("lower_open", POINTER(c_int32)), ("upper_open", POINTER(c_int32)))),
+    "delam_law_kind_count": (c_int64, ()),
+    "delam_law_kind_info": (c_int32, (
+        ("index", c_int64), ("kind", POINTER(c_char_p)), ("meaning", POINTER(c_char_p)), ("hosted", POINTER(c_int32)))),
     "delam_law_create_host": (c_int32, (
         ("context", POINTER(delam_context)), ("name", c_char_p), ("adhesion", delam_adhesion_callback),
         ("dissipation", delam_dissipation_callback), ("user", c_void_p), ("out", POINTER(POINTER(delam_law))))),
@@ -265,6 +271,10 @@ FUNCTIONS = {
         ("solver", POINTER(delam_solver)), ("key", c_char_p), ("value", POINTER(c_double)))),
     "delam_solver_value_count": (c_int32, (("solver", POINTER(delam_solver)), ("count", POINTER(c_int64)))),
     "delam_solver_value_name": (c_char_p, (("solver", POINTER(delam_solver)), ("index", c_int64))),
+    "delam_solver_value_info": (c_int32, (
+        ("solver", POINTER(delam_solver)), ("index", c_int64), ("alias", POINTER(c_char_p)),
+        ("unit", POINTER(c_char_p)), ("cost", POINTER(c_char_p)), ("scope", POINTER(c_char_p)),
+        ("meaning", POINTER(c_char_p)), ("recorded", POINTER(c_int32)))),
     "delam_solver_record": (c_int32, (("solver", POINTER(delam_solver)), ("key", c_char_p))),
     "delam_solver_recorded_size": (c_int32, (
         ("solver", POINTER(delam_solver)), ("first", POINTER(c_int64)), ("steps", POINTER(c_int64)))),

@@ -11,9 +11,6 @@ from ._call import Context, Object, keep_exception, number, stopped, text
 from ._library import library
 from .errors import ArgumentError, error_of
 
-KINDS = ("piecewise-linear", "exponential", "trapezoidal", "tabulated", "griffith")
-
-
 class Parameter(NamedTuple):
     """Description of a parameter or an option. initial is "" if it must be given."""
 
@@ -23,6 +20,29 @@ class Parameter(NamedTuple):
     initial: str
     range: str
     meaning: str
+
+
+class Bounds(NamedTuple):
+    """Between what a number lies. open: the bound itself is outside; infinite: there is no bound, numbers are finite."""
+
+    lower: float
+    upper: float
+    lower_open: bool
+    upper_open: bool
+
+    def __contains__(self, value):
+        above = value > self.lower if self.lower_open else value >= self.lower
+        return bool(above and (value < self.upper if self.upper_open else value <= self.upper))
+
+
+def kinds():
+    """Kinds of laws, each with its meaning."""
+    name, meaning = ctypes.c_char_p(), ctypes.c_char_p()
+    found = {}
+    for i in range(library.delam_law_kind_count()):
+        library.delam_law_kind_info(i, name, meaning, None)
+        found[name.value.decode()] = meaning.value.decode()
+    return found
 
 
 def described(function, *arguments):
@@ -80,9 +100,25 @@ class Law(Object):
         key = text("kind", kind)
         count = library.delam_law_parameter_count(key)
         if count == 0:
-            raise ArgumentError(f"kind = {kind!r} is not known; known are {', '.join((*KINDS, 'host'))}")
+            raise ArgumentError(f"kind = {kind!r} is not known; known are {', '.join(kinds())}")
         items = (described(library.delam_law_parameter_info, key, i) for i in range(count))
         return {item.key: item for item in items}
+
+    @staticmethod
+    def kinds():
+        """Kinds of laws, each with its meaning; "host" is made by Law.host."""
+        return kinds()
+
+    @staticmethod
+    def bounds(kind):
+        """Bounds of the numbers that a kind takes, those of a table for each of its numbers: {key: Bounds}."""
+        lower, upper, lower_open, upper_open = ctypes.c_double(), ctypes.c_double(), ctypes.c_int32(), ctypes.c_int32()
+        found = {}
+        for i, parameter in enumerate(Law.parameters(kind).values()):
+            library.delam_law_parameter_bounds(kind.encode(), i, lower, upper, lower_open, upper_open)
+            if parameter.type != "text":
+                found[parameter.key] = Bounds(lower.value, upper.value, bool(lower_open), bool(upper_open))
+        return found
 
     def set(self, **parameters):
         """Sets numbers, texts and the table softening=(xi, s). Set texts first: a criterion resets its exponents to their

@@ -19,8 +19,18 @@ from .mesh import body_label, interface_index
 from .options import unknown
 from .problem import Problem, Sparse, pattern_index
 
-# These values require the recovery of all displacements; a history has them only on request.
-COSTLY = frozenset(("rotation_max", "kkt_gap", "kkt_pressure", "kkt_complementarity", "kkt_equilibrium"))
+
+class ValueInfo(NamedTuple):
+    """What the library says of a value. cost: "free", "reads" (goes over pairs or fronts) or "recovers" (recovers the
+    displacements, a sparse solve); scope: "whole", "interface" or "pattern"; alias: another name for it, or "";
+    recorded: Solver.record takes it."""
+
+    alias: str
+    unit: str
+    cost: str
+    scope: str
+    meaning: str
+    recorded: bool
 
 
 class Average(NamedTuple):
@@ -105,7 +115,7 @@ class Values(collections.abc.Mapping):
         self._keys = keys
 
     def __getitem__(self, name):
-        key = self._keys.get(name)
+        key = self._keys.get(name) or self._solver._alias(name)
         if key is None:
             raise unknown(name, self._keys, "value")
         out = ctypes.c_double()
@@ -119,7 +129,11 @@ class Values(collections.abc.Mapping):
         return len(self._keys)
 
     def __contains__(self, name):
-        return name in self._keys
+        return name in self._keys or self._solver._alias(name) is not None
+
+    def describe(self):
+        """What each of them is: {name: ValueInfo}."""
+        return self._solver._described()
 
     def __repr__(self):
         return f"<Values: {', '.join(self._keys)}>"
@@ -150,10 +164,27 @@ class Solver(Object):
         self._call(library.delam_solver_value_count, count)
         names = (self.context.text(library.delam_solver_value_name, self._pointer, i) for i in range(count.value))
         self._keys = {name: name.encode() for name in names}
+        self._infos = None
         self._outcome(outcome, 3)
 
     def _call(self, function, *arguments, long=False):
         self.context.call(function, self._handle, *arguments, long=long)
+
+    def _described(self):
+        """Of every value; asked for once."""
+        if self._infos is None:
+            texts, recorded = [ctypes.c_char_p() for _ in range(5)], ctypes.c_int32()
+            infos = {}
+            for i, name in enumerate(self._keys):
+                self._call(library.delam_solver_value_info, i, *texts, recorded)
+                infos[name] = ValueInfo(*(item.value.decode() for item in texts), bool(recorded))
+            self._infos = infos
+        return self._infos
+
+    def _alias(self, name):
+        """The name as bytes if the library knows it as an alias, else None."""
+        known = isinstance(name, str) and name and any(name == info.alias for info in self._described().values())
+        return name.encode() if known else None
 
     @property
     def _pattern_count(self):
@@ -257,7 +288,7 @@ class Solver(Object):
         """Records these values for the committed state and, with each later commit, for every further step, including steps
         that returns replace; save() saves them. Any values but the costly ones and the counts over the solver's life."""
         for name in names:
-            if name not in self._keys:
+            if name not in self.values:
                 raise unknown(name, self._keys, "value")
         for name in names:
             self._call(library.delam_solver_record, text("name", name))
@@ -277,7 +308,8 @@ class Solver(Object):
 
     def _names(self, values):
         if values is None:
-            return tuple(name for name in self.values if name not in COSTLY)
+            # A history has what recovers the displacements only when it is asked for.
+            return tuple(name for name, info in self._described().items() if info.cost != "recovers")
         for name in values:
             if name not in self.values:
                 raise unknown(name, tuple(self.values), "value")

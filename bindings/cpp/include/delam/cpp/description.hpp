@@ -54,6 +54,41 @@ inline std::vector<Description> law_parameters(Text kind) {
         });
 }
 
+struct LawKind {
+    std::string kind, meaning;
+    bool hosted;  // made by Law::host
+};
+inline std::vector<LawKind> law_kinds() {
+    std::vector<LawKind> all;
+    for (std::int64_t i = 0; i < delam_law_kind_count(); ++i) {
+        const char* kind = nullptr;
+        const char* meaning = nullptr;
+        std::int32_t hosted = 0;
+        const auto status = delam_law_kind_info(i, &kind, &meaning, &hosted);
+        if (status != DELAM_OK) throw Error(status, "a kind of law that was counted is not there");
+        all.push_back({detail::copy(kind), detail::copy(meaning), hosted != 0});
+    }
+    return all;
+}
+
+// Where open, the bound itself is outside. Infinite: there is no bound, numbers are finite.
+struct Bounds {
+    double lower, upper;
+    bool lower_open, upper_open;
+};
+// Of the parameters that law_parameters(kind) lists, in its order; a text has none.
+inline std::vector<Bounds> law_bounds(Text kind) {
+    std::vector<Bounds> all;
+    for (std::int64_t i = 0; i < delam_law_parameter_count(kind.get()); ++i) {
+        double lower = 0.0, upper = 0.0;
+        std::int32_t lower_open = 0, upper_open = 0;
+        const auto status = delam_law_parameter_bounds(kind.get(), i, &lower, &upper, &lower_open, &upper_open);
+        if (status != DELAM_OK) throw Error(status, "bounds of a parameter that was counted are not there");
+        all.push_back({lower, upper, lower_open != 0, upper_open != 0});
+    }
+    return all;
+}
+
 }  // namespace delam
 
 #endif

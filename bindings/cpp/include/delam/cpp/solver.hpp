@@ -24,6 +24,12 @@ struct Field {
     std::int64_t rows, columns;
     std::vector<double> values;  // [rows][columns]
 };
+// alias: another name for the value, or ""; cost: "free", "reads" (goes over pairs or fronts) or "recovers" (recovers
+// the displacements, a sparse solve); scope: "whole", "interface" or "pattern".
+struct ValueInfo {
+    std::string alias, unit, cost, scope, meaning;
+    bool recorded;  // record() takes it
+};
 struct RecordedSteps {
     std::int64_t first, count;
 };
@@ -107,6 +113,20 @@ public:
         std::vector<std::string> names;
         for (std::int64_t i = 0; i < count; ++i) names.push_back(detail::copy(delam_solver_value_name(get(), i)));
         return names;
+    }
+    // What each value is, in the order of value_names().
+    std::vector<ValueInfo> value_infos() const {
+        std::int64_t count = 0;
+        shared_->check(delam_solver_value_count(get(), &count));
+        std::vector<ValueInfo> infos;
+        for (std::int64_t i = 0; i < count; ++i) {
+            const char *alias = nullptr, *unit = nullptr, *cost = nullptr, *scope = nullptr, *meaning = nullptr;
+            std::int32_t recorded = 0;
+            shared_->check(delam_solver_value_info(get(), i, &alias, &unit, &cost, &scope, &meaning, &recorded));
+            infos.push_back({detail::copy(alias), detail::copy(unit), detail::copy(cost), detail::copy(scope),
+                             detail::copy(meaning), recorded != 0});
+        }
+        return infos;
     }
     // Records this value for the committed state and, with each later commit(), for every further step.
     void record(Text key) { shared_->check(delam_solver_record(get(), key.get())); }
