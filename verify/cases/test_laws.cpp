@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -364,6 +365,64 @@ CASE_TEST(hash_and_keys) {
     cases::expect(delam_law_parameter_count(nullptr) == 0, "NULL");
 }
 
+// A kind made by its name in the list of kinds.
+Law listed_law(const Scene& scene, std::int64_t i) {
+    const char *kind = nullptr, *meaning = nullptr;
+    std::int32_t hosted = -1;
+    scene.require(delam_law_kind_info(i, &kind, &meaning, &hosted), "delam_law_kind_info");
+    cases::expect(*meaning != '\0' && hosted == (kind == std::string("host") ? 1 : 0), kind);
+    delam_law* raw = nullptr;
+    scene.require(hosted == 1
+                      ? delam_law_create_host(scene.context(), "mine", laws::adhesion, laws::dissipation, nullptr, &raw)
+                      : delam_law_create(scene.context(), kind, &raw),
+                  kind);
+    return Law(raw);
+}
+
+// Bounds hold for delam_law_set, and the words of the range say the same.
+void check_bounds(const char* kind, std::int64_t i, const Law& law) {
+    const char *key = nullptr, *type = nullptr, *range = nullptr;
+    delam_law_parameter_info(kind, i, &key, &type, nullptr, nullptr, &range, nullptr);
+    double lower = 1.0, upper = -1.0;
+    std::int32_t lower_open = -1, upper_open = -1;
+    const std::string where = std::string(kind) + " " + key;
+    cases::expect(delam_law_parameter_bounds(kind, i, &lower, &upper, &lower_open, &upper_open) == DELAM_OK, where);
+    if (type == std::string("text")) cases::expect(std::isinf(lower) && std::isinf(upper), where);
+    if (type != std::string("real")) return;
+    for (const char* criterion : {"valoroso-champaney", "power"}) {
+        delam_law_set_text(law.get(), "criterion", criterion);
+        const auto taken = [&](double value) { return delam_law_set(law.get(), key, value) == DELAM_OK; };
+        if (!taken(0.5)) continue;  // the other criterion has it
+        const double inf = std::numeric_limits<double>::infinity(), largest = std::numeric_limits<double>::max();
+        cases::expect(taken(lower) == (lower_open == 0) && taken(std::nextafter(lower, inf)), where + ": lower");
+        cases::expect(!taken(std::nextafter(lower, -inf)), where + ": below");
+        cases::expect(
+            taken(upper) == (upper_open == 0) && taken(std::isinf(upper) ? largest : std::nextafter(upper, 0)),
+            where + ": upper");
+        cases::expect(!taken(std::nextafter(upper, inf)), where + ": above");
+    }
+    const std::string words = range;
+    cases::expect((words.find(">= 0") != std::string::npos) == (lower_open == 0) && lower == 0.0, where + ": " + words);
+    cases::expect((words.find("< 1") != std::string::npos) == (upper == 1.0), where + ": " + words);
+}
+
+CASE_TEST(kinds_and_bounds) {
+    const Scene scene = imposed({0.0, 1.0}, {0.0, 1.0}, {0.0, 1.0});
+    std::string listed;
+    for (std::int64_t i = 0; i < delam_law_kind_count(); ++i) {
+        const Law law = listed_law(scene, i);
+        const char* kind = nullptr;
+        delam_law_kind_info(i, &kind, nullptr, nullptr);
+        listed += std::string(kind) + " ";
+        for (std::int64_t p = 0; p < delam_law_parameter_count(kind); ++p) check_bounds(kind, p, law);
+        cases::expect(delam_law_parameter_bounds(kind, -1, nullptr, nullptr, nullptr, nullptr) == DELAM_ERROR_ARGUMENT,
+                      "parameter -1");
+    }
+    cases::expect(listed == "piecewise-linear exponential trapezoidal tabulated griffith host ", listed);
+    cases::expect(delam_law_kind_info(delam_law_kind_count(), nullptr, nullptr, nullptr) == DELAM_ERROR_ARGUMENT,
+                  "a kind beyond the last");
+}
+
 }  // namespace
 
 int main() {
@@ -374,6 +433,7 @@ int main() {
     tcase_add_loop_test(tests, host_law_marches_like_ours, 0, 2);
     tcase_add_test(tests, callback_fails);
     tcase_add_test(tests, hash_and_keys);
+    tcase_add_test(tests, kinds_and_bounds);
     suite_add_tcase(suite, tests);
     return cases::run_suite(suite);
 }

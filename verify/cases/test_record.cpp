@@ -191,6 +191,44 @@ CASE_TEST(refused) {
     cases::expect(delam_solver_record(solver.get(), "work") == DELAM_ERROR_STATE, "a step is pending");
 }
 
+// What the library says of its values, and that a second name is as good as the first.
+CASE_TEST(descriptions_and_aliases) {
+    const reference::Scene scene = cases::small_enf();
+    Solver solver(scene, 0.0);
+    std::int64_t count = 0;
+    scene.require(delam_solver_value_count(solver.get(), &count), "delam_solver_value_count");
+    std::vector<std::pair<std::string, std::string>> names;
+    for (std::int64_t i = 0; i < count; ++i) {
+        const std::string name = delam_solver_value_name(solver.get(), i);
+        const char *alias = nullptr, *unit = nullptr, *cost = nullptr, *scope = nullptr, *meaning = nullptr;
+        std::int32_t recorded = -1;
+        scene.require(delam_solver_value_info(solver.get(), i, &alias, &unit, &cost, &scope, &meaning, &recorded),
+                      name.c_str());
+        cases::expect(*unit != '\0' && *meaning != '\0', name);
+        const std::string price = cost, part = scope;
+        const bool recovers = name.rfind("kkt_", 0) == 0 || name == "rotation_max";
+        cases::expect(price == (recovers ? "recovers" : price) && (price != "recovers" || recovers), name + ": cost");
+        const bool of_pattern = name.find("load:") == 0 || name.find("reaction:") == 0;
+        cases::expect((part == "pattern") == of_pattern, name + ": scope");
+        if (part == "whole") cases::expect(name.find(':') == std::string::npos, name + ": scope");
+        // Reading what does not recover the displacements recovers none.
+        const double before = solver.value("field_recoveries");
+        if (price != "recovers") solver.value(name.c_str());
+        cases::expect(solver.value("field_recoveries") == before, name + ": recovers after all");
+        if (*alias != '\0') names.emplace_back(name, alias);
+        cases::expect((delam_solver_record(solver.get(), name.c_str()) == DELAM_OK) == (recorded == 1), name);
+    }
+    cases::expect(names.size() == 6, "second names");
+    cases::walk(solver, 1, 3);
+    for (const auto& [name, alias] : names) {
+        cases::expect(solver.value(alias.c_str()) == solver.value(name.c_str()), alias);
+        cases::expect(recorded(solver, alias.c_str()) == recorded(solver, name.c_str()), alias);
+        cases::expect(delam_solver_record(solver.get(), alias.c_str()) == DELAM_OK, alias);
+        cases::expect(delam_solver_record(solver.get(), (alias + ":0").c_str()) == DELAM_ERROR_ARGUMENT, alias + ":0");
+    }
+    cases::expect(solver.value("staggered_iterations") > 0.0, "there is something to compare");
+}
+
 }  // namespace
 
 int main() {
@@ -201,6 +239,7 @@ int main() {
     tcase_add_test(one, in_space_by_feti);
     tcase_add_test(one, later_keys_and_set_states);
     tcase_add_test(one, refused);
+    tcase_add_test(one, descriptions_and_aliases);
     suite_add_tcase(suite, one);
     return cases::run_suite(suite);
 }

@@ -117,6 +117,15 @@ void test_descriptions() {
     for (const auto& one : delam::law_parameters("tabulated"))
         found = found || (one.key == "normal_onset" && one.type == "real");
     expect(found && delam::law_parameters("no-such-law").empty(), "parameters are described");
+    const auto kinds = delam::law_kinds();
+    expect(kinds.front().kind == "piecewise-linear" && !kinds.front().hosted && kinds.back().hosted, "kinds of laws");
+    const auto parameters = delam::law_parameters("trapezoidal");
+    const auto bounds = delam::law_bounds("trapezoidal");
+    expect(bounds.size() == parameters.size(), "bounds of each");
+    for (std::size_t i = 0; i < bounds.size(); ++i)
+        if (parameters[i].key == "plateau")
+            expect(bounds[i].lower == 0.0 && bounds[i].upper == 1.0 && !bounds[i].lower_open && bounds[i].upper_open,
+                   "bounds of the plateau");
 }
 
 // Two squares side by side with an interface of two pairs, and two nodes without cells.

@@ -267,6 +267,13 @@ void test_step_tangent() {
     const auto times = solver.recorded("time");
     expect(steps.first == 0 && steps.count == 11 && times.size() == 11 && times[3] == 0.1 * 3, "what was committed");
     expect(status_of([&] { (void)solver.recorded("work"); }) == DELAM_ERROR_ARGUMENT, "a value that is not recorded");
+    const auto infos = solver.value_infos();
+    const auto known = solver.value_names();
+    for (std::size_t i = 0; i < infos.size(); ++i) {
+        if (known[i] == "kkt_gap") expect(infos[i].cost == "recovers" && !infos[i].recorded, "a dear value");
+        if (!infos[i].alias.empty()) expect(solver.value(infos[i].alias) == solver.value(known[i]), "a second name");
+    }
+    expect(infos.size() == known.size(), "each value is described");
     expect(status_of([&] { solver.record("kkt_gap"); }) == DELAM_ERROR_ARGUMENT, "a value that costs a recovery");
     expect(unlike > 0.02, "damage was met");
     expect(status_of([&] { (void)solver.step_tangent(); }) == DELAM_ERROR_STATE, "no step is pending");

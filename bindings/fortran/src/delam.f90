@@ -24,7 +24,7 @@ module delam
   use delam_callbacks, only: delam_observer, delam_host_law, delam_adhesion, delam_dissipation
   use delam_objects, only: delam_object
   use delam_descriptions, only: delam_version_text, delam_describe_option, delam_parameter_count, &
-                                delam_describe_parameter
+                                delam_describe_parameter, delam_parameter_bounds, delam_describe_kind
   use delam_contexts, only: delam_context
   use delam_meshes, only: delam_mesh
   use delam_laws, only: delam_law

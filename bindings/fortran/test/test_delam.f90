@@ -163,7 +163,8 @@ contains
   subroutine test_descriptions()
     character(:), allocatable :: key, meaning, type, none
     integer :: i
-    logical :: found
+    logical :: found, below, above
+    real(dp) :: lower, upper
     found = .false.
     do i = 1, int(delam_option_count())
       call delam_describe_option(i, key, meaning=meaning)
@@ -180,6 +181,18 @@ contains
     call expect(found .and. delam_parameter_count('no-such-law') == 0, 'parameters are described')
     call delam_describe_parameter('tabulated', delam_parameter_count('tabulated'), key=key)
     call expect(len(key) > 0, 'to the last')
+    do i = 1, delam_parameter_count('trapezoidal')
+      call delam_describe_parameter('trapezoidal', i, key=key)
+      call delam_parameter_bounds('trapezoidal', i, lower, upper, below, above, found)
+      call expect(found, 'each has bounds')
+      if (key == 'plateau') call expect(lower == 0 .and. upper == 1 .and. .not. below .and. above, 'of the plateau')
+    end do
+    call delam_parameter_bounds('trapezoidal', 0, lower, upper, below, above, found)
+    call expect(.not. found, 'no parameter 0')
+    call delam_describe_kind(1, key, type, found)
+    call expect(key == 'piecewise-linear' .and. len(type) > 0 .and. .not. found, 'a kind of law')
+    call delam_describe_kind(int(delam_law_kind_count()), hosted=found)
+    call expect(found, 'the kind of callbacks')
   end subroutine test_descriptions
 
   ! Two squares beside each other, a body each, joined by an interface of two pairs.
@@ -426,7 +439,7 @@ contains
     integer(delam_index) :: rows, columns
     real(dp) :: reaction, volume, strain(6)
     integer :: i, status
-    logical :: listed
+    logical :: listed, described
     character(200) :: message
     character(:), allocatable :: subject, reason
     call context%create()
@@ -462,6 +475,12 @@ contains
     listed = .false.
     do i = 1, solver%value_count()
       listed = listed .or. solver%value_name(i) == 'reaction:opening'
+    end do
+    do i = 1, solver%value_count()
+      call solver%describe_value(i, alias=subject, cost=reason, recorded=described)
+      if (solver%value_name(i) == 'kkt_gap') call expect(reason == 'recovers' .and. .not. described, 'a dear value')
+      if (solver%value_name(i) == 'am_iterations') call expect(subject == 'staggered_iterations' .and. &
+        solver%value(subject) == solver%value('am_iterations') .and. described, 'a second name')
     end do
     call expect(listed .and. len(solver%value_name(solver%value_count())) > 0, 'names of values, to the last')
     call expect(solver%option('solution') == 'local' .and. solver%option('no such option') == '', 'options')

@@ -6,6 +6,9 @@
     @test all(toughness(law, [0.0, 1.0]) .≈ ([50.0, 50.0], [280.0, 280.0]))
     @test haskey(parameters("trapezoidal"), "plateau")
     @test parameters("exponential")["normal_stiffness"].type == "real"
+    @test first(law_kinds()[1]) == "piecewise-linear"
+    @test bounds("trapezoidal")["plateau"] == Bounds(0.0, 1.0, false, true)
+    @test 0.0 in bounds("trapezoidal")["plateau"] && !(0.0 in bounds("griffith")["normal_stiffness"])
     @test_throws InvalidArgument Law("no such kind")
     @test_throws InvalidArgument set!(law; plateau=0.5)
     @test_throws InvalidArgument set!(law; normal_stiffness=-1.0)

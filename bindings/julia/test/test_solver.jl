@@ -51,6 +51,10 @@
     record!(other, "time")
     @test recorded(other, "time") == [other["time"]] && length(recorded_steps(other)) == 1
     @test_throws InvalidArgument recorded(other, "work")
+    infos = Dict(value_infos(other))
+    @test infos["kkt_gap"].cost == "recovers" && !infos["kkt_gap"].recorded
+    @test infos["am_iterations"].alias == "staggered_iterations"
+    @test other["staggered_iterations"] == other["am_iterations"] && haskey(other, "staggered_iterations")
 
     # A history from here on.
     set_history!(solver, 1, [2.0], [0.0])

@@ -21,6 +21,20 @@ class Parameters(unittest.TestCase):
         with self.assertRaisesRegex(delam.ArgumentError, "'bilinear' is not known; known are piecewise-linear"):
             delam.Law.parameters("bilinear")
 
+    def test_kinds_and_bounds(self):
+        kinds = delam.Law.kinds()
+        self.assertEqual(list(kinds)[0], "piecewise-linear")
+        self.assertIn("callbacks", kinds["host"])
+        bounds = delam.Law.bounds("trapezoidal")
+        self.assertEqual(bounds["plateau"], (0.0, 1.0, False, True))
+        self.assertEqual([value in bounds["plateau"] for value in (-0.1, 0.0, 0.9, 1.0)], [False, True, True, False])
+        self.assertEqual(bounds["normal_stiffness"], (0.0, np.inf, True, True))
+        self.assertNotIn("criterion", bounds)
+        for kind in kinds:
+            self.assertEqual(set(delam.Law.bounds(kind)) | {"criterion"}, set(delam.Law.parameters(kind)) | {"criterion"})
+        with self.assertRaises(delam.ArgumentError):
+            delam.Law.bounds("bilinear")
+
     def test_texts_come_before_numbers(self):
         law = delam.Law("exponential", **{**NUMBERS, "tangential_toughness": 560.0}, toughness_exponent=1.0,
                         criterion="benzeggagh-kenane")

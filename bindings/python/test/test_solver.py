@@ -103,6 +103,23 @@ class Steps(unittest.TestCase):
         self.assertEqual(np.loadtxt(io.StringIO(out.getvalue()), delimiter=",", skiprows=1).shape,
                          (11, len(history.names)))
 
+    def test_values_are_described(self):
+        infos = self.solver.values.describe()
+        self.assertEqual(list(infos), list(self.solver.values))
+        self.assertEqual(infos["kkt_gap"].cost, "recovers")
+        self.assertFalse(infos["kkt_gap"].recorded)
+        self.assertEqual(infos["crack_length:0"].scope, "interface")
+        self.assertEqual(infos["dissipated"], ("", "F L", "free", "whole", infos["dissipated"].meaning, True))
+        self.solver.advance(0.5)
+        self.assertEqual(infos["am_iterations"].alias, "staggered_iterations")
+        self.assertGreater(self.solver.values["staggered_iterations"], 0)
+        self.assertEqual(self.solver.values["staggered_iterations"], self.solver.values["am_iterations"])
+        self.assertIn("dissipated_linear", self.solver.values)
+        self.assertNotIn("", self.solver.values)
+        self.solver.rollback()
+        self.solver.record("dissipated_linear")
+        np.testing.assert_array_equal(self.solver.recorded("dissipated_slides"), self.solver.recorded("dissipated_linear"))
+
     def test_replaced_steps_are_read_again(self):
         problem = support.brittle_flexure()
         problem.options["backtracking"] = "on"
