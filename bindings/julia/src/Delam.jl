@@ -39,7 +39,7 @@ export add_cells!, add_interface!, add_all_interfaces!, add_projected_interface!
     add_host_body!, add_pairs!, find_nodes, find_node,
     find_patch, interfaces, nodes, node_bodies, node_origins, node_ties, cells, dimension, node_count, cell_count,
     body_count, interface_count, pair_count, nodes_a, nodes_b, weights, frames, places, faces
-export host_law, law_kinds, parameters, bounds, Bounds, set!, check, toughness, respond, options
+export host_law, law_kinds, parameters, bounds, Bounds, allows, set!, check, toughness, respond, options
 export set_plane!, set_elastic!, set_orthotropic!, set_orientation!, set_formulation!, set_law!, set_bonded!,
     set_contact!, set_adhesion!, add_pattern!, prescribe!, prescribe_mean!, add_equation!, add_periodic!, add_forces!,
     add_eigenstrain!, set_stiffness!, patterns, problem_hash, dofs, process_zone, factors

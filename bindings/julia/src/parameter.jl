@@ -38,11 +38,13 @@ end
 Kinds of laws with their meaning, as pairs in the library's order; "host" is made by `host_law`.
 """
 function law_kinds()
-    return map(0:Raw.delam_law_kind_count()-1) do i
+    found = Pair{String,String}[]
+    for i in 0:Raw.delam_law_kind_count()-1
         name, meaning = Ref{Cstring}(C_NULL), Ref{Cstring}(C_NULL)
         Raw.delam_law_kind_info(i, name, meaning, C_NULL)
-        unsafe_string(name[]) => unsafe_string(meaning[])
+        push!(found, unsafe_string(name[]) => unsafe_string(meaning[]))
     end
+    return found
 end
 
 "Between what a number lies; where open, the bound itself is outside. Infinite: there is no bound, numbers are finite."
@@ -53,7 +55,8 @@ struct Bounds
     upper_open::Bool
 end
 
-Base.in(value::Real, bounds::Bounds) =
+"Does the number lie within the bounds?"
+allows(bounds::Bounds, value::Real) =
     (bounds.lower_open ? value > bounds.lower : value >= bounds.lower) &&
     (bounds.upper_open ? value < bounds.upper : value <= bounds.upper)
 

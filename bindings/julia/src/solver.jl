@@ -170,15 +170,18 @@ end
 
 "What each value of a solver is, in the order of `keys(solver)`: pairs of key and `ValueInfo`."
 function value_infos(solver::Solver)
-    return map(enumerate(keys(solver))) do (i, key)
+    found = Pair{String,ValueInfo}[]
+    for (i, key) in enumerate(keys(solver))
         t = [Ref{Cstring}(C_NULL) for _ in 1:5]
         recorded = Ref(Int32(0))
         ask(handle -> Raw.delam_solver_value_info(handle, i - 1, t[1], t[2], t[3], t[4], t[5], recorded), solver)
-        key => ValueInfo((unsafe_string(text[]) for text in t)..., recorded[] != 0)
+        push!(found, key => ValueInfo((unsafe_string(text[]) for text in t)..., recorded[] != 0))
     end
+    return found
 end
 
-Base.haskey(solver::Solver, key) = any(name == key || info.alias == key for (name, info) in value_infos(solver))
+Base.haskey(solver::Solver, key) =
+    key in keys(solver) || key in [info.alias for (_, info) in value_infos(solver) if info.alias != ""]
 
 Base.show(io::IO, solver::Solver) =
     isopen(solver) ? print(io, "Solver at time $(solver["time"])", pending(solver) ? ", a step is pending" : "") :
