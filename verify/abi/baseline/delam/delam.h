@@ -111,6 +111,10 @@ DELAM_API int64_t delam_law_parameter_count(const char *kind);
 DELAM_API int32_t delam_law_parameter_info(const char *kind, int64_t index, const char **key, const char **type,
                                            const char **unit, const char **initial, const char **range,
                                            const char **meaning);
+DELAM_API int32_t delam_law_parameter_bounds(const char *kind, int64_t index, double *lower, double *upper,
+                                             int32_t *lower_open, int32_t *upper_open);
+DELAM_API int64_t delam_law_kind_count(void);
+DELAM_API int32_t delam_law_kind_info(int64_t index, const char **kind, const char **meaning, int32_t *hosted);
 typedef int32_t (*delam_adhesion_callback)(double mixity, double driving, double *adhesion, double *slope, void *user);
 typedef int32_t (*delam_dissipation_callback)(double mixity, double adhesion, double *dissipated, double *slope,
                                               double *mixity_slope, void *user);
@@ -192,6 +196,9 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
 DELAM_API int32_t delam_solver_value(delam_solver *solver, const char *key, double *value);
 DELAM_API int32_t delam_solver_value_count(const delam_solver *solver, int64_t *count);
 DELAM_API const char *delam_solver_value_name(const delam_solver *solver, int64_t index);
+DELAM_API int32_t delam_solver_value_info(const delam_solver *solver, int64_t index, const char **alias,
+                                          const char **unit, const char **cost, const char **scope,
+                                          const char **meaning, int32_t *recorded);
 DELAM_API int32_t delam_solver_record(delam_solver *solver, const char *key);
 DELAM_API int32_t delam_solver_recorded_size(const delam_solver *solver, int64_t *first, int64_t *steps);
 DELAM_API int32_t delam_solver_recorded(const delam_solver *solver, const char *key, int64_t capacity, double *values);
