@@ -120,7 +120,7 @@ std::vector<Point> lay_faces(const Mesh& mesh, std::span<const BoundaryFace> fac
         poll_cancel("pairs", 2);
         corners = std::max(corners, face.corner().size());
         quadratic = quadratic || !face.middle().empty();
-        faces.push_back(pair_face(face, index));
+        faces.push_back(pair_face(face, pair_of));
     }
     std::sort(faces.begin(), faces.end());
     const std::size_t nodes_per_face = !quadratic ? corners : corners == 2 ? 3 : 2 * corners;

@@ -41,7 +41,7 @@ double volume_of(const Mesh& mesh, std::int32_t body) {
 ProcessZone predicted_process_zone(const Problem& problem, std::int64_t interface) {
     const Mesh& mesh = *problem.mesh;
     const InterfaceProperties& properties = problem.interfaces[index(interface)];
-    const InterfaceGeometry& geometry = mesh.interfaces()[at(interface)];
+    const InterfaceGeometry& geometry = mesh.interfaces()[index(interface)];
     ProcessZone zone;
     double area = 0.0, adhering = 0.0, pairs = 0.0;
     for (std::size_t p = 0; p < geometry.weight.size(); ++p) {
@@ -55,7 +55,7 @@ ProcessZone predicted_process_zone(const Problem& problem, std::int64_t interfac
 
     zone.length = std::numeric_limits<double>::infinity();
     for (const std::int32_t body : {geometry.body_a, geometry.body_b}) {
-        if (body < 0 || !problem.material[at(body)] || mesh.host_body(body)) continue;
+        if (body < 0 || !problem.material[index(body)] || mesh.host_body(body)) continue;
         const double modulus = plane_modulus(problem.model(body), mesh.dimension()), arm = volume_of(mesh, body) / area;
         for (const double mixity : {0.0, 1.0}) {
             const Toughness toughness = properties.law->toughness(mixity);
