@@ -436,8 +436,8 @@ DELAM_API int32_t delam_law_parameter_info(const char *kind, int64_t index, cons
                                            const char **meaning);
 /* Bounds of the same parameter, kind and index as there, so that a host can check a number before it sets it. A number
  * is finite and lies between *lower and *upper; *lower_open and *upper_open are 1 where the bound itself is outside,
- * else 0. Where there is no bound, *lower is -INFINITY or *upper is INFINITY. The bounds of a table hold for each of its
- * numbers; a text has none.
+ * else 0. Where there is no bound, *lower is -INFINITY or *upper is INFINITY. The bounds of a table hold for each of
+ * its numbers; a text has none.
  * [unit lower of key, upper of key; null kind, lower, upper, lower_open, upper_open; status only argument; thread any;
  * source none; since 0.1] */
 DELAM_API int32_t delam_law_parameter_bounds(const char *kind, int64_t index, double *lower, double *upper,
@@ -881,8 +881,8 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *                          pattern minus the conjugate displacement, for an eigenstrain minus the integral of stress
  *                          times strain
  * delam_solver_value_count counts all of them. Some keys have a second name (delam_solver_value_info):
- * staggered_iterations is am_iterations, unstable_debonds is debond_moves, state_jumps is jumps, and the keys in _slides
- * end in _linear too (dissipated_linear), after their dissipation, which is linear in the damage.
+ * staggered_iterations is am_iterations, unstable_debonds is debond_moves, state_jumps is jumps, and each key in
+ * _slides also exists with _linear (dissipated_linear), named after its dissipation, which is linear in the damage.
  * [unit value of key; null none; status cancelled, argument, problem; source of what is computed: at
  * delam_solver_advance and delam_solver_front; since 0.1] */
 DELAM_API int32_t delam_solver_value(delam_solver *solver, const char *key, double *value);

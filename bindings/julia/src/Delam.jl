@@ -44,7 +44,8 @@ export set_plane!, set_elastic!, set_orthotropic!, set_orientation!, set_formula
     set_contact!, set_adhesion!, add_pattern!, prescribe!, prescribe_mean!, add_equation!, add_periodic!, add_forces!,
     add_eigenstrain!, set_stiffness!, patterns, problem_hash, dofs, process_zone, factors
 export advance!, commit!, rollback!, pending, equilibrate!, set_history!, march!, history, record!, recorded,
-    recorded_steps, write_csv, look!, value_infos, ValueInfo, save, load!, field, average, fronts, tangent, step_tangent, condensed, plan,
+    recorded_steps, write_csv, look!, value_infos, ValueInfo,
+    save, load!, field, average, fronts, tangent, step_tangent, condensed, plan,
     plan_items, option, searched, jumps, profile, cancel
 
 __init__() = load_library()

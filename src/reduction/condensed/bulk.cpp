@@ -8,6 +8,7 @@
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "reduction/zone/rigid_jumps.hpp"
 #include "scene/carriers.hpp"
 #include "scene/strain_loads.hpp"
@@ -15,8 +16,6 @@
 namespace delam {
 
 namespace {
-
-std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 constexpr double dependent = dependent_equation;
 
@@ -181,8 +180,26 @@ Bulk::Bulk(const Problem& problem, Monitor& monitor) : problem_(problem) {
 }
 
 void Bulk::condense(Monitor& monitor) {
+    const Poll condensing = [&monitor] { monitor.progress("condense", 0, 0); };
+    monitor.progress("factor", 0, 0);
+    factorise(condensing);
+    StrainLoads strained = strain_loads(problem_);
+    std::vector<std::vector<double>> bonded = condense_loads(strained, condensing);
+    resolve_equations(condensing);
+    call_if_set(condensing);
+    find_pattern_stiffness(std::move(bonded), strained, condensing);
+    const DenseMatrix motions = rigid_jumps(problem_);
+    rigid_ = DenseMatrix(energy().rows(), motions.columns);
+    for (std::int64_t c = 0; c < motions.columns; ++c)
+        for (std::int64_t i = 0; i < rigid_.rows; ++i) rigid_(i, c) = motions(row_of_unknown_[index(i)], c);
+    if (!base_) balance_strains();
+    recoveries_ = 0;
+}
+
+// Factors T^T K T with a shift on the trailing diagonal, which the Schur complement of the trailing variables loses
+// again.
+void Bulk::factorise(const Poll& poll) {
     const std::int64_t leading = variables_.leading, trailing = variables_.trailing();
-    const std::size_t patterns = problem_.patterns.size();
     std::vector<double> shift(index(trailing), 0.0);
     std::vector<std::int64_t> diagonal(index(trailing));
     for (std::int64_t t = 0; t < trailing; ++t) {
@@ -196,32 +213,33 @@ void Bulk::condense(Monitor& monitor) {
         if (!(shift[index(t)] > 0.0)) shift[index(t)] = largest > 0.0 ? largest : 1.0;
         transformed_.value[index(diagonal[index(t)])] += shift[index(t)];
     }
-    monitor.progress("factor", 0, 0);
     ++factorisations_;
     if (!factor_->factorise(transformed_))
         fail(DELAM_ERROR_NUMERICAL,
              "the stiffness of the bonded structure is not positive definite: check supports, materials and the shapes "
              "of cells");
     transformed_ = SparseMatrix();
-    const Poll condensing = [&monitor] { monitor.progress("condense", 0, 0); };
-    call_if_set(condensing);
-    energy_.stiffness = lower_times_transpose(factor_->trailing_factor(), condensing);
+    call_if_set(poll);
+    energy_.stiffness = lower_times_transpose(factor_->trailing_factor(), poll);
     for (std::int64_t t = 0; t < trailing; ++t) energy_.stiffness(t, t) -= shift[index(t)];
+}
 
-    // Loads: at t = 0 each pattern has the displacements u_p; the remaining forces K u_p - f_p act on the trailing
-    // variables.
+// With all trailing variables at zero each pattern has the displacements u_p, which are returned; the remaining forces
+// K u_p - f_p act on the trailing variables.
+std::vector<std::vector<double>> Bulk::condense_loads(StrainLoads& strained, const Poll& poll) {
+    const std::int64_t leading = variables_.leading, trailing = variables_.trailing();
+    const std::size_t patterns = problem_.patterns.size();
     force_.assign(patterns, {});
     for (const NodalForce& f : problem_.forces) {
         auto& force = force_[index(f.pattern)];
         if (force.empty()) force.assign(index(dofs()), 0.0);
         force[index(f.dof)] += f.value;
     }
-    StrainLoads strained = strain_loads(problem_);
     for (std::size_t p = 0; p < patterns; ++p)
         if (!strained.force[p].empty()) force_[p] = std::move(strained.force[p]);
     energy_.load = DenseMatrix(trailing, static_cast<std::int64_t>(patterns));
     std::vector<double> nodal(index(dofs())), carried(index(variables_.count()));
-    std::vector<std::vector<double>> bonded;  // displacements of the patterns at t = 0
+    std::vector<std::vector<double>> bonded;
     for (std::size_t p = 0; p < patterns; ++p) {
         std::vector<double> u = variables_.lift[p];
         multiply(stiffness_, u, nodal);
@@ -238,13 +256,17 @@ void Bulk::condense(Monitor& monitor) {
         std::copy(carried.begin() + leading, carried.end(),
                   energy_.load.value.begin() + static_cast<std::int64_t>(p) * trailing);
         bonded.push_back(std::move(u));
-        call_if_set(condensing);
+        call_if_set(poll);
     }
-    resolve_equations(condensing);
-    call_if_set(condensing);
+    return bonded;
+}
 
-    // A_pq = u_p^T K u_q - f_p^T u_q - f_q^T u_p + W_pq, W of the eigenstrains: no difference of large numbers,
-    // whatever the lift is.
+// A_pq = u_p^T K u_q - f_p^T u_q - f_q^T u_p + W_pq, W of the eigenstrains: no difference of large numbers, whatever
+// the lift is.
+void Bulk::find_pattern_stiffness(std::vector<std::vector<double>> bonded, const StrainLoads& strained,
+                                  const Poll& poll) {
+    const std::size_t patterns = problem_.patterns.size();
+    std::vector<double> nodal(index(dofs()));
     const std::vector<double> closed(index(energy().rows()), 0.0);
     std::vector<std::vector<double>> stressed;
     for (std::size_t p = 0; p < patterns; ++p) {
@@ -255,7 +277,7 @@ void Bulk::condense(Monitor& monitor) {
         }
         multiply(stiffness_, bonded[p], nodal);
         stressed.push_back(nodal);
-        call_if_set(condensing);
+        call_if_set(poll);
     }
     pattern_stiffness_ = DenseMatrix(static_cast<std::int64_t>(patterns), static_cast<std::int64_t>(patterns));
     for (std::size_t p = 0; p < patterns; ++p)
@@ -265,13 +287,6 @@ void Bulk::condense(Monitor& monitor) {
             if (!force_[q].empty()) a -= dot(force_[q], bonded[p]);
             pattern_stiffness_(static_cast<std::int64_t>(p), static_cast<std::int64_t>(q)) = a;
         }
-
-    const DenseMatrix motions = rigid_jumps(problem_);
-    rigid_ = DenseMatrix(energy().rows(), motions.columns);
-    for (std::int64_t c = 0; c < motions.columns; ++c)
-        for (std::int64_t i = 0; i < rigid_.rows; ++i) rigid_(i, c) = motions(row_of_unknown_[index(i)], c);
-    if (!base_) balance_strains();
-    recoveries_ = 0;
 }
 
 double Bulk::rounding_energy(std::span<const double> theta) const {
@@ -292,93 +307,6 @@ void Bulk::balance_strains() {
                 const auto motion = std::span<const double>(rigid_.value).subspan(index(c) * rows, rows);
                 add_scaled(-dot(motion, load), motion, load);
             }
-    }
-}
-
-// Equations express some trailing variables by the rest; the displacements among the rest are minimised out.
-void Bulk::resolve_equations(const Poll& poll) {
-    const std::int64_t trailing = variables_.trailing(), kept = variables_.kept;
-    const auto patterns = static_cast<std::int64_t>(problem_.patterns.size());
-    const std::vector<SolvedEquation> solved = solve_equations(variables_);
-    for (const SolvedEquation& equation : solved) pivot_.push_back(equation.pivot);
-    std::vector<std::int64_t> place(index(trailing), -1);  // position in rest, or -2 - position in pivot
-    for (std::size_t i = 0; i < pivot_.size(); ++i) place[index(pivot_[i])] = -2 - static_cast<std::int64_t>(i);
-    for (std::int64_t t = 0; t < trailing; ++t) {
-        if (place[index(t)] < -1) continue;
-        place[index(t)] = static_cast<std::int64_t>(rest_.size());
-        rest_.push_back(t);
-        if (t < kept) ++kept_rest_;
-    }
-    const auto pivots = static_cast<std::int64_t>(pivot_.size()), rest = static_cast<std::int64_t>(rest_.size());
-    bound_ = DenseMatrix(pivots, rest);
-    prescribed_ = DenseMatrix(pivots, patterns);
-    for (std::int64_t i = 0; i < pivots; ++i) {
-        for (const auto& [t, c] : solved[index(i)].entries) bound_(i, place[index(t)]) = c;
-        for (std::int64_t p = 0; p < patterns; ++p) prescribed_(i, p) = solved[index(i)].prescribed[index(p)];
-    }
-
-    if (pivots > 0) {
-        const auto pick = [](const DenseMatrix& a, std::span<const std::int64_t> r, std::span<const std::int64_t> c) {
-            DenseMatrix b(static_cast<std::int64_t>(r.size()), static_cast<std::int64_t>(c.size()));
-            for (std::int64_t j = 0; j < b.columns; ++j)
-                for (std::int64_t i = 0; i < b.rows; ++i) b(i, j) = a(r[index(i)], c[index(j)]);
-            return b;
-        };
-        std::vector<std::int64_t> all(index(patterns));
-        std::iota(all.begin(), all.end(), 0);
-        const DenseMatrix s_pp = pick(energy_.stiffness, pivot_, pivot_), s_pr = pick(energy_.stiffness, pivot_, rest_);
-        DenseEnergy reduced{pick(energy_.stiffness, rest_, rest_), pick(energy_.load, rest_, all)};
-        const DenseMatrix l_p = pick(energy_.load, pivot_, all);
-        // S_rr + S_rp M + M^T S_pr + M^T S_pp M  and  L_r + M^T L_p - (S_rp + M^T S_pp) d
-        DenseMatrix half = multiply(s_pp, bound_);
-        for (std::size_t i = 0; i < half.value.size(); ++i) half.value[i] = 0.5 * half.value[i] + s_pr.value[i];
-        const DenseMatrix product = multiply_transposed(bound_, half);
-        for (std::int64_t j = 0; j < rest; ++j)
-            for (std::int64_t i = 0; i < rest; ++i) reduced.stiffness(i, j) += product(i, j) + product(j, i);
-        DenseMatrix right = multiply(s_pp, prescribed_);
-        for (std::size_t i = 0; i < right.value.size(); ++i) right.value[i] = l_p.value[i] - right.value[i];
-        const DenseMatrix through = multiply_transposed(bound_, right), direct = multiply_transposed(s_pr, prescribed_);
-        for (std::size_t i = 0; i < reduced.load.value.size(); ++i)
-            reduced.load.value[i] += through.value[i] - direct.value[i];
-        energy_ = std::move(reduced);
-    }
-    if (kept_rest_ > 0) {
-        std::vector<std::int64_t> eliminated(index(kept_rest_)), stay(index(rest - kept_rest_));
-        std::iota(eliminated.begin(), eliminated.end(), 0);
-        std::iota(stay.begin(), stay.end(), kept_rest_);
-        base_ = std::make_unique<Condensation>(energy_, std::move(stay), std::move(eliminated),
-                                               std::vector<double>(index(rest), 0.0), poll);
-        energy_ = DenseEnergy();
-    }
-
-    // Rows of the jumps as functions of the unknowns.
-    for (std::size_t r = 0; r < variables_.row.size(); ++r) {
-        const SparseVector& in_jumps = variables_.row[r];
-        JumpRow row;
-        row.offset = variables_.row_offset[r];
-        std::map<std::int64_t, double> entries;
-        for (const auto& [jump, c] : in_jumps) {
-            const std::int64_t at = place[index(kept + jump)];
-            if (at >= 0) {
-                entries[at - kept_rest_] += c;
-                continue;
-            }
-            const std::int64_t pivot = -2 - at;
-            for (std::int64_t j = kept_rest_; j < rest; ++j)
-                if (const double m = bound_(pivot, j); std::abs(m) > dependent) entries[j - kept_rest_] += c * m;
-            if (row.offset.empty()) row.offset.assign(index(patterns), 0.0);
-            for (std::int64_t p = 0; p < patterns; ++p) row.offset[index(p)] += c * prescribed_(pivot, p);
-        }
-        for (const auto& [i, c] : entries)
-            if (std::abs(c) > dependent) row.unknowns.emplace_back(i, c);
-        rows_.push_back(std::move(row));
-    }
-    row_of_unknown_.assign(index(rest - kept_rest_), -1);
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-        if (rows_[r].unknowns.size() != 1 || rows_[r].unknowns.front().second != 1.0 || !rows_[r].offset.empty())
-            continue;
-        std::int64_t& first = row_of_unknown_[index(rows_[r].unknowns.front().first)];
-        if (first < 0) first = static_cast<std::int64_t>(r);
     }
 }
 
@@ -487,9 +415,7 @@ double Bulk::defect(std::span<const double> theta, std::span<const double> displ
         for (std::size_t i = 0; i < constraint.dof.size(); ++i)
             left[index(constraint.dof[i])] -= reaction[c] * constraint.coefficient[i];
     }
-    double worst = 0.0;
-    for (const double v : left) worst = std::max(worst, std::abs(v));
-    return worst;
+    return max_abs(left);
 }
 
 }  // namespace delam

@@ -26,6 +26,8 @@
 
 namespace delam {
 
+struct StrainLoads;
+
 class Bulk {
 public:
     // Assembles and analyses; condense() computes the numbers.
@@ -65,7 +67,13 @@ public:
     std::int64_t recoveries() const { return recoveries_; }  // of displacements, since condense()
 
 private:
+    void factorise(const Poll& poll);
+    std::vector<std::vector<double>> condense_loads(StrainLoads& strained, const Poll& poll);
+    void find_pattern_stiffness(std::vector<std::vector<double>> bonded, const StrainLoads& strained, const Poll& poll);
+    // bulk_equations.cpp
     void resolve_equations(const Poll& poll);
+    void substitute_pivots();
+    void express_rows(std::span<const std::int64_t> place);
     void balance_strains();
     // The forces that no element balances: K u - f + B^T force.
     std::vector<double> residual(std::span<const double> theta, std::span<const double> displacement,

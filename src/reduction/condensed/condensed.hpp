@@ -45,6 +45,8 @@ public:
                  Response& response) const;
 
 private:
+    // An unknown that has not changed may leave the zone so many choices later.
+    static constexpr std::uint8_t forgotten = 3;
     // The content of memory().
     struct Choice {
         std::vector<std::uint8_t> age, inside, near;

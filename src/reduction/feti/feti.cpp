@@ -106,9 +106,7 @@ double Feti::equilibrium_defect(std::span<const double> theta, const Response& r
             }
         }
     }
-    double worst = 0.0;
-    for (const double v : defect) worst = std::max(worst, std::abs(v));
-    return worst;
+    return max_abs(defect);
 }
 
 std::string Feti::description() const {

@@ -5,13 +5,12 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "linalg/echelon.hpp"
 
 namespace delam {
 
 namespace {
-
-std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 constexpr double dependent = 1e-10;  // coefficients of dependent rows below this are rounding
 constexpr double rounded = 1e-11;    // of motion times load, which counts as rounding (measured: up to 5e-13)
@@ -136,6 +135,13 @@ bool Zone::factor(std::span<const Coupling> couplings, std::span<const std::uint
         for (const auto& [i, a] : rows_[index(c.row)].unknowns)
             for (const auto& [j, b] : rows_[index(c.column)].unknowns) springs_.push_back({i, j, a * b * c.value});
     }
+    assemble();
+    if (!factor_definite(factor_, poll_)) return false;
+    return rigid_.columns == 0 || factor_motions();
+}
+
+// The lower triangle of A_ff + A_fb M + M^T A_bf + M^T A_bb M, where A = S + C and bound = M free.
+void Zone::assemble() {
     const DenseMatrix& s = rigid_.columns > 0 ? shifted_ : energy_->stiffness;
     const auto n = static_cast<std::int64_t>(free_.size()), bound = static_cast<std::int64_t>(bound_.size());
     std::vector<std::int64_t> place(index(energy_->rows()), -1);  // among free, then bound
@@ -164,17 +170,17 @@ bool Zone::factor(std::span<const Coupling> couplings, std::span<const std::uint
         else if (i >= n && j >= n)
             corner(i - n, j - n) += t.value;
     }
-    if (bound > 0) {
-        // A_ff + A_fb M + M^T A_bf + M^T A_bb M
-        DenseMatrix half = multiply(corner, binding_);
-        for (std::size_t i = 0; i < half.value.size(); ++i) half.value[i] = 0.5 * half.value[i] + cross.value[i];
-        const DenseMatrix product = multiply_transposed(binding_, half);
-        for (std::int64_t j = 0; j < n; ++j)
-            for (std::int64_t i = j; i < n; ++i) factor_(i, j) += product(i, j) + product(j, i);
-    }
-    if (!factor_definite(factor_, poll_)) return false;
-    if (rigid_.columns == 0) return true;
+    if (bound == 0) return;
+    DenseMatrix half = multiply(corner, binding_);
+    for (std::size_t i = 0; i < half.value.size(); ++i) half.value[i] = 0.5 * half.value[i] + cross.value[i];
+    const DenseMatrix product = multiply_transposed(binding_, half);
+    for (std::int64_t j = 0; j < n; ++j)
+        for (std::int64_t i = j; i < n; ++i) factor_(i, j) += product(i, j) + product(j, i);
+}
 
+// The Schur complement in the rigid motions that active rows hold. False: not positive definite.
+bool Zone::factor_motions() {
+    const auto n = static_cast<std::int64_t>(free_.size());
     std::vector<std::uint8_t> active(held_);
     for (const Coupling& c : couplings_)
         if (c.value != 0.0) active[index(c.row)] = 1;
@@ -221,6 +227,25 @@ bool Zone::factor(std::span<const Coupling> couplings, std::span<const std::uint
     return factor_definite(motion_factor_);
 }
 
+// Does no free motion carry a part of this load?
+bool Zone::balances(std::span<const double> load) const {
+    for (std::int64_t c = 0; rigid_.columns > 0 && c < motions_.free.columns; ++c) {
+        double total = 0.0, size = 0.0, motion = 0.0, pull_size = 0.0;
+        for (std::int64_t i = 0; i < rigid_.rows; ++i) {
+            double z = 0.0;
+            for (std::int64_t k = 0; k < rigid_.columns; ++k) z += rigid_(i, k) * motions_.free(k, c);
+            total += z * load[index(i)];
+            size += std::abs(z * load[index(i)]);
+            motion += z * z;
+            pull_size += load[index(i)] * load[index(i)];
+        }
+        // A load orthogonal to the motion everywhere (a pressed fibre that may rotate) leaves only rounding in both
+        // sums.
+        if (std::abs(total) > std::max(unbalanced * size, rounded * std::sqrt(motion * pull_size))) return false;
+    }
+    return true;
+}
+
 Zone::Solution Zone::solve(std::span<const double> theta, std::span<const double> row_force) const {
     Solution solution;
     std::vector<double> g(index(energy_->rows()));
@@ -249,23 +274,8 @@ Zone::Solution Zone::solve(std::span<const double> theta, std::span<const double
         for (std::size_t i = 0; i < g.size(); ++i) g[i] -= image[i];
     }
 
-    for (std::int64_t c = 0; rigid_.columns > 0 && c < motions_.free.columns; ++c) {
-        double total = 0.0, size = 0.0, motion = 0.0, pull_size = 0.0;
-        for (std::int64_t i = 0; i < rigid_.rows; ++i) {
-            double z = 0.0;
-            for (std::int64_t k = 0; k < rigid_.columns; ++k) z += rigid_(i, k) * motions_.free(k, c);
-            total += z * g[index(i)];
-            size += std::abs(z * g[index(i)]);
-            motion += z * z;
-            pull_size += g[index(i)] * g[index(i)];
-        }
-        // A load orthogonal to the motion everywhere (a pressed fibre that may rotate) leaves only rounding in both
-        // sums.
-        if (std::abs(total) > std::max(unbalanced * size, rounded * std::sqrt(motion * pull_size))) {
-            solution.balanced = false;
-            return solution;
-        }
-    }
+    solution.balanced = balances(g);
+    if (!solution.balanced) return solution;
 
     std::vector<double> y = reduce(g);
     solve_lower(factor_, y);

@@ -57,6 +57,9 @@ public:
 
 private:
     void hold(std::span<const std::uint8_t> held);
+    void assemble();
+    bool factor_motions();
+    bool balances(std::span<const double> load) const;
     // y = (S + C) x over all unknowns
     std::vector<double> apply(std::span<const double> x) const;
     std::vector<double> expand(std::span<const double> reduced) const;
