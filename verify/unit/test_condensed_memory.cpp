@@ -89,7 +89,7 @@ void solve_alike(const Problem& problem, Condensed& one, Condensed& other) {
 START_TEST(zone_before_a_solve) {
     Operators all;
     const auto one = all.fresh(), other = all.fresh();
-    one->zone(springs(all.problem(), 2), rows_of_pairs(all.problem(), 0, 4));
+    one->zone(springs(all.problem(), 2), rows_of_pairs(all.problem(), 0, 4), false);
     other->recall(one->memory());
     ck_assert(same_bits(one->memory(), other->memory()));
     solve_alike(all.problem(), *one, *other);

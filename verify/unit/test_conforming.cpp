@@ -53,7 +53,7 @@ struct Written {
     Indices cells;
     Labels labels;
 
-    std::size_t per_cell() const { return at(topology(type).nodes); }
+    std::size_t per_cell() const { return index(topology(type).nodes); }
     Mesh empty() const { return Mesh(dimension, nodes); }
     Mesh doubled() const {
         Mesh mesh = empty();
@@ -71,9 +71,9 @@ Written written(CellType type, std::int64_t n, const LabelOf& label_of) {
     Written w{dim, type, {block.nodes().begin(), block.nodes().end()}, {}, {}};
     for (std::int64_t c = 0; c < block.cell_count(); ++c) {
         std::array<std::int64_t, 3> box{};
-        for (std::size_t k = 0; k < at(dim); ++k) {
+        for (std::size_t k = 0; k < index(dim); ++k) {
             double sum = 0.0;
-            for (int a = 0; a < topology(type).corners; ++a) sum += block.node(block.cell(c)[at(a)])[k];
+            for (int a = 0; a < topology(type).corners; ++a) sum += block.node(block.cell(c)[index(a)])[k];
             box[k] = static_cast<std::int64_t>(sum / topology(type).corners * static_cast<double>(n));
         }
         w.cells.insert(w.cells.end(), block.cell(c).begin(), block.cell(c).end());
@@ -84,7 +84,7 @@ Written written(CellType type, std::int64_t n, const LabelOf& label_of) {
 
 // A T: the lower half, and two bodies on top of it.
 std::int32_t tee(const std::array<std::int64_t, 3>& box, std::int64_t n, int dim) {
-    if (box[at(dim - 1)] < n / 2) return 4;
+    if (box[index(dim - 1)] < n / 2) return 4;
     return box[0] < n / 2 ? 7 : 2;
 }
 std::int32_t octants(const std::array<std::int64_t, 3>& box, std::int64_t n) {
@@ -93,7 +93,7 @@ std::int32_t octants(const std::array<std::int64_t, 3>& box, std::int64_t n) {
 // 2 x 2 (x 2) pieces of body 1 within body 0, on a grid of 9 boxes in each direction: no piece touches another or the
 // outside.
 std::int32_t fibres(const std::array<std::int64_t, 3>& box, int dim) {
-    for (std::size_t k = 0; k < at(dim); ++k)
+    for (std::size_t k = 0; k < index(dim); ++k)
         if (box[k] % 4 == 0) return 0;
     return 1;
 }
@@ -108,10 +108,10 @@ std::map<std::pair<std::int32_t, std::int32_t>, Shared> shared(const Written& w)
     std::map<std::pair<std::int32_t, std::int32_t>, Shared> found;
     const CellTopology& shape = topology(w.type);
     for (std::size_t c = 0; c < w.labels.size(); ++c) {
-        for (std::size_t f = 0; f < at(shape.faces); ++f) {
+        for (std::size_t f = 0; f < index(shape.faces); ++f) {
             Indices all;
-            for (std::size_t k = 0; k < at(shape.face_nodes); ++k)
-                all.push_back(w.cells[c * w.per_cell() + at(shape.face[f][k])]);
+            for (std::size_t k = 0; k < index(shape.face_nodes); ++k)
+                all.push_back(w.cells[c * w.per_cell() + index(shape.face[f][k])]);
             Indices key(all.begin(), all.begin() + shape.face_corners);
             std::sort(key.begin(), key.end());
             const auto other = open.find(key);
@@ -202,7 +202,7 @@ START_TEST(triple_junction) {
             for (std::size_t p = 0; p < i.node_a.size(); ++p) {
                 area += i.weight[p];
                 const auto x = mesh.node(i.node_a[p]);
-                if (x[0] == 0.5 && x[at(dim - 1)] == 0.5) ++at_junction;
+                if (x[0] == 0.5 && x[index(dim - 1)] == 0.5) ++at_junction;
             }
             ck_assert(std::abs(area - 0.5) < 1e-14);
         }
@@ -230,8 +230,9 @@ START_TEST(surrounded_pieces) {
         for (std::size_t p = 0; p < mesh.interfaces()[0].node_a.size(); ++p) {  // from the matrix into the piece
             const auto x = mesh.node(mesh.interfaces()[0].node_a[p]);
             double inward = 0.0;
-            for (std::size_t k = 0; k < at(dim); ++k)
-                inward += mesh.interfaces()[0].frame[p * at(dim * dim) + k] * ((x[k] < 0.5 ? 2.5 : 6.5) / 9.0 - x[k]);
+            for (std::size_t k = 0; k < index(dim); ++k)
+                inward +=
+                    mesh.interfaces()[0].frame[p * index(dim * dim) + k] * ((x[k] < 0.5 ? 2.5 : 6.5) / 9.0 - x[k]);
             ck_assert(inward > 0.0);
         }
     }

@@ -134,7 +134,7 @@ START_TEST(flat) {
     for (const CellType lower : all_types) {
         for (const CellType upper : all_types) {
             if (topology(lower).dimension != topology(upper).dimension) continue;
-            const auto dim = at(topology(lower).dimension);
+            const auto dim = index(topology(lower).dimension);
             Mesh mesh = blocks(stack(lower, upper, 3, 5));
             const std::int64_t before = mesh.node_count();
             ck_assert_int_eq(mesh.add_projected_interface(0, 1, 0.0), 0);
@@ -175,7 +175,7 @@ START_TEST(matching) {
         ck_assert(i.node_b == m.node_b && i.face.size() == m.face.size() && i.nodes_per_face == m.nodes_per_face);
         for (const NodeTie& tie : mesh.ties()) ck_assert_uint_eq(tie.of.size(), 1);
         for (std::size_t p = 0; p < i.weight.size(); ++p) {
-            ck_assert_int_eq(mesh.ties()[at(i.node_a[p] - mesh.ties()[0].node)].of[0].first, m.node_a[p]);
+            ck_assert_int_eq(mesh.ties()[index(i.node_a[p] - mesh.ties()[0].node)].of[0].first, m.node_a[p]);
             ck_assert(std::abs(i.weight[p] - m.weight[p]) < 1e-14);
         }
         for (std::size_t k = 0; k < i.frame.size(); ++k) ck_assert(std::abs(i.frame[k] - m.frame[k]) < 1e-13);
@@ -189,7 +189,7 @@ END_TEST
 START_TEST(curved) {
     for (const CellType type :
          {CellType::quad4, CellType::quad8, CellType::tri6, CellType::hex8, CellType::hex20, CellType::tet10}) {
-        const std::size_t dim = at(topology(type).dimension);
+        const std::size_t dim = index(topology(type).dimension);
         // x runs around, the last axis is the radius, turned so that cells stay positive.
         const Map bend = [&](std::span<double> x) {
             const double angle = 0.5 * std::numbers::pi * (1.0 - x[0]);
@@ -273,7 +273,7 @@ END_TEST
 // The nearest point of a curved face is the one whose offset is along the normal.
 START_TEST(nearest_points) {
     for (const CellType type : {CellType::quad8, CellType::hex20, CellType::tet10, CellType::hex8}) {
-        const std::size_t dim = at(topology(type).dimension);
+        const std::size_t dim = index(topology(type).dimension);
         const Mesh mesh = blocks({stack(type, type, 2, 2)[0]}, [&](std::span<double> x) {
             const double y = dim == 3 ? x[1] : 0.0;
             x[dim - 1] += 0.1 * x[0] * x[0] + 0.07 * y * (1.0 - x[0]);
@@ -295,7 +295,7 @@ END_TEST
 
 START_TEST(obstacles) {
     for (const CellType type : all_types) {
-        const std::size_t dim = at(topology(type).dimension);
+        const std::size_t dim = index(topology(type).dimension);
         Mesh mesh = blocks({stack(type, type, 4, 4)[0]}, {}, dim == 2 ? Numbers{0.5, 9.0} : Numbers{0.5, 0.5, 9.0});
         const std::int64_t control = mesh.node_count() - 1;
         Indices top;
@@ -322,7 +322,7 @@ START_TEST(obstacles) {
 
         // A later body changes no index of the obstacle, and the control node belongs to no cell.
         ck_assert_refused(DELAM_ERROR_MESH, "control node",
-                          mesh.add_cells(type, Indices(at(topology(type).nodes), control), Labels{3}));
+                          mesh.add_cells(type, Indices(index(topology(type).nodes), control), Labels{3}));
         ck_assert_refused(DELAM_ERROR_ARGUMENT, "length 0",
                           mesh.add_obstacle(one, Numbers(dim, 0.0), Numbers{1.0}, control));
         ck_assert_refused(DELAM_ERROR_ARGUMENT, "weights[0] = 0",
