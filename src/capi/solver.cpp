@@ -318,7 +318,7 @@ const char* delam_solver_searched(const delam_solver* solver) {
 }
 
 int32_t delam_solver_look(delam_solver* solver, int64_t step) {
-    return guard(solver, [&] { solver->core->look(step); });
+    return guard(solver, [&] { solver->core->select(step); });
 }
 
 int32_t delam_solver_jump_count(const delam_solver* solver, int64_t* count) {

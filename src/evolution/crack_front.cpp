@@ -25,10 +25,10 @@ double mixity_of(const CrackedInterface& interface, std::int64_t pair) {
 
 bool in_process_zone(const CrackedInterface& interface, std::int64_t pair) {
     return interface.adhesion[index(pair)] < (1.0 - zone_ends) * interface.initial[index(pair)] &&
-           !spent(interface, pair);
+           !exhausted(interface, pair);
 }
 
-bool spent(const CrackedInterface& interface, std::int64_t pair) {
+bool exhausted(const CrackedInterface& interface, std::int64_t pair) {
     const double adhesion = interface.adhesion[index(pair)];
     if (!(adhesion > 0.0)) return true;
     const Toughness toughness = interface.law.toughness(mixity_of(interface, pair));

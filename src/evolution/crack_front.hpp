@@ -61,7 +61,7 @@ inline constexpr double front_adhesion = 0.5;
 // jump)/(jump), which is small throughout the zone of a stiff interface.
 bool in_process_zone(const CrackedInterface& interface, std::int64_t pair);
 // Whether it lies behind the zone: all but a thousandth of the toughness is dissipated, or it never adhered.
-bool spent(const CrackedInterface& interface, std::int64_t pair);
+bool exhausted(const CrackedInterface& interface, std::int64_t pair);
 // Weight of these pairs, L or L2.
 double process_zone(const CrackedInterface& interface);
 // Neither damaged nor initially open: where the adhesion of two such pairs differs, no crack is the cause.

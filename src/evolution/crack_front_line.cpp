@@ -168,18 +168,18 @@ private:
         // inside.
         std::int64_t anchor = open;
         while (anchor != open_end && initial(anchor) > 0.0) anchor -= step;
-        double spent = 0.0;
+        double opened = 0.0;
         if (!(initial(anchor) > 0.0)) {
             anchor += step;
         } else {
             anchor = found.from;
-            if (inside(open_end - step)) spent = -0.5 * weight(anchor) * (1.0 - adhesion(anchor));
+            if (inside(open_end - step)) opened = -0.5 * weight(anchor) * (1.0 - adhesion(anchor));
         }
         for (std::int64_t i = anchor;; i += step) {
-            spent += weight(i) * (1.0 - adhesion(i));
+            opened += weight(i) * (1.0 - adhesion(i));
             if (i == found.to) break;
         }
-        found.arc = std::clamp(chain_.arc[index(anchor)] + static_cast<double>(step) * spent, 0.0, chain_.arc.back());
+        found.arc = std::clamp(chain_.arc[index(anchor)] + static_cast<double>(step) * opened, 0.0, chain_.arc.back());
         return found;
     }
 

@@ -103,7 +103,7 @@ Outcome Solver::advance(double time) {
     judge_balance(pending.state, outcome);
     std::string searched = stepper_.searched();
     forget();
-    looked_ = nullptr;
+    selected_ = nullptr;
     pending_ = std::move(pending);
     searched_ = std::move(searched);
     return outcome;
@@ -116,7 +116,7 @@ Outcome Solver::equilibrate(double time, std::span<const double> adhesion) {
     if (!result.converged) outcome = unconverged_displacement(result.state);
     judge_balance(result.state, outcome);
     forget();
-    looked_ = nullptr;
+    selected_ = nullptr;
     pending_ = Pending{std::move(result.state), {}, {}};
     return outcome;
 }
@@ -133,8 +133,8 @@ void Solver::commit() {
     record_.reserve_row();
     // From here on nothing can fail.
     for (const Record::Row& row : rows) record_.put(row);
-    if (looked_ != nullptr) forget();
-    looked_ = nullptr;
+    if (selected_ != nullptr) forget();
+    selected_ = nullptr;
     jumps_ = std::move(all);
     for (State& state : pending_->revised) {
         if (state.step == committed_.step)
@@ -153,7 +153,7 @@ void Solver::commit() {
 
 void Solver::rollback() {
     if (!pending_) fail(DELAM_ERROR_STATE, "nothing to roll back: no step is pending");
-    looked_ = nullptr;
+    selected_ = nullptr;
     pending_.reset();
     forget();
 }
@@ -193,7 +193,7 @@ std::vector<std::int64_t> Solver::changed_histories() const {
     return changed;
 }
 
-std::vector<double> Solver::step_tangent() const {
+std::vector<double> Solver::step_tangent() {
     if (!pending_ || pending_->state.step == committed_.step)
         fail(DELAM_ERROR_STATE, "step tangent: no step is pending");
     if (!pending_->revised.empty())
@@ -205,7 +205,7 @@ std::vector<double> Solver::step_tangent() const {
     return stepper_.step_tangent(committed_, pending_->state);
 }
 
-void Solver::look(std::int64_t step) {
+void Solver::select(std::int64_t step) {
     const State* found = nullptr;
     if (step != -1) {
         const std::int64_t present = pending_ ? pending_->state.step : committed_.step;
@@ -220,7 +220,7 @@ void Solver::look(std::int64_t step) {
         if (found == nullptr)
             found = step == committed_.step ? &committed_ : &past_[static_cast<std::size_t>(step - past_.front().step)];
     }
-    looked_ = found;
+    selected_ = found;
     forget();
 }
 
@@ -236,14 +236,14 @@ std::vector<JumpEvent> Solver::jumps(bool pending) const {
 
 void Solver::restore(State restored, std::vector<State> past, std::vector<JumpEvent> jumps,
                      std::vector<Pattern> patterns, Record record) {
-    stepper_.op().recall(restored.memory);
+    stepper_.recall(restored);
     problem_.patterns = std::move(patterns);
     committed_ = std::move(restored);
     past_ = std::move(past);
     jumps_ = std::move(jumps);
     record_ = std::move(record);
     pending_.reset();
-    looked_ = nullptr;
+    selected_ = nullptr;
     forget();
 }
 
@@ -278,7 +278,8 @@ void Solver::warn_of_unresolved_front(const State& before, const State& after) {
         if (!now || !now->law.softens()) continue;
         bool grown = false;
         for (std::size_t p = 0; p < now->adhesion.size(); ++p)
-            grown = grown || (!spent(*then, static_cast<std::int64_t>(p)) && spent(*now, static_cast<std::int64_t>(p)));
+            grown = grown ||
+                    (!exhausted(*then, static_cast<std::int64_t>(p)) && exhausted(*now, static_cast<std::int64_t>(p)));
         if (!grown) continue;
         double pairs = -1.0;
         for (const CrackedInterface* state : {&*then, &*now})

@@ -46,15 +46,15 @@ public:
     // Hash of the scene at the solver's creation.
     std::uint64_t scene_hash() const { return scene_hash_; }
     // Makes state() that of an earlier kept step, of the pending chain or the committed one; -1: the present one.
-    void look(std::int64_t step);
+    void select(std::int64_t step);
     // The first step that can be read and returned to.
     std::int64_t first_kept() const { return past_.empty() ? committed_.step : past_.front().step; }
 
     const Problem& problem() const { return problem_; }
     // Outcome of the displacement step of the initial state.
     const Outcome& initial_outcome() const { return initial_outcome_; }
-    // The state being read if look() selected one, otherwise the pending or the committed one.
-    const State& state() const { return looked_ != nullptr ? *looked_ : pending_ ? pending_->state : committed_; }
+    // The state being read if select() selected one, otherwise the pending or the committed one.
+    const State& state() const { return selected_ != nullptr ? *selected_ : pending_ ? pending_->state : committed_; }
     const State& committed() const { return committed_; }
     // Kept steps before the committed one, oldest first.
     const std::vector<State>& past() const { return past_; }
@@ -75,9 +75,9 @@ public:
     // Forces of the device, [constraints].
     std::vector<double> reaction() const { return stepper_.op().reaction(state().theta, state().response); }
     // d2E / dtheta2 at fixed adhesion and contact set of state(), [patterns][patterns].
-    std::vector<double> tangent() const { return stepper_.tangent(state()); }
+    std::vector<double> tangent() { return stepper_.tangent(state()); }
     // Consistent tangent of the pending step, [patterns][patterns].
-    std::vector<double> step_tangent() const;
+    std::vector<double> step_tangent();
     // How often displacements were recovered.
     std::int64_t recoveries() const { return stepper_.op().recoveries(); }
     const JumpOperator& jump_operator() const { return stepper_.op(); }
@@ -132,7 +132,7 @@ private:
     std::vector<JumpEvent> jumps_;
     Record record_;
     std::optional<Pending> pending_;
-    const State* looked_ = nullptr;
+    const State* selected_ = nullptr;
     std::string searched_;
     mutable std::vector<double> displacement_;                            // of state(), empty: not recovered
     mutable std::vector<std::optional<std::vector<CrackFront>>> fronts_;  // likewise, [interfaces]

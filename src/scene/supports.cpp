@@ -101,9 +101,9 @@ struct Frame {
     double length = 0.0;
 };
 
-class Search {
+class MotionFinder {
 public:
-    Search(const Problem& problem, bool tied)
+    MotionFinder(const Problem& problem, bool tied)
         : problem_(problem),
           mesh_(*problem.mesh),
           carriers_(problem),
@@ -162,7 +162,7 @@ private:
     std::string words(const Frame& f, const double* motion) const;
 };
 
-void Search::take_pieces() {
+void MotionFinder::take_pieces() {
     node_piece_ = pieces_.of_node;
     for (const Pieces::Hinge& hinge : pieces_.hinges)
         ties_.push_back({index(hinge.piece_a), index(hinge.piece_b), place(hinge.node)});
@@ -173,7 +173,7 @@ void Search::take_pieces() {
 
 // A tied node moves with the piece to which it is tied, because its combination is exact for rigid motions. A control
 // node has no position, so pairs with one are rows.
-void Search::find_ties(bool tied) {
+void MotionFinder::find_ties(bool tied) {
     for (std::size_t i = 0; i < problem_.interfaces.size(); ++i) {
         const InterfaceGeometry& face = mesh_.interfaces()[i];
         const InterfaceProperties& interface = problem_.interfaces[i];
@@ -210,7 +210,7 @@ void Search::find_ties(bool tied) {
     }
 }
 
-void Search::measure() {
+void MotionFinder::measure() {
     std::map<std::size_t, std::array<Point, 2>> box;
     for (std::int64_t node = 0; node < mesh_.node_count(); ++node) {
         if (node_piece_[index(node)] < 0) continue;
@@ -235,7 +235,7 @@ void Search::measure() {
 }
 
 // Whether ties at these positions leave no relative motion.
-bool Search::rigid(const std::vector<Point>& places, double length) const {
+bool MotionFinder::rigid(const std::vector<Point>& places, double length) const {
     Frame f;
     f.length = length;
     for (const Point& p : places) {
@@ -256,7 +256,7 @@ bool Search::rigid(const std::vector<Point>& places, double length) const {
     return null_space(std::move(g), modes_).empty();
 }
 
-void Search::merge() {
+void MotionFinder::merge() {
     for (bool merged = true; merged;) {
         merged = false;
         measure();
@@ -275,7 +275,7 @@ void Search::merge() {
     }
 }
 
-std::vector<double> Search::gram(const std::vector<std::size_t>& cluster) {
+std::vector<double> MotionFinder::gram(const std::vector<std::size_t>& cluster) {
     const std::size_t n = cluster.size() * modes_;
     std::map<std::size_t, std::size_t> offset;
     for (std::size_t i = 0; i < cluster.size(); ++i) offset[cluster[i]] = i * modes_;
@@ -321,7 +321,7 @@ std::vector<double> Search::gram(const std::vector<std::size_t>& cluster) {
     return g;
 }
 
-std::string Search::words(const Frame& f, const double* motion) const {
+std::string MotionFinder::words(const Frame& f, const double* motion) const {
     Point t{};
     Point w{};
     for (std::size_t d = 0; d < dimension_; ++d) t[d] = motion[d];
@@ -358,7 +358,7 @@ std::string Search::words(const Frame& f, const double* motion) const {
                 " through ", tidy(foot, f.length));
 }
 
-FreeMotion Search::describe(const std::vector<std::size_t>& cluster, const std::vector<double>& motion) {
+FreeMotion MotionFinder::describe(const std::vector<std::size_t>& cluster, const std::vector<double>& motion) {
     FreeMotion free{{}, {}, "", 0.0, -1};
     double largest = 0.0;
     std::size_t mover = 0;
@@ -412,7 +412,7 @@ FreeMotion Search::describe(const std::vector<std::size_t>& cluster, const std::
 
 // Free translations of the whole cluster come first, because they are easiest to read; the rest is made orthogonal to
 // them.
-std::vector<FreeMotion> Search::examine(const std::vector<std::size_t>& cluster) {
+std::vector<FreeMotion> MotionFinder::examine(const std::vector<std::size_t>& cluster) {
     const std::size_t n = cluster.size() * modes_;
     const std::vector<double> g = gram(cluster);
     double largest = 0.0;
@@ -448,7 +448,7 @@ std::vector<FreeMotion> Search::examine(const std::vector<std::size_t>& cluster)
     return list;
 }
 
-std::vector<FreeMotion> Search::run() {
+std::vector<FreeMotion> MotionFinder::run() {
     Sets clusters(pieces_.count() + carriers_.controls().size());
     for (const Tie& tie : ties_) clusters.join(groups_.find(tie.piece_a), groups_.find(tie.piece_b));
     for (const Row& row : rows_)
@@ -465,6 +465,6 @@ std::vector<FreeMotion> Search::run() {
 
 }  // namespace
 
-std::vector<FreeMotion> free_motions(const Problem& problem, bool tied) { return Search(problem, tied).run(); }
+std::vector<FreeMotion> free_motions(const Problem& problem, bool tied) { return MotionFinder(problem, tied).run(); }
 
 }  // namespace delam

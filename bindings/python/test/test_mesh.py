@@ -37,6 +37,22 @@ class Arrays(unittest.TestCase):
                          {"tri3": 3, "quad4": 4, "tri6": 3, "quad8": 4, "quad9": 4})
         self.assertEqual(set(NAMES.values()), set(delam.CELLS), "names in meshio")
 
+    def test_faces_and_middle_nodes_of_cell_types(self):
+        for name, cell in CELL_TYPES.items():
+            with self.subTest(name):
+                self.assertEqual(cell.middle.shape, (cell.nodes - cell.corners, 2))
+                self.assertTrue(np.all(cell.faces[:, :cell.face_corners] < cell.corners))
+                # Every corner belongs to as many faces as the dimension, of all types so far.
+                self.assertEqual([np.count_nonzero(cell.faces == c) for c in range(cell.corners)],
+                                 [cell.dimension] * cell.corners)
+                for face in cell.faces:
+                    # The middle node of an edge of a face lies between the corners before and after it.
+                    corners, between = face[:cell.face_corners], face[cell.face_corners:]
+                    for k, node in enumerate(between):
+                        ends = {int(corners[k]), int(corners[(k + 1) % len(corners)])}
+                        self.assertEqual(set(cell.middle[node - cell.corners].tolist()), ends)
+        self.assertEqual(CELL_TYPES["quad4"].faces.tolist(), [[0, 1], [1, 2], [2, 3], [3, 0]])
+
     def test_cells_come_out_by_type(self):
         mesh = delam.Mesh(SQUARES)
         mesh.add_cells("quad4", [[0, 1, 2, 3]])

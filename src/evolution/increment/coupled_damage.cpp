@@ -22,10 +22,10 @@ constexpr int halvings = 50;
 constexpr double least = 1e-12;  // adhesion below which a law that never debonds completely is not followed
 constexpr double tiny = 1e-12;   // of a diagonal entry: keeps the matrix definite where nothing has curvature
 
-class Problem {
+class BoundedProblem {
 public:
-    Problem(const GradientTerm& term, const Law& law, std::span<const Toughness> toughness,
-            std::span<const double> driving, std::span<const double> upper)
+    BoundedProblem(const GradientTerm& term, const Law& law, std::span<const Toughness> toughness,
+                   std::span<const double> driving, std::span<const double> upper)
         : term_(term), law_(law), toughness_(toughness), driving_(driving), upper_(upper), free_(upper.size(), 0) {
         for (std::size_t i = 0; i < upper.size(); ++i) free_[i] = term.coupled(i) && upper[i] > 0.0 ? 1 : 0;
         for (std::size_t i = 0; i < upper.size(); ++i)
@@ -62,13 +62,13 @@ private:
     double scale_ = 0.0;
 };
 
-Problem::Values Problem::slope(const Values& z) const {
+BoundedProblem::Values BoundedProblem::slope(const Values& z) const {
     Values d = term_.force(z);
     for (std::size_t i = 0; i < z.size(); ++i) d[i] = free_[i] != 0 ? d[i] + term_.weight()[i] * excess(i, z[i]) : 0.0;
     return d;
 }
 
-double Problem::change(const Values& from, const Values& to) const {
+double BoundedProblem::change(const Values& from, const Values& to) const {
     double sum = term_.energy(to) - term_.energy(from);
     for (std::size_t i = 0; i < from.size(); ++i)
         if (free_[i] != 0 && to[i] != from[i])
@@ -78,7 +78,7 @@ double Problem::change(const Values& from, const Values& to) const {
 }
 
 // w c; slope = dF/dz of the pair, so that -slope/w = Y(z) - q.
-double Problem::curvature(std::size_t i, double z, double slope) const {
+double BoundedProblem::curvature(std::size_t i, double z, double slope) const {
     const double weight = term_.weight()[i];
     const double load = resistance(i, z) + slope / weight;
     const double target = law_.minimiser(toughness_[i], std::max(0.0, load), upper_[i]);
@@ -89,7 +89,7 @@ double Problem::curvature(std::size_t i, double z, double slope) const {
 
 // The pointwise solution smoothed over the length that balances kappa against the law's own curvature: it lies between
 // the bounds nearly everywhere, so that the first Newton steps involve all pairs.
-Problem::Values Problem::smoothed(std::span<const double> pointwise) const {
+BoundedProblem::Values BoundedProblem::smoothed(std::span<const double> pointwise) const {
     Values diag(pointwise.size(), 0.0), right(pointwise.size(), 0.0), z(pointwise.begin(), pointwise.end());
     std::vector<std::uint8_t> held(pointwise.size(), 1);
     for (std::size_t i = 0; i < diag.size(); ++i) {
@@ -105,7 +105,7 @@ Problem::Values Problem::smoothed(std::span<const double> pointwise) const {
     return z;
 }
 
-double Problem::residual(const Values& z, const Values& slope, const Values& curvature) const {
+double BoundedProblem::residual(const Values& z, const Values& slope, const Values& curvature) const {
     double worst = 0.0;
     for (std::size_t i = 0; i < z.size(); ++i)
         if (free_[i] != 0)
@@ -114,7 +114,7 @@ double Problem::residual(const Values& z, const Values& slope, const Values& cur
 }
 
 // Along the projected path z(a) = P(z + a step), a = 1, 1/2, 1/4 ...
-bool Problem::descend(Values& z, const Values& slope, const Values& step, double& part) const {
+bool BoundedProblem::descend(Values& z, const Values& slope, const Values& step, double& part) const {
     Values to(z.size());
     part = 1.0;
     for (int k = 0; k < halvings; ++k, part *= 0.5) {
@@ -138,7 +138,7 @@ bool Problem::descend(Values& z, const Values& slope, const Values& step, double
     return false;
 }
 
-CoupledDamage Problem::solve(std::span<const double> pointwise, std::span<const double> start) const {
+CoupledDamage BoundedProblem::solve(std::span<const double> pointwise, std::span<const double> start) const {
     CoupledDamage result;
     const std::size_t n = upper_.size();
     Values z(pointwise.begin(), pointwise.end()), warm = z;
@@ -197,7 +197,7 @@ CoupledDamage Problem::solve(std::span<const double> pointwise, std::span<const 
 CoupledDamage coupled_damage(const GradientTerm& term, const Law& law, std::span<const Toughness> toughness,
                              std::span<const double> driving, std::span<const double> adhesion_old,
                              std::span<const double> pointwise, std::span<const double> start) {
-    return Problem(term, law, toughness, driving, adhesion_old).solve(pointwise, start);
+    return BoundedProblem(term, law, toughness, driving, adhesion_old).solve(pointwise, start);
 }
 
 }  // namespace delam

@@ -73,7 +73,7 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
     }
 }
 
-Minimiser Stepper::minimiser() const {
+Minimiser Stepper::minimiser() {
     return {*operator_, contact_, monitor_, problem_.options.damage_tolerance, problem_.options.minimisation_limit};
 }
 
@@ -104,7 +104,7 @@ Stepper::Result Stepper::initial(double time) {
     return result;
 }
 
-void Stepper::begin(State& next, const State& before, double time) const {
+void Stepper::begin(State& next, const State& before, double time) {
     next.time = time;
     next.theta = problem_.factors(time);
     next.effort = {};
@@ -127,7 +127,7 @@ void Stepper::book_step(State& next, const Increment& step) const {
 }
 
 // Starts from the adhesion and the mixity of `next`.
-bool Stepper::minimise(State& next, const Increment& step) const {
+bool Stepper::minimise(State& next, const Increment& step) {
     const std::unique_ptr<Increment> own = step.starting_at(next.mixity);
     const bool converged = problem_.options.minimisation == "alternate" ? minimiser().alternate(next, *own)
                                                                         : minimiser().accelerate(next, *own);
@@ -141,7 +141,7 @@ bool Stepper::minimise(State& next, const Increment& step) const {
 // Beyond the limit of a dead load, alternation takes adhesion to zero by ever smaller steps and displacements to
 // infinity: adhesion below the tolerance does not hold a part. Without that adhesion the displacement step finds no
 // equilibrium (DELAM_LIMIT).
-void Stepper::refuse_runaway(const State& state, const Increment& step) const {
+void Stepper::refuse_runaway(const State& state, const Increment& step) {
     bool dead = false, faint = false;
     for (std::size_t p = 0; p < state.theta.size(); ++p)
         dead = dead || (problem_.patterns[p].drives == Pattern::Drives::force && state.theta[p] != 0.0);
@@ -166,7 +166,7 @@ double Stepper::lower_excess(const State& state) const {
 }
 
 // Before the first load there is no jump that gives a mixity; the elastic solution of the step itself gives it.
-bool Stepper::start(State& next, const State& before, double time) const {
+bool Stepper::start(State& next, const State& before, double time) {
     next = before;
     begin(next, before, time);
     ++next.step;
@@ -203,7 +203,7 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
 }
 
 // Minimises from another start and keeps the lower state. All effort is counted.
-void Stepper::keep_lower(Result& best, State other, const Increment& step) const {
+void Stepper::keep_lower(Result& best, State other, const Increment& step) {
     const bool converged = minimise(other, step);
     const Effort effort = other.effort;
     if (other.ledger.increment < best.state.ledger.increment - rounding * scale_of(best.state.ledger))
@@ -213,7 +213,7 @@ void Stepper::keep_lower(Result& best, State other, const Increment& step) const
 
 // A zone's energy keeps the contact outside as it was and may be too low, so candidates that seem lower than the kept
 // state are checked by displacement steps of their own. Returns the lowest candidate.
-double Stepper::hold_against(Result& best, const SearchResult& found, const Increment& step) const {
+double Stepper::hold_against(Result& best, const SearchResult& found, const Increment& step) {
     double lowest = std::numeric_limits<double>::infinity();
     bool held = false;
     for (const Candidate& candidate : found.starts) {
@@ -247,9 +247,9 @@ void Stepper::search(Result& best, const Increment& step) {
     if (!twin_) operator_->recall(from.memory);
     std::size_t minimised = 0;
     for (const Candidate& candidate : found.starts) {
-        const double spent = dissipation(pairs_, candidate.mixity, before.adhesion, candidate.adhesion);
+        const double dissipated = dissipation(pairs_, candidate.mixity, before.adhesion, candidate.adhesion);
         if (minimised == most_starts) break;
-        if (candidate.incremental > level + promising * spent) continue;
+        if (candidate.incremental > level + promising * dissipated) continue;
         ++minimised;
         State other = best.state;
         other.adhesion = candidate.adhesion;
@@ -288,11 +288,11 @@ Stepper::Result Stepper::equilibrate(const State& before, double time, std::span
     return result;
 }
 
-std::vector<double> Stepper::tangent(const State& state) const {
+std::vector<double> Stepper::tangent(const State& state) {
     return Linearised(*operator_, pairs_, contact_, state).tangent(problem_.patterns);
 }
 
-std::vector<double> Stepper::step_tangent(const State& before, const State& state) const {
+std::vector<double> Stepper::step_tangent(const State& before, const State& state) {
     return Linearised(*operator_, pairs_, contact_, state)
         .step_tangent(problem_.patterns, *increment(before, state.mixity));
 }

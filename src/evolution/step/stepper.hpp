@@ -43,16 +43,18 @@ public:
     // Displacements alone, at the state's adhesion and a time.
     Result equilibrate(const State& before, double time, std::span<const double> adhesion);
     // d2E / dtheta2 at the state's adhesion and contact set, [patterns][patterns].
-    std::vector<double> tangent(const State& state) const;
+    std::vector<double> tangent(const State& state);
     // d conjugate / d theta of a step from `before` to `state` (step_tangent.hpp).
-    std::vector<double> step_tangent(const State& before, const State& state) const;
+    std::vector<double> step_tangent(const State& before, const State& state);
     // Whether the lower bound of a step fails by more than eta, so that a state lower than `before` exists at its own
     // time. Relative excess over the larger of energy and work.
     double lower_excess(const State& state) const;
 
     const PairLaws& pairs() const { return pairs_; }
     const ContactScene& contact() const { return contact_; }
-    JumpOperator& op() const { return *operator_; }
+    const JumpOperator& op() const { return *operator_; }
+    // Gives the operator the memory that it had at a state.
+    void recall(const State& state) { operator_->recall(state.memory); }
     const ReductionChoice& reduction() const { return reduction_; }
     const std::vector<double>& initial_adhesion() const { return initial_adhesion_; }
     // Warns the host about the mixity of a kept step.
@@ -61,16 +63,16 @@ public:
     const std::string& searched() const { return searched_; }
 
 private:
-    Minimiser minimiser() const;
-    void begin(State& next, const State& before, double time) const;
+    Minimiser minimiser();
+    void begin(State& next, const State& before, double time);
     std::unique_ptr<Increment> increment(const State& before, std::span<const double> mixity) const;
     // The state from which the minimisations of a step begin; false: its elastic displacements reached a limit.
-    bool start(State& next, const State& before, double time) const;
-    bool minimise(State& next, const Increment& step) const;
-    void refuse_runaway(const State& state, const Increment& step) const;
+    bool start(State& next, const State& before, double time);
+    bool minimise(State& next, const Increment& step);
+    void refuse_runaway(const State& state, const Increment& step);
     void book_step(State& next, const Increment& step) const;
-    void keep_lower(Result& best, State other, const Increment& step) const;
-    double hold_against(Result& best, const SearchResult& found, const Increment& step) const;
+    void keep_lower(Result& best, State other, const Increment& step);
+    double hold_against(Result& best, const SearchResult& found, const Increment& step);
     void search(Result& best, const Increment& step);
 
     const Problem& problem_;

@@ -20,6 +20,9 @@ class CellType(NamedTuple):
     nodes: int
     dimension: int
     corners: int
+    faces: np.ndarray  # [faces][nodes of a face], local nodes: corners in outward order, then middle nodes
+    face_corners: int
+    middle: np.ndarray  # [nodes - corners][2], the corners on either side of each middle node
 
 
 def cell_types():
@@ -27,9 +30,13 @@ def cell_types():
     found = {}
     for index in range(library.delam_cell_type_count()):
         name = ctypes.c_char_p()
-        type_, dimension, nodes, corners = (ctypes.c_int32() for _ in range(4))
-        library.delam_cell_type_info(index, name, type_, dimension, nodes, corners, None, None, None)
-        found[name.value.decode()] = CellType(type_.value, nodes.value, dimension.value, corners.value)
+        type_, dimension, nodes, corners, faces, face_nodes, face_corners = (ctypes.c_int32() for _ in range(7))
+        library.delam_cell_type_info(index, name, type_, dimension, nodes, corners, faces, face_nodes, face_corners)
+        face = np.empty((faces.value, face_nodes.value), np.int32)
+        middle = np.empty((nodes.value - corners.value, 2), np.int32)
+        library.delam_cell_type_topology(index, pointer(face), pointer(middle))
+        found[name.value.decode()] = CellType(type_.value, nodes.value, dimension.value, corners.value, face,
+                                              face_corners.value, middle)
     return found
 
 
