@@ -3,8 +3,11 @@
 
 #include <sys/mman.h>
 
+#include <cstddef>
+#include <memory>
 #include <mutex>
 #include <new>
+#include <vector>
 
 extern "C" {
 int openblas_get_num_threads() __attribute__((weak));
@@ -22,6 +25,11 @@ constexpr std::size_t blas_buffer = std::size_t{128} << 20;
 }  // namespace
 
 void require_room(std::size_t bytes) { ::operator delete(::operator new(bytes)); }
+
+void require_room(std::size_t bytes, std::size_t part) {
+    std::vector<std::unique_ptr<std::byte[]>> parts(bytes / part + 1);
+    for (auto& p : parts) p = std::make_unique_for_overwrite<std::byte[]>(part);
+}
 
 // OpenBLAS retries for ever a mapping that the system refuses, and never releases one that it got.
 void prepare_blas() {

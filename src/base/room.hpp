@@ -9,6 +9,9 @@ namespace delam {
 
 // Allocates and frees a block of this size. Throws std::bad_alloc if it is not available.
 void require_room(std::size_t bytes);
+// The same in parts of this size, for a library that takes its memory in parts: the heap may hold a part although it
+// has no block of the whole size, and the other way round.
+void require_room(std::size_t bytes, std::size_t part);
 
 // Makes OpenBLAS map its working memory, once per process. Throws std::bad_alloc if there is no room for it.
 void prepare_blas();

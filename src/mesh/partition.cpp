@@ -68,8 +68,12 @@ private:
 
 // METIS prints a message if an allocation fails. Its maximal memory was measured on grids: up to 43 bytes per vertex or
 // neighbour, in small parts, and at least 100 KiB.
+constexpr std::size_t metis_part = 49152;  // bytes of its first large allocation
+
 void require_room_for_metis(const Graph& graph) {
-    require_room((std::size_t{1} << 17) + 48 * (graph.size() + graph.neighbour.size()));
+    const std::size_t bytes = (std::size_t{1} << 17) + 48 * (graph.size() + graph.neighbour.size());
+    require_room(bytes);
+    require_room(bytes, metis_part);
 }
 
 Parts cut_with_metis(Graph& graph, idx_t parts) {

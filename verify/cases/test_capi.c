@@ -440,7 +440,8 @@ START_TEST(loads) {
     unchanged();
     fine(delam_problem_add_pattern(problem, "p", 2, times, values, &pattern));
     fine(delam_problem_add_pattern(problem, "q", 2, times, values, &other));
-    expect(delam_problem_add_pattern(problem, "p", 2, times, values, &pattern), DELAM_ERROR_ARGUMENT, "'p' is taken");
+    expect(delam_problem_add_pattern(problem, "p", 2, times, values, &pattern), DELAM_ERROR_ARGUMENT,
+           "'p' is already the name of another pattern");
     ck_assert_str_eq(delam_problem_pattern_name(problem, other), "q");
     ck_assert_ptr_null(delam_problem_pattern_name(problem, 2));
 

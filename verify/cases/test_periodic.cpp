@@ -216,7 +216,7 @@ CASE_TEST(refused) {
     };
     Scene scene = cases::plies_with_controls(2, 2);
     cases::expect(status(scene, {0.04, 0.0, 0.08, 0.0}, {0, 1}) == DELAM_ERROR_ARGUMENT, "dependent periods");
-    says(scene, "depend on each other");
+    says(scene, "linearly dependent");
     cases::expect(status(scene, {0.05, 0.0}, {0}) == DELAM_ERROR_MESH, "another length");
     says(scene, "periods long in direction 0");
     cases::expect(status(scene, {0.04, 0.0}, {7}) == DELAM_ERROR_ARGUMENT, "a node of a body as control node");
