@@ -41,9 +41,11 @@ struct LawKind {
     Toughnesses toughnesses;
 };
 
-// A parameter that one shape alone has: a number, or (get and set null) the table of delam_law_set_table.
+// A parameter that one shape alone has: a number, or the table of delam_law_set_table, which has no get and set.
 template <class Shape>
 struct ShapeParameter {
+    enum class Type { real, table };
+    Type type;
     const char* key;
     const char* unit;
     const char* initial;  // "": must be given

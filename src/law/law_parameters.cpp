@@ -87,8 +87,9 @@ constexpr std::size_t own_count() {
 template <class Shape, std::size_t I>
 constexpr LawParameter own(std::size_t kind) {
     constexpr ShapeParameter<Shape> p = Shape::parameters[I];
-    LawParameter row{p.key, p.get != nullptr ? "real" : "table", p.unit, p.initial, p.range, p.meaning, bit(kind), any};
-    if constexpr (p.get != nullptr) {
+    constexpr bool real = p.type == ShapeParameter<Shape>::Type::real;
+    LawParameter row{p.key, real ? "real" : "table", p.unit, p.initial, p.range, p.meaning, bit(kind), any};
+    if constexpr (real) {
         row.read = read<Shape, I>;
         row.write = write<Shape, I>;
     }

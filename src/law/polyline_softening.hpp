@@ -81,8 +81,9 @@ public:
         "traction stays at its peak on the part `plateau` of the way from onset to end, then falls on a straight line",
         Toughnesses::onset_and_total};
     static constexpr ShapeParameter<TrapezoidalSoftening> parameters[] = {
-        {"plateau", "-", "", below_one, "part of the way from onset to end on which the traction stays at its peak",
-         &TrapezoidalSoftening::plateau, &TrapezoidalSoftening::set_plateau}};
+        {ShapeParameter<TrapezoidalSoftening>::Type::real, "plateau", "-", "", below_one,
+         "part of the way from onset to end on which the traction stays at its peak", &TrapezoidalSoftening::plateau,
+         &TrapezoidalSoftening::set_plateau}};
 };
 
 class TabulatedSoftening : public PolylineSoftening {
@@ -97,13 +98,13 @@ public:
     static constexpr LawKind kind{"tabulated", "traction follows the points of delam_law_set_table",
                                   Toughnesses::onset_and_total};
     static constexpr ShapeParameter<TabulatedSoftening> parameters[] = {
-        {"softening",
+        {ShapeParameter<TabulatedSoftening>::Type::table,
+         "softening",
          "-",
          "",
          {"from (0, 1) to (1, 0), first column not falling, second not rising", 0.0, 1.0, false, false},
          "points (xi, s): jump beyond the onset over its largest, traction over its peak; scaled so that the area is "
-         "the "
-         "toughness"}};
+         "the toughness"}};
 };
 
 }  // namespace delam
