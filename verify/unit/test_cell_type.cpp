@@ -162,8 +162,9 @@ START_TEST(unknown_faces_are_refused) {
             expect_refusal(DELAM_ERROR_INTERNAL, "no cell has faces of " + std::to_string(nodes) + " nodes in ",
                            [&] { face_pieces(dimension, nodes); });
         }
-    ck_assert_str_eq(face_sizes(2).c_str(), "2 or 3");
-    ck_assert_str_eq(face_sizes(3).c_str(), "3, 4, 6 or 8");
+    const std::string plane = face_sizes(2), space = face_sizes(3);
+    ck_assert_str_eq(plane.c_str(), "2 or 3");
+    ck_assert_str_eq(space.c_str(), "3, 4, 6 or 8");
 }
 END_TEST
 
