@@ -12,6 +12,21 @@ class Options(unittest.TestCase):
     def setUp(self):
         self.problem = support.double_cantilever()
 
+    def test_bounds_of_options_are_what_the_library_takes(self):
+        options = self.problem.options
+        self.assertIsNone(options.bounds("solution"))
+        for key, item in delam.options().items():
+            if item.type == "text":
+                continue
+            with self.subTest(key):
+                bounds = options.bounds(key)
+                self.assertIn(float(item.initial), bounds)
+                outside = bounds.lower if bounds.lower_open else bounds.lower - 1
+                self.assertNotIn(outside, bounds)
+                with self.assertRaises(delam.ArgumentError):
+                    options[key] = outside
+                self.assertEqual(options[key], type(options[key])(float(item.initial)))
+
     def test_mapping(self):
         options = self.problem.options
         self.assertEqual(set(options), set(delam.options()))

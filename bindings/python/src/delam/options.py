@@ -7,7 +7,7 @@ import functools
 
 from ._call import number, text
 from ._library import library
-from .law import described
+from .law import Bounds, described
 
 
 def options():
@@ -30,6 +30,19 @@ def aliases():
         library.delam_option_alias(index, ctypes.byref(alias))
         if alias.value:
             found[alias.value.decode()] = key
+    return found
+
+
+@functools.cache
+def bounds():
+    """Bounds of the options that are numbers: {key: Bounds}."""
+    found = {}
+    for index, parameter in enumerate(known().values()):
+        if parameter.type == "text":
+            continue
+        lower, upper, lower_open, upper_open = ctypes.c_double(), ctypes.c_double(), ctypes.c_int32(), ctypes.c_int32()
+        library.delam_option_bounds(index, lower, upper, lower_open, upper_open)
+        found[parameter.key] = Bounds(lower.value, upper.value, bool(lower_open), bool(upper_open))
     return found
 
 
@@ -92,6 +105,10 @@ class Options(collections.abc.MutableMapping):
 
     def info(self, key):
         return self._known[key_of(key)]
+
+    def bounds(self, key):
+        """Bounds of a number; None for a text."""
+        return bounds().get(key_of(key))
 
     def describe(self):
         """A line for each option: value, range, meaning."""
