@@ -25,7 +25,7 @@ double FrozenIncrement::cost(std::span<const double> mixity, std::span<const dou
     return dissipation(pairs_, mixity, before_.adhesion, adhesion);
 }
 
-void FrozenIncrement::book_rule(State& next, double /*energy_change*/, double /*energy_change_slides*/) const {
+void FrozenIncrement::book_rule(State& next, double /*energy_change_slides*/) const {
     next.ledger.dissipated_slides =
         before_.ledger.dissipated_slides + dissipation_slides(pairs_, next.mixity, before_.adhesion, next.adhesion);
 }

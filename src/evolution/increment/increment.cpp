@@ -110,7 +110,7 @@ void Increment::book(State& next) const {
     const double change = ledger.energy() - before_.ledger.energy();
     ledger.increment = change + dissipated;
     ledger.increment_lower = change + dissipation(pairs_, next.mixity_before, before_.adhesion, next.adhesion);
-    book_rule(next, change, ledger.energy_slides() - before_.ledger.energy_slides());
+    book_rule(next, ledger.energy_slides() - before_.ledger.energy_slides());
 }
 
 }  // namespace delam

@@ -96,7 +96,7 @@ std::vector<double> VariationalIncrement::shown(std::span<const double> jump, st
 }
 
 // The dissipation that is minimised has the mixity of the state before.
-void VariationalIncrement::book_rule(State& next, double /*energy_change*/, double energy_change_slides) const {
+void VariationalIncrement::book_rule(State& next, double energy_change_slides) const {
     Ledger& ledger = next.ledger;
     const double dissipated = dissipation_slides(pairs_, next.mixity_before, before_.adhesion, next.adhesion);
     const std::vector<double>& last = before_.loaded != 0 ? before_.mixity_before : next.mixity_before;

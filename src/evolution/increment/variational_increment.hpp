@@ -30,7 +30,7 @@ public:
 
 protected:
     const std::vector<double>& recorded() const override { return now_.own; }
-    void book_rule(State& next, double energy_change, double energy_change_slides) const override;
+    void book_rule(State& next, double energy_change_slides) const override;
 
 private:
     VariationalPair pair(std::size_t p) const {

@@ -13,6 +13,9 @@
 
 namespace delam {
 
+// Rows of the zones in which a search computes energies, at most.
+inline constexpr std::size_t largest_zone = 1500;
+
 struct CandidateEnergy {
     double value;                     // at the unit load; infinite: no equilibrium
     std::vector<std::int64_t> next;   // pairs that may break next

@@ -18,7 +18,6 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t seeds = 2;              // places per interface for a new crack besides the ends of lines
 constexpr std::ptrdiff_t most_contacts = 64;  // of the bound E_all
-constexpr std::size_t largest_zone = 1500;    // rows of a zone in which a whole interface comes off
 constexpr int rounds = 3;                     // of sweeps with the other fronts where they were best
 
 bool lower(const Candidate& a, const Candidate& b) { return a.incremental < b.incremental; }

@@ -12,9 +12,8 @@ namespace delam {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr std::size_t fine = 16;            // rings that are all sampled; of longer sweeps about as many
-constexpr std::size_t largest_zone = 1500;  // rows in which sweeps live where the operator offers zones
-constexpr std::size_t largest_crack = 32;   // rings of a new crack, and of the zone about it
+constexpr std::size_t fine = 16;           // rings that are all sampled; of longer sweeps about as many
+constexpr std::size_t largest_crack = 32;  // rings of a new crack, and of the zone about it
 
 }  // namespace
 
