@@ -15,27 +15,29 @@
  *   arrays     Arrays are contiguous; `[n][d]` is row-major in C and `(d,n)` in Fortran. The library copies inputs
  *              before the call returns, and writes outputs into the caller's buffer. Pointers must not be NULL unless
  *              the function allows it; an array may be NULL when its count is 0.
- *   indices    Indices are int64_t. Index arrays that are passed in count from `index_base` (0 or 1); single indices
- *              and all outputs count from 0.
- *   handles    Handles are opaque. A create function writes *out, or NULL on error. A destroy function takes the
- *              address of the handle, sets the handle to NULL and accepts NULL. Objects may be destroyed in any order.
- *              A foreign or destroyed handle gives DELAM_ERROR_HANDLE, as far as the library can recognise it.
+ *   indices    Indices are int64_t. Entries of input index arrays count from `index_base` (0 or 1); single indices and
+ *              all outputs count from 0.
+ *   handles    Handles are opaque. A create function stores the new handle in *out, or NULL if it makes none. A destroy
+ *              function takes the address of the handle, sets the handle to NULL and accepts NULL. Objects may be
+ *              destroyed in any order. A handle of another kind gives DELAM_ERROR_HANDLE, and so does a destroyed one
+ *              as far as the library can detect it.
  *   numbers    A number that is not finite is an error, and the message names it.
  *   threads    One thread at a time may use a context and the objects made with it. Different contexts are
  *              independent of each other. delam_context_cancel() alone may be called from any thread.
  *   callbacks  Inside a callback, delam_context_cancel() is the only function that may be called with the context and
- *              its objects. The others return DELAM_ERROR_STATE, or NULL or "" where they return a text. A callback
- *              must return; do not leave it by longjmp or an exception.
+ *              its objects. All other functions return DELAM_ERROR_STATE; those that return a text return NULL or "". A
+ *              callback must return; do not leave it by longjmp or an exception.
  *   promise    The library prints nothing, leaves no signal handler behind, lets no exception escape and never ends
  *              the process.
- *   names      out: receives the handle that the call makes. interface_index, pattern: as returned by the function that
- *              added the interface or pattern. index: place in a list, from 0 to its count - 1. body: label of cells;
- *              -1 means all bodies where the function allows it. capacity: number of entries that the array can hold;
- *              a negative or too small one gives DELAM_ERROR_ARGUMENT. user: handed to the callback unchanged.
+ *   names      out: receives the new handle. interface_index, pattern: as returned by the function that added the
+ *              interface or pattern. index: place in a list, from 0 to its count - 1. body: label of cells; -1 means
+ *              all bodies where the function allows it. capacity: number of entries that the array can hold;
+ *              DELAM_ERROR_ARGUMENT if it is negative, or too small and the function does not say that it writes as
+ *              many entries as fit. user: passed to the callback unchanged.
  *
  * The line in brackets
  *   The comment of every function and callback ends with a line in brackets, which states the rest of the contract in
- *   fixed words. A field that is absent adds nothing to the rules above. The fields, in their order:
+ *   fixed words. Where a field is absent, only the rules above apply. The fields, in their order:
  *   unit       name, unit and range of every parameter of type double. Inputs always have a range; "finite" means any
  *              finite number. A condition in parentheses applies to the array as a whole or to each vector in it. The
  *              unit is 1 for dimensionless numbers, t for the time of the load histories, and "of key" where it
@@ -44,14 +46,14 @@
  *   owns       pointers that outlive the call, and who frees or keeps them. "out caller": the caller frees *out with
  *              the object's destroy function. "static": valid as long as the library is loaded
  *   status     statuses that the function may return besides DELAM_OK. Every function with a handle may also return
- *              DELAM_ERROR_HANDLE, _MEMORY and _INTERNAL and, inside a callback, _STATE; the list leaves these out.
- *              "usual": these alone. "only": the list is complete without them. "-": the function returns no status
- *   thread     "any": any thread may call at any time. Absent: the rule for threads above
- *   source     publication or document that describes the method. "none": the function returns only what was given,
- *              counted or solved for elsewhere
+ *              DELAM_ERROR_HANDLE, _MEMORY and _INTERNAL and, inside a callback, _STATE; the list omits these. "usual":
+ *              only these. "only": nothing but the statuses listed. "-": the function returns no status
+ *   thread     "any": any thread may call at any time. If absent, the rule for threads above applies
+ *   source     publication or document that describes the method. "none": the function computes no new result; it
+ *              returns inputs, counts or results of other functions
  *   since      version of the library that introduced the function
- *   For a callback, which the library calls: null names the arguments that may be NULL; owns tells how long the
- *   arguments live; status tells how the running call ends when the callback returns a value other than 0; "thread
+ *   In the line of a callback, null names the arguments that the library may pass as NULL; owns tells how long the
+ *   arguments stay valid; status tells how the running call ends if the callback returns a value other than 0; "thread
  *   call's" means the thread of the running call.
  */
 #ifndef DELAM_DELAM_H
@@ -75,11 +77,11 @@ extern "C" {
 /* ---- statuses ---------------------------------------------------------------------------------------------------- */
 
 #define DELAM_OK 0
-#define DELAM_NOT_CONVERGED 1    /* a limit was reached, or forces do not balance; the best state found can be read */
+#define DELAM_NOT_CONVERGED 1    /* iteration limit reached or forces unbalanced; the best state found can be read */
 #define DELAM_CANCELLED 2        /* stopped on request; the state before the call is restored */
 #define DELAM_LIMIT 3            /* no equilibrium: a dead load acts on a part that nothing holds any more */
 #define DELAM_ERROR_ARGUMENT -1  /* a value out of range, a NULL pointer, an index past the end */
-#define DELAM_ERROR_HANDLE -2    /* a NULL or foreign handle */
+#define DELAM_ERROR_HANDLE -2    /* a handle that is NULL, destroyed or of another kind */
 #define DELAM_ERROR_MESH -3      /* inverted cell, shared node, unmatched faces */
 #define DELAM_ERROR_PROBLEM -4   /* incomplete or contradictory scene: missing material, missing support, bad law */
 #define DELAM_ERROR_STATE -5     /* a call out of order (e.g. advance while a step is pending) */
@@ -95,48 +97,49 @@ typedef struct delam_law delam_law;         /* traction-separation law of an int
 typedef struct delam_problem delam_problem; /* the scene: mesh, materials, laws, supports, loads, options */
 typedef struct delam_solver delam_solver;   /* operator, state and history of an analysis */
 
-/* Product version "major.minor.patch".
+/* Returns the product version, "major.minor.patch".
  * [owns result static; status -; thread any; since 0.1] */
 DELAM_API const char *delam_version(void);
-/* Commit that the library was built from, or "unknown".
+/* Returns the commit that the library was built from, or "unknown".
  * [owns result static; status -; thread any; since 0.1] */
 DELAM_API const char *delam_commit(void);
-/* DELAM_ABI of the library at run time (compare it with the header's).
+/* Returns the DELAM_ABI with which the loaded library was built. Compare it with the DELAM_ABI of this header.
  * [status -; thread any; since 0.1] */
 DELAM_API int32_t delam_abi(void);
-/* Name of a status, e.g. "DELAM_ERROR_MESH"; "unknown status" for other numbers.
+/* Returns the name of a status, e.g. "DELAM_ERROR_MESH", or "unknown status" for other numbers.
  * [owns result static; status -; thread any; since 0.1] */
 DELAM_API const char *delam_status_name(int32_t status);
-/* Number of threads that BLAS uses in this process; 0 if BLAS does not report it. The library does not change it (the
- * option threads sets the library's own threads). Runs give identical digits only with identical numbers of BLAS
- * threads.
+/* Returns the number of threads that BLAS uses in this process; 0 if BLAS does not report it. The library does not
+ * change this number (the option threads sets the library's own threads). Two runs give identical digits only with the
+ * same number of BLAS threads.
  * [status -; thread any; since 0.1] */
 DELAM_API int32_t delam_blas_threads(void);
 
 /* ---- context: messages, log, progress, cancel -------------------------------------------------------------------- */
 
-/* Receives log lines for people. level: 0 error, 1 warning, 2 information.
+/* Receives log lines, which are texts for people. level: 0 error, 1 warning, 2 information.
  * [null user; owns text until the callback returns; status -; thread call's; since 0.1] */
 typedef void (*delam_log_callback)(int32_t level, const char *text, void *user);
-/* Receives the progress of long calls, on the calling thread. stage: static text ("factor", "minimise", ...); done of
- * total: the progress within the stage (total 0: unknown). If the callback returns a value other than 0, the running
- * call stops with DELAM_CANCELLED. Calls that only read ignore the value, so that a host that has stopped an analysis
- * can still read its results: delam_mesh_find_patch, delam_problem_hash, _process_zone, _body_matrix, _constraints,
- * _forces, _eigenstrain_energy, delam_solver_value, _field, _average, _condensed.
+/* Receives the progress of long calls, on the calling thread. stage: static text ("factor", "minimise", ...); done,
+ * total: completed and total work of the stage (total 0: unknown). If the callback returns a value other than 0, the
+ * running call stops with DELAM_CANCELLED. Functions that only read ignore this value, so that a host that has stopped
+ * an analysis can still read its results. They are delam_mesh_find_patch; delam_problem_hash, _process_zone,
+ * _body_matrix, _constraints, _forces and _eigenstrain_energy; delam_solver_value, _field, _average and _condensed.
  * [null user; owns stage static; status cancelled; thread call's; since 0.1] */
 typedef int32_t (*delam_progress_callback)(const char *stage, int64_t done, int64_t total, void *user);
 
 /* Creates a context without callbacks; *out receives it.
  * [null none; owns out caller; status only argument, memory; thread any; since 0.1] */
 DELAM_API int32_t delam_context_create(delam_context **out);
-/* Destroys a context; the objects made with it live on.
+/* Destroys a context; the objects made with it remain usable.
  * [null context, *context; owns context destroyed; status -; since 0.1] */
 DELAM_API void delam_context_destroy(delam_context **context);
-/* Text of the last status other than DELAM_OK: what, where, value, allowed range. "" before the first; never NULL.
+/* Returns the text of the last status other than DELAM_OK: what is wrong, where, the value and the allowed range.
+ * Returns "" if there has been none; never NULL.
  * [owns result until the next call with this context or its objects; status -; since 0.1] */
 DELAM_API const char *delam_context_message(const delam_context *context);
-/* Sets the callback that receives log lines; NULL turns the log off. Errors and outcomes are logged as well as kept for
- * delam_context_message.
+/* Sets the callback that receives log lines; NULL turns the log off. Errors and outcomes go to the log too;
+ * delam_context_message returns their text in any case.
  * [null callback, user; owns callback and user: the host, until replaced or the last object of the context is gone;
  * status usual; since 0.1] */
 DELAM_API int32_t delam_context_set_log(delam_context *context, delam_log_callback callback, void *user);
@@ -144,11 +147,11 @@ DELAM_API int32_t delam_context_set_log(delam_context *context, delam_log_callba
  * [null callback, user; owns callback and user: as delam_context_set_log; status usual; since 0.1] */
 DELAM_API int32_t delam_context_set_progress(delam_context *context, delam_progress_callback callback, void *user);
 /* Asks the running call to stop at its next check. Any thread and any signal handler may call this function; it only
- * increments a lock-free counter. The call that stops consumes the request. A request waits if no call is running, if
- * the running call makes no further check, or if that call is refused for its arguments. It then stops the next call of
- * delam_solver_create, _advance, _equilibrate, _tangent, _step_tangent, _load, _load_file or
- * delam_problem_set_stiffness. The other functions that list `cancelled` build or read; only a request that arrives
- * while they run stops them.
+ * increments a lock-free counter. The call that it stops consumes the request. If no call is running, if the running
+ * call makes no further check, or if that call fails because of its arguments, the request waits and stops the next
+ * call of delam_solver_create, _advance, _equilibrate, _tangent, _step_tangent, _load, _load_file or
+ * delam_problem_set_stiffness. The other functions that list `cancelled` only build or read; a request stops them only
+ * if it arrives while they run.
  * [status only handle; thread any; since 0.1] */
 DELAM_API int32_t delam_context_cancel(delam_context *context);
 
@@ -161,8 +164,8 @@ DELAM_API int32_t delam_context_cancel(delam_context *context);
  *   tet10   0-1 1-2 2-0 0-3 1-3 2-3                              (Gmsh exchanges the last two)
  *   hex20   0-1 1-2 2-3 3-0  4-5 5-6 6-7 7-4  0-4 1-5 2-6 3-7    (Gmsh has another order)
  * Cells may be curved: a middle node need not lie exactly midway. Neighbouring cells share all nodes of their common
- * face. In bending, tri3, quad4, tet4 and hex8 are far too stiff unless many of them lie across the thickness. The
- * other types need few, and so do incompatible quad4 and hex8 (delam_problem_set_formulation). */
+ * face. In bending, tri3, quad4, tet4 and hex8 are far too stiff unless there are many of them across the thickness.
+ * With the other types, and with incompatible quad4 and hex8 (delam_problem_set_formulation), a few suffice. */
 #define DELAM_TRI3 1
 #define DELAM_QUAD4 2
 #define DELAM_TET4 3
@@ -184,10 +187,10 @@ DELAM_API int64_t delam_cell_type_count(void);
 DELAM_API int32_t delam_cell_type_info(int64_t index, const char **name, int32_t *cell_type, int32_t *dimension,
                                        int32_t *nodes, int32_t *corners, int32_t *faces, int32_t *face_nodes,
                                        int32_t *face_corners);
-/* Lists the local nodes, counted from 0, of the faces and middle nodes of a cell type, by the index of
- * delam_cell_type_info. face: [faces][face_nodes], the corners of each face in outward order, then its middle nodes,
- * the k-th between corners k and k+1. middle: [nodes-corners][2], the two corners on either side of each middle node;
- * the centre of quad9 lies midway between corners 0 and 2.
+/* Describes the faces and the middle nodes of a cell type, by the index of delam_cell_type_info, in local node numbers
+ * from 0. face: [faces][face_nodes], for each face its corners, in the order that gives an outward normal, then its
+ * middle nodes, of which the k-th lies between corners k and k+1. middle: [nodes-corners][2], for each middle node the
+ * two corners between which it lies; for the centre of quad9 these are corners 0 and 2.
  * [null face, middle; status only argument; thread any; since 0.1] */
 DELAM_API int32_t delam_cell_type_topology(int64_t index, int32_t *face, int32_t *middle);
 
@@ -200,8 +203,8 @@ DELAM_API int32_t delam_mesh_create(delam_context *context, int32_t dimension, i
  * its own; body 0 is at the bottom. The block starts at the origin.
  *   lengths, divisions  [dimension-1] extent (L) and number of cells along the other axes
  *   thickness, layer_divisions  [layer_count] thickness and number of cells of each layer
- *   cell_type           DELAM_TRI3 / QUAD4 / TRI6 / QUAD8 / QUAD9 in 2D, TET4 / HEX8 / TET10 / HEX20 in 3D; triangles
- *                       split each box into 2, tetrahedra into 6
+ *   cell_type           DELAM_TRI3 / QUAD4 / TRI6 / QUAD8 / QUAD9 in 2D, TET4 / HEX8 / TET10 / HEX20 in 3D; triangular
+ *                       cells split each box into 2, tetrahedral cells into 6
  * The nodes of neighbouring layers coincide; the function adds no interface. The nodes of a layer, middle nodes
  * included, are numbered with x running fastest and the last axis slowest.
  * [unit lengths L > 0, thickness L > 0; null none; owns out caller; status cancelled, argument, mesh; since 0.1] */
@@ -210,7 +213,7 @@ DELAM_API int32_t delam_mesh_create_layers(delam_context *context, int32_t dimen
                                            const int64_t *layer_divisions, int32_t cell_type, delam_mesh **out);
 
 /* Adds cells of one type, cell_type. connectivity: [cell_count][nodes of the type]; bodies: [cell_count] labels >= 0,
- * or NULL: all cells belong to body 0. DELAM_ERROR_MESH: a node belongs to two bodies, or a cell is inverted or
+ * or NULL if all cells belong to body 0. DELAM_ERROR_MESH: a node belongs to two bodies, or a cell is inverted or
  * degenerate. DELAM_ERROR_STATE: the body already has an interface; add all of its cells first.
  * [null bodies; status cancelled, argument, mesh, state; since 0.1] */
 DELAM_API int32_t delam_mesh_add_cells(delam_mesh *mesh, int32_t cell_type, int64_t cell_count,
@@ -219,11 +222,11 @@ DELAM_API int32_t delam_mesh_add_cells(delam_mesh *mesh, int32_t cell_type, int6
 /* Adds cells of a conforming mesh of touching bodies, as a mesher writes it. The arguments are those of
  * delam_mesh_add_cells (cell_type, connectivity: [cell_count][nodes of the type], bodies: [cell_count]), but bodies may
  * share nodes: the first body keeps the node, and every further body receives a copy at the same place. The copies are
- * appended to the mesh, one for each body and original node. This also holds over several calls, so that a body may
- * come in portions or in cells of several types. connectivity refers to the nodes that the mesh has before the
- * call, originals or copies. The number of nodes grows (delam_mesh_size); delam_mesh_node_origins returns the original
- * of each node. delam_mesh_add_all_interfaces then joins the bodies that share faces; it does not join bodies that
- * share only a corner, or in 3D only an edge. DELAM_ERROR_MESH: a cell is inverted or degenerate.
+ * appended to the mesh, one for each body and original node. Later calls use the same copies, so that a body may be
+ * added in portions or in cells of several types. connectivity refers to nodes, original or copied, that exist before
+ * the call. The number of nodes grows (delam_mesh_size); delam_mesh_node_origins returns the original of each node.
+ * delam_mesh_add_all_interfaces then joins the bodies that share faces; it does not join bodies that share only a
+ * corner, or in 3D only an edge. DELAM_ERROR_MESH: a cell is inverted or degenerate.
  * [null bodies; status cancelled, argument, mesh, state; since 0.1] */
 DELAM_API int32_t delam_mesh_add_conforming_cells(delam_mesh *mesh, int32_t cell_type, int64_t cell_count,
                                                   const int64_t *connectivity, const int32_t *bodies,
@@ -231,16 +234,17 @@ DELAM_API int32_t delam_mesh_add_conforming_cells(delam_mesh *mesh, int32_t cell
 
 /* Adds an interface that pairs the coinciding boundary faces of two bodies, a = body_a and b = body_b. *out_interface
  * receives its index; the first interface has index 0. The jump of a pair is u_b - u_a. The normal points from a to b,
- * so that a positive normal jump is an opening. tolerance: largest distance between two nodes that coincide, as a
- * fraction of the shortest edge of the two bodies (in quadratic cells: from corner to mid-side node); 0 selects 1e-6.
- * DELAM_ERROR_MESH: no face matches, or faces overlap without matching, mid-side nodes included; the message names the
- * first place.
+ * so that a positive normal jump is an opening. tolerance: largest distance at which two nodes count as coincident, as
+ * a fraction of the shortest edge of the two bodies (in quadratic cells: from corner to mid-side node); 0 selects 1e-6.
+ * DELAM_ERROR_MESH: no face matches, or faces overlap although their nodes, mid-side nodes included, do not coincide;
+ * the message names the first place.
  * The weight of a pair is the length (2D) or area (3D) that it represents, by nodal quadrature of the paired faces: the
  * trapezoidal rule on 2-node edges, Simpson's rule on 3-node edges, the vertex rule on faces. A 6-node triangle counts
- * as four triangles, and an 8-node face as four corner triangles and the quadrilateral of its mid-side nodes, also
- * where they are curved. All weights are positive; their sum is the size of the interface. On faces of tet10 and hex20
- * the weights are not proportional to the nodal forces of a uniform traction: on a stiff interface, middle nodes then
- * carry up to 1.3 (tet10) or 1.6 times (hex20) the traction, and corner nodes carry none or are in closed contact.
+ * as four triangles, and an 8-node face as four corner triangles and the quadrilateral of its mid-side nodes; the same
+ * holds for curved faces. All weights are positive; their sum is the size of the interface. On faces of tet10 and hex20
+ * the weights are not proportional to the nodal forces of a uniform traction. Under such a traction, the pairs of a
+ * stiff interface carry up to 1.3 times (tet10) or 1.6 times (hex20) the traction at middle nodes; at corner nodes they
+ * carry none or are in closed contact.
  * The pairs are sorted by coordinates, x first.
  * [unit tolerance 1 in [0, 0.5); null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_interface(delam_mesh *mesh, int32_t body_a, int32_t body_b, double tolerance,
@@ -255,56 +259,58 @@ DELAM_API int32_t delam_mesh_add_interface(delam_mesh *mesh, int32_t body_a, int
  * [unit tolerance 1 in [0, 0.5); null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_all_interfaces(delam_mesh *mesh, double tolerance, int64_t *out_count);
 /* Adds an interface between two bodies, a = body_a and b = body_b, whose meshes do not match. *out_interface receives
- * its index. The function pairs each face of b that lies on faces of a: not farther from them than the distance gap
- * (L; 0 selects 1e-6 of the shortest edge), with normals that are opposite within 60 degrees. It projects each node of
- * such a face onto a, to the nearest point of a's faces, and appends a tied node there, which has no cells. A tied node
- * moves with the face of a that it lies on: its displacement is sum_i N_i u_i over the nodes of that face, with the
- * shape functions N_i, also on curved faces (see delam_mesh_node_ties). node_a of a pair is the tied node and node_b
- * the node of b. Weights, faces and order of the pairs follow from b's faces as in delam_mesh_add_interface; so do the
- * normals, which point from a to b.
- * Take the body with the finer mesh as b. Linear displacements are continuous across a perfect bond either way, but a
- * receives the forces of a uniform traction through the N_i at b's nodes. These forces are exact if a's nodes are among
- * b's nodes (b refines a). Otherwise they leave an error in the cells at the interface, which falls with the square of
- * the ratio of the edge lengths. Largest error of a stress in a patch test, with 3 edges of a on 4, 7 and 13 edges of
- * b: 0.6, 0.18 and 0.05 % (quad4), 7.5, 2.3 and 0.6 % (hex8). With b coarser than a, nothing holds those nodes of a
- * that lie between nodes of b: 3 edges of a on 2 of b give 2.4 % (quad4) and 36 % (hex8).
- * Choose gap as large as the chords of curved faces need and no larger: if both bodies rotate by an angle, the jump is
- * that angle times the distance between a node and its projection. Each face of b must lie on a completely or not at
- * all; a may extend beyond b, and faces of b may lie beside the rim of a. DELAM_ERROR_MESH, with the place: a face of b
- * lies partly on a, no face of b lies on a, or the two bodies are already joined.
+ * its index. The function pairs each face of b that lies on faces of a. A face lies on them if its distance from them
+ * is at most gap (L; 0 selects 1e-6 of the shortest edge) and its normal is opposite to theirs within 60 degrees. The
+ * function projects each node of such a face to the nearest point of a's faces and appends a tied node there, a node
+ * without cells. A tied node moves with the face of a on which it lies: its displacement is sum_i N_i u_i over the
+ * nodes of that face, curved or not, with the shape functions N_i (see delam_mesh_node_ties). node_a of a pair is the
+ * tied node and node_b the node of b. Weights, faces and order of the pairs follow from b's faces as in
+ * delam_mesh_add_interface; so do the normals, which point from a to b.
+ * Take the body with the finer mesh as b. With either choice, linear displacements are continuous across a perfect
+ * bond. A uniform traction, however, reaches a as forces at b's nodes, which the N_i distribute to a's nodes. This
+ * distribution is exact if every node of a is also a node of b (b refines a). Otherwise it causes a stress error in the
+ * cells at the interface, which decreases with the square of the ratio of the edge lengths. In a patch test with 3
+ * edges of a on 4, 7 and 13 edges of b, the largest stress error is 0.6, 0.18 and 0.05 % (quad4), 7.5, 2.3 and 0.6 %
+ * (hex8). If b is coarser than a, nothing holds those nodes of a that lie between nodes of b: with 3 edges of a on 2 of
+ * b, the error is 2.4 % (quad4) and 36 % (hex8).
+ * Choose gap no larger than necessary for the distance between the chords of curved faces, because a rigid rotation of
+ * both bodies causes a spurious jump: the angle times the distance between a node and its projection. Each face of b
+ * must lie either completely on a or completely off it; a may extend beyond b, and b beyond the rim of a.
+ * DELAM_ERROR_MESH, with the place: a face of b lies partly on a, no face of b lies on a, or the two bodies are already
+ * joined.
  * [unit gap L >= 0; null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_projected_interface(delam_mesh *mesh, int32_t body_a, int32_t body_b, double gap,
                                                      int64_t *out_interface);
-/* Adds a rigid obstacle (loading nose, support, symmetry plane) that nodes of one body may touch. It moves by the
- * translation of control_node, a node of the mesh without cells (counted from 0, as all single indices are); obstacles
- * that move together have the same one. *out_interface receives the index of the new interface, which has a pair for
- * each node in the given order: node_a is the control node, body_a is -1, node_b is the node. The jump of a pair is
- * u_node - u_control.
+/* Adds a rigid obstacle (loading nose, support, symmetry plane) that nodes of one body may touch. It translates with
+ * control_node, a node of the mesh without cells (counted from 0, like all single indices); obstacles that move
+ * together share one control node. *out_interface receives the index of the new interface, which has a pair for each
+ * node in the given order: node_a is the control node, body_a is -1, node_b is the node. The jump of a pair is u_node -
+ * u_control.
  *   nodes    [count] of one body, each once
  *   normals  [count][dimension], of any length > 0, from the obstacle into the body
- *   weights  [count] > 0, length (2D) or area (3D) that each pair represents; NULL: weights as in
- *            delam_mesh_add_interface, from the boundary faces of the body that face the obstacle and have all their
- *            nodes in the list. A node of the list that lies on no such face is refused
+ *   weights  [count] > 0, length (2D) or area (3D) that each pair represents; NULL: the function computes them as
+ *            delam_mesh_add_interface does, from the boundary faces of the body that face the obstacle and have all
+ *            their nodes in the list; each node of the list must lie on such a face
  * [unit normals 1 finite (not 0), weights L or L2 > 0; null weights; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_obstacle(delam_mesh *mesh, int64_t count, const int64_t *nodes, const double *normals,
                                           const double *weights, int64_t control_node, int32_t index_base,
                                           int64_t *out_interface);
 /* Adds a body without cells, whose stiffness the host supplies (delam_problem_set_stiffness). nodes: [count] nodes of
- * the mesh that belong to no body yet, each once; body: a label >= 0 that no cell has. Interfaces of this body are made
- * of pairs (delam_mesh_add_pairs, or delam_mesh_add_obstacle with weights). Node positions affect only the rigid-body
- * modes and the output.
+ * the mesh that belong to no body yet, each once; body: a label >= 0 that no cell has. To add an interface of this
+ * body, supply its pairs (delam_mesh_add_pairs, or delam_mesh_add_obstacle with weights). Node positions affect only
+ * the rigid-body modes and the output.
  * [null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_host_body(delam_mesh *mesh, int32_t body, int64_t count, const int64_t *nodes,
                                            int32_t index_base);
 /* Adds an interface from pairs that the host supplies, between bodies with or without cells. The pairs keep their
- * order; *out_interface receives the index. The two nodes of a pair may lie apart: its jump is u_b - u_a.
+ * order; *out_interface receives the index. The two nodes of a pair need not coincide; its jump is u_b - u_a.
  *   nodes_a, nodes_b  [count], of body_a and of body_b, each once
  *   normals   [count][dimension], of any length > 0, from a to b
  *   weights   [count] > 0, length (2D) or area (3D) that each pair represents
  *   faces     [face_count][nodes_per_face] indices of pairs (also counted from index_base), corners before mid-side
  *             nodes: 2 or 3 nodes in 2D; 3, 4, 6 or 8 in 3D, counter-clockwise seen from b. A triangle among
- *             quadrilaterals repeats its last corner. face_count 0: no faces. Crack fronts, the gradient term and the
- *             neighbours that an energetic search advances to need faces
+ *             quadrilaterals repeats its last corner. face_count 0: no faces. Without faces there are no crack fronts,
+ *             no gradient term, and no neighbouring pairs to which an energetic search could advance a front
  * [unit normals 1 finite (not 0), weights L or L2 > 0; null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_pairs(delam_mesh *mesh, int32_t body_a, int32_t body_b, int64_t count,
                                        const int64_t *nodes_a, const int64_t *nodes_b, const double *normals,
@@ -314,61 +320,63 @@ DELAM_API int32_t delam_mesh_add_pairs(delam_mesh *mesh, int32_t body_a, int32_t
  * [null mesh, *mesh; owns mesh destroyed; status -; since 0.1] */
 DELAM_API void delam_mesh_destroy(delam_mesh **mesh);
 
-/* Sizes of a mesh: *dimension, *node_count, *cell_count, *body_count (distinct labels) and *interface_count.
+/* Returns the sizes of a mesh: *dimension, *node_count, *cell_count, *body_count (distinct labels) and
+ * *interface_count.
  * [null dimension, node_count, cell_count, body_count, interface_count; status usual; since 0.1] */
 DELAM_API int32_t delam_mesh_size(const delam_mesh *mesh, int32_t *dimension, int64_t *node_count, int64_t *cell_count,
                                   int64_t *body_count, int64_t *interface_count);
-/* Coordinates of all nodes: [node_count][dimension].
+/* Returns the coordinates of all nodes: [node_count][dimension].
  * [unit nodes L; null none; status argument; source none; since 0.1] */
 DELAM_API int32_t delam_mesh_nodes(const delam_mesh *mesh, int64_t capacity, double *nodes);
-/* Label of the body of each node, bodies: [node_count]; -1 for a node that belongs to no body.
+/* Returns the label of the body of each node, bodies: [node_count]; -1 for a node that belongs to no body.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_node_bodies(const delam_mesh *mesh, int64_t capacity, int32_t *bodies);
-/* Node that each node is a copy of (delam_mesh_add_conforming_cells), or the node itself; origins: [node_count].
+/* Returns the original of each node, origins: [node_count]: the node of which delam_mesh_add_conforming_cells made it a
+ * copy, or the node itself.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_node_origins(const delam_mesh *mesh, int64_t capacity, int64_t *origins);
-/* Tied nodes (delam_mesh_add_projected_interface) in ascending order. *count and *entries receive the numbers of tied
- * nodes and of weights. The displacement of nodes[i] is the sum of weights[e] times the displacement of node of[e],
- * over e = starts[i] .. starts[i+1]-1; nodes [count], starts [count+1], of and weights [entries]. The weights of a tied
- * node sum to 1; on quadratic faces some may be negative.
+/* Returns the tied nodes (delam_mesh_add_projected_interface) in ascending order. *count and *entries receive the
+ * numbers of tied nodes and of weights. The displacement of nodes[i] is the sum of weights[e] times the displacement of
+ * node of[e], over e = starts[i] .. starts[i+1]-1; nodes [count], starts [count+1], of and weights [entries]. The
+ * weights of a tied node sum to 1; on quadratic faces some may be negative.
  * [unit weights 1; null count, entries, nodes, starts, of, weights; status usual; source none; since 0.1] */
 DELAM_API int32_t delam_mesh_node_ties(const delam_mesh *mesh, int64_t *count, int64_t *entries, int64_t *nodes,
                                        int64_t *starts, int64_t *of, double *weights);
-/* Cells in the order in which they were added: types, bodies [cell_count], offsets [cell_count+1] into connectivity
- * [*needed]. capacity counts entries of connectivity; *needed receives the number of entries.
+/* Returns the cells in the order in which they were added: types, bodies [cell_count], offsets [cell_count+1] into
+ * connectivity [*needed]. capacity counts entries of connectivity; *needed receives the number of entries.
  * [null types, bodies, offsets, connectivity, needed; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_cells(const delam_mesh *mesh, int32_t *types, int32_t *bodies, int64_t *offsets,
                                    int64_t capacity, int64_t *connectivity, int64_t *needed);
-/* Sizes of an interface: its bodies *body_a (-1 for an obstacle) and *body_b, *pair_count pairs, *face_count paired
- * faces of *nodes_per_face nodes.
+/* Returns the sizes of an interface: its bodies *body_a (-1 for an obstacle) and *body_b, *pair_count pairs,
+ * *face_count paired faces of *nodes_per_face nodes.
  * [null body_a, body_b, pair_count, face_count, nodes_per_face; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_interface_size(const delam_mesh *mesh, int64_t interface_index, int32_t *body_a,
                                             int32_t *body_b, int64_t *pair_count, int64_t *face_count,
                                             int32_t *nodes_per_face);
-/* Pairs of an interface. nodes_a, nodes_b, weights: [pair_count]; frames: [pair_count][dimension][dimension], whose
- * orthonormal rows are the normal and the tangent or tangents.
+/* Returns the pairs of an interface. nodes_a, nodes_b, weights: [pair_count]; frames:
+ * [pair_count][dimension][dimension], whose orthonormal rows are the normal and the tangent or tangents.
  * [unit weights L or L2 > 0, frames 1; null nodes_a, nodes_b, weights, frames; status argument; source none;
  * since 0.1] */
 DELAM_API int32_t delam_mesh_interface_pairs(const delam_mesh *mesh, int64_t interface_index, int64_t *nodes_a,
                                              int64_t *nodes_b, double *weights, double *frames);
-/* Faces of an interface as indices of pairs, faces: [face_count][nodes_per_face], corners before mid-side nodes (2, 3
- * or 4 nodes; 3, 6 or 8 on quadratic cells). A triangle among quadrilaterals repeats its last corner, also as the
- * mid-side node of the side of zero length.
+/* Returns the faces of an interface as indices of pairs, faces: [face_count][nodes_per_face], corners before mid-side
+ * nodes (2, 3 or 4 nodes; 3, 6 or 8 on quadratic cells). Among quadrilaterals, a triangle repeats its last corner; the
+ * mid-side node of the resulting side of zero length is that corner too.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_interface_faces(const delam_mesh *mesh, int64_t interface_index, int64_t *faces);
 /* Finds the nodes of a body inside the closed box from lower [dimension] to upper [dimension], widened by 1e-9 of the
- * mesh's size. Body -1 stands for all bodies and for the nodes without cells that are not tied. *count receives the
- * number of nodes found; as many as fit are written to nodes [capacity], in ascending order.
+ * mesh's size. body -1 selects the nodes of all bodies and the nodes without cells, tied nodes excepted. *count
+ * receives the number of nodes found; as many as fit are written to nodes [capacity], in ascending order.
  * [unit lower L finite, upper L >= lower; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_find_nodes(const delam_mesh *mesh, int32_t body, const double *lower, const double *upper,
                                         int64_t capacity, int64_t *nodes, int64_t *count);
 /* Computes the nodal weights of a uniform traction on a patch: the integrals of the nodal shape functions over the
  * boundary faces of a body (-1: of every body, faces at interfaces included) inside the box from lower [dimension] to
- * upper [dimension]. Faces that cross the boundary of the box are cut there, so that the size of the patch does not
- * depend on the mesh (2D: exactly; 3D: faces count as triangles). Only faces whose outward normal lies within 45
- * degrees of direction [dimension] (any length > 0) count. *count receives the number of nodes; as many as fit are
- * written to nodes, weights: [capacity]. The weights are lengths (2D) or areas (3D) with a sum > 0. Those of linear
- * cells are all > 0; quadratic cells also have negative ones (at a corner of an 8-node face: -1/12 of its area).
+ * upper [dimension]. Only faces whose outward normal lies within 45 degrees of direction [dimension] (any length > 0)
+ * count. Faces that cross the boundary of the box are cut there, so that the size of the patch does not depend on the
+ * mesh (in 3D, each face is divided into triangles for this purpose). *count receives the number of nodes; as many as
+ * fit are written to nodes, weights: [capacity]. The weights are lengths (2D) or areas (3D) with a sum > 0. Those of
+ * linear cells are all > 0; quadratic cells also have negative ones (at a corner of an 8-node face: -1/12 of its area).
  * DELAM_ERROR_MESH: two cells lie on the same side of a face that they share.
  * [unit lower L finite, upper L >= lower, direction 1 finite (not 0), weights L or L2 sum > 0; null none; status
  * cancelled, argument, mesh; source none; since 0.1] */
@@ -380,14 +388,14 @@ DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, co
 
 /* Creates a traction-separation law of a kind. Y_c = k_c [u]_c^2 / 2 is the driving energy of component c (n or t),
  * Y = Y_n + Y_t the sum, and B = Y_t/Y the mode mixity. The adhesion zeta minimises zeta Y + g(B, zeta) over
- * 0 <= zeta <= old adhesion. The dissipated energy g is convex and decreases with zeta: g(B, 1) = 0, g(B, 0) = Gc(B),
- * and its slope at zeta = 1 is minus the onset Go(B). On first loading at fixed mixity the traction peaks at sqrt(2 k
- * Go), and the area under the traction-separation curve is Gc. kind:
+ * 0 <= zeta <= old adhesion. The dissipated energy g is convex in zeta and decreases from g(B, 0) = Gc(B), the
+ * toughness, to g(B, 1) = 0; its slope at zeta = 1 is -Go(B), where Go is the onset. On first loading at fixed mixity
+ * the traction peaks at sqrt(2 k Go), and the area under the traction-separation curve is Gc. kind:
  *   piecewise-linear  the bilinear law: the traction falls linearly (Valoroso and Champaney 2006)
- *   exponential       the traction decays exponentially over (Gc/Go - 1)/2 times the jump at the onset; it never
- *                     reaches zero
- *   trapezoidal       the traction stays at its peak over the part `plateau` of the way from the onset to the end, then
- *                     falls linearly
+ *   exponential       the traction decays exponentially, with a decay length of (Gc/Go - 1)/2 times the jump at the
+ *                     onset; it never reaches zero
+ *   trapezoidal       the traction stays at its peak over the fraction `plateau` of the way from the onset to complete
+ *                     debonding, then falls linearly
  *   tabulated         the traction follows the points of delam_law_set_table
  *   griffith          no softening and no onset of its own: the interface debonds at once when Y reaches Gc
  *   host              callbacks of the host: delam_law_create_host (delam_law_create refuses this kind)
@@ -396,9 +404,9 @@ DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, co
  *   normal_onset, tangential_onset          G^o       F/L   > 0
  *   normal_toughness, tangential_toughness  G^c       F/L   >= onset
  *   plateau                                 [0, 1)    trapezoidal only
- *   gradient                                kappa >= 0, F L, default 0, of the term kappa/2 |grad zeta|^2
- * The text `criterion`, set with delam_law_set_text, selects how the toughness depends on the mixity. Its exponents are
- * numbers > 0 with default 2; a change of the criterion resets them to 2:
+ *   gradient                                coefficient kappa >= 0 (F L, default 0) of the energy kappa/2 |grad zeta|^2
+ * The text `criterion`, set with delam_law_set_text, selects how onset and toughness depend on the mixity. The
+ * exponents of a criterion are numbers > 0 with default 2; a change of the criterion resets them to 2:
  *   valoroso-champaney (default)  ((1-B) G/G_n)^p + (B G/G_t)^q = 1 (Eng. Fract. Mech. 73, 2006), p and q:
  *                                 onset_exponent_1, onset_exponent_2, toughness_exponent_1, toughness_exponent_2
  *   power                         the same with p = q: onset_exponent, toughness_exponent
@@ -406,9 +414,9 @@ DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, co
  *                                 toughness_exponent
  * Gc(B) >= Go(B) must hold for every mixity B in [0,1]. A key that does not belong to the kind or to the criterion
  * gives DELAM_ERROR_ARGUMENT.
- * With kappa > 0, the damage of all pairs of an interface is one coupled minimisation. The damage then spreads over a
- * length of about sqrt(kappa/G^c), which the faces have to resolve. The term acts on those faces whose pairs all have
- * an initial adhesion > 0.
+ * With kappa > 0, the damage of all pairs of an interface is coupled and follows from one minimisation. It spreads over
+ * a length of about sqrt(kappa/G^c), which the mesh of the interface must resolve. The gradient term acts only on faces
+ * whose pairs all have an initial adhesion > 0.
  * [null none; owns out caller; status argument; source in the table above; since 0.1] */
 DELAM_API int32_t delam_law_create(delam_context *context, const char *kind, delam_law **out);
 /* Sets a number of a law by its key; delam_law_create lists the keys and their ranges.
@@ -420,10 +428,10 @@ DELAM_API int32_t delam_law_set_text(delam_law *law, const char *key, const char
 /* Sets the softening curve of a tabulated law: straight lines through the points (xi, s), from (0, 1) to (1, 0). xi, s:
  * [count], count >= 2. xi is the jump beyond the onset, divided by its largest value; it must not decrease. s is the
  * traction divided by its peak; it must not increase. The law scales xi so that the area under the curve is Gc at every
- * mixity. DELAM_ERROR_ARGUMENT: points out of order; the law is unchanged.
+ * mixity. DELAM_ERROR_ARGUMENT: the points violate one of these conditions; the law is unchanged.
  * [unit xi 1 in [0, 1], s 1 in [0, 1]; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_law_set_table(delam_law *law, int64_t count, const double *xi, const double *s);
-/* Number of parameters of a kind, over all of its criteria; 0 for an unknown kind.
+/* Returns the number of parameters of a kind, those of all its criteria included; 0 for an unknown kind.
  * [null kind; status -; thread any; since 0.1] */
 DELAM_API int64_t delam_law_parameter_count(const char *kind);
 /* Describes one parameter of a kind, by index from 0. type: "real", "text" or "table", set with delam_law_set,
@@ -434,19 +442,19 @@ DELAM_API int64_t delam_law_parameter_count(const char *kind);
 DELAM_API int32_t delam_law_parameter_info(const char *kind, int64_t index, const char **key, const char **type,
                                            const char **unit, const char **initial, const char **range,
                                            const char **meaning);
-/* Bounds of the same parameter, kind and index as there, so that a host can check a number before it sets it. A number
- * is finite and lies between *lower and *upper; *lower_open and *upper_open are 1 where the bound itself is outside,
- * else 0. Where there is no bound, *lower is -INFINITY or *upper is INFINITY. The bounds of a table hold for each of
- * its numbers; a text has none.
+/* Returns the bounds of a parameter, by the kind and index of delam_law_parameter_info, so that a host can check a
+ * number before it sets it. Allowed numbers are finite and lie between *lower and *upper; *lower_open and *upper_open
+ * are 1 if the bound itself is excluded, else 0. Where there is no bound, *lower is -INFINITY or *upper is INFINITY.
+ * The bounds of a table hold for each of its numbers; a text has none.
  * [unit lower of key, upper of key; null kind, lower, upper, lower_open, upper_open; status only argument; thread any;
  * source none; since 0.1] */
 DELAM_API int32_t delam_law_parameter_bounds(const char *kind, int64_t index, double *lower, double *upper,
                                              int32_t *lower_open, int32_t *upper_open);
-/* How many kinds of laws there are.
+/* Returns the number of kinds of laws (delam_law_kind_info).
  * [status -; thread any; since 0.1] */
 DELAM_API int64_t delam_law_kind_count(void);
-/* One of them, by index from 0: its name *kind and its *meaning. *hosted: 1 for the kind that takes callbacks
- * (delam_law_create_host), 0 for those that delam_law_create takes.
+/* Describes a kind of law, by index from 0: its name *kind and its *meaning. *hosted: 1 for the kind that takes
+ * callbacks (delam_law_create_host), 0 for the kinds that delam_law_create accepts.
  * [null kind, meaning, hosted; owns texts static; status only argument; thread any; since 0.1] */
 DELAM_API int32_t delam_law_kind_info(int64_t index, const char **kind, const char **meaning, int32_t *hosted);
 
@@ -454,23 +462,24 @@ DELAM_API int32_t delam_law_kind_info(int64_t index, const char **kind, const ch
  * They must not call the library (delam_context_cancel aside) and must always give the same results for the same
  * arguments. If a callback returns a value other than 0, it has failed, and the library's call ends with
  * DELAM_ERROR_PROBLEM. */
-/* Computes *adhesion on first loading at fixed mixity: the minimiser zeta*(B, Y) of zeta Y + g(B, zeta) in [0,1], which
- * must not increase with driving = Y; and *slope = d zeta* / dY, finite (0 where zeta* is at an end of [0,1]).
+/* Computes *adhesion on first loading at fixed mixity: the zeta* in [0,1] that minimises zeta Y + g(B, zeta), where B
+ * is mixity and Y is driving. zeta* must not increase with Y. *slope = d zeta* / dY, which is finite, and 0 where zeta*
+ * is 0 or 1.
  * [unit mixity 1 in [0, 1], driving F/L >= 0, adhesion 1 in [0, 1], slope L/F <= 0; null user; status problem; thread
  * call's; since 0.1] */
 typedef int32_t (*delam_adhesion_callback)(double mixity, double driving, double *adhesion, double *slope, void *user);
-/* Computes *dissipated = g(B, zeta) >= 0 at an adhesion; *slope = dg/dzeta, which may be -INFINITY at adhesion 0;
- * *mixity_slope = dg/dB.
+/* Computes *dissipated = g(B, zeta) >= 0, where B is mixity and zeta is adhesion; *slope = dg/dzeta, which may be
+ * -INFINITY at adhesion 0; *mixity_slope = dg/dB.
  * [unit mixity 1 in [0, 1], adhesion 1 in [0, 1], dissipated F/L, slope F/L <= 0, mixity_slope F/L finite; null user;
  * status problem; thread call's; since 0.1] */
 typedef int32_t (*delam_dissipation_callback)(double mixity, double adhesion, double *dissipated, double *slope,
                                               double *mixity_slope, void *user);
 /* Creates a law of kind host: adhesion computes zeta* and dissipation computes g, with Go = -dg/dzeta at adhesion 1 and
- * Gc = g at adhesion 0. name, not empty, stands for the callbacks in messages and in delam_problem_hash. The callbacks
- * and user must live as long as every problem and solver that took the law; if one of these is destroyed during a call,
- * they must live until that call ends. Keys: normal_stiffness, tangential_stiffness, gradient. delam_law_check and
- * delam_problem_set_law test by samples whether both callbacks derive from one such energy, and name the first place
- * where they do not.
+ * Gc = g at adhesion 0. name, which must not be empty, identifies the callbacks in messages and in delam_problem_hash.
+ * The callbacks and user must stay valid as long as any problem or solver that took the law exists; if one of these is
+ * destroyed during a call, they must stay valid until that call ends. Keys: normal_stiffness, tangential_stiffness,
+ * gradient. delam_law_check and delam_problem_set_law test at samples whether the two callbacks belong to the same g,
+ * and name the first sample where they do not.
  * [null user; owns out caller, callbacks and user: the host, as long as problems and solvers that took the law; status
  * argument; since 0.1] */
 DELAM_API int32_t delam_law_create_host(delam_context *context, const char *name, delam_adhesion_callback adhesion,
@@ -483,10 +492,10 @@ DELAM_API int32_t delam_law_check(const delam_law *law);
  * delam_law_create; since 0.1] */
 DELAM_API int32_t delam_law_toughness(const delam_law *law, int64_t count, const double *mixity, double *onset,
                                       double *toughness);
-/* Performs one damage step at given jumps, point by point and without the gradient term: finds the adhesion that
- * minimises the energy over 0 <= zeta <= adhesion_old at the given mixity, which is held fixed, and the traction
- * zeta k [u]. jump, traction: [count][dimension] in local components, normal first (a negative normal jump is an
- * error); mixity, adhesion_old, adhesion: [count].
+/* Performs one damage step at each of the given jumps, without the gradient term. It holds the given mixity fixed and
+ * finds the adhesion zeta that minimises the energy over 0 <= zeta <= adhesion_old, and the traction zeta k [u]. jump,
+ * traction: [count][dimension] in local components, normal first (a negative normal jump is an error); mixity,
+ * adhesion_old, adhesion: [count].
  * [unit jump L finite (normal >= 0), mixity 1 in [0, 1], adhesion_old 1 in [0, 1], adhesion 1 in [0, 1], traction
  * F/L2; null traction; status argument, problem; source of delam_law_create; since 0.1] */
 DELAM_API int32_t delam_law_respond(const delam_law *law, int32_t dimension, int64_t count, const double *jump,
