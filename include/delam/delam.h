@@ -284,7 +284,7 @@ DELAM_API int32_t delam_mesh_add_projected_interface(delam_mesh *mesh, int32_t b
 /* Adds a rigid obstacle (loading nose, support, symmetry plane) that nodes of one body may touch. It translates with
  * control_node, a node of the mesh without cells (counted from 0, like all single indices); obstacles that move
  * together share one control node. *out_interface receives the index of the new interface, which has a pair for each
- * node in the given order: node_a is the control node, body_a is -1, node_b is the node. The jump of a pair is u_node -
+ * node, in the given order, with node_a the control node (body_a is -1), node_b the node, and the jump u_node -
  * u_control.
  *   nodes    [count] of one body, each once
  *   normals  [count][dimension], of any length > 0, from the obstacle into the body
@@ -525,15 +525,16 @@ DELAM_API int32_t delam_problem_set_elastic(delam_problem *problem, int32_t body
  * material that is transversely isotropic about axis 1 has E3 = E2, nu13 = nu12, G13 = G12, G23 = E2/(2(1 + nu23)). The
  * material axes are the coordinate axes unless delam_problem_set_orientation sets others. In 2D, plane strain takes the
  * rows xx, yy, xy of the three-dimensional elasticity; plane stress makes the stresses zz, yz, zx zero. The last call
- * of this function or of delam_problem_set_elastic determines the material. DELAM_ERROR_ARGUMENT names the constant
- * that makes the elasticity indefinite, and its bound.
+ * of this function or of delam_problem_set_elastic determines the material. DELAM_ERROR_ARGUMENT: the elasticity is not
+ * positive definite; the message names the constant responsible and its bound.
  * [unit constants F/L2 or 1 finite (definite); null none; status argument; source S. W. Tsai, H. T. Hahn,
  * Introduction to Composite Materials (1980); since 0.1] */
 DELAM_API int32_t delam_problem_set_orthotropic(delam_problem *problem, int32_t body, const double *constants);
-/* Sets the material axes of cells, for orthotropic materials and eigenstrains. axes: [count][2][3], directions of axes
- * 1 and 2 in space, also in 2D (where z points out of the plane), of any lengths > 0, not parallel; the function makes
- * axis 2 normal to axis 1 and sets axis 3 = 1 x 2. cells: [count] cells of the mesh, all in `body` (-1: in any); NULL
- * with count 1: all cells of the body. Later calls overwrite earlier ones. Cells with equal axes share their storage.
+/* Sets the material axes of cells, for orthotropic materials and eigenstrains. axes: [count][2][3], the directions of
+ * axes 1 and 2, with three components also in 2D (z points out of the plane). They may have any length > 0 but must not
+ * be parallel; the function makes axis 2 normal to axis 1 and sets axis 3 = 1 x 2. cells: [count] cells of the mesh,
+ * all in `body` (-1: in any body); NULL with count 1 selects all cells of the body. Later calls overwrite earlier ones.
+ * Cells with equal axes share their storage.
  * [unit axes 1 finite (not parallel); null cells; status cancelled, argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_orientation(delam_problem *problem, int32_t body, int64_t count,
                                                 const int64_t *cells, const double *axes, int32_t index_base);
@@ -541,19 +542,19 @@ DELAM_API int32_t delam_problem_set_orientation(delam_problem *problem, int32_t 
  *   "standard"         the default
  *   "incompatible"     adds internal bending modes after Wilson, Taylor and Beresford, condensed in each cell; only for
  *                      bodies of quad4 or hex8 (DELAM_ERROR_ARGUMENT names another cell). Rectangular cells are then
- *                      exact in pure bending, in which standard ones are too stiff (squares by half). Displacements
- *                      may gap or overlap slightly between the nodes
+ *                      exact in pure bending, in which standard cells are too stiff (square ones by half). Between the
+ *                      nodes, displacements may then be slightly discontinuous from cell to cell
  *   "mean-dilatation"  for nearly incompressible bodies, in which the other formulations lock: projects the dilatation
  *                      of each cell onto constants (quad4, hex8, tri6, tet10) or linear functions (quad8, quad9,
- *                      hex20). Only in plane strain and in 3D; tri3 and tet4 are refused, because their dilatation is
+ *                      hex20). Allowed in plane strain and in 3D, but not for tri3 and tet4, whose dilatation is
  *                      constant already
  * [null none; status argument; source R. Taylor, P. Beresford, E. Wilson, Int. J. Numer. Meth. Eng. 10 (1976) 1211-1219
  * and T. Hughes, ibid. 15 (1980) 1413-1418; since 0.1] */
 DELAM_API int32_t delam_problem_set_formulation(delam_problem *problem, int32_t body, const char *formulation);
-/* Sets the stiffness of whole bodies, as the host has assembled it, in place of cells and material. The bodies may have
- * cells or not (delam_mesh_add_host_body). Their material, if any, then serves only the stresses in the output; without
- * cells or material, these stresses are NaN. Eigenstrains of such a body are refused: the host adds their forces itself
- * (delam_problem_add_forces).
+/* Gives whole bodies a stiffness matrix that the host has assembled; it replaces the stiffness of their cells. The
+ * bodies may also have no cells (delam_mesh_add_host_body). If they have cells and a material, these serve only to
+ * compute the stresses in the output; otherwise the stresses are NaN. Such a body cannot have eigenstrains; the host
+ * adds their forces itself (delam_problem_add_forces).
  *   nodes       [count] all nodes of one or several bodies, each once
  *   dofs        [count][dimension] matrix row of each displacement; every row 0 .. dimension*count-1 (counted from
  *               index_base) occurs once. NULL: dimension*i + component for nodes[i]. Every row is a displacement of a
@@ -561,12 +562,12 @@ DELAM_API int32_t delam_problem_set_formulation(delam_problem *problem, int32_t 
  *   row_starts  [dimension*count + 1], also counted from index_base; columns, values [entries]: CSR with both
  *               triangles; repeated entries add up. The matrix must be symmetric to 1e-9 and positive on deformations
  *               (the library factorises it once to check)
- *   kernel      [kernel_count][dimension*count] motions without energy, each in the order of the matrix rows.
- *               Nodes that the matrix connects form a piece, whose free motions must be rigid-body motions; a
- *               mechanism inside a piece is refused. Rows in which the host has kept only the diagonal, for supports
- *               of its own, are fixed permanently. kernel_count -1 (kernel NULL): the library determines how far each
- *               piece is held. The host must give a motion whose energy is between 1e-12 and 1e-9 of that of the
- *               diagonal alone
+ *   kernel      [kernel_count][dimension*count] zero-energy motions, each in the order of the matrix rows. Nodes that
+ *               the matrix connects form a piece. The zero-energy motions of a piece must be rigid-body motions; a
+ *               mechanism inside a piece is refused. A row in which the host has kept only the diagonal, because of a
+ *               support of its own, is fixed permanently. kernel_count -1 (kernel NULL): the library finds the
+ *               zero-energy motions of each piece. It cannot decide on a rigid motion whose energy is between 1e-12 and
+ *               1e-9 of that of the diagonal alone; the host must then supply the kernel
  * DELAM_ERROR_ARGUMENT names the node, row or entry.
  * FETI does not subdivide a piece. A later call replaces the stiffness of the bodies that it names.
  * [unit values F/L finite, kernel 1 finite; null dofs; status cancelled, argument, numerical; source C. Farhat, M.
@@ -579,8 +580,8 @@ DELAM_API int32_t delam_problem_set_stiffness(delam_problem *problem, int64_t co
  * as set with delam_problem_set_adhesion.
  * [status argument, problem; since 0.1] */
 DELAM_API int32_t delam_problem_set_law(delam_problem *problem, int64_t interface_index, const delam_law *law);
-/* Bonds an interface perfectly and permanently (zero compliance). Every interface needs one of three: a law, this
- * function or delam_problem_set_contact.
+/* Bonds an interface perfectly and permanently (zero compliance). Every interface needs a law, a perfect bond (this
+ * function) or contact without adhesion (delam_problem_set_contact).
  * [status argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_bonded(delam_problem *problem, int64_t interface_index);
 /* Makes an interface one of frictionless contact without adhesion: the faces may separate but not overlap, as in an
@@ -598,13 +599,15 @@ DELAM_API int32_t delam_problem_set_adhesion(delam_problem *problem, int64_t int
  * [unit times t finite (increasing), values 1 finite; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_problem_add_pattern(delam_problem *problem, const char *name, int64_t count,
                                             const double *times, const double *values, int64_t *out_pattern);
-/* Control nodes are nodes of the mesh without cells. Prescriptions, means, equations, periods, forces and pairs may
- * refer to them. Each is then an unknown translation [dimension] without stiffness, wherever the node lies: a rigid
- * loading nose, an average strain. Something must hold it. Nodes without cells to which nothing refers are ignored.
- * Tied nodes (projected interfaces) may be used as well; they stand for the nodes that they are tied to. */
-/* Prescribes direction . u = sum over patterns of coefficients[i][p] * factor_p(t) for each i of nodes [count].
- * direction: [dimension], any length > 0 (the function normalises it). patterns: [pattern_count]; coefficients:
- * [count][pattern_count], L per unit of the factor. pattern_count 0: the displacement is held at zero.
+/* A control node is a node of the mesh without cells to which a prescribed displacement or mean, an equation, a period,
+ * a force or a pair refers. It represents an unknown translation [dimension] without stiffness, for example that of a
+ * rigid loading nose, or an average strain; its position has no effect. Something must hold it. Nodes without cells to
+ * which nothing refers are ignored. The functions below accept tied nodes (projected interfaces) as well and replace
+ * them by the nodes to which they are tied. */
+/* Prescribes a displacement component of each of nodes [count]: direction . u_i = sum over patterns of
+ * coefficients[i][p] * factor_p(t). direction: [dimension], any length > 0 (the function normalises it). patterns:
+ * [pattern_count]; coefficients: [count][pattern_count], L per unit of the factor. pattern_count 0: the displacement is
+ * held at zero.
  * [unit direction 1 finite (not 0), coefficients L finite; null none; status cancelled, argument, problem;
  * since 0.1] */
 DELAM_API int32_t delam_problem_prescribe_nodes(delam_problem *problem, int64_t count, const int64_t *nodes,
@@ -612,8 +615,8 @@ DELAM_API int32_t delam_problem_prescribe_nodes(delam_problem *problem, int64_t 
                                                 const double *coefficients, int32_t index_base);
 /* Prescribes the weighted mean displacement of nodes: sum_i weights[i] direction . u_i / sum_i weights[i] = sum of
  * coefficients[p] * factor_p(t). With the weights of delam_mesh_find_patch, the support or load acts as a uniform
- * traction on a patch of fixed size. It then has a limit as the mesh is refined, whereas a point support has none.
- * nodes: [count], each once; weights: [count], sum > 0; direction: [dimension], any length > 0; patterns,
+ * traction on a patch of fixed size. The results then converge as the mesh is refined; with a point support they do
+ * not. nodes: [count], each once; weights: [count], sum > 0; direction: [dimension], any length > 0; patterns,
  * coefficients: [pattern_count].
  * [unit weights 1 sum > 0, direction 1 finite (not 0), coefficients L finite; null none; status cancelled, argument,
  * problem; since 0.1] */
@@ -622,31 +625,33 @@ DELAM_API int32_t delam_problem_prescribe_mean(delam_problem *problem, int64_t c
                                                const int64_t *patterns, const double *coefficients, int32_t index_base);
 /* Adds a linear equation between displacements of nodes of any bodies and of control nodes:
  *   sum_i coefficients[i][:] . u_nodes[i] = sum over patterns of prescribed[p] * factor_p(t)
- * nodes: [count], count >= 1, a node may occur several times; coefficients: [count][dimension], not all 0, used as
- * given; patterns, prescribed: [pattern_count]; pattern_count 0: homogeneous. The reaction of the equation is the force
- * conjugate to its left-hand side, so that each coefficient times the reaction is a nodal force. Equations between up
- * to 32 displacements are eliminated exactly and cost no unknown, however many there are; longer ones stay in the dense
- * stage of the condensed operator. For rigid lines that rotate, write u_i = u_0 + w r_i with equations of three nodes
- * each. delam_problem_check refuses an equation that others imply or contradict, and gives its number.
+ * nodes: [count], count >= 1, a node may occur several times; coefficients: [count][dimension], not all 0, not
+ * normalised; patterns, prescribed: [pattern_count]; pattern_count 0: the right-hand side is 0. The reaction of the
+ * equation is the force conjugate to its left-hand side, so that each coefficient times the reaction is a nodal force.
+ * Equations between at most 32 displacements are eliminated exactly and add no unknowns, however many equations there
+ * are; longer ones remain in the dense part of the condensed operator. For a rigid line that may rotate, write u_i =
+ * u_0 + w r_i with equations of three nodes each. If an equation follows from other equations or contradicts them,
+ * delam_problem_check refuses it and gives its number.
  * [unit coefficients 1 finite (not all 0), prescribed L finite; null none; status cancelled, argument, problem;
  * since 0.1] */
 DELAM_API int32_t delam_problem_add_equation(delam_problem *problem, int64_t count, const int64_t *nodes,
                                              const double *coefficients, int64_t pattern_count, const int64_t *patterns,
                                              const double *prescribed, int32_t index_base);
 /* Makes the mesh a periodic cell: u(x + period_k) - u(x) = u of control node k for all nodes on opposite faces. The
- * mesh must be a parallelepiped along its periods; with fewer periods than dimensions it may have any shape across
- * them. periods: [period_count][dimension] L, independent, 1 <= period_count <= dimension; control_nodes:
- * [period_count], distinct, without cells. tolerance: largest distance of partners as a fraction of the largest extent
- * of the cells; 0 selects 1e-6. Partners are nodes of the same body. Where bodies touch and one node without a partner
- * remains on each side (the edge of the cell cuts a fibre into two bodies), these two are partners. Edges and corners
- * get no redundant equations. DELAM_ERROR_MESH names nodes without a partner.
+ * mesh must be a parallelepiped whose edges are the periods; if there are fewer periods than dimensions, it may have
+ * any shape in the other directions. periods: [period_count][dimension] L, independent, 1 <= period_count <= dimension;
+ * control_nodes: [period_count], distinct, without cells. tolerance: largest deviation of two partners from opposite
+ * positions, as a fraction of the largest extent of the cells; 0 selects 1e-6. Partners are nodes of the same body. If
+ * bodies touch and just one node without a partner remains on each side (where the boundary of the periodic cell cuts a
+ * fibre into two bodies), these two are partners. Edges and corners get no redundant equations. DELAM_ERROR_MESH names
+ * nodes without a partner.
  * The displacement of control node k is the average displacement gradient along its period, <grad u> period_k,
- * including the opening of interfaces. Prescribe it for an average strain e: u_k = e period_k. Or put dead forces on
- * the control nodes for an average stress s: F_k = V s d_k, with the volume V = |det periods| of the cell and the dual
+ * including the opening of interfaces. For an average strain e, prescribe u_k = e period_k. For an average stress s,
+ * apply the dead forces F_k = V s d_k to the control nodes, with the volume V = |det periods| of the cell and the dual
  * vectors d_k . period_l = 1 if k = l, else 0. The average stress is 1/V sum_k F_k (x) period_k, where F_k is the force
- * on control node k, i.e. its reaction if it is prescribed. Hold one node of the cell against translation. Unless the
- * average rotation is prescribed, also hold control nodes against it: d(d-1)/2 components, e.g. y of control node 0 in
- * 2D.
+ * on control node k, i.e. its reaction if it is prescribed. Hold one node of the cell against translation. If the
+ * average rotation is not prescribed, prevent it by holding d(d-1)/2 components of the control nodes, d being the
+ * dimension: in 2D, e.g. y of control node 0.
  * [unit periods L finite (independent), tolerance 1 in [0, 0.5); null none; status cancelled, argument, mesh;
  * since 0.1] */
 DELAM_API int32_t delam_problem_add_periodic(delam_problem *problem, int64_t period_count, const double *periods,
@@ -660,8 +665,8 @@ DELAM_API int32_t delam_problem_add_forces(delam_problem *problem, int64_t patte
 /* Adds an eigenstrain (thermal expansion, swelling, cure shrinkage) to a body (-1: to all) in its material axes: strain
  * [6] = xx, yy, zz, 2xy, 2yz, 2zx times the factor of the pattern, which must drive nothing else. Several eigenstrains
  * add up. The stress is C (eps - factor strain), and stored_bulk is the energy of that stress. In plane strain, strain
- * zz causes in-plane stress as well; in plane stress, zz, 2yz and 2zx are free and have no effect. reaction:NAME of the
- * pattern is dE/dfactor = - int strain : stress, and `work` includes the work that the change of the eigenstrain does
+ * zz causes in-plane stress as well; in plane stress, zz, 2yz and 2zx are free and have no effect. For such a pattern,
+ * reaction:NAME is dE/dfactor = - int strain : stress, and `work` includes the work that the changing eigenstrain does
  * on the bodies.
  * [unit strain 1 finite; null none; status argument, problem; since 0.1] */
 DELAM_API int32_t delam_problem_add_eigenstrain(delam_problem *problem, int64_t pattern, int32_t body,
@@ -674,7 +679,7 @@ DELAM_API int32_t delam_problem_set_number(delam_problem *problem, const char *k
 /* Sets a text option by its key or alias, to a value from its list.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_text(delam_problem *problem, const char *key, const char *value);
-/* Number of options (delam_option_info).
+/* Returns the number of options (delam_option_info).
  * [status -; thread any; since 0.1] */
 DELAM_API int64_t delam_option_count(void);
 /* Describes an option, by index from 0. type: "real", "integer" or "text"; initial: its default.
@@ -685,31 +690,33 @@ DELAM_API int32_t delam_option_info(int64_t index, const char **key, const char 
  * [null none; owns alias static; status only argument; thread any; since 0.1] */
 DELAM_API int32_t delam_option_alias(int64_t index, const char **alias);
 /* Returns the bounds of a number option, by index from 0: *lower and *upper. *lower_open and *upper_open are 1 if the
- * bound itself is excluded, else 0. A text option also gives DELAM_ERROR_ARGUMENT.
+ * bound itself is excluded, else 0. DELAM_ERROR_ARGUMENT: the index is out of range, or the option is a text.
  * [unit lower of key, upper of key; null lower, upper, lower_open, upper_open; status only argument; thread any;
  * source none; since 0.1] */
 DELAM_API int32_t delam_option_bounds(int64_t index, double *lower, double *upper, int32_t *lower_open,
                                       int32_t *upper_open);
 
-/* Checks that the scene is complete and consistent: materials, laws, and supports against every rigid motion of each
- * connected part. DELAM_ERROR_MESH: two cells lie on the same side of a face that they share.
+/* Checks that the scene is complete and consistent: that materials and laws are present and admissible, and that
+ * supports prevent every rigid motion of each connected part. DELAM_ERROR_MESH: two cells lie on the same side of a
+ * face that they share.
  * [status cancelled, mesh, problem; since 0.1] */
 DELAM_API int32_t delam_problem_check(delam_problem *problem);
 /* Computes a hash of everything that determines the result, as 16 hexadecimal digits and a terminating zero: out[17].
  * [null none; status cancelled, argument; since 0.1] */
 DELAM_API int32_t delam_problem_hash(const delam_problem *problem, char *out);
-/* Numbers of *primal DOFs (nodes times dimension) and of *dual DOFs (pairs times dimension, notch included).
+/* Returns the numbers of *primal DOFs (nodes times dimension) and *dual DOFs (pairs times dimension; the pairs of a
+ * notch count too).
  * [null primal, dual; status usual; since 0.1] */
 DELAM_API int32_t delam_problem_dofs(const delam_problem *problem, int64_t *primal, int64_t *dual);
 
-/* Estimates *length, the length of the process zone on an interface, and *spacing, the mean distance of its pairs (3D:
- * square root of the mean weight). At least about 3 pairs should lie in the process zone. The estimate may be off by a
- * factor of 2 either way. It is the shorter of the lengths of modes I and II. With the peak traction s = sqrt(2 k Go)
- * and the toughness Gc, the length is E' Gc/s^2; in slender arms of thickness h it is (E' Gc/s^2)^(1/4) h^(3/4) in mode
- * I and (h E' Gc)^(1/2)/s in mode II, where these are shorter (Yang and Cox, Int. J. Fract. 133, 2005). E' is
- * E/(1 - nu^2), or E in plane stress, with the smallest Young's modulus of an orthotropic body; h is the volume of the
- * body divided by the area of the interface. Of the two bodies, the one with the shorter zone counts. length 0: the
- * interface is bonded, its law has no softening, or none of its bodies has both cells and a material.
+/* Estimates *length, the length of the process zone on an interface, and returns *spacing, the mean distance between
+ * its pairs with initial adhesion > 0 (3D: square root of their mean weight). At least about 3 pairs should lie in the
+ * process zone. The estimate may be off by a factor of 2 either way. It is the shortest of the following lengths over
+ * modes I and II and over both bodies: E' Gc/s^2 with the peak traction s = sqrt(2 k Go) and the toughness Gc; for
+ * slender arms of thickness h, (E' Gc/s^2)^(1/4) h^(3/4) in mode I and (h E' Gc)^(1/2)/s in mode II (Yang and Cox, Int.
+ * J. Fract. 133, 2005). E' is E/(1 - nu^2), in plane stress E, and for an orthotropic body the smallest of E1, E2 and
+ * E3; h is the volume of the body divided by the area of the interface. length 0: the interface is bonded, its law has
+ * no softening, or none of its bodies has both cells and a material.
  * [unit length L, spacing L; null length, spacing; status cancelled, argument, problem; source Q. Yang, B. Cox, Int. J.
  * Fract. 133 (2005); since 0.1] */
 DELAM_API int32_t delam_problem_process_zone(const delam_problem *problem, int64_t interface_index, double *length,
@@ -717,16 +724,17 @@ DELAM_API int32_t delam_problem_process_zone(const delam_problem *problem, int64
 
 /* Returns the stiffness of a body as the library assembled it, for hosts that check or reuse it: CSR with both
  * triangles over the DOFs of the body. Local node i is the i-th node of the body in ascending order, and its DOFs are
- * dimension*i + component. Call with NULL arrays for *rows and *entries, then with row_starts [rows+1], columns
- * [entries] and values [entries].
+ * dimension*i + component. Call it with NULL arrays to get *rows and *entries, and again with row_starts [rows+1],
+ * columns [entries] and values [entries].
  * [unit values F/L; null rows, entries, row_starts, columns, values; status cancelled, argument, problem; source T.
  * Hughes, The Finite Element Method (1987), chapters 3 and 4; since 0.1] */
 DELAM_API int32_t delam_problem_body_matrix(const delam_problem *problem, int32_t body, int64_t *rows, int64_t *entries,
                                             int64_t *row_starts, int64_t *columns, double *values);
-/* Returns the constraints, one per row, in the order in which they were added (prescribed nodes, means, equations,
- * periods): CSR over the DOFs of the mesh (dimension*node + component; of bodies and control nodes, tied nodes being
- * replaced), with the right-hand sides as coefficients [rows][pattern_count]. row_starts [rows+1], columns and values
- * [entries]; NULL arrays ask for the sizes *rows, *entries and *pattern_count.
+/* Returns the constraints (prescribed nodes, means, equations, periods) as a matrix in CSR, one row each, in the order
+ * in which they were added. The columns are the DOFs of the mesh, dimension*node + component; only DOFs of bodies and
+ * control nodes occur, because tied nodes are replaced. coefficients [rows][pattern_count] are the right-hand sides per
+ * unit of each factor. row_starts [rows+1], columns and values [entries]; call it with NULL arrays to get *rows,
+ * *entries and *pattern_count.
  * [unit values 1, coefficients L; null rows, entries, pattern_count, row_starts, columns, values, coefficients; status
  * cancelled; source none; since 0.1] */
 DELAM_API int32_t delam_problem_constraints(const delam_problem *problem, int64_t *rows, int64_t *entries,
@@ -744,19 +752,19 @@ DELAM_API int32_t delam_problem_eigenstrain_energy(const delam_problem *problem,
 /* Returns the factors of all patterns at a time, factors: [pattern_count].
  * [unit time t finite, factors 1; null none; status argument; source none; since 0.1] */
 DELAM_API int32_t delam_problem_factors(const delam_problem *problem, double time, int64_t capacity, double *factors);
-/* Number of patterns, in *count.
+/* Returns the number of patterns in *count.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_problem_pattern_count(const delam_problem *problem, int64_t *count);
-/* Name of a pattern; NULL on error.
+/* Returns the name of a pattern; NULL on error.
  * [null result; owns result the problem; status argument; since 0.1] */
 DELAM_API const char *delam_problem_pattern_name(const delam_problem *problem, int64_t pattern);
 
 /* ---- solver: operator, state, history ---------------------------------------------------------------------------- */
 
-/* Creates a solver with a copy of the problem: checks the problem, partitions and factorises the bodies. The initial
- * state (step 0) is the one at time `time`: the solver finds the displacements under the loads of that time, at the
- * initial adhesion. The load histories should start unloaded. DELAM_NOT_CONVERGED: this displacement step reached a
- * limit; *out is valid all the same.
+/* Creates a solver with a copy of the problem: checks the problem, partitions and factorises the bodies, and computes
+ * the initial state (step 0), i.e. the displacements under the loads at `time` with the initial adhesion. All factors
+ * should be 0 at that time. DELAM_NOT_CONVERGED: this displacement step reached an iteration limit, or its forces are
+ * out of balance; *out is a valid solver nevertheless. DELAM_CANCELLED, DELAM_LIMIT: *out is NULL.
  * [unit time t finite; null none; owns out caller; status not_converged, cancelled, limit, argument, mesh, problem,
  * numerical; source src/reduction/README.md; since 0.1] */
 DELAM_API int32_t delam_solver_create(const delam_problem *problem, double time, delam_solver **out);
@@ -768,15 +776,16 @@ DELAM_API void delam_solver_destroy(delam_solver **solver);
  * (option minimisation). The option solution selects the concept: local, or energetic, which adds a search for states
  * of lower energy. The result is the pending step: read it, then commit it or roll it back; a rollback restores the
  * previous state bit for bit.
- * With option backtracking, the call may replace earlier steps (value revised_from; delam_solver_look selects one of
- * them). With jump_tolerance, step_control or mixity_step_tolerance, it divides the step into substeps; it does not
- * divide earlier steps that it replaces, and does not locate their jumps.
+ * With option backtracking, the call may replace earlier steps (value revised_from gives the first; delam_solver_look
+ * shows each). With jump_tolerance, step_control or mixity_step_tolerance, it may divide the step into substeps.
+ * Earlier steps that backtracking replaces are not divided, and their jumps are not located.
  * DELAM_NOT_CONVERGED also leaves a pending step: an iteration limit was reached, or rounding leaves nodal forces out
  * of balance by more than 1e-3 of the largest reaction (plies thousands of times longer than thick). DELAM_LIMIT,
- * DELAM_CANCELLED and errors leave none. Warnings (level 1) report once that the forces are out of balance by more than
- * 1e-6, and once that a front grew with fewer than 3 pairs in its process zone (softening laws, solution = local).
- * If the host's process forks after it has used the library, only one of the two processes should continue to use it
- * (the linear algebra has threads).
+ * DELAM_CANCELLED and errors leave no pending step. The solver warns once (log level 1) if forces are out of balance by
+ * more than 1e-6, and once if a front grows with fewer than 3 pairs in its process zone (softening laws, solution =
+ * local).
+ * If the host's process forks after it has used the library, only one of the two processes should continue to use it,
+ * because the linear algebra has threads.
  * [unit time t > committed; status not_converged, cancelled, limit, argument, problem, state, numerical; source J.
  * Zeman, M. Kruzik, P. Gruber, PANM 15 (2010), eq. (2), A. Mielke, T. Roubicek, J. Zeman, Comput. Methods Appl. Mech.
  * Eng. 199 (2010) 1242-1253, and src/evolution/README.md; since 0.1] */
@@ -788,89 +797,94 @@ DELAM_API int32_t delam_solver_commit(delam_solver *solver);
 /* Discards the pending step.
  * [status state; since 0.1] */
 DELAM_API int32_t delam_solver_rollback(delam_solver *solver);
-/* *pending: 1 if a step is pending, to be committed or rolled back; else 0.
+/* Returns *pending: 1 if a step is pending, to be committed or rolled back, else 0.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_pending(const delam_solver *solver, int32_t *pending);
-/* Replaces the history of a load pattern after the committed time, for hosts that do not know it beforehand: linear
- * from the factor at the committed time to values[0] at times[0], then through the other points, constant after the
- * last. Steps up to the committed one keep their history. times: [count] strictly increasing, the first after the
- * committed time; values: [count]; count >= 1. delam_solver_save includes this history. DELAM_ERROR_STATE: a step is
- * pending.
+/* Replaces the history of a load pattern after the committed time, for hosts that do not know it beforehand. The factor
+ * is linear in time from its value at the committed time to values[0] at times[0] and between the points, and constant
+ * after the last. Steps up to the committed one keep their history. times: [count] strictly increasing, the first after
+ * the committed time; values: [count]; count >= 1. delam_solver_save includes this history. DELAM_ERROR_STATE: a step
+ * is pending.
  * [unit times t > committed (increasing), values 1 finite; null none; status argument, state; since 0.1] */
 DELAM_API int32_t delam_solver_set_history(delam_solver *solver, int64_t pattern, int64_t count, const double *times,
                                            const double *values);
 /* Performs one displacement step alone: finds the displacements of least energy at `time` for a given adhesion, which
- * is held fixed. adhesion: [pairs of all interfaces, one after another]; NULL takes the committed one. The result is
- * pending like a step, but does not enter the energy balance: the stored energies are those of the new state, whereas
- * dissipated, work and bounds do not change. After its commit, the solver no longer keeps the steps before it, so that
+ * is held fixed. adhesion: [pairs of all interfaces, one after another]; NULL takes the committed one. The result is a
+ * pending step, but it does not enter the energy balance: the stored energies are those of the new state, whereas
+ * dissipated, work and bounds do not change. Once it is committed, the solver discards the earlier steps, so that
  * backtracking cannot return to them.
  * [unit time t finite, adhesion 1 in [0, 1]; null adhesion; status not_converged, cancelled, limit, argument, problem,
  * state, numerical; source M. Hintermueller, K. Ito, K. Kunisch, SIAM J. Optim. 13 (2002) 865-888; since 0.1] */
 DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, const double *adhesion);
 
-/* Returns a scalar of the pending state, or of the committed state if none is pending, in *value. The keys are listed
- * by delam_solver_value_name. A unit is given where it is not 1. Sums run over the pairs; w is the weight of a
- * pair. For B, zeta, Y, g and Gc see delam_law_create.
+/* Returns a scalar of the pending state, or of the committed state if none is pending, in *value.
+ * delam_solver_value_name lists the keys. The unit is 1 where none is given. Sums run over the pairs; w is the weight
+ * of a pair. For B, zeta, Y, g and Gc see delam_law_create.
  *   step                   number of the step; the initial state is step 0
- *   time                   t: of the state
+ *   time                   t: time of the state
  *   stored_bulk, stored_interface, dissipated, stored_interface_slides, dissipated_slides, load_potential, work, lower,
- *   increment, upper, increment_lower   F L: energies. The stored ones and load_potential are those of the state,
- *                          dissipated and work accumulate from the start, and the last four belong to the step.
- *                          stored_interface is the sum of w zeta Y, plus the energy of the gradient term if there is
- *                          one; a step adds the sum of w (g(B, zeta) - g(B, zeta_old)) to dissipated. The keys that
- *                          end in _slides split the same energy as Zeman, Kruzik and Gruber (PANM 15, 2010) do: the
- *                          stored energy also contains w f(B, zeta), f = g - Gc (1 - zeta), and a step dissipates
- *                          w Gc(B) (zeta_old - zeta). increment is what the step adds to stored energy, load_potential
- *                          and dissipated; the two-sided estimate is lower <= increment <= upper (PANM 15, eq. (3)),
- *                          and work grows by (lower + upper)/2. increment_lower is the increment at the mixity of the
- *                          step before, for which the lower bound is proved. With mixity_rule = variational, the
- *                          values of the step use the split of the keys in _slides
- *   defect, defect_slides  F L: error of the energy balance since the start, stored + load_potential + dissipated -
- *                          work - energy of the first state, in either split. delam_solver_equilibrate does not change
- *                          it
+ *   increment, upper, increment_lower   F L: energies. The stored energies and load_potential belong to the state;
+ *                          dissipated energies and work accumulate from the start; lower, increment, upper and
+ *                          increment_lower belong to the step. stored_interface is the sum of w zeta Y, plus the energy
+ *                          of the gradient term if there is one; a step adds the sum of w (g(B, zeta) - g(B, zeta_old))
+ *                          to dissipated. The keys that end in _slides split stored from dissipated energy as in Zeman,
+ *                          Kruzik and Gruber (PANM 15, 2010): the sum of w f(B, zeta), f = g - Gc (1 - zeta), belongs
+ *                          to the stored energy, and a step dissipates the sum of w Gc(B) (zeta_old - zeta). increment
+ *                          is the sum of what the step adds to stored energy, load_potential and dissipated. The
+ *                          two-sided estimate is lower <= increment <= upper (PANM 15, eq. (3)); work grows by (lower +
+ *                          upper)/2. increment_lower is the increment computed with the mixity of the step before,
+ *                          because the proof of the lower bound assumes this mixity. With mixity_rule = variational,
+ *                          the four values of the step use the _slides split
+ *   defect, defect_slides  F L: error of the energy balance since the start, i.e. stored energies + load_potential +
+ *                          dissipated - work - energy of the first state, each in its own split.
+ *                          delam_solver_equilibrate does not change it
  *   mixity_error           sum w |dzeta| |Gc(B shown) - Gc(B used)| / sum w |dzeta| Gc(B used) of the step, where B
- *                          shown is the mixity in the last iterate in which a pair still adhered; 0 if no pair was
- *                          damaged. Above 0.1 with mixity_rule = frozen, the damage grew abruptly within the step; a
- *                          warning (level 1) reports it
+ *                          used determined the toughness of the pair and B shown is its mixity in the last iterate in
+ *                          which it still adhered; 0 if no pair was damaged. With mixity_rule = frozen, a value above
+ *                          0.1 means that damage grew abruptly within the step, and the solver warns (log level 1)
  *   am_iterations, displacement_solves, contact_iterations, linear_iterations   of the step: alternate minimisation
- *                          steps, displacement solves, active-set steps and Krylov iterations, the last two summed
- *                          over the displacement solves
- *   newton_solves, debond_moves   of the step, in accelerated minimisation of a condensed scene: dense solves within
- *                          the process zone, and unstable pairs that were moved directly to their debonded branch
+ *                          steps, displacement solves, and, summed over these solves, active-set steps and Krylov
+ *                          iterations
+ *   newton_solves, debond_moves   of the step, where the minimisation is accelerated and the operator is condensed:
+ *                          dense solves within the process zone, and unstable pairs that were moved directly to their
+ *                          debonded branch
  *   contact_iterations_first, contact_iterations_max   active-set steps of the first and of the worst displacement
  *                          solve
- *   contact_fallbacks      displacement solves that had to exchange pairs one at a time, because active sets recurred
+ *   contact_fallbacks      displacement solves in which the active sets cycled, so that pairs had to be exchanged one
+ *                          at a time
  *   contact_pairs          number of pairs in contact
  *   debonded_length        L or L2: weight of the pairs with initial adhesion > 0 that now have zeta <= 1e-3
  *   front                  L or L2: advance of the front, sum of w (1 - zeta) over the pairs with initial adhesion > 0
  *   process_zone           L or L2: weight of the pairs in the process zone (see delam_solver_front)
- *   backtracks             returns to an earlier step during this step (option backtracking)
+ *   backtracks             number of returns to an earlier step during this step (option backtracking)
  *   revisions              number of times that backtracking has replaced this step
  *   revised_from           first step that the returns of this step have replaced; its own number if there is none
  *   search_candidates      number of states that the energetic search compared
  *   search_margin          F L: lowest energy of these states minus the energy of the accepted state (>= 0 up to
  *                          rounding); 0 if none was compared
- *   search_gap             F L: energy of the accepted state minus a lower bound for the front positions that the
- *                          search omitted. The bound holds for the mixities, and for the contact outside the zone,
+ *   search_gap             F L: energy of the accepted state minus a lower bound of the energy at the front positions
+ *                          that the search omitted. The bound assumes the mixities, and the contact outside the zone,
  *                          that the search has found. 0: no further advance of a single front by whole rings has a
  *                          lower energy. The value does not cover new cracks, combined fronts or partly damaged
  *                          states. Infinite: no bound exists (dead loads on parts that nothing holds, mixity_rule =
  *                          variational)
- *   substeps, refused_steps  substeps of the step, and substeps that were computed and rejected
+ *   substeps, refused_steps  number of accepted substeps of the step, and of substeps that were computed and rejected
  *   jumps                  number of jumps located within the step (option jump_tolerance)
  *   released               F L: energy that these jumps release and that is neither stored nor dissipated
- *   bulk_factorisations    sparse factorisations of the bodies since the solver was created: 1 if condensed, with FETI
- *                          one per subdomain
+ *   bulk_factorisations    number of sparse factorisations of the bodies since the solver was created: 1 with the
+ *                          condensed operator, one per subdomain with FETI
  *   field_recoveries       number of recoveries of the displacements from the interfaces since the solver was created.
- *                          The fields displacement, stress, rotation and (condensed) reaction need one, and so do
- *                          rotation_max, the kkt_ values and delam_solver_average; no other value does. These two
- *                          counts are not part of the state, nor of saved bytes
+ *                          The fields displacement, stress and rotation, with the condensed operator also reaction,
+ *                          need a recovery, and so do rotation_max, the kkt_ values and delam_solver_average, but no
+ *                          other value. bulk_factorisations and field_recoveries are part neither of the state nor of
+ *                          saved bytes
  *   damage_change          largest change of adhesion in one further damage step at this state; <= damage_tolerance
  *                          when converged
  *   linear_residual        worst relative residual of the iterative linear solves of the step; 0 if they are direct
  *   rotation_max           rad: largest rotation of a cell, from the skew part of the displacement gradient at its
- *                          centre (recovers the displacements). The relative error of small strains is about half its
- *                          square; a warning (level 1) reports once that it exceeds 0.1. NaN if no body has cells
+ *                          centre (recovers the displacements). The theory of small strains has a relative error of
+ *                          about half the square of this rotation; the solver warns once (log level 1) if it exceeds
+ *                          0.1. NaN if no body has cells
  *   kkt_gap                deepest penetration of the recovered displacements, divided by the largest jump (0: none)
  *   kkt_pressure           largest tension of a closed contact, divided by the largest force of a pair (0: none)
  *   kkt_complementarity    largest |gap * force| of a closed contact, divided by (largest jump * largest force)
@@ -878,8 +892,9 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *                          reaction or nodal force of eigenstrains (each kkt_ value recovers the displacements: one
  *                          sparse solve)
  * of the fronts of all interfaces with a law or, with :I appended (crack_length:0), of interface I:
- *   crack_length           L or L2: the initially open part, in 2D up to the pair at the tip, in 3D the faces that
- *                          touch an open pair, plus the sum of w (1 - zeta) over the pairs with initial adhesion > 0
+ *   crack_length           L or L2: the initially open part (2D: up to the pair at the tip; 3D: the faces that touch an
+ *                          open pair) plus the sum of w (1 - zeta) over the pairs with initial adhesion > 0, at most
+ *                          the size of the interface
  *   energy_release_rate    F/L: G at the point of the fronts with the largest G; 0 if there is no front
  *   front_mixity           (G_II + G_III)/G at that point
  *   process_zone_length    L: at that point
@@ -887,27 +902,28 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  * and per pattern
  *   load:NAME              factor of the pattern
  *   reaction:NAME          F L: conjugate of the factor, positive when the testing machine does work; for a force
- *                          pattern minus the conjugate displacement, for an eigenstrain minus the integral of stress
+ *                          pattern, minus the conjugate displacement; for an eigenstrain, minus the integral of stress
  *                          times strain
- * delam_solver_value_count counts all of them. Some keys have a second name (delam_solver_value_info):
- * staggered_iterations is am_iterations, unstable_debonds is debond_moves, state_jumps is jumps, and each key in
- * _slides also exists with _linear (dissipated_linear), named after its dissipation, which is linear in the damage.
+ * delam_solver_value_count counts all of them. Some keys have a second name (delam_solver_value_info): am_iterations is
+ * also staggered_iterations, debond_moves unstable_debonds, and jumps state_jumps. Every key that ends in _slides has a
+ * second name in _linear, e.g. dissipated_linear, because the dissipation of this split is linear in the damage.
  * [unit value of key; null none; status cancelled, argument, problem; source of what is computed: at
  * delam_solver_advance and delam_solver_front; since 0.1] */
 DELAM_API int32_t delam_solver_value(delam_solver *solver, const char *key, double *value);
-/* Number of values, in *count.
+/* Returns the number of values in *count.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_value_count(const delam_solver *solver, int64_t *count);
-/* Name of value `index`; NULL on error.
+/* Returns the name of value `index`; NULL on error.
  * [null result; owns result the solver; status argument; since 0.1] */
 DELAM_API const char *delam_solver_value_name(const delam_solver *solver, int64_t index);
-/* What value `index` is, as delam_solver_value_name counts them.
+/* Describes value `index`, in the order of delam_solver_value_name.
  *   alias     another name for its key, accepted wherever the key is; "": none
  *   unit      "-": none
- *   cost      what it takes to read the value: "free", the solver holds the number; "reads", it goes over the pairs or
- *             the crack fronts of the state; "recovers", it recovers the displacements, a sparse solve for each state
- *   scope     "whole", the whole scene; "interface", all interfaces or, with :I behind the key, one of them; "pattern",
- *             one load pattern
+ *   cost      what the solver must do to return the value: "free", nothing, because it stores the number; "reads",
+ *             evaluate the pairs or the crack fronts of the state; "recovers", recover the displacements, one sparse
+ *             solve for each state
+ *   scope     what the value describes: "whole", the whole scene; "interface", all interfaces or, with :I behind the
+ *             key, one of them; "pattern", one load pattern
  *   meaning   a short text
  *   recorded  *recorded is 1 where delam_solver_record takes the value, else 0
  * [null alias, unit, cost, scope, meaning, recorded; owns texts static; status argument; since 0.1] */
@@ -915,19 +931,21 @@ DELAM_API int32_t delam_solver_value_info(const delam_solver *solver, int64_t in
                                           const char **unit, const char **cost, const char **scope,
                                           const char **meaning, int32_t *recorded);
 
-/* Records a value of the committed state now and of every later step at its delam_solver_commit, e.g. a load curve.
- * After backtracking, the record holds the values of the replacing steps. A committed delam_solver_equilibrate replaces
- * the entry of its step. key: as in delam_solver_value, except those that recover the displacements (rotation_max, the
- * kkt_ values) and those that count over the life of the solver (bulk_factorisations, field_recoveries). A second
- * request for the same key has no effect. delam_solver_save includes the record; delam_solver_load replaces the record
- * by that of the bytes; request the keys that you need after it. DELAM_ERROR_STATE: a step is pending.
- * DELAM_ERROR_PROBLEM: a host law failed while the values of a front were computed; the key is not recorded.
+/* Records a value, e.g. for a load curve: of the committed state now, and of every later step when delam_solver_commit
+ * commits it. After backtracking, the record holds the values of the replacing steps. A committed
+ * delam_solver_equilibrate replaces the entry of its step. key: as in delam_solver_value, except the values that
+ * recover the displacements (rotation_max, the kkt_ values) and those that count since the solver was created
+ * (bulk_factorisations, field_recoveries). A second request for the same key has no effect. delam_solver_save includes
+ * the record; delam_solver_load replaces the record by the one in the bytes; request the keys that you need after
+ * loading. DELAM_ERROR_STATE: a step is pending. DELAM_ERROR_PROBLEM: a host law failed while the values of a front
+ * were computed; the key is not recorded.
  * [null none; status argument, problem, state; since 0.1] */
 DELAM_API int32_t delam_solver_record(delam_solver *solver, const char *key);
-/* Extent of the record: *steps steps, from step *first to the committed one; 0 and 0 if nothing is recorded.
+/* Returns the extent of the record: *steps steps, from step *first to the committed one; both are 0 if nothing is
+ * recorded.
  * [null first, steps; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_recorded_size(const delam_solver *solver, int64_t *first, int64_t *steps);
-/* Returns a recorded value for every step, values: [steps]; NaN for the steps before it was requested.
+/* Returns a recorded value for every step, values: [steps]; NaN for the steps before delam_solver_record requested it.
  * [unit values of key; null none; status argument; source none; since 0.1] */
 DELAM_API int32_t delam_solver_recorded(const delam_solver *solver, const char *key, int64_t capacity, double *values);
 
@@ -937,13 +955,14 @@ DELAM_API int32_t delam_solver_recorded(const delam_solver *solver, const char *
  *   stress        [cells][4 or 6]       F/L2 at the centre of the cell: xx, yy, zz, xy (2D) or xx, yy, zz, xy, yz, zx
  *   rotation      [cells][1 or 3]       rad at the centre of the cell, axial vector of the skew part of the
  *                 displacement gradient: about z (2D) or x, y, z
- *   jump          [pairs][dimension]    L, local components: normal (>= 0), tangential
+ *   jump          [pairs][dimension]    L, local components: normal (>= 0), then tangential
  *   traction      [pairs][dimension]    F/L2, local components, on face b, tension being positive; a contact pressure
  *                 is negative
- *   adhesion, mixity, contact  [pairs][1]   -, mixity B = Y_t/Y that the last step used (mixity_rule = converged: that
- *                          of its own solution, or for a pair that broke, of the iterate in which it broke;
- *                          variational: that of its own displacements; 0 where the law does not depend on the mixity,
- *                          unless option mixity = always), contact 1 = closed
+ *   adhesion, mixity, contact  [pairs][1]   -; mixity is the B = Y_t/Y that the last step used: with mixity_rule =
+ *                          frozen, that of the state before; converged, that of the step's own solution, or for a pair
+ *                          that broke, of the iterate in which it broke; variational, that of the step's own
+ *                          displacements. mixity is 0 where the law does not depend on it, unless option mixity =
+ *                          always. contact: 1 if closed
  *   reaction      [constraints][1]      F: force that the testing machine exerts, positive along the constraint
  * `part`: an interface index for pair fields, or -1 for all interfaces one after another; -1 for the other fields.
  * [null rows, columns; status argument; since 0.1] */
@@ -955,10 +974,10 @@ DELAM_API int32_t delam_solver_field(delam_solver *solver, const char *key, int6
                                      double *values);
 
 /* Returns the exact averages of strain and stress over the volume of a body (-1: of all), in the state that the values
- * describe. strain, stress: [6] in the order xx, yy, zz, xy, yz, zx, with doubled shear strains (strains that are
- * prescribed are included) and the stress in F/L2; *volume in L2 or L3. In 2D the out-of-plane components follow from
- * the plane assumption. The opening of interfaces between bodies is not included. Bodies without cells have no volume;
- * all results are 0 if no body has cells. Recovers the displacements.
+ * describe. strain, stress: [6] in the order xx, yy, zz, xy, yz, zx; shear strains are doubled, and the strain includes
+ * eigenstrains. *volume: in L2 or L3. In 2D the out-of-plane components follow from the plane assumption. The opening
+ * of interfaces between bodies is not included. Bodies without cells have no volume; all results are 0 if no body has
+ * cells. Recovers the displacements.
  * [unit volume L2 or L3, strain 1, stress F/L2; null volume, strain, stress; status cancelled, argument; source none;
  * since 0.1] */
 DELAM_API int32_t delam_solver_average(const delam_solver *solver, int32_t body, double *volume, double *strain,
@@ -966,8 +985,8 @@ DELAM_API int32_t delam_solver_average(const delam_solver *solver, int32_t body,
 
 /* Counts the crack fronts of an interface in the state that the values describe: *fronts fronts with *points points in
  * total. A front is where the adhesion passes 1/2: a point in 2D, and in 3D a polyline on the faces, open or closed. An
- * interface without a law has no front, and neither has one without a pair of adhesion below 1/2. The function finds
- * the fronts on request, from the jumps and adhesions alone.
+ * interface has no front if it has no law, or if no pair has an adhesion below 1/2. The function finds the fronts on
+ * request, from the jumps and adhesions alone.
  * [null fronts, points; status argument, problem; since 0.1] */
 DELAM_API int32_t delam_solver_front_count(const delam_solver *solver, int64_t interface_index, int64_t *fronts,
                                            int64_t *points);
@@ -975,28 +994,28 @@ DELAM_API int32_t delam_solver_front_count(const delam_solver *solver, int64_t i
  *   starts      [fronts + 1]  the points of front f are starts[f] .. starts[f+1] - 1
  *   closed      [fronts]      1: a closed line, whose last point is joined to its first
  *   places      [points][dimension]  L, in the undeformed body. 2D: the tip of the notch (the first pair with initial
- *                             adhesion > 0), moved ahead by the sum of weight (1 - zeta); a crack that began inside
- *                             extends by half that sum to either side. 3D: where the adhesion, linear between pairs, is
- *                             1/2 (half a cell behind the 2D definition at a sharp front)
+ *                             adhesion > 0), moved ahead by the sum of weight (1 - zeta); a crack that began inside the
+ *                             bond extends by half that sum to either side. 3D: where the adhesion, interpolated
+ *                             linearly between pairs, is 1/2 (at a sharp front, half a cell behind the 2D definition)
  *   directions  [points][dimension]  unit vector along the interface, normal to the front, into the adhering part
  *   lengths     [points]      L; 2D: length of the crack that ends here; 3D: length of front that the point represents
  *   rates       [points][3]   F/L, energy release rates in modes I, II (shear along the direction) and III (along the
  *                             front). J = - int t . d[u]/dx dx over the interface, from the open crack to beyond the
  *                             process zone, plus the energy stored in the interface at the end of that path (Rice
  *                             1968); the total is int Y dzeta/dx dx. On a stiff interface with a sharp front this is
- *                             the virtual crack closure technique, 1/2 traction times the opening behind the front. It
- *                             equals Gc where a front grows steadily. The choice of that end and closed contact have no
- *                             influence
- *   zone_lengths, zone_pairs  [points]  extent of the process zone along the direction, and pairs in it: pairs that
- *                             have lost 1e-3 of their adhesion and still have to spend 1e-3 of their toughness, at the
- *                             mixity of their jump. Below about 3 pairs, the traction in the zone depends on the mesh,
- *                             and so does the load of a local solution
- * The rates are exact in the limit of fine pairs for straight interfaces between bodies that do not vary along them,
- * without eigenstrains. They are approximate on curved interfaces (radius not much larger than the process zone), with
- * thermal strains, and where materials change along the interface. In 3D each part of the integral is assigned to the
- * nearest point of a front; single points scatter more than averages along the front. On pairs of quadratic cells in 3D
- * (alternating weights), unresolved fronts have good averages along the front, but single points are only good to about
- * ten percent.
+ *                             the virtual crack closure technique, 1/2 traction times the opening behind the front. The
+ *                             total equals Gc where a front grows steadily. It depends neither on where the path ends
+ *                             nor on closed contact
+ *   zone_lengths, zone_pairs  [points]  length of the process zone along the direction, and number of pairs in it. A
+ *                             pair is in the zone if it has lost at least 1e-3 of its adhesion and has at least 1e-3 of
+ *                             its toughness left to dissipate, at the mixity of its jump. With fewer than about 3 pairs
+ *                             in the zone, its traction depends on the mesh, and so does the load of a local solution
+ * As the mesh is refined, the rates become exact if the interface is straight, the bodies do not vary along it, and
+ * there are no eigenstrains. They are approximate on curved interfaces (radius not much larger than the process zone),
+ * with eigenstrains, and where materials change along the interface. In 3D each part of the integral is assigned to the
+ * nearest point of a front; values at single points scatter more than averages along the front. On quadratic cells in
+ * 3D, whose weights alternate, the averages along an unresolved front are good, but values at single points are
+ * accurate only to about 10 %.
  * [unit places L, directions 1, lengths L, rates F/L, zone_lengths L, zone_pairs 1; null starts, closed, places,
  * directions, lengths, rates, zone_lengths, zone_pairs; status argument, problem; source J. Rice, J. Appl. Mech. 35
  * (1968) 379-386; since 0.1] */
@@ -1007,30 +1026,30 @@ DELAM_API int32_t delam_solver_front(const delam_solver *solver, int64_t interfa
 
 /* Returns the tangent of the load patterns at fixed adhesion and contact set, in the pending state, or in the committed
  * state if none is pending: matrix [pattern_count][pattern_count], d2 E / d factor_p d factor_q, symmetric. Row p is
- * the change of reaction:p (for a force pattern: of minus its displacement). If each component of the control nodes
+ * the derivative of reaction:p (for a force pattern, of minus its displacement). If each component of the control nodes
  * of a periodic cell has a pattern of its own, the matrix is the homogenised stiffness times the volume. Costs one
  * displacement solve per pattern; the state does not change. DELAM_ERROR_STATE: a force pattern acts along a motion
  * that nothing holds.
  * [unit matrix of factors; null none; status cancelled, argument, state, numerical; source none; since 0.1] */
 DELAM_API int32_t delam_solver_tangent(delam_solver *solver, int64_t capacity, double *matrix);
 
-/* Returns the consistent tangent of the pending step, damage included: the derivative of reaction:p at the end of the
- * step with respect to the factor of pattern q there, from the committed state on. matrix:
- * [pattern_count][pattern_count], row p, column q; symmetric unless mixity_rule = converged. With this tangent, a
- * structure with its interfaces can be one element of a host that iterates: one pattern for each displacement of its
- * boundary, and the reactions as the element's forces. The tangent is the derivative of delam_solver_advance as long as
- * the contact set does not change, no pair reaches the end of a branch of its law, and no jump happens; past a limit
- * point it may be indefinite. In the very first loaded step, the mixity (that of the elastic solution with mixity_rule
- * = frozen) counts as fixed. Costs one displacement solve per pattern and one per damaging pair (mixity_rule =
- * variational: per component of such a pair); the state does not change. DELAM_ERROR_STATE: no step is pending,
- * backtracking has replaced it, or it has substeps (value substeps). DELAM_ERROR_NUMERICAL: the tangent is singular, so
- * that a jump is about to happen.
+/* Returns the consistent tangent of the pending step, damage included. matrix: [pattern_count][pattern_count],
+ * symmetric unless mixity_rule = converged. Row p, column q is the derivative of reaction:p with respect to the factor
+ * of pattern q, both at the end of the step, while the committed state from which the step starts is fixed. With this
+ * tangent, a structure with its interfaces can be one element of a host that iterates: define one pattern for each
+ * displacement of the element's boundary and use the reactions as the element's forces. The tangent is the derivative
+ * of delam_solver_advance as long as the contact set does not change, no pair reaches the end of a branch of its law,
+ * and no jump happens; past a limit point it may be indefinite. In the very first loaded step, the tangent treats the
+ * mixity as fixed (with mixity_rule = frozen, it is that of the elastic solution). Costs one displacement solve per
+ * pattern and one per damaging pair (mixity_rule = variational: per component of such a pair); the state does not
+ * change. DELAM_ERROR_STATE: no step is pending, backtracking has replaced it, or it has more than one substep (value
+ * substeps). DELAM_ERROR_NUMERICAL: the tangent is singular, i.e. a jump is about to happen.
  * [unit matrix of factors; null none; status cancelled, argument, state, numerical; source J. Simo, R. Taylor, Comput.
  * Methods Appl. Mech. Eng. 48 (1985) 101-118; since 0.1] */
 DELAM_API int32_t delam_solver_step_tangent(delam_solver *solver, int64_t capacity, double *matrix);
 
-/* Sizes of the condensed interface operator (delam_solver_condensed): *unknowns, and *entries of the sparse matrix N.
- * DELAM_ERROR_STATE: the solver uses FETI, which has no such operator (option reduction).
+/* Returns the sizes of the condensed interface operator (delam_solver_condensed): *unknowns, and *entries of the sparse
+ * matrix N. DELAM_ERROR_STATE: the solver uses FETI, which has no such operator (option reduction).
  * [null unknowns, entries; status argument, state; since 0.1] */
 DELAM_API int32_t delam_solver_condensed_size(const delam_solver *solver, int64_t *unknowns, int64_t *entries);
 /* Returns all bodies and loads, condensed onto the interfaces. With x [unknowns], the factors theta [patterns] and the
@@ -1040,7 +1059,7 @@ DELAM_API int32_t delam_solver_condensed_size(const delam_solver *solver, int64_
  * interfaces. Where a row of N is empty, the loads alone prescribe the jump. stiffness S [unknowns][unknowns],
  * symmetric, semidefinite if bodies float; load L [patterns][unknowns]; constant A [patterns][patterns]; N as
  * row_starts [rows+1], columns and values [entries], with one row per component of j; offset O [rows][patterns].
- * capacity: unknowns^2, of stiffness.
+ * capacity: number of entries that stiffness can hold, at least unknowns^2.
  * [unit stiffness F/L, load F, constant F L, values 1, offset L; null stiffness, load, constant, row_starts, columns,
  * values, offset; status cancelled, argument, state; source src/reduction/README.md; since 0.1] */
 DELAM_API int32_t delam_solver_condensed(const delam_solver *solver, int64_t capacity, double *stiffness, double *load,
@@ -1048,13 +1067,13 @@ DELAM_API int32_t delam_solver_condensed(const delam_solver *solver, int64_t cap
                                          double *offset);
 
 /* Returns the plan as text: what the scene needs and what the solver omits, each with the reason, the predicted cost
- * and what the decision saves; one line each, "subject: decision, reason (cost ..., saves ...)\n". Never NULL.
+ * and what the decision saves. Each item is one line, "subject: decision, reason (cost ..., saves ...)\n". Never NULL.
  * [owns result until the next call with this solver; status -; since 0.1] */
 DELAM_API const char *delam_solver_plan(delam_solver *solver);
-/* Number of items of the plan, in *count. The plan is fixed when the solver is created. Subjects: condensed operator,
- * FETI, memory, subdomains, threads, longest uninterruptible factorisation, contact of interface I, mixity of interface
- * I (for each I), gradient term, acceleration of the minimisation, displacements and stresses inside the bodies,
- * energetic search, backtracking.
+/* Returns the number of items of the plan in *count. The plan is fixed when the solver is created. Subjects: condensed
+ * operator, FETI, memory, subdomains, threads, longest uninterruptible factorisation, contact of interface I, mixity of
+ * interface I (for each I), gradient term, acceleration of the minimisation, displacements and stresses inside the
+ * bodies, energetic search, backtracking.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_plan_count(const delam_solver *solver, int64_t *count);
 /* Returns one item of the plan. decision: "used" or "left out". *cost: predicted cost of what is used (0 if left out);
@@ -1066,31 +1085,31 @@ DELAM_API int32_t delam_solver_plan_item(const delam_solver *solver, int64_t ind
                                          const char **decision, const char **reason, double *cost, double *saving,
                                          const char **unit);
 
-/* Returns the value of an option as text, as the solver uses it, e.g. "energetic" for "solution", to label results
- * with. NULL for an unknown key.
+/* Returns the value of an option that the solver uses, as text, e.g. "energetic" for "solution"; hosts may label
+ * results with it. NULL for an unknown key.
  * [null result; owns result until the next call with this solver; status argument; since 0.1] */
 DELAM_API const char *delam_solver_option(const delam_solver *solver, const char *key);
-/* Returns what the energetic search of the last step compared, one line for each front and each new crack: the states,
- * why the search stopped, and the lowest energy. "" if nothing was searched. Never NULL.
+/* Returns a text about the energetic search of the last step, one line for each front and each new crack: the states
+ * that it compared, why it stopped, and the lowest energy. "" if there was no search. Never NULL.
  * [owns result until the next call with this solver; status -; since 0.1] */
 DELAM_API const char *delam_solver_searched(const delam_solver *solver);
 
 /* Selects the step that values and fields describe. With option backtracking, the solver keeps the last
- * backtracking_depth steps; where the pending step replaces earlier ones, it shows the replacements. step -1 selects
- * the pending state again, or the committed state if none is pending; so do advance, equilibrate, commit, rollback and
- * load when they succeed. DELAM_ERROR_ARGUMENT names the steps that are kept.
+ * backtracking_depth steps; if the pending step replaces earlier steps, the function selects the replacements. step -1
+ * selects the pending state again, or the committed state if none is pending; successful calls of advance, equilibrate,
+ * commit, rollback and load do the same. DELAM_ERROR_ARGUMENT names the steps that are kept.
  * [status argument; since 0.1] */
 DELAM_API int32_t delam_solver_look(delam_solver *solver, int64_t step);
 
-/* Number of jumps that were located (option jump_tolerance) up to the pending state, or up to the committed state if
- * none is pending, in *count. Jumps are ordered by time.
+/* Returns in *count the number of jumps located (option jump_tolerance) up to the pending state, or up to the committed
+ * state if none is pending. Jumps are ordered by time.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_jump_count(const delam_solver *solver, int64_t *count);
 /* Returns one jump. It lies within (*before, *time], in step *step. Energies: *stored, change of stored energy and load
- * potential; *dissipated; *released = E(time, state before) - E(time, state after) - dissipated, which is neither
- * stored nor dissipated (a dynamic event would radiate it; it is 0 for energetic jumps, up to the tolerance).
- * *debonded: change of the sum of weight (1 - zeta). *interface_index: the interface that changed most; *first_pair,
- * *last_pair: the first and last of its pairs whose adhesion changed (-1: none).
+ * potential; *dissipated; *released = E(time, state before) - E(time, state after) - dissipated, the energy that is
+ * neither stored nor dissipated (in reality, waves would carry it away; for energetic jumps it is 0 up to the
+ * tolerance). *debonded: change of the sum of weight (1 - zeta). *interface_index: the interface that changed most;
+ * *first_pair, *last_pair: the first and last of its pairs whose adhesion changed (-1: none).
  * [unit before t, time t, stored F L, dissipated F L, released F L, debonded L or L2; null step, before, time, stored,
  * dissipated, released, debonded, interface_index, first_pair, last_pair; status argument; source none; since 0.1] */
 DELAM_API int32_t delam_solver_jump(const delam_solver *solver, int64_t index, int64_t *step, double *before,
@@ -1098,19 +1117,18 @@ DELAM_API int32_t delam_solver_jump(const delam_solver *solver, int64_t index, i
                                     double *debonded, int64_t *interface_index, int64_t *first_pair,
                                     int64_t *last_pair);
 
-/* Saves the committed state as bytes: [*needed]. *needed receives the size; the bytes are written if capacity suffices
- * (capacity 0 asks for the size). A solver of the same scene and options that loads the bytes continues with bitwise
- * identical results.
+/* Saves the committed state as bytes: [*needed]. *needed receives the size; with capacity 0 the function returns only
+ * the size. A solver of the same scene and options that loads these bytes continues with bitwise identical results.
  * [null bytes at capacity 0; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_save(const delam_solver *solver, int64_t capacity, uint8_t *bytes, int64_t *needed);
-/* Loads bytes: [size] that delam_solver_save wrote, as the committed state; a pending step is discarded. The bytes also
- * replace the histories (delam_solver_set_history) and the record. DELAM_ERROR_SNAPSHOT: the bytes are damaged, or of
- * another scene or version; the message says what is wrong.
+/* Loads bytes: [size] that delam_solver_save wrote; they become the committed state, and a pending step is discarded.
+ * The bytes also replace the histories (delam_solver_set_history) and the record. DELAM_ERROR_SNAPSHOT: the bytes are
+ * damaged, or of another scene or version; the message says what is wrong.
  * [null none; status cancelled, argument, numerical, snapshot; since 0.1] */
 DELAM_API int32_t delam_solver_load(delam_solver *solver, int64_t size, const uint8_t *bytes);
-/* Saves the same bytes as a file, path in the encoding of the file system. The function writes a file beside it and
- * renames it when it is complete and on disk, so that a full disk or an interruption leaves the old file intact.
- * DELAM_ERROR_FILE says what failed.
+/* Saves the bytes of delam_solver_save in the file at path (in the encoding of the file system). The function first
+ * writes a temporary file in the same folder and gives it the name path once it is complete and on disk; a full disk or
+ * an interruption therefore leaves the old file intact. DELAM_ERROR_FILE says what failed.
  * [null none; status argument, file; since 0.1] */
 DELAM_API int32_t delam_solver_save_file(const delam_solver *solver, const char *path);
 /* Loads the file at path, which holds bytes of delam_solver_save or delam_solver_save_file, as delam_solver_load does.
