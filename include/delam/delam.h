@@ -283,9 +283,8 @@ DELAM_API int32_t delam_mesh_add_projected_interface(delam_mesh *mesh, int32_t b
                                                      int64_t *out_interface);
 /* Adds a rigid obstacle (loading nose, support, symmetry plane) that nodes of one body may touch. It translates with
  * control_node, a node of the mesh without cells (counted from 0, like all single indices); obstacles that move
- * together share one control node. *out_interface receives the index of the new interface, which has a pair for each
- * node, in the given order, with node_a the control node (body_a is -1), node_b the node, and the jump u_node -
- * u_control.
+ * together share one control node. *out_interface receives the index of the new interface. It has a pair for each node,
+ * in the given order: node_a is the control node (body_a is -1), node_b the node, and the jump u_node - u_control.
  *   nodes    [count] of one body, each once
  *   normals  [count][dimension], of any length > 0, from the obstacle into the body
  *   weights  [count] > 0, length (2D) or area (3D) that each pair represents; NULL: the function computes them as
