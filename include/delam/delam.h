@@ -389,7 +389,8 @@ DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, co
  * Y = Y_n + Y_t the sum, and B = Y_t/Y the mode mixity. The adhesion zeta minimises zeta Y + g(B, zeta) over
  * 0 <= zeta <= old adhesion. The dissipated energy g is convex in zeta and decreases from g(B, 0) = Gc(B), the
  * toughness, to g(B, 1) = 0; its slope at zeta = 1 is -Go(B), where Go is the onset. On first loading at fixed mixity
- * the traction peaks at sqrt(2 k Go), and the area under the traction-separation curve is Gc. kind:
+ * the traction peaks at sqrt(2 k Go) with k = (1-B) k_n + B k_t, and the area under the traction-separation curve is
+ * Gc. kind:
  *   piecewise-linear  the bilinear law: the traction falls linearly (Valoroso and Champaney 2006)
  *   exponential       the traction decays exponentially, with a decay length of (Gc/Go - 1)/2 times the jump at the
  *                     onset; it never reaches zero
