@@ -170,10 +170,10 @@ constexpr Row table[] = {
         [](const State& s) { return s.ledger.dissipated; }),
     row(
         "stored_interface_slides", "F L", "stored_interface in the split whose dissipation is linear in the damage",
-        [](const State& s) { return s.ledger.stored_interface_slides; }, "stored_interface_linear"),
+        [](const State& s) { return s.ledger.stored_interface_linear; }, "stored_interface_linear"),
     row(
         "dissipated_slides", "F L", "dissipated in the split whose dissipation is linear in the damage",
-        [](const State& s) { return s.ledger.dissipated_slides; }, "dissipated_linear"),
+        [](const State& s) { return s.ledger.dissipated_linear; }, "dissipated_linear"),
     row("load_potential", "F L", "potential of the dead forces",
         [](const State& s) { return s.ledger.load_potential; }),
     row("work", "F L", "work of the loads since the start, the mean of the bounds of every step",
@@ -190,7 +190,7 @@ constexpr Row table[] = {
         [](const State& s) { return s.ledger.defect(); }),
     row(
         "defect_slides", "F L", "defect in the split whose dissipation is linear in the damage",
-        [](const State& s) { return s.ledger.defect_slides(); }, "defect_linear"),
+        [](const State& s) { return s.ledger.defect_linear(); }, "defect_linear"),
     row("mixity_error", "-", "toughness at the mixity of the result against the toughness used, relative, in the step",
         [](const State& s) { return s.ledger.mixity_error; }),
     row(

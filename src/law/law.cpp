@@ -82,11 +82,11 @@ double Law::dissipated(const Toughness& t, double zeta) const {
     return std::visit([&](const auto& shape) { return shape.dissipated(t, zeta); }, softening);
 }
 
-double Law::stored_slides(const Toughness& t, double zeta) const {
+double Law::stored_linear(const Toughness& t, double zeta) const {
     return std::visit(
         [&](const auto& shape) {
-            if constexpr (requires { shape.stored_slides(t, zeta); })
-                return shape.stored_slides(t, zeta);
+            if constexpr (requires { shape.stored_linear(t, zeta); })
+                return shape.stored_linear(t, zeta);
             else
                 return std::min(0.0, shape.dissipated(t, zeta) - t.total * (1.0 - zeta));
         },

@@ -75,7 +75,7 @@ struct Law {
 
     // Energies per unit area, F/L, of one point; `t` at the mixity that holds, 0 <= zeta <= 1.
     double dissipated(const Toughness& t, double zeta) const;     // g >= 0
-    double stored_slides(const Toughness& t, double zeta) const;  // f <= 0
+    double stored_linear(const Toughness& t, double zeta) const;  // f <= 0
     // Y(zeta) = -dg/dzeta, what it takes to damage further from zeta; nonincreasing in zeta. Its slope is
     // -g'' <= 0; at a corner of the traction-jump curve that of the more damaged side. Both are infinite where no
     // driving energy suffices (exponential, zeta = 0).

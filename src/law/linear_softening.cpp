@@ -10,7 +10,7 @@ double LinearSoftening::dissipated(const Toughness& t, double zeta) const {
     return t.total * ((1.0 - zeta) * (t.onset / (t.onset * (1.0 - zeta) + t.total * zeta)));
 }
 
-double LinearSoftening::stored_slides(const Toughness& t, double zeta) const {
+double LinearSoftening::stored_linear(const Toughness& t, double zeta) const {
     return -(t.total - t.onset) * (zeta * (1.0 - zeta) * (t.total / (t.onset * (1.0 - zeta) + t.total * zeta)));
 }
 

@@ -18,7 +18,7 @@ struct LinearSoftening {
                                   Toughnesses::onset_and_total};
 
     double dissipated(const Toughness& t, double zeta) const;
-    double stored_slides(const Toughness& t, double zeta) const;
+    double stored_linear(const Toughness& t, double zeta) const;
     double driving(const Toughness& t, double zeta) const;
     double driving_slope(const Toughness& t, double zeta) const;
     double minimiser(const Toughness& t, double driving, double zeta_old) const;

@@ -8,7 +8,7 @@
 
 namespace delam {
 
-double stored_slides_slope(const Law& law, double mixity, double zeta) {
+double stored_linear_slope(const Law& law, double mixity, double zeta) {
     if (!(zeta > 0.0 && zeta < 1.0)) return 0.0;
     return law.dissipated_slope_mixity(mixity, zeta) - law.toughness_slope(mixity).total * (1.0 - zeta);
 }
@@ -32,7 +32,7 @@ double VariationalPair::minimiser(std::span<const double> local_jump, double zet
 
 double VariationalPair::energy(std::span<const double> local_jump, double zeta) const {
     const Mode m = mode(local_jump);
-    return zeta * (m.driving.total() - total_before) + law.stored_slides(law.toughness(m.mixity), zeta);
+    return zeta * (m.driving.total() - total_before) + law.stored_linear(law.toughness(m.mixity), zeta);
 }
 
 std::array<double, 3> VariationalPair::force(std::span<const double> local_jump, double zeta) const {
@@ -40,7 +40,7 @@ std::array<double, 3> VariationalPair::force(std::span<const double> local_jump,
     std::array<double, 3> t{};
     double normal = zeta, tangential = zeta;
     if (m.known) {
-        const double pull = stored_slides_slope(law, m.mixity, zeta) / m.driving.total();
+        const double pull = stored_linear_slope(law, m.mixity, zeta) / m.driving.total();
         if (local_jump[0] > 0.0) normal -= m.mixity * pull;
         tangential += (1.0 - m.mixity) * pull;
     }
@@ -77,8 +77,8 @@ double VariationalPair::proximal(std::span<const double> local_jump, double zeta
     if (!m.known || !(zeta > 0.0 && zeta < 1.0)) return 0.0;
     constexpr double step = 1e-5;
     const double low = std::max(0.0, m.mixity - step), high = std::min(1.0, m.mixity + step);
-    const double slope = stored_slides_slope(law, m.mixity, zeta);
-    const double second = (stored_slides_slope(law, high, zeta) - stored_slides_slope(law, low, zeta)) / (high - low);
+    const double slope = stored_linear_slope(law, m.mixity, zeta);
+    const double second = (stored_linear_slope(law, high, zeta) - stored_linear_slope(law, low, zeta)) / (high - low);
     const double sine2 = 4.0 * m.mixity * (1.0 - m.mixity);  // sin^2 2phi
     const double first = slope * std::sqrt(sine2), curvature = second * sine2 + 2.0 * slope * (1.0 - 2.0 * m.mixity);
     return 0.5 * (curvature + std::sqrt(curvature * curvature + 4.0 * first * first)) / (2.0 * m.driving.total());

@@ -20,7 +20,7 @@
 namespace delam {
 
 // df/dB at fixed zeta.
-double stored_slides_slope(const Law& law, double mixity, double zeta);
+double stored_linear_slope(const Law& law, double mixity, double zeta);
 
 struct VariationalPair {
     const Law& law;

@@ -123,9 +123,9 @@ START_TEST(bytes_keep_their_order) {
     Ledger l;
     double energy = 0.5;
     std::vector<std::uint8_t> expected;
-    for (double* v : {&l.stored_bulk, &l.stored_interface, &l.load_potential, &l.stored_interface_slides, &l.dissipated,
-                      &l.dissipated_slides, &l.work, &l.lower, &l.increment, &l.upper, &l.increment_lower, &l.initial,
-                      &l.initial_slides, &l.mixity_error})
+    for (double* v : {&l.stored_bulk, &l.stored_interface, &l.load_potential, &l.stored_interface_linear, &l.dissipated,
+                      &l.dissipated_linear, &l.work, &l.lower, &l.increment, &l.upper, &l.increment_lower, &l.initial,
+                      &l.initial_linear, &l.mixity_error})
         append(expected, *v = energy += 1.0);
     ck_assert(bytes_of(l) == expected);
 

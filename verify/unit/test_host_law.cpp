@@ -133,7 +133,7 @@ START_TEST(same_as_the_bilinear_law) {
         for (int k = 0; k <= 50; ++k) {
             const double z = k / 50.0, y = own.driving(o, z);
             ck_assert(std::abs(host.dissipated(h, z) - own.dissipated(o, z)) <= 1e-14 * o.total);
-            ck_assert(std::abs(host.stored_slides(h, z) - own.stored_slides(o, z)) <= 1e-13 * o.total);
+            ck_assert(std::abs(host.stored_linear(h, z) - own.stored_linear(o, z)) <= 1e-13 * o.total);
             ck_assert(close(host.driving(h, z), y, 1e-14));
             ck_assert_msg(close(host.driving_slope(h, z), own.driving_slope(o, z), 2e-5), "zeta %g: %g, %g", z,
                           host.driving_slope(h, z), own.driving_slope(o, z));

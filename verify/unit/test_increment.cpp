@@ -165,7 +165,7 @@ START_TEST(the_ledger_is_the_sum_over_pairs) {
     for (int trial = 0; trial < 30; ++trial) {
         const auto c = some_case(random, 2 + trial % 2);
         c->before.ledger.dissipated = 3.0;
-        c->before.ledger.dissipated_slides = 5.0;
+        c->before.ledger.dissipated_linear = 5.0;
         for (std::size_t r = 0; r < c->rules.size(); ++r) {
             const Increment& rule = *c->rules[r];
             State next = c->before;
@@ -173,22 +173,22 @@ START_TEST(the_ledger_is_the_sum_over_pairs) {
             next.adhesion = rule.damage_step(c->before.adhesion, c->jump);
             rule.record(next);
             rule.book(next);
-            double stored = 0.0, dissipated = 3.0, slides = 5.0;
+            double stored = 0.0, dissipated = 3.0, linear = 5.0;
             for (std::size_t p = 0; p < pair_count; ++p) {
                 const Toughness t = c->law.toughness(next.mixity[p]);
                 const double w = c->pairs.weight[p], zeta = next.adhesion[p], old = c->before.adhesion[p];
                 stored += w * zeta * driving_energy(c->law, local(*c, p, c->jump)).total();
                 dissipated += w * (c->law.dissipated(t, zeta) - c->law.dissipated(t, old));
                 // The variational rule dissipates at the mixity before the step.
-                slides += w * (old - zeta) * c->law.toughness(r == 2 ? next.mixity_before[p] : next.mixity[p]).total;
+                linear += w * (old - zeta) * c->law.toughness(r == 2 ? next.mixity_before[p] : next.mixity[p]).total;
             }
             ck_assert_double_eq_tol(next.ledger.stored_interface, stored, 1e-12 * stored);
             ck_assert_double_eq_tol(next.ledger.dissipated, dissipated, 1e-12 * dissipated);
-            ck_assert_double_eq_tol(next.ledger.dissipated_slides, slides, 1e-12 * slides);
-            const double energies = r == 2 ? next.ledger.energy_slides() - c->before.ledger.energy_slides()
+            ck_assert_double_eq_tol(next.ledger.dissipated_linear, linear, 1e-12 * linear);
+            const double energies = r == 2 ? next.ledger.energy_linear() - c->before.ledger.energy_linear()
                                            : next.ledger.energy() - c->before.ledger.energy();
-            ck_assert_double_eq_tol(next.ledger.increment, energies + (r == 2 ? slides - 5.0 : dissipated - 3.0),
-                                    1e-12 * (std::abs(energies) + dissipated + slides));
+            ck_assert_double_eq_tol(next.ledger.increment, energies + (r == 2 ? linear - 5.0 : dissipated - 3.0),
+                                    1e-12 * (std::abs(energies) + dissipated + linear));
         }
     }
 }

@@ -29,7 +29,7 @@ bool close(double a, double b, double tolerance) {
     return std::abs(a - b) <= tolerance * std::max(std::abs(a), std::abs(b));
 }
 
-Law slides(double stiffness, double onset, double toughness) {
+Law bilinear(double stiffness, double onset, double toughness) {
     Law law;
     law.normal_stiffness = law.tangential_stiffness = stiffness;
     law.normal_onset = law.tangential_onset = onset;
@@ -37,8 +37,8 @@ Law slides(double stiffness, double onset, double toughness) {
     return law;
 }
 const delam::LinearSoftening shape;
-const Law ductile = slides(125e9, 100.0, 250.0);
-const Law brittle = slides(125e15, 0.01, 25.0);
+const Law ductile = bilinear(125e9, 100.0, 250.0);
+const Law brittle = bilinear(125e15, 0.01, 25.0);
 
 // ((1-B) G/G_n)^p + (B G/G_t)^q - 1 in long double.
 long double residual(long double g, double gn, double gt, double p, double q, double b) {
@@ -116,8 +116,8 @@ START_TEST(minimiser_against_scan) {
         for (const double zeta_old : {1.0, 0.7, 0.05, 0.0}) {
             for (int i = 0; i < 60; ++i) {
                 const double y = 3.0 * std::pow(ratio, 2.4 * i / 59.0 - 0.2);
-                const auto slides_split = [&](double z) {
-                    return z * y + shape.stored_slides(t, z) + t.total * (zeta_old - z);
+                const auto linear_split = [&](double z) {
+                    return z * y + shape.stored_linear(t, z) + t.total * (zeta_old - z);
                 };
                 const auto ledger = [&](double z) {
                     return z * y + shape.dissipated(t, z) - shape.dissipated(t, zeta_old);
@@ -126,13 +126,13 @@ START_TEST(minimiser_against_scan) {
                 double best_ledger = 0.0;
                 for (int j = 0; j <= n; ++j) {
                     const double z = zeta_old * j / n;
-                    if (slides_split(z) < slides_split(best)) best = z;
+                    if (linear_split(z) < linear_split(best)) best = z;
                     if (ledger(z) < ledger(best_ledger)) best_ledger = z;
                 }
                 const double z = shape.minimiser(t, y, zeta_old);
                 ck_assert(z >= 0.0 && z <= zeta_old);
                 const double rounding = 1e-13 * (t.total + y);
-                ck_assert(slides_split(z) <= slides_split(best) + rounding);
+                ck_assert(linear_split(z) <= linear_split(best) + rounding);
                 ck_assert(ledger(z) <= ledger(best_ledger) + rounding);
                 // For a law close to Griffith's, the energy between its ends is flat to rounding, so the position of
                 // its minimum means nothing there.
@@ -148,8 +148,8 @@ START_TEST(derivatives) {
     const Toughness t{1.0, 7.0};
     for (int i = 1; i < 20; ++i) {
         const double z = i / 20.0;
-        ck_assert(close(shape.stored_slides(t, z) + t.total * (1.0 - z), shape.dissipated(t, z), 1e-14));
-        ck_assert(shape.stored_slides(t, z) <= 0.0);
+        ck_assert(close(shape.stored_linear(t, z) + t.total * (1.0 - z), shape.dissipated(t, z), 1e-14));
+        ck_assert(shape.stored_linear(t, z) <= 0.0);
         const double h = 1e-5;
         const double slope = (shape.dissipated(t, z + h) - shape.dissipated(t, z - h)) / (2.0 * h);
         const double curvature = shape.dissipated(t, z + h) - 2.0 * shape.dissipated(t, z) + shape.dissipated(t, z - h);
@@ -157,8 +157,8 @@ START_TEST(derivatives) {
         ck_assert(std::abs(shape.minimiser(t, -slope, 1.0) - z) < 1e-8);
     }
     ck_assert(shape.dissipated(t, 1.0) == 0.0);
-    ck_assert(shape.stored_slides(t, 0.0) == 0.0);
-    ck_assert(shape.stored_slides(t, 1.0) == 0.0);
+    ck_assert(shape.stored_linear(t, 0.0) == 0.0);
+    ck_assert(shape.stored_linear(t, 1.0) == 0.0);
 }
 END_TEST
 
@@ -168,7 +168,7 @@ START_TEST(griffith_limit) {
     ck_assert(shape.minimiser(griffith, 2.0, 0.8) == 0.0);
     ck_assert(shape.minimiser(griffith, 0.0, 0.8) == 0.8);
     ck_assert(close(shape.dissipated(griffith, 0.25), 1.5, 1e-15));
-    ck_assert(shape.stored_slides(griffith, 0.5) == 0.0);
+    ck_assert(shape.stored_linear(griffith, 0.5) == 0.0);
     // D/Go = 2^-k down to one unit in the last place: with Y = Go (1 + 2 s D/Go) the minimiser is 1 - s up to O(D/Go)
     // and the rounding of Y itself.
     for (int k = 4; k <= 50; ++k) {
@@ -265,7 +265,7 @@ START_TEST(units) {
                     const double z = shape.minimiser(t, y, 1.0);
                     ck_assert(shape.minimiser(o, y * unit, 1.0) == z);
                     ck_assert(shape.dissipated(o, z) == shape.dissipated(t, z) * unit);
-                    ck_assert(shape.stored_slides(o, z) == shape.stored_slides(t, z) * unit);
+                    ck_assert(shape.stored_linear(o, z) == shape.stored_linear(t, z) * unit);
                 }
             }
         }
@@ -299,7 +299,7 @@ END_TEST
 
 START_TEST(toughness_below_onset_between_the_modes) {
     // Exponent 8 at onset leaves 2^(7/8) G at B = 1/2, exponent 1 of the toughness only 1.2 G.
-    Law law = slides(1e9, 100.0, 120.0);
+    Law law = bilinear(1e9, 100.0, 120.0);
     law.onset_exponent_1 = law.onset_exponent_2 = 8.0;
     law.toughness_exponent_1 = law.toughness_exponent_2 = 1.0;
     const std::string text = refusal(law);
@@ -310,7 +310,7 @@ START_TEST(toughness_below_onset_between_the_modes) {
     ck_assert(!refusal(law).empty());
     // The minimum lies where the weaker mode takes over: far from the middle if the toughnesses are far apart.
     for (const double apart : {1e-9, 1e-4, 1e4, 1e9}) {
-        Law far = slides(1e9, 100.0, 120.0);
+        Law far = bilinear(1e9, 100.0, 120.0);
         far.tangential_onset *= apart;
         far.tangential_toughness *= apart;
         far.onset_exponent_1 = far.onset_exponent_2 = 50.0;
@@ -321,7 +321,7 @@ START_TEST(toughness_below_onset_between_the_modes) {
         ck_assert(refusal(far).empty());
     }
     // Equal exponents can never fail, whatever their value.
-    Law fine = slides(1e9, 100.0, 100.0);
+    Law fine = bilinear(1e9, 100.0, 100.0);
     fine.tangential_onset = 3.0;
     fine.tangential_toughness = 1e6;
     fine.onset_exponent_1 = fine.toughness_exponent_1 = 0.4;

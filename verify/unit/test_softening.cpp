@@ -74,8 +74,8 @@ START_TEST(energy) {
         ck_assert_msg(close(law.dissipated(t, 0.0), t.total, 1e-15), "%s", name);
         ck_assert_msg(close(law.dissipated(t, 1e-9), t.total, 1e-5), "%s: g(0+) %g", name, law.dissipated(t, 1e-9));
         ck_assert_msg(close(law.driving(t, 1.0), t.onset, 1e-14), "%s", name);
-        ck_assert(std::abs(law.stored_slides(t, 0.0)) <= 1e-15 * t.total);
-        ck_assert(std::abs(law.stored_slides(t, 1.0)) <= 1e-15 * t.total);
+        ck_assert(std::abs(law.stored_linear(t, 0.0)) <= 1e-15 * t.total);
+        ck_assert(std::abs(law.stored_linear(t, 1.0)) <= 1e-15 * t.total);
         constexpr int n = 400;
         for (int i = 1; i < n; ++i) {
             const double low = (i - 1.0) / n, z = i / static_cast<double>(n), high = (i + 1.0) / n;
@@ -86,9 +86,9 @@ START_TEST(energy) {
             const double chord = (law.dissipated(t, low) - law.dissipated(t, z)) * n, slack = 1e-11 * t.total;
             ck_assert_msg(chord >= y - slack && chord <= law.driving(t, low) + slack, "%s, zeta %g: %g, %g", name, z,
                           chord, y);
-            ck_assert(law.stored_slides(t, z) <= 1e-15 * t.total);
+            ck_assert(law.stored_linear(t, z) <= 1e-15 * t.total);
             const double other_split = law.dissipated(t, z) - t.total * (1.0 - z);
-            ck_assert_msg(std::abs(law.stored_slides(t, z) - other_split) <= 1e-14 * t.total, "%s", name);
+            ck_assert_msg(std::abs(law.stored_linear(t, z) - other_split) <= 1e-14 * t.total, "%s", name);
             const double h = 1e-5 * z;
             const double left = (y - law.driving(t, z - h)) / h, right = (law.driving(t, z + h) - y) / h;
             const double slope = law.driving_slope(t, z);
@@ -241,7 +241,7 @@ START_TEST(units) {
                     ck_assert(other.dissipated(o, z) == law.dissipated(t, z) * unit);
                     ck_assert(other.driving(o, z) == law.driving(t, z) * unit);
                     ck_assert(other.driving_slope(o, z) == law.driving_slope(t, z) * unit);
-                    ck_assert(other.stored_slides(o, z) == law.stored_slides(t, z) * unit);
+                    ck_assert(other.stored_linear(o, z) == law.stored_linear(t, z) * unit);
                     ck_assert(other.dissipated_slope_mixity(b, z) == law.dissipated_slope_mixity(b, z) * unit);
                 }
                 for (const double y : {50.0, 150.0, 300.0, 1000.0, 5000.0}) {

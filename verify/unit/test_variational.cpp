@@ -58,10 +58,10 @@ START_TEST(toughness_slopes) {
         ck_assert_double_eq_tol(slope.onset, (high.onset - low.onset) / (2 * h), 1e-4 * law.normal_onset);
         ck_assert_double_eq_tol(slope.total, (high.total - low.total) / (2 * h), 1e-4 * law.normal_toughness);
         const double zeta = std::uniform_real_distribution<double>(0.02, 0.98)(random);
-        ck_assert_double_eq_tol(stored_slides_slope(law, b, zeta),
-                                (law.stored_slides(high, zeta) - law.stored_slides(low, zeta)) / (2 * h),
+        ck_assert_double_eq_tol(stored_linear_slope(law, b, zeta),
+                                (law.stored_linear(high, zeta) - law.stored_linear(low, zeta)) / (2 * h),
                                 1e-4 * law.normal_toughness);
-        ck_assert(stored_slides_slope(law, b, 0.0) == 0.0 && stored_slides_slope(law, b, 1.0) == 0.0);
+        ck_assert(stored_linear_slope(law, b, 0.0) == 0.0 && stored_linear_slope(law, b, 1.0) == 0.0);
     }
     Law constant;
     constant.normal_onset = constant.tangential_onset = 100.0;

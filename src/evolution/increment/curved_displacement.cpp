@@ -80,7 +80,7 @@ CurvedDisplacement::Model CurvedDisplacement::model(std::span<const double> jump
 }
 
 double CurvedDisplacement::interface_energy(std::span<const double> jump) const {
-    return stored_energy(pairs_, adhesion_, jump) + stored_slides(pairs_, mixities(pairs_, jump, mixity_), adhesion_);
+    return stored_energy(pairs_, adhesion_, jump) + stored_linear(pairs_, mixities(pairs_, jump, mixity_), adhesion_);
 }
 
 double CurvedDisplacement::mismatch(const std::vector<std::uint8_t>& closed, const Response& response) const {

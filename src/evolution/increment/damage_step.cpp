@@ -103,11 +103,11 @@ double stored_energy(const PairLaws& pairs, std::span<const double> adhesion, st
     return sum + gradient_energy(pairs, adhesion);
 }
 
-double stored_slides(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion) {
+double stored_linear(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion) {
     double sum = 0.0;
     for (std::size_t p = 0; p < adhesion.size(); ++p)
         if (pairs.law[p] != nullptr)
-            sum += pairs.weight[p] * pairs.law[p]->stored_slides(pairs.toughness(p, mixity[p]), adhesion[p]);
+            sum += pairs.weight[p] * pairs.law[p]->stored_linear(pairs.toughness(p, mixity[p]), adhesion[p]);
     return sum;
 }
 
@@ -123,7 +123,7 @@ double dissipation(const PairLaws& pairs, std::span<const double> mixity, std::s
     return sum;
 }
 
-double dissipation_slides(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
+double dissipation_linear(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
                           std::span<const double> adhesion) {
     double sum = 0.0;
     for (std::size_t p = 0; p < adhesion.size(); ++p)

@@ -57,13 +57,13 @@ std::vector<double> damage_at(const PairLaws& pairs, std::span<const Toughness> 
 double stored_energy(const PairLaws& pairs, std::span<const double> adhesion,
                      std::span<const double> jump);                               // sum w zeta Y + gradient
 double gradient_energy(const PairLaws& pairs, std::span<const double> adhesion);  // its second part alone
-double stored_slides(const PairLaws& pairs, std::span<const double> mixity,
+double stored_linear(const PairLaws& pairs, std::span<const double> mixity,
                      std::span<const double> adhesion);  // sum w f
 // sum w (g(B, zeta) - g(B, zeta_old)), the ledger whose stored part does not depend on the mixity
 double dissipation(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
                    std::span<const double> adhesion);
 // sum w Gc(B) (zeta_old - zeta)
-double dissipation_slides(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
+double dissipation_linear(const PairLaws& pairs, std::span<const double> mixity, std::span<const double> adhesion_old,
                           std::span<const double> adhesion);
 
 }  // namespace delam

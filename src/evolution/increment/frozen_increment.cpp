@@ -25,9 +25,9 @@ double FrozenIncrement::cost(std::span<const double> mixity, std::span<const dou
     return dissipation(pairs_, mixity, before_.adhesion, adhesion);
 }
 
-void FrozenIncrement::book_rule(State& next, double /*energy_change_slides*/) const {
-    next.ledger.dissipated_slides =
-        before_.ledger.dissipated_slides + dissipation_slides(pairs_, next.mixity, before_.adhesion, next.adhesion);
+void FrozenIncrement::book_rule(State& next, double /*energy_change_linear*/) const {
+    next.ledger.dissipated_linear =
+        before_.ledger.dissipated_linear + dissipation_linear(pairs_, next.mixity, before_.adhesion, next.adhesion);
 }
 
 bool FrozenIncrement::damaging(const State& state, std::size_t pair, bool coupled) const {

@@ -21,7 +21,7 @@ public:
     std::vector<PairDirection> directions(const State& state) const override;
 
 protected:
-    void book_rule(State& next, double energy_change_slides) const override;
+    void book_rule(State& next, double energy_change_linear) const override;
     // What the mixity of the pair adds to the form omega of its direction as the pair moves; nothing while B is frozen.
     virtual void add_mixity(PairDirection& /*direction*/, const State& /*state*/) const {}
 

@@ -99,7 +99,7 @@ void book_energies(const PairLaws& pairs, State& state) {
     ledger.stored_bulk = state.response.stored_bulk;
     ledger.load_potential = state.response.load_potential;
     ledger.stored_interface = stored_energy(pairs, state.adhesion, state.response.jump);
-    ledger.stored_interface_slides = ledger.stored_interface + stored_slides(pairs, state.mixity, state.adhesion);
+    ledger.stored_interface_linear = ledger.stored_interface + stored_linear(pairs, state.mixity, state.adhesion);
 }
 
 void Increment::book(State& next) const {
@@ -110,7 +110,7 @@ void Increment::book(State& next) const {
     const double change = ledger.energy() - before_.ledger.energy();
     ledger.increment = change + dissipated;
     ledger.increment_lower = change + dissipation(pairs_, next.mixity_before, before_.adhesion, next.adhesion);
-    book_rule(next, ledger.energy_slides() - before_.ledger.energy_slides());
+    book_rule(next, ledger.energy_linear() - before_.ledger.energy_linear());
 }
 
 }  // namespace delam

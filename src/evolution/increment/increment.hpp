@@ -121,7 +121,7 @@ protected:
     Increment(const PairLaws& pairs, const State& before, std::span<const double> mixity, double tolerance);
     virtual const std::vector<double>& recorded() const { return now_.used; }
     virtual void begin_observation() {}
-    virtual void book_rule(State& next, double energy_change_slides) const = 0;
+    virtual void book_rule(State& next, double energy_change_linear) const = 0;
     std::size_t dimension() const { return static_cast<std::size_t>(pairs_.dimension); }
     // The part of the jumps that belongs to a pair.
     std::span<const double> local(std::span<const double> jump, std::size_t pair) const {

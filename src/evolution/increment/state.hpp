@@ -15,10 +15,10 @@ struct Ledger {
     double stored_bulk = 0.0;
     double stored_interface = 0.0;         // sum w zeta Y + kappa/2 zeta^T A zeta
     double load_potential = 0.0;           // -f.u of dead forces
-    double stored_interface_slides = 0.0;  // the same + sum w f(B, zeta)
+    double stored_interface_linear = 0.0;  // the same + sum w f(B, zeta)
     // cumulative
     double dissipated = 0.0;         // sum w (g(B, zeta) - g(B, zeta_old)) over the steps
-    double dissipated_slides = 0.0;  // sum w Gc(B) (zeta_old - zeta)
+    double dissipated_linear = 0.0;  // sum w Gc(B) (zeta_old - zeta)
     double work = 0.0;               // sum (lower + upper)/2
     // of the step: lower <= increment <= upper
     double lower = 0.0;
@@ -30,14 +30,14 @@ struct Ledger {
     // Energies of the state from which the cumulative columns count; a state that is set rather than marched to moves
     // them along.
     double initial = 0.0;
-    double initial_slides = 0.0;
+    double initial_linear = 0.0;
     // Of the step: by how much the toughness in use misses that of the iterates' own mixities.
     double mixity_error = 0.0;
 
-    double energy_slides() const { return stored_bulk + stored_interface_slides + load_potential; }
+    double energy_linear() const { return stored_bulk + stored_interface_linear + load_potential; }
     // What does not close, in either split.
     double defect() const { return energy() - initial + dissipated - work; }
-    double defect_slides() const { return energy_slides() - initial_slides + dissipated_slides - work; }
+    double defect_linear() const { return energy_linear() - initial_linear + dissipated_linear - work; }
     double energy() const { return stored_bulk + stored_interface + load_potential; }
 };
 

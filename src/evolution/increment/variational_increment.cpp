@@ -23,8 +23,8 @@ std::unique_ptr<Increment> VariationalIncrement::starting_at(std::span<const dou
 
 double VariationalIncrement::energy(std::span<const double> adhesion, std::span<const double> jump) const {
     const std::vector<double> own = mixities(pairs_, jump, now_.used);
-    return stored_energy(pairs_, adhesion, jump) + stored_slides(pairs_, own, adhesion) +
-           dissipation_slides(pairs_, now_.used, before_.adhesion, adhesion);
+    return stored_energy(pairs_, adhesion, jump) + stored_linear(pairs_, own, adhesion) +
+           dissipation_linear(pairs_, now_.used, before_.adhesion, adhesion);
 }
 
 std::vector<double> VariationalIncrement::damage_step(std::span<const double> adhesion,
@@ -88,7 +88,7 @@ PairModel VariationalIncrement::model(std::size_t p, std::span<const double> loc
 }
 
 double VariationalIncrement::cost(std::span<const double> mixity, std::span<const double> adhesion) const {
-    return dissipation_slides(pairs_, mixity, before_.adhesion, adhesion) + stored_slides(pairs_, mixity, adhesion);
+    return dissipation_linear(pairs_, mixity, before_.adhesion, adhesion) + stored_linear(pairs_, mixity, adhesion);
 }
 
 std::vector<double> VariationalIncrement::shown(std::span<const double> jump, std::vector<double> mixity) const {
@@ -96,13 +96,13 @@ std::vector<double> VariationalIncrement::shown(std::span<const double> jump, st
 }
 
 // The dissipation that is minimised has the mixity of the state before.
-void VariationalIncrement::book_rule(State& next, double energy_change_slides) const {
+void VariationalIncrement::book_rule(State& next, double energy_change_linear) const {
     Ledger& ledger = next.ledger;
-    const double dissipated = dissipation_slides(pairs_, next.mixity_before, before_.adhesion, next.adhesion);
+    const double dissipated = dissipation_linear(pairs_, next.mixity_before, before_.adhesion, next.adhesion);
     const std::vector<double>& last = before_.loaded != 0 ? before_.mixity_before : next.mixity_before;
-    ledger.dissipated_slides = before_.ledger.dissipated_slides + dissipated;
-    ledger.increment = energy_change_slides + dissipated;
-    ledger.increment_lower = energy_change_slides + dissipation_slides(pairs_, last, before_.adhesion, next.adhesion);
+    ledger.dissipated_linear = before_.ledger.dissipated_linear + dissipated;
+    ledger.increment = energy_change_linear + dissipated;
+    ledger.increment_lower = energy_change_linear + dissipation_linear(pairs_, last, before_.adhesion, next.adhesion);
 }
 
 // The force of each pair that is neither whole nor broken, less that of its spring, component by component.

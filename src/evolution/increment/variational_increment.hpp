@@ -23,14 +23,14 @@ public:
     PairModel model(std::size_t pair, std::span<const double> local_jump, double adhesion,
                     double fraction) const override;
     double cost(std::span<const double> mixity, std::span<const double> adhesion) const override;
-    double energy_before() const override { return before_.ledger.energy_slides(); }
+    double energy_before() const override { return before_.ledger.energy_linear(); }
     bool bounds_candidates() const override { return false; }
     std::vector<double> shown(std::span<const double> jump, std::vector<double> mixity) const override;
     std::vector<PairDirection> directions(const State& state) const override;
 
 protected:
     const std::vector<double>& recorded() const override { return now_.own; }
-    void book_rule(State& next, double energy_change_slides) const override;
+    void book_rule(State& next, double energy_change_linear) const override;
 
 private:
     VariationalPair pair(std::size_t p) const {

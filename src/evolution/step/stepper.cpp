@@ -99,7 +99,7 @@ Stepper::Result Stepper::initial(double time) {
     state.loaded = any_jump(pairs_, state.response.jump) ? 1 : 0;
     book_energies(pairs_, state);
     state.ledger.initial = state.ledger.energy();
-    state.ledger.initial_slides = state.ledger.energy_slides();
+    state.ledger.initial_linear = state.ledger.energy_linear();
     state.memory = operator_->memory();
     return result;
 }
@@ -283,7 +283,7 @@ Stepper::Result Stepper::equilibrate(const State& before, double time, std::span
     next.mixity = still->shown(next.response.jump, std::move(next.mixity));
     book_energies(pairs_, next);
     next.ledger.initial += next.ledger.energy() - before.ledger.energy();
-    next.ledger.initial_slides += next.ledger.energy_slides() - before.ledger.energy_slides();
+    next.ledger.initial_linear += next.ledger.energy_linear() - before.ledger.energy_linear();
     next.memory = operator_->memory();
     return result;
 }
