@@ -13,11 +13,11 @@ namespace delam {
 class CancelScope {
 public:
     // What may stop the call.
-    // marches: the answer of the progress callback, and any cancel request, including one made before the call.
+    // solves: the answer of the progress callback, and any cancel request, including one made before the call.
     // builds: the answer of the callback, and a cancel request made during the call.
     // reads: only a cancel request made during the call. A host that has stopped the analysis keeps answering "stop"
     // from its callback, but still wants to read the results obtained so far.
-    enum class Call { marches, builds, reads };
+    enum class Call { solves, builds, reads };
     CancelScope(Monitor& monitor, Call call);
     ~CancelScope();
     CancelScope(const CancelScope&) = delete;

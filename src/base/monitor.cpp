@@ -39,7 +39,7 @@ CancelScope::~CancelScope() { cancel_scope = nullptr; }
 
 void CancelScope::poll(const char* stage) {
     left_ = interval;
-    if (call_ == Call::marches) return monitor_.progress(stage, 0, 0);
+    if (call_ == Call::solves) return monitor_.progress(stage, 0, 0);
     const bool refused =
         monitor_.progress_callback != nullptr && monitor_.progress_callback(stage, 0, 0, monitor_.progress_user) != 0;
     const bool requested = monitor_.requests_.load(std::memory_order_relaxed) != before_ && monitor_.take_requests();

@@ -171,8 +171,8 @@ std::int32_t guard_cancellable(const H* self, CancelScope::Call call, Body&& bod
     });
 }
 template <class H, class Body>
-std::int32_t guard_march(const H* self, Body&& body) noexcept {
-    return guard_cancellable(self, CancelScope::Call::marches, body);
+std::int32_t guard_solve(const H* self, Body&& body) noexcept {
+    return guard_cancellable(self, CancelScope::Call::solves, body);
 }
 template <class H, class Body>
 std::int32_t guard_build(const H* self, Body&& body) noexcept {

@@ -155,7 +155,7 @@ int32_t delam_problem_set_formulation(delam_problem* problem, int32_t body, cons
 int32_t delam_problem_set_stiffness(delam_problem* problem, int64_t count, const int64_t* nodes, const int64_t* dofs,
                                     const int64_t* row_starts, const int64_t* columns, const double* values,
                                     int64_t kernel_count, const double* kernel, int32_t index_base) {
-    return guard_march(problem, [&] {
+    return guard_solve(problem, [&] {
         Problem& core = *problem->core;
         require_count(count, "count", 1);
         require_base(index_base);

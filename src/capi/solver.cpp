@@ -41,7 +41,7 @@ extern "C" {
 
 int32_t delam_solver_create(const delam_problem* problem, double time, delam_solver** out) {
     if (out != nullptr) *out = nullptr;
-    return guard_march(problem, [&] {
+    return guard_solve(problem, [&] {
         require_pointer(out, "out");
         require_finite(&time, 1, "time");
         auto handle = std::make_unique<delam_solver>();
@@ -58,7 +58,7 @@ int32_t delam_solver_create(const delam_problem* problem, double time, delam_sol
 void delam_solver_destroy(delam_solver** solver) { destroy(solver); }
 
 int32_t delam_solver_advance(delam_solver* solver, double time) {
-    return guard_march(solver, [&] { return report(*solver->context, solver->core->advance(time)); });
+    return guard_solve(solver, [&] { return report(*solver->context, solver->core->advance(time)); });
 }
 
 int32_t delam_solver_commit(delam_solver* solver) {
@@ -88,7 +88,7 @@ int32_t delam_solver_set_history(delam_solver* solver, int64_t pattern, int64_t 
 }
 
 int32_t delam_solver_equilibrate(delam_solver* solver, double time, const double* adhesion) {
-    return guard_march(solver, [&] {
+    return guard_solve(solver, [&] {
         std::span<const double> held;
         if (adhesion != nullptr) held = {adhesion, solver->core->committed().adhesion.size()};
         return report(*solver->context, solver->core->equilibrate(time, held));
@@ -240,7 +240,7 @@ int32_t delam_solver_average(const delam_solver* solver, int32_t body, double* v
 }
 
 int32_t delam_solver_tangent(delam_solver* solver, int64_t capacity, double* matrix) {
-    return guard_march(solver, [&] {
+    return guard_solve(solver, [&] {
         const auto patterns = static_cast<int64_t>(solver->core->problem().patterns.size());
         require_capacity(capacity, patterns * patterns, "matrix");
         copy_out(solver->core->tangent(), capacity, matrix, "matrix");
@@ -248,7 +248,7 @@ int32_t delam_solver_tangent(delam_solver* solver, int64_t capacity, double* mat
 }
 
 int32_t delam_solver_step_tangent(delam_solver* solver, int64_t capacity, double* matrix) {
-    return guard_march(solver, [&] {
+    return guard_solve(solver, [&] {
         const auto patterns = static_cast<int64_t>(solver->core->problem().patterns.size());
         require_capacity(capacity, patterns * patterns, "matrix");
         copy_out(solver->core->step_tangent(), capacity, matrix, "matrix");
@@ -361,7 +361,7 @@ int32_t delam_solver_save(const delam_solver* solver, int64_t capacity, uint8_t*
 }
 
 int32_t delam_solver_load(delam_solver* solver, int64_t size, const uint8_t* bytes) {
-    return guard_march(solver, [&] {
+    return guard_solve(solver, [&] {
         require_count(size, "size");
         require_array(bytes, size, "bytes");
         load(*solver->core, {bytes, static_cast<std::size_t>(size)});
@@ -376,7 +376,7 @@ int32_t delam_solver_save_file(const delam_solver* solver, const char* path) {
 }
 
 int32_t delam_solver_load_file(delam_solver* solver, const char* path) {
-    return guard_march(solver, [&] {
+    return guard_solve(solver, [&] {
         require_pointer(path, "path");
         load(*solver->core, read_file(path));
     });

@@ -22,16 +22,16 @@ void add_reduction(std::vector<PlanItem>& items, const Solver& solver) {
     const ReductionChoice& choice = solver.reduction();
     const ReductionCost &c = choice.condensation, &f = choice.feti;
     const bool both = c.setup > 0.0;
-    const double saving = both ? (choice.condensed ? 1.0 : -1.0) * (f.march() - c.march()) : 0.0;
+    const double saving = both ? (choice.condensed ? 1.0 : -1.0) * (f.analysis() - c.analysis()) : 0.0;
     const std::string words = text(choice.forced ? "forced, " : "chosen by predicted cost and memory, ", choice.reason);
     const std::string built =
         text(words, "; ", solver.jump_operator().description(), "; cost of an analysis of ", nominal_steps, " steps");
     const std::string other =
         text("the other realisation is used: ", words, both ? "" : "; its cost was not predicted");
     items.push_back({"condensed operator", choice.condensed ? used : left_out, choice.condensed ? built : other,
-                     choice.condensed ? c.march() : 0.0, choice.condensed ? saving : 0.0, "flop"});
+                     choice.condensed ? c.analysis() : 0.0, choice.condensed ? saving : 0.0, "flop"});
     items.push_back({"FETI", choice.condensed ? left_out : used, choice.condensed ? other : built,
-                     choice.condensed ? 0.0 : f.march(), choice.condensed ? 0.0 : saving, "flop"});
+                     choice.condensed ? 0.0 : f.analysis(), choice.condensed ? 0.0 : saving, "flop"});
     const double bytes = choice.condensed ? c.bytes : f.bytes;
     items.push_back({"memory", used,
                      choice.monolithic > 0.0

@@ -165,11 +165,11 @@ void choose(ReductionChoice& choice) {
             return decide(false, text("the condensed operator ", memory, ", more than ", memory_ratio));
         return decide(true, text(memory, ", more than ", memory_ratio, ", but FETI would need ", mebibytes(f.bytes)));
     }
-    if (f.possible && f.march() < c.march())
-        return decide(false, text("a march of ", nominal_steps, " steps is predicted to take ", seconds(f.march()),
-                                  " against ", seconds(c.march()), " condensed, at ", nominal_rate * 1e-9, " GF/s"));
-    decide(true, text(memory, "; a march of ", nominal_steps, " steps is predicted to take ", seconds(c.march()),
-                      " against ", seconds(f.march()), " by FETI, at ", nominal_rate * 1e-9, " GF/s"));
+    if (f.possible && f.analysis() < c.analysis())
+        return decide(false, text("a march of ", nominal_steps, " steps is predicted to take ", seconds(f.analysis()),
+                                  " against ", seconds(c.analysis()), " condensed, at ", nominal_rate * 1e-9, " GF/s"));
+    decide(true, text(memory, "; a march of ", nominal_steps, " steps is predicted to take ", seconds(c.analysis()),
+                      " against ", seconds(f.analysis()), " by FETI, at ", nominal_rate * 1e-9, " GF/s"));
 }
 
 ChosenOperator choose_operator(const Problem& problem, Monitor& monitor) {

@@ -3,7 +3,7 @@
 //
 // Counted, not timed: floating-point operations (a multiplication and an addition are two) and bytes. The sparse
 // factor's numbers come from its symbolic analysis and are exact; the others are formulae whose constants were fitted
-// to counted marches (verify/unit/test_choose.cpp holds them to a factor of 1.5 in bytes).
+// to counted analyses (verify/unit/test_choose.cpp holds them to a factor of 1.5 in bytes).
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ namespace delam {
 
 // Seconds are operations over this, and say so wherever they are shown.
 inline constexpr double nominal_rate = 20e9;  // operations/s of one core in a large factorisation
-// A march that nobody has described yet has so many load steps.
+// Number of load steps that an analysis is assumed to have.
 inline constexpr double nominal_steps = 40.0;
-// The condensed march may need so many times the memory of one monolithic factorisation.
+// The condensed analysis may need so many times the memory of one monolithic factorisation.
 inline constexpr double memory_ratio = 2.5;
 // Memory that every machine for such work has: below it the ratio decides nothing. FETI solves each linear system by
 // iteration and takes longer, so it is for what would not fit.
@@ -32,9 +32,9 @@ struct ReductionCost {
     double setup = 0.0;    // operations before the first step
     double longest = 0.0;  // operations of the longest factorisation, which cannot be interrupted
     double step = 0.0;     // operations of a load step
-    double bytes = 0.0;    // peak of the march, mesh and scene not counted
+    double bytes = 0.0;    // peak of the analysis, mesh and scene not counted
     bool possible = true;
-    double march() const { return setup + nominal_steps * step; }
+    double analysis() const { return setup + nominal_steps * step; }
 };
 
 struct ReductionChoice {

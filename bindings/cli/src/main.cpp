@@ -53,7 +53,7 @@ int guarded(int argc, char** argv) {
             ->type_name("KEY=VALUE")
             ->allow_extra_args(false);
     };
-    CLI::App* run = app.add_subcommand("run", "march through the load steps of a scene and write the results");
+    CLI::App* run = app.add_subcommand("run", "compute the load steps of a scene and write the results");
     run->add_option("scene", scene, "scene file (TOML, see SCENE.md)")->required();
     run->add_option("--out,-o", folder,
                     "folder for the results; a result that is there is replaced when the new one is whole")

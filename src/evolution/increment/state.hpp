@@ -10,7 +10,8 @@
 
 namespace delam {
 
-// Energies, F L (2D: F). Both parts of the booked split are >= 0; that of PANM 15 (2010) is reported in addition.
+// Energies, F L (2D: F). Both parts of the booked split are >= 0; that of PANM 15 (2010), whose dissipation is linear
+// in the damage, is reported in addition (`_linear`).
 struct Ledger {
     double stored_bulk = 0.0;
     double stored_interface = 0.0;         // sum w zeta Y + kappa/2 zeta^T A zeta
@@ -27,8 +28,8 @@ struct Ledger {
     // Increment with the mixity of the step before (the one the lower bound is provable with).
     double increment_lower = 0.0;
 
-    // Energies of the state from which the cumulative columns count; a state that is set rather than marched to moves
-    // them along.
+    // Energies of the state from which the cumulative columns count; setting a state, instead of reaching it by load
+    // steps, shifts them.
     double initial = 0.0;
     double initial_linear = 0.0;
     // Of the step: by how much the toughness in use misses that of the iterates' own mixities.

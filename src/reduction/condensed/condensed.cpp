@@ -173,7 +173,8 @@ void Condensed::choose(const Springs& springs, std::span<const std::uint8_t> wan
     std::size_t far_ones = 0;
     for (std::size_t i = 0; i < unknowns; ++i) far_ones += near[i] == 0 && now[i] >= 0.0 ? 1 : 0;
     if (!renew)
-        renew = spent_ + (back.empty() ? 0.0 : outer_->release_cost(back)) > Condensation::cost(far_ones, count(near));
+        renew = multiplications_ + (back.empty() ? 0.0 : outer_->release_cost(back)) >
+                Condensation::cost(far_ones, count(near));
     // From here to the end of condense_inner there is no zone: an interrupted choice is never taken for a valid one.
     zone_.reset();
     spring_ = std::move(now);
@@ -194,7 +195,7 @@ void Condensed::condense_outer(std::span<const std::uint8_t> near) {
     near_.assign(near.begin(), near.end());
     outer_spring_ = spring_;
     released_.clear();
-    spent_ = 0.0;
+    multiplications_ = 0.0;
     std::vector<std::int64_t> kept, eliminated;
     std::vector<double> stiffness(near_.size());
     for (std::size_t i = 0; i < near_.size(); ++i) {
@@ -214,7 +215,7 @@ void Condensed::condense_outer(std::span<const std::uint8_t> near) {
 
 void Condensed::release(std::vector<std::int64_t> unknowns) {
     monitor_.progress("zone", condensations_, 0);
-    spent_ += outer_->release_cost(unknowns);
+    multiplications_ += outer_->release_cost(unknowns);
     std::vector<double> stiffness(outer_spring_);
     for (double& s : stiffness) s = std::max(0.0, s);
     // A release that fails leaves nothing behind that could be used again.
@@ -244,7 +245,7 @@ void Condensed::condense_inner() {
     zone_.reset();
     inner_ =
         std::make_unique<Condensation>(outer_->energy(), std::move(kept), std::move(eliminated), stiffness, poll());
-    spent_ += Condensation::cost(near.size() - zone_unknowns_.size(), zone_unknowns_.size());
+    multiplications_ += Condensation::cost(near.size() - zone_unknowns_.size(), zone_unknowns_.size());
 
     const std::size_t unknowns = inside_.size();
     std::vector<std::int64_t> place(unknowns, -1);

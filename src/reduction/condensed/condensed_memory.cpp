@@ -28,7 +28,7 @@ std::vector<double> Condensed::memory() const {
     m.reserve(4 * unknowns + 64);
     for (std::size_t i = 0; i < unknowns; ++i) m.push_back(age_[i] + 4 * inside_[i] + 8 * near[i]);
     for (const auto* springs : {&outer_spring_, &spring_, &last_}) m.insert(m.end(), springs->begin(), springs->end());
-    m.push_back(spent_);
+    m.push_back(multiplications_);
     for (const auto& group : released_) {
         m.push_back(static_cast<double>(group.size()));
         m.insert(m.end(), group.begin(), group.end());
@@ -43,7 +43,7 @@ Condensed::Choice Condensed::parse(std::span<const double> memory) const {
     };
     damaged(memory.size() < 4 * unknowns + 1);
     Choice choice;
-    auto& [age, inside, near, outer_spring, spring, last, spent, groups] = choice;
+    auto& [age, inside, near, outer_spring, spring, last, multiplications, groups] = choice;
     for (auto* codes : {&age, &inside, &near}) codes->resize(unknowns);
     for (std::size_t i = 0; i < unknowns; ++i) {
         damaged(!(memory[i] >= 0.0 && memory[i] < 16.0) || memory[i] != std::floor(memory[i]));
@@ -78,7 +78,7 @@ Condensed::Choice Condensed::parse(std::span<const double> memory) const {
             springs->push_back(memory[at] + 0.0);
         }
     damaged(!(memory[at] >= 0.0));
-    spent = memory[at] + 0.0;
+    multiplications = memory[at] + 0.0;
     return choice;
 }
 
@@ -92,14 +92,14 @@ void Condensed::recall(std::span<const double> memory) {
         spring_.clear();
         last_.assign(unknowns, 0.0);
         released_.clear();
-        spent_ = 0.0;
+        multiplications_ = 0.0;
         zone_.reset();
         inner_.reset();
         outer_.reset();
         return;
     }
     if (std::ranges::equal(memory, this->memory())) return;
-    auto [age, inside, near, outer_spring, spring, last, spent, groups] = parse(memory);
+    auto [age, inside, near, outer_spring, spring, last, multiplications, groups] = parse(memory);
     zone_.reset();  // as in choose
     age_ = std::move(age);
     inside_ = std::move(inside);
@@ -113,7 +113,7 @@ void Condensed::recall(std::span<const double> memory) {
     }
     spring_ = std::move(spring);
     condense_inner();
-    spent_ = spent;
+    multiplications_ = multiplications;
 }
 
 }  // namespace delam
