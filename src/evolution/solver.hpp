@@ -72,7 +72,7 @@ public:
     const std::vector<double>& displacement() const;
     // Of any state of this solver.
     std::vector<double> displacement(const State& state) const;
-    // Forces of the device, [constraints].
+    // Reactions of the constraints, [constraints].
     std::vector<double> reaction() const { return stepper_.op().reaction(state().theta, state().response); }
     // d2E / dtheta2 at fixed adhesion and contact set of state(), [patterns][patterns].
     std::vector<double> tangent() { return stepper_.tangent(state()); }

@@ -4,7 +4,7 @@
 //
 //   s = exp(-(x-1)/lambda),  zeta = s/x,  lambda = (Gc/Go - 1)/2,
 //
-// so that the area under s beyond x = 1 is lambda. The energy that unloading from (x, s) along its ray leaves spent is
+// so that the area under s beyond x = 1 is lambda. The energy dissipated up to (x, s), with unloading along its ray, is
 //
 //   g = Go [1 + 2 lambda (1-s) - s x].
 //

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A law that the host computes: its two callbacks give the adhesion zeta*(B, Y) of a first loading, and the energy
-// spent g(B, zeta). Onset and total toughness follow: Go = -g'(1), Gc = g(0).
+// A law that the host computes: its two callbacks give the adhesion zeta*(B, Y) of a first loading, and the
+// dissipated energy g(B, zeta). Onset and total toughness follow: Go = -g'(1), Gc = g(0).
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@
 namespace delam {
 
 struct HostSoftening {
-    static constexpr LawKind kind{"host", "callbacks of the host give it (delam_law_create_host)", Toughnesses::none};
+    static constexpr LawKind kind{"host", "given by callbacks of the host (delam_law_create_host)", Toughnesses::none};
 
     std::string name;  // for messages, and for the hash of the scene
     delam_adhesion_callback adhesion_callback = nullptr;

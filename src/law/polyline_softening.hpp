@@ -7,8 +7,8 @@
 //   x_i = 1 + w xi_i,   w = (Gc/Go - 1)/(2 A),   A = area under s over xi,
 //
 // so that the area under s beyond x = 1 is (Gc/Go - 1)/2 whatever the toughnesses. Adhesion is the slope zeta = s/x of
-// the ray from the origin to the point. As it falls, Y = Go x^2, and the energy spent grows by twice the triangle that
-// the ray sweeps:
+// the ray from the origin to the point. As it falls, Y = Go x^2, and the dissipated energy grows by twice the triangle
+// that the ray sweeps:
 //
 //   g(corner i) = Go [(1 - s_i) + w (2 A_i - s_i xi_i)],   A_i = area up to xi_i,
 //   and from corner 0 to corner 1 of a segment, in proportion to the part of it that is passed, Go (s_0 x_1 - s_1 x_0).

@@ -16,7 +16,7 @@ struct BoundRow {
     std::vector<double> offset;        // [patterns] o
 };
 
-// One row for each independent equation among the jumps alone; excludes rows that the device prescribes completely.
+// One row for each independent equation among the jumps alone; excludes rows that constraints prescribe completely.
 std::vector<BoundRow> bound_rows(const Problem& problem);
 
 }  // namespace delam

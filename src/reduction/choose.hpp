@@ -41,7 +41,7 @@ struct ReductionChoice {
     bool condensed = true;
     bool forced = false;  // by the options
     std::string reason;
-    ReductionCost condensation;  // setup 0: not looked into, since the options or the size had decided
+    ReductionCost condensation;  // setup 0: not predicted, because the options or the size had decided
     ReductionCost feti;
     double monolithic = 0.0;      // bytes of one monolithic factorisation, 0: not predicted
     double factor_entries = 0.0;  // of the condensed operator's sparse factor, 0: not analysed

@@ -33,7 +33,7 @@ struct JumpVariables {
     SparseMatrix transform;                 // T, [mesh DOFs][count]
     std::vector<std::vector<double>> lift;  // U, [patterns][mesh DOFs]
     std::vector<SparseVector> row;          // [jump rows] each in independent jumps, 0-based among the jumps
-    // [jump rows][patterns] the device's contribution to them; empty: nothing
+    // [jump rows][patterns] what prescribed displacements contribute to them; empty: nothing
     std::vector<std::vector<double>> row_offset;
     std::vector<std::int64_t> bound;  // jump rows that constraints, not rings, express by others
 

@@ -21,12 +21,12 @@ struct ContactResult {
 
 struct ContactScene {
     int dimension = 2;
-    std::vector<std::uint8_t> bonded;  // [pairs] held in every direction for ever
+    std::vector<std::uint8_t> bonded;  // [pairs] bonded permanently: held in every direction
     std::vector<std::uint8_t> level;   // [pairs] of contact_levels.hpp
     // Pairs below this level are not tested and may pass through each other: less energy than any contact leaves.
     std::uint8_t least_level = 0;
     std::int64_t limit = 200;
-    // Also test, in every step, pairs whose normal jump the device prescribes: they cannot close, only be pressed.
+    // Also test, in every step, pairs whose normal jump is prescribed: they cannot close, only be pressed.
     bool always = false;
     // [patterns] Motion (L) and force (F) of the eigenstrains at factor 1 if they were restrained. Where the strains
     // are free, jumps and forces are only the rounding of these numbers and say nothing about contact. Empty: no

@@ -14,7 +14,7 @@
 
 namespace delam {
 
-// One entry a pair; law null where the pair is bonded for ever or only touches.
+// One entry a pair; law null where the pair is bonded permanently or only touches.
 struct PairLaws {
     int dimension = 2;
     std::vector<const Law*> law;

@@ -13,7 +13,7 @@ namespace delam {
 inline constexpr double poor_balance = 1e-6;  // worth a warning
 inline constexpr double no_balance = 1e-3;    // the state is useless
 
-// F: of the device, or force_floor where that is larger (stresses of eigenstrains may need no reactions).
+// F: largest reaction, or force_floor where that is larger (stresses of eigenstrains may need no reactions).
 double largest_reaction(const JumpOperator& op, const State& state, double force_floor);
 
 // Largest unbalanced force over the largest reaction; 0 if the operator's estimate gives no reason to compute it, which

@@ -10,7 +10,7 @@
 // - theta_{k-1}
 //   lower = E(theta_k, q_k) - E(theta_{k-1}, q_k)         = d.r_k     - 1/2 d^T A d
 //   upper = E(theta_k, q_{k-1}) - E(theta_{k-1}, q_{k-1}) = d.r_{k-1} + 1/2 d^T A d
-// exactly, for any load path. Jumps that the device prescribes itself, or binds to others, are not held; their springs
+// exactly, for any load path. Jumps that constraints prescribe, or bind to others, are not held; their springs
 // s_i add s_i J_i J_i^T to A.
 #pragma once
 
@@ -27,7 +27,7 @@ class Lift {
 public:
     Lift() = default;
     // One bonded solve for each pattern. bonded: [rows] never come apart; bound: equations among jumps. Throws
-    // Error(DELAM_ERROR_PROBLEM) where the device tears bonded rows apart or a dead force acts on what nothing holds.
+    // Error(DELAM_ERROR_PROBLEM) where constraints open bonded rows or a dead force acts on what nothing holds.
     Lift(JumpOperator& op, std::span<const std::uint8_t> bonded, std::span<const BoundRow> bound, std::size_t patterns);
     // 1/2 d^T A d with the springs of `stiffness` [rows] on prescribed jumps.
     double half_quadratic(std::span<const double> d, std::span<const double> stiffness) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Change of the device's forces with the load factors at a state, with its contact set held.
+// Change of the reactions with the load factors at a state, with its contact set held.
 //
 // With the adhesion fixed, everything is linear: conjugates of unit factors are the columns of d2E/dtheta2. In a step
 // the adhesion follows. With J the jumps of unit factors at the state's springs s = w k zeta, each pair that damages

@@ -8,8 +8,8 @@
 //
 //     E(theta, x) = 1/2 x^T S x - theta^T L^T x + 1/2 theta^T A theta,      jump rows  j = N x + O theta
 //
-// (N: the identity except for rows that close a ring of bodies or that a constraint binds; O: jumps that the device
-// prescribes).
+// (N: the identity except for rows that close a ring of bodies or that a constraint binds; O: jumps that constraints
+// prescribe).
 #pragma once
 
 #include <cstdint>
@@ -43,7 +43,7 @@ public:
     const DenseMatrix& rigid() const { return rigid_; }
 
     std::vector<double> displacement(std::span<const double> theta, std::span<const double> unknowns) const;
-    // Forces of the device along the constraints from displacements and interface forces [rows].
+    // Reactions: forces of the constraints from displacements and interface forces [rows].
     std::vector<double> reaction(std::span<const double> theta, std::span<const double> displacement,
                                  std::span<const double> force) const;
     // Largest unbalanced force, F.

@@ -85,7 +85,7 @@ private:
     std::vector<double> last_;          // of the previous solve; all 0: there was none, or nothing was held
     std::vector<std::uint8_t> age_;     // number of choices since it last changed or was requested, up to `forgotten`
     std::vector<std::vector<std::int64_t>> released_;  // from the first step, group after group
-    double multiplications_ = 0.0;                     // multiplications since the first step
+    double multiplications_ = 0.0;                     // of the condensations since the first step
     std::unique_ptr<Condensation> outer_, inner_;
     std::unique_ptr<Zone> zone_;
     std::vector<std::int64_t> zone_unknowns_;

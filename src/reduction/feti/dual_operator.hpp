@@ -24,7 +24,7 @@ public:
     DualOperator(const DualOperator&) = delete;
     DualOperator& operator=(const DualOperator&) = delete;
 
-    // What is set does not depend on what was set before. Rows whose jump the device prescribes count as debonded.
+    // What is set does not depend on what was set before. Rows whose jump is prescribed count as debonded.
     void set(const Springs& springs);
 
     const DualRows& rows() const { return rows_; }

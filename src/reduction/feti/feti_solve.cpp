@@ -33,13 +33,13 @@ bool any(std::span<const double> values) {
 void require_springs(const Springs& springs) {
     for (std::size_t i = 0; i < springs.stiffness.size(); ++i)
         if (pulled(springs, i) != 0.0 && !(springs.stiffness[i] > 0.0))
-            fail(DELAM_ERROR_NUMERICAL, "interface row ", i, " carries a force of its own but has no spring");
+            fail(DELAM_ERROR_NUMERICAL, "interface row ", i, " has a force of its own but no spring");
 }
 
 }  // namespace
 
-// Rows whose jump the device prescribes have a known force s j: the system is solved without them, and that force is
-// shared out between spring and device afterwards (B_i = sum_k y_k B_k).
+// Rows whose jump is prescribed have a known force s j: the system is solved without them, and that force is
+// divided between spring and constraints afterwards (B_i = sum_k y_k B_k).
 void Feti::solve(const Springs& springs, std::span<const double> theta, Response& response) {
     monitor_.progress("displacement", 0, 0);
     Team team(problem_.options.threads);

@@ -30,7 +30,7 @@ public:
                 const DualLoads& loads, Monitor& monitor);
 
     const Springs& base() const { return base_; }
-    // Rows that have a spring of their own: neither bonded nor prescribed by the device.
+    // Rows that have a spring of their own: neither bonded nor prescribed.
     bool has_spring(std::size_t row) const { return root_[row] > 0.0; }
     // Columns are found in groups of consecutive rows, always the same, so that their bits do not depend on when.
     std::size_t groups() const { return column_.size(); }

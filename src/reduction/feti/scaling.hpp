@@ -25,7 +25,7 @@ struct Scaling {
         double stiffness;  // scale of the bodies' stiffness there
     };
     std::vector<Dependency> dependencies;
-    // Jump rows that are combinations of gluing and constraint rows alone, B_i = sum_k y_k B_k: the device prescribes
+    // Jump rows that are combinations of gluing and constraint rows alone, B_i = sum_k y_k B_k: constraints prescribe
     // their jump.
     struct Prescribed {
         std::int64_t jump_row;

@@ -13,7 +13,7 @@ using SparseVector = std::vector<std::pair<std::int64_t, double>>;
 struct JumpRow {
     SparseVector unknowns;
     std::vector<double> offset;  // [patterns] O, empty: none
-    // The loading device alone determines the jump.
+    // The constraints alone determine the jump.
     bool prescribed() const { return unknowns.empty(); }
 };
 
