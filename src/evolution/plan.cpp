@@ -23,11 +23,11 @@ void add_reduction(std::vector<PlanItem>& items, const Solver& solver) {
     const ReductionCost &c = choice.condensation, &f = choice.feti;
     const bool both = c.setup > 0.0;
     const double saving = both ? (choice.condensed ? 1.0 : -1.0) * (f.analysis() - c.analysis()) : 0.0;
-    const std::string words = text(choice.forced ? "forced, " : "chosen by predicted cost and memory, ", choice.reason);
+    const std::string words = text(choice.forced ? "set by " : "chosen by predicted cost and memory: ", choice.reason);
     const std::string built =
         text(words, "; ", solver.jump_operator().description(), "; cost of an analysis of ", nominal_steps, " steps");
-    const std::string other =
-        text("the other realisation is used: ", words, both ? "" : "; its cost was not predicted");
+    const std::string other = text(choice.condensed ? "the condensed operator" : "FETI", " is used instead, ", words,
+                                   both ? "" : "; the cost of this one was not predicted");
     items.push_back({"condensed operator", choice.condensed ? used : left_out, choice.condensed ? built : other,
                      choice.condensed ? c.analysis() : 0.0, choice.condensed ? saving : 0.0, "flop"});
     items.push_back({"FETI", choice.condensed ? left_out : used, choice.condensed ? other : built,
@@ -36,7 +36,8 @@ void add_reduction(std::vector<PlanItem>& items, const Solver& solver) {
     items.push_back({"memory", used,
                      choice.monolithic > 0.0
                          ? text("predicted peak of an analysis, ", std::round(10.0 * bytes / choice.monolithic) / 10.0,
-                                " times one monolithic factorisation; saved against the other realisation")
+                                " times that of one monolithic factorisation; saved against ",
+                                choice.condensed ? "FETI" : "the condensed operator")
                          : std::string("predicted peak of an analysis"),
                      bytes, both ? (choice.condensed ? f.bytes - c.bytes : c.bytes - f.bytes) : 0.0, "byte"});
     if (choice.condensed)
@@ -50,9 +51,10 @@ void add_reduction(std::vector<PlanItem>& items, const Solver& solver) {
     const std::int64_t own = solver.problem().options.threads, blas = blas_threads();
     const std::string of_blas = blas > 0 ? text(blas) : std::string("an unknown number");
     items.push_back({"threads", own > 1 && !choice.condensed ? used : left_out,
-                     choice.condensed ? text("the condensed operator uses BLAS, which has ", of_blas,
-                                             own > 1 ? text(" (", own, " of the library requested)") : std::string())
-                                      : text(own, " of the library (option threads), BLAS uses ", of_blas),
+                     choice.condensed
+                         ? text("the condensed operator uses those of the BLAS alone, ", of_blas,
+                                own > 1 ? text("; option threads = ", own, " has no effect") : std::string())
+                         : text(own, " of the library (option threads); the BLAS uses ", of_blas),
                      0.0, 0.0, "-"});
     const double longest = choice.condensed ? c.longest : f.longest;
     items.push_back(
@@ -61,7 +63,7 @@ void add_reduction(std::vector<PlanItem>& items, const Solver& solver) {
          longest / nominal_rate, 0.0, "s"});
 }
 
-// Pairs of an interface whose normal jump is determined by the device alone.
+// Pairs of an interface whose normal jump is determined by the constraints alone.
 std::int64_t prescribed_pairs(const Solver& solver, std::int64_t first, std::int64_t pairs) {
     const auto rows = solver.jump_operator().prescribed_rows();
     const std::int64_t dim = solver.problem().mesh->dimension();
@@ -90,9 +92,7 @@ PlanItem contact_of(const Solver& solver, std::size_t interface, std::int64_t fi
             used,
             text(pairs - prescribed, " of ", pairs,
                  " pairs may close, and nothing proves beforehand that they stay open; the test costs one comparison "
-                 "per pair "
-                 "until one closes, "
-                 "then one more solve for each change of the contact set"),
+                 "per pair until one closes, then one more solve for each change of the contact set"),
             all - static_cast<double>(prescribed),
             static_cast<double>(prescribed),
             "comparison/solve"};
@@ -129,8 +129,7 @@ PlanItem gradient_term(const Solver& solver) {
         return {"gradient term", left_out, "no law has kappa > 0: the damage step is pointwise", 0.0, 0.0, unit};
     std::string reason =
         "one bound-constrained problem for each interface with kappa > 0 instead of the pointwise damage step, and no "
-        "Newton steps in the "
-        "process zone;";
+        "Newton steps in the process zone;";
     double work = 0.0;
     for (const auto& term : terms) {
         reason += text(" kappa = ", term->kappa(), " couples ", term->coupled_pairs(), " of ", term->pairs(),
@@ -163,7 +162,7 @@ std::vector<PlanItem> Solver::plan() const {
                               ? "Newton steps and debonding moves in the process zone, each checked by the energy"
                               : "extrapolated alternate minimisation, each step checked by the energy",
                           "; same stopping test: delta = ", options.damage_tolerance, ", at most ",
-                          options.minimisation_limit, " alternations a step"),
+                          options.minimisation_limit, " iterations per step"),
                      0.0, 0.0, "-"});
     const double dofs = static_cast<double>(problem_.mesh->node_count() * problem_.mesh->dimension());
     const double recovery =
@@ -174,14 +173,14 @@ std::vector<PlanItem> Solver::plan() const {
     const bool energetic = options.solution == "energetic";
     items.push_back({"energetic search", energetic ? used : left_out,
                      energetic
-                         ? text("every front and new cracks, at most ", options.search_limit, " candidates a step")
+                         ? text("every front and new cracks, at most ", options.search_limit, " candidates per step")
                          : std::string("option solution = local: critical points reached from the state before"),
                      0.0, 0.0, "-"});
     items.push_back(
         {"backtracking", keeps_past() ? used : left_out,
          keeps_past() ? text("option backtracking = ", options.backtracking, ", eta = ", options.backtracking_tolerance,
-                             ", at most ", options.backtracking_limit, " returns a step")
-                      : std::string("the two-sided energy estimate is reported but causes no return"),
+                             ", at most ", options.backtracking_limit, " returns per step")
+                      : std::string("the two-sided energy estimate is reported, but causes no return to earlier steps"),
          0.0, 0.0, "-"});
     return items;
 }

@@ -48,7 +48,7 @@ void check(const State& state, const Solver& solver) {
                        state.closed.size() == mine.closed.size() && a.jump.size() == b.jump.size() &&
                        a.force.size() == b.force.size() && a.conjugate.size() == b.conjugate.size() &&
                        a.multipliers.size() == b.multipliers.size() && a.rigid.size() == b.rigid.size();
-    if (!sizes) fail(DELAM_ERROR_SNAPSHOT, "snapshot has other sizes than this solver");
+    if (!sizes) fail(DELAM_ERROR_SNAPSHOT, "snapshot has arrays of other sizes than this solver");
     for (const auto* fractions : {&state.adhesion, &state.mixity, &state.mixity_before})
         for (const double v : *fractions)
             if (!(v >= 0.0 && v <= 1.0))
@@ -78,7 +78,7 @@ void check(const JumpEvent& jump, const Solver& solver) {
     walk(finite, jump);
     if (!sound || !finite.holds)
         fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a jump at time ", jump.time, " of interface ", jump.interface,
-             ", pairs ", jump.first_pair, " to ", jump.last_pair, ", that no march can have");
+             ", pairs ", jump.first_pair, " to ", jump.last_pair, ", which this scene cannot have");
 }
 
 // Histories that the host has changed since the solver was made: pattern, times, values.
@@ -143,7 +143,7 @@ Record read_record(Reader& r, const Solver& solver) {
         if (std::find(names.begin(), names.end(), key) == names.end() || why_unrecorded(key) != nullptr ||
             record.find(key) != nullptr)
             fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a record of '", key,
-                 "', which is no value of this solver that is recorded, or comes twice");
+                 "', which is not a value that this solver records, or occurs twice");
         record.add({key, std::move(values)}, first);
     }
     if (columns == 0 && first != 0)
@@ -157,7 +157,7 @@ void check(const Record& record, const State& state) {
         if (record.first() < 0 || record.first() > state.step ||
             static_cast<std::int64_t>(column.values.size()) != state.step - record.first() + 1)
             fail(DELAM_ERROR_SNAPSHOT, "snapshot holds ", column.values.size(), " recorded values of '", column.key,
-                 "' from step ", record.first(), " on, its state is of step ", state.step);
+                 "' from step ", record.first(), " on, but its state is of step ", state.step);
 }
 
 // For complete bytes that this library has written, in any version.

@@ -39,23 +39,23 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time)
 }
 
 Outcome Solver::unconverged_displacement(const State& state) const {
-    return {DELAM_NOT_CONVERGED, text("displacement step at time ", state.time, ": worst linear residual ",
+    return {DELAM_NOT_CONVERGED, text("displacements at time ", state.time, ": not converged (worst linear residual ",
                                       state.effort.linear_residual, ", tolerance ", problem_.options.linear_tolerance,
-                                      "; ", state.effort.contact_iterations, " active-set steps")};
+                                      "; ", state.effort.contact_iterations, " active-set steps)")};
 }
 
 void Solver::judge_balance(const State& state, Outcome& outcome) {
     const double off = out_of_balance(problem_, stepper_.op(), state, stepper_.contact().force_floor(state.theta));
     if (!(off > poor_balance)) return;
     const std::string what =
-        text("step ", state.step, " at time ", state.time, ": forces at nodes are out of balance by ", off,
-             " of the largest reaction: stiffnesses cancel to rounding (plies very much longer than thick, or moduli "
-             "that differ very much)");
+        text("step ", state.step, " at time ", state.time, ": nodal forces are out of balance by ", off,
+             " of the largest reaction, because digits of the stiffness are lost to rounding (plies much longer than "
+             "thick, or moduli that differ by many orders of magnitude)");
     if (off > no_balance) {
         outcome = {DELAM_NOT_CONVERGED,
-                   text(outcome.text, outcome.text.empty() ? "" : "; ", what, "; allowed is ", no_balance)};
+                   text(outcome.text, outcome.text.empty() ? "" : "; ", what, "; allowed: up to ", no_balance)};
     } else if (!warned_of_balance_) {
-        monitor_.log(1, text(what, " (said once)"));
+        monitor_.log(1, text(what, "; later steps are not reported"));
         warned_of_balance_ = true;
     }
 }
@@ -93,12 +93,14 @@ Outcome Solver::advance(double time) {
     if (!result.converged) {
         const State& next = pending.state;
         outcome.status = DELAM_NOT_CONVERGED;
-        outcome.text = text("step ", next.step, " at time ", time, ": not converged after ", next.effort.am_iterations,
-                            " alternations (last change of adhesion ", next.outcome.damage_change, ", tolerance ",
-                            options.damage_tolerance, "; worst linear residual ", next.effort.linear_residual,
-                            ", tolerance ", options.linear_tolerance, ")");
+        outcome.text =
+            text("step ", next.step, " at time ", time, ": not converged after ", next.effort.am_iterations,
+                 " iterations of alternate minimisation (last change of adhesion ", next.outcome.damage_change,
+                 ", tolerance ", options.damage_tolerance, "; worst linear residual ", next.effort.linear_residual,
+                 ", tolerance ", options.linear_tolerance, ")");
         if (next.outcome.mixity_held > 0)
-            outcome.text += text("; the mixity of ", next.outcome.mixity_held, " pairs would not settle and was held");
+            outcome.text +=
+                text("; the mixity of ", next.outcome.mixity_held, " pairs did not converge and was held fixed");
     }
     judge_balance(pending.state, outcome);
     std::string searched = stepper_.searched();
@@ -197,11 +199,11 @@ std::vector<double> Solver::step_tangent() {
     if (!pending_ || pending_->state.step == committed_.step)
         fail(DELAM_ERROR_STATE, "step tangent: no step is pending");
     if (!pending_->revised.empty())
-        fail(DELAM_ERROR_STATE, "step tangent: a return has replaced steps from ", pending_->revised.front().step,
-             " on");
+        fail(DELAM_ERROR_STATE, "step tangent: not available, because backtracking has replaced the steps from ",
+             pending_->revised.front().step, " on");
     if (const std::int64_t parts = pending_->state.history.substeps; parts > 1)
-        fail(DELAM_ERROR_STATE, "step tangent: the step was walked in ", parts,
-             " parts (step_control, jump_tolerance or mixity_step_tolerance), each from the one before");
+        fail(DELAM_ERROR_STATE, "step tangent: not available, because the step was divided into ", parts,
+             " substeps (step_control, jump_tolerance or mixity_step_tolerance)");
     return stepper_.step_tangent(committed_, pending_->state);
 }
 
@@ -286,10 +288,11 @@ void Solver::warn_of_unresolved_front(const State& before, const State& after) {
             for (const CrackFront& front : delam::crack_fronts(*state))
                 for (const FrontPoint& point : front.points) pairs = std::max(pairs, point.zone_pairs);
         if (pairs < 0.0 || pairs >= resolving_pairs) continue;
-        monitor_.log(1, text("step ", after.step, " at time ", after.time, ": a front of interface ", i, " grew with ",
-                             std::floor(pairs), " pairs in its process zone, which takes ", resolving_pairs,
-                             ": when and how far it grows depends on the mesh; finer cells or solution = energetic "
-                             "cure it (said once)"));
+        monitor_.log(1,
+                     text("step ", after.step, " at time ", after.time, ": a front of interface ", i, " advanced with ",
+                          std::floor(pairs), " pairs in its process zone, but at least ", resolving_pairs,
+                          " are needed to resolve it; the load and the length of the growth depend on the mesh: use "
+                          "finer cells or solution = energetic (later steps are not reported)"));
         warned_of_front_ = true;
         return;
     }
@@ -299,9 +302,10 @@ double Solver::largest_rotation(const State& state) const {
     if (problem_.mesh->cell_count() == 0) return unknown;
     const double largest = delam::largest_rotation(*problem_.mesh, displacement(state));
     if (largest > small_rotation && !warned_of_rotation_) {
-        monitor_.log(1, text("step ", state.step, " at time ", state.time, ": cells turn by up to ", largest,
-                             " rad; strains are small ones, off by about half the square of that, ",
-                             0.5 * largest * largest, " (said once)"));
+        monitor_.log(1, text("step ", state.step, " at time ", state.time, ": cells rotate by up to ", largest,
+                             " rad; strains are linear in the displacements, with an error of about half the square "
+                             "of the rotation, ",
+                             0.5 * largest * largest, " (later steps are not reported)"));
         warned_of_rotation_ = true;
     }
     return largest;

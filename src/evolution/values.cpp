@@ -127,8 +127,8 @@ FrontPoint leading_point(const Reading& r, std::int64_t interface) {
     return leading;
 }
 
-constexpr const char* by_recovery = "it recovers the displacements, a sparse solve each";
-constexpr const char* counts_on = "it counts over the solver's life and is no part of a state";
+constexpr const char* by_recovery = "reading it takes a sparse solve, which recovers the displacements";
+constexpr const char* counts_on = "it counts since the solver was created and is not part of a state";
 
 // The part is an interface (-1: all together) or a pattern.
 using OfState = double (*)(const State&);
@@ -186,12 +186,12 @@ constexpr Row table[] = {
         [](const State& s) { return s.ledger.upper; }),
     row("increment_lower", "F L", "increment at the mixities of the step before, which the lower bound holds for",
         [](const State& s) { return s.ledger.increment_lower; }),
-    row("defect", "F L", "what does not close in the energy balance since the start",
+    row("defect", "F L", "error of the energy balance since the start",
         [](const State& s) { return s.ledger.defect(); }),
     row(
         "defect_slides", "F L", "defect in the split whose dissipation is linear in the damage",
         [](const State& s) { return s.ledger.defect_linear(); }, "defect_linear"),
-    row("mixity_error", "-", "toughness at the mixity of the result against the toughness used, relative, in the step",
+    row("mixity_error", "-", "relative error of the toughness used in the step against that at the resulting mixity",
         [](const State& s) { return s.ledger.mixity_error; }),
     row(
         "am_iterations", "-", "iterations of the staggered scheme in the step",
@@ -204,7 +204,8 @@ constexpr Row table[] = {
         [](const State& s) { return count(s.effort.contact_iterations_first); }),
     row("contact_iterations_max", "-", "active-set steps of the worst displacement solve of the step",
         [](const State& s) { return count(s.effort.contact_iterations_max); }),
-    row("contact_fallbacks", "-", "displacement solves that exchanged one pair at a time because active sets came back",
+    row("contact_fallbacks", "-",
+        "displacement solves that exchanged one pair at a time because an active set recurred",
         [](const State& s) { return count(s.effort.contact_fallbacks); }),
     row("linear_iterations", "-", "Krylov iterations of the step",
         [](const State& s) { return count(s.effort.linear_iterations); }),
@@ -242,7 +243,7 @@ constexpr Row table[] = {
     row(
         "jumps", "-", "instants within the step at which the state jumps",
         [](const State& s) { return count(s.outcome.jumps); }, "state_jumps"),
-    row("released", "F L", "energy that these jumps set free and nothing stores or dissipates",
+    row("released", "F L", "energy that these jumps release, neither stored nor dissipated",
         [](const State& s) { return s.outcome.released; }),
     life_row("bulk_factorisations", "sparse factorisations of the bodies since the solver was made",
              [](const Reading& r) { return count(r.solver().jump_operator().factorisations()); }),
@@ -262,7 +263,7 @@ constexpr Row table[] = {
                   [](const Reading& r) { return r.solver().largest_rotation(r.state()); }),
     recovered_row("kkt_equilibrium", "-", "largest out-of-balance nodal force over the largest reaction",
                   [](const Reading& r) { return r.solver().equilibrium_defect(r.state()); }),
-    front_row("crack_length", "L or L2", "part that was open at first and the advance of its fronts",
+    front_row("crack_length", "L or L2", "initially open length or area plus the advance of its fronts",
               [](const Reading& r, std::int64_t i) { return over_interfaces(r, i, crack_length); }),
     front_row("energy_release_rate", "F/L", "largest energy release rate of a front point; 0: there is no front",
               [](const Reading& r, std::int64_t i) { return leading_point(r, i).total(); }),
@@ -274,7 +275,7 @@ constexpr Row table[] = {
               [](const Reading& r, std::int64_t i) { return leading_point(r, i).zone_pairs; }),
     pattern_row("load", "-", "factor of the load pattern",
                 [](const Reading& r, std::int64_t p) { return r.state().theta[index(p)]; }),
-    pattern_row("reaction", "F L", "conjugate of the load pattern, positive when the loading device does work",
+    pattern_row("reaction", "F L", "conjugate of the load pattern, positive when it does work on the structure",
                 [](const Reading& r, std::int64_t p) { return r.state().response.conjugate[index(p)]; }),
 };
 

@@ -98,14 +98,14 @@ std::vector<std::int64_t> unresolved_steps(std::string_view history, const Model
 std::string unresolved_line(const std::vector<std::int64_t>& steps) {
     if (steps.empty()) return "";
     return fmt::format(
-        "warning: in {} (the first is step {}) a crack grew with fewer than {:g} pairs in its process zone: when and "
-        "how far depends on the mesh\n",
+        "warning: in {} (the first is step {}) a crack grew with fewer than {:g} pairs in its process zone: the load "
+        "and the length of its growth depend on the mesh\n",
         steps.size() == 1 ? "1 step" : fmt::format("{} steps", steps.size()), steps.front(), resolving_pairs);
 }
 
 std::string rotation_line(double largest) {
     if (!(largest > small_rotation)) return "";
-    return fmt::format("warning: cells turn by up to {:.3g} rad: small strains are off by about {:.2g}\n", largest,
+    return fmt::format("warning: cells rotate by up to {:.3g} rad: the error of the strains is about {:.2g}\n", largest,
                        0.5 * largest * largest);
 }
 

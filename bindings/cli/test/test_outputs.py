@@ -59,7 +59,7 @@ last = dict(zip(titles, rows[-1].split(",")))
 expect(abs(float(last["energy_release_rate"]) / 250 - 1) < 0.02 and 0.03 < float(last["crack_length"]) < 0.12 and
        float(last["front_mixity"]) > 0.99 and float(last["process_zone_pairs"]) >= 3, "columns of the crack")
 expect(about["front_unresolved"] == [] and "warning: in " not in text, "a resolved process zone is not mentioned")
-expect(about["rotation_max"] > 0.1 and "cells turn by up to" in text, "large rotations are")
+expect(about["rotation_max"] > 0.1 and "cells rotate by up to" in text, "large rotations are")
 with h5py.File(os.path.join(out, "fields.h5")) as file:
     point = file["steps/00000020/interface_0"]
     expect(point["front_points"].shape == (1, 3) and abs(point["front_points"][0, 0] - float(last["crack_length"])) < 1e-12 and

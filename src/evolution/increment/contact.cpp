@@ -24,7 +24,7 @@ void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> pre
                  " (normal jump ", response.jump[p * dim], " < 0)");
 }
 
-// The normal rows of all pairs that are neither bonded nor driven by the device.
+// The normal rows of all pairs that are neither bonded nor prescribed.
 ContactRows contact_rows(const ContactScene& scene, std::span<const std::uint8_t> prescribed, bool cold) {
     const auto dim = static_cast<std::size_t>(scene.dimension);
     ContactRows rows;
@@ -103,7 +103,8 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
     result.solves = found.solves;
     result.fallback = found.exchanged;
     if (found.last != ContactSolve::solved)
-        fail(DELAM_LIMIT, "no equilibrium: a dead force acts on a part that neither bonds, supports nor contact hold");
+        fail(DELAM_LIMIT,
+             "no equilibrium: a dead force acts on a part that neither adhesion, supports nor contact hold");
     result.converged = result.converged && found.settled;
     for (std::size_t i = 0; i < set.size(); ++i) closed[rows.row[i] / dim] = set[i];
     refuse_pressed(scene, op.prescribed_rows(), response, theta);

@@ -12,7 +12,7 @@ namespace delam {
 
 namespace {
 
-constexpr double snapped = 0.1;  // part of the toughness
+constexpr double tolerated_error = 0.1;  // of the toughness, relative
 
 }  // namespace
 
@@ -49,12 +49,12 @@ void MixityRule::begin(const PairLaws& pairs, const State& before, const Respons
     start.mixity_before = start.mixity;
 }
 
-void MixityRule::warn_of_snap(const Monitor& monitor, const State& next) const {
-    if (kind_ != Kind::frozen || !(next.ledger.mixity_error > snapped)) return;
-    monitor.log(1,
-                text("step ", next.step, " at time ", next.time,
-                     ": the mode mixity changed so much within the step that the frozen one misses the toughness by ",
-                     100.0 * next.ledger.mixity_error, " %; smaller steps or mixity_rule = converged cure it"));
+void MixityRule::warn_of_mixity_error(const Monitor& monitor, const State& next) const {
+    if (kind_ != Kind::frozen || !(next.ledger.mixity_error > tolerated_error)) return;
+    monitor.log(
+        1, text("step ", next.step, " at time ", next.time,
+                ": the mode mixity changed within the step, so that the toughness at the frozen mixity is in error by ",
+                100.0 * next.ledger.mixity_error, " %: use smaller steps or mixity_rule = converged"));
 }
 
 }  // namespace delam

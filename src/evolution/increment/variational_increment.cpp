@@ -108,7 +108,7 @@ void VariationalIncrement::book_rule(State& next, double energy_change_linear) c
 // The force of each pair that is neither whole nor broken, less that of its spring, component by component.
 std::vector<PairDirection> VariationalIncrement::directions(const State& state) const {
     if (!pairs_.gradient.empty())
-        fail(DELAM_ERROR_STATE, "step tangent: mixity_rule = variational together with a gradient term has none");
+        fail(DELAM_ERROR_STATE, "step tangent: not available for mixity_rule = variational with a gradient term");
     const std::size_t dim = dimension();
     const double largest = largest_driving(pairs_, state.response.jump);
     const std::vector<double> spring = spring_stiffness(pairs_, state.adhesion);

@@ -24,8 +24,8 @@ Lift::Lift(JumpOperator& op, std::span<const std::uint8_t> bonded_rows, std::spa
         if (gives >= 0)
             moving[static_cast<std::size_t>(gives)] = 1;
         else if (std::any_of(equation.offset.begin(), equation.offset.end(), [](double o) { return o != 0.0; }))
-            fail(DELAM_ERROR_PROBLEM, "prescribed displacements tear jump row ", equation.row, " and ",
-                 equation.others.size(), " others apart, whose interfaces are bonded for ever");
+            fail(DELAM_ERROR_PROBLEM, "prescribed displacements open jump row ", equation.row, " or one of the ",
+                 equation.others.size(), " rows bound to it, but all of their interfaces are bonded permanently");
     }
     Springs bonded{std::vector<double>(rows, 0.0), std::vector<std::uint8_t>(rows, 1)};
     for (std::size_t i = 0; i < rows; ++i) {

@@ -56,7 +56,8 @@ void Trials::sweep(const Front& front, const Candidate& base, const char* with) 
     const char* what = front.nucleation ? "new crack" : "front";
     if (search_.left <= 0) {
         if (!front.nucleation) result.bound = std::min(result.bound, search_.floor + search_.cost(base));
-        result.words += text(what, " of interface ", front.interface, with, ": left out by search_limit\n");
+        result.words +=
+            text(what, " of interface ", front.interface, with, ": not searched, search_limit is reached\n");
         return;
     }
     Sweep sweep(search_, front, base);
@@ -64,14 +65,15 @@ void Trials::sweep(const Front& front, const Candidate& base, const char* with) 
     const std::int64_t pair = front.pairs.front() - search_.graph.first_pair(front.interface);
     result.words +=
         text(what, " of interface ", front.interface, " at pair ", pair, with, ": ", sweep.sampled(), " of ",
-             sweep.rings_swept(), " rings compared", sweep.stopped() ? ", stopped by search_limit" : "");
+             sweep.rings_swept(), " rings compared", sweep.stopped() ? ", search_limit is reached" : "");
     if (front.nucleation)
-        result.words += ", sizes 1, 2, 4 ... and around the lowest";
+        result.words += " (1, 2, 4 ... and next to the lowest)";
     else
-        result.words +=
-            text(", the others lie at most ", std::max(0.0, search_.best - sweep.bound()), " below the best");
+        result.words += text(", the energy of the others is at most ", std::max(0.0, search_.best - sweep.bound()),
+                             " below the lowest");
     if (auto best = sweep.best()) {
-        result.words += text("; lowest at ", sweep.best_at(), ", by ", best->incremental - level_, " above the step");
+        result.words +=
+            text("; lowest at ring ", sweep.best_at(), ", energy ", best->incremental - level_, " above the step's");
         found_.push_back(std::move(*best));
     }
     result.words += "\n";
@@ -109,7 +111,7 @@ void Trials::sweep_from_the_lowest() {
         const Candidate base = *std::min_element(found_.begin(), found_.end(), lower);
         if (base.incremental >= level_) break;
         for (const Front& front : fronts(base, 0))
-            if (!front.nucleation) sweep(front, base, " from the lowest so far");
+            if (!front.nucleation) sweep(front, base, ", other fronts as in the lowest candidate so far");
         if (std::min_element(found_.begin(), found_.end(), lower)->incremental >= base.incremental) break;
     }
 }
@@ -137,8 +139,8 @@ void Trials::debond_interfaces() {
         search_.energies.lose_focus();
         if (rows <= largest_zone) search_.energies.focus(wanted);
         if (!std::isfinite(search_.compare(all, {}, nullptr))) continue;
-        search_.result.words += text(i == interfaces ? "everything" : text("interface ", i),
-                                     " debonded: ", all.incremental - level_, " above the step\n");
+        search_.result.words += text(i == interfaces ? "everything" : text("interface ", i), " debonded: energy ",
+                                     all.incremental - level_, " above the step's\n");
         found_.push_back(std::move(all));
     }
 }

@@ -41,7 +41,7 @@ std::vector<double> Linearised::tangent(std::span<const Pattern> patterns) {
         theta[q] = 0.0;
         if (!columns_.back().balanced)
             fail(DELAM_ERROR_STATE, "tangent: pattern '", patterns[q].name,
-                 "' acts along a motion that nothing holds at this contact set");
+                 "' acts along a rigid motion that nothing holds at the present contact set");
         for (std::size_t p = 0; p < patterns.size(); ++p)
             matrix[p * patterns.size() + q] = columns_.back().conjugate[p];
     }
@@ -98,7 +98,8 @@ std::vector<double> Linearised::step_tangent(std::span<const Pattern> patterns, 
         for (std::int64_t q = 0; q < count; ++q) right(a, q) = along(directions[index(a)], columns_[index(q)].jump);
     add_gradient(directions, system);
     if (!solve_general(system, right, singular))
-        fail(DELAM_ERROR_NUMERICAL, "step tangent: singular with ", n, " damaging pairs; a jump is about to happen");
+        fail(DELAM_ERROR_NUMERICAL, "step tangent: singular with ", n,
+             " damaging pairs; an instability (a jump of the state) is imminent");
     for (std::int64_t q = 0; q < count; ++q)
         for (std::int64_t p = 0; p < count; ++p)
             for (std::int64_t a = 0; a < n; ++a)

@@ -34,7 +34,7 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
     for (std::size_t i = 0; i < mesh.interfaces().size(); ++i) {
         const InterfaceProperties& properties = problem_.interfaces[i];
         std::optional<Toughness> fixed;
-        const Law* law = properties.law ? &*properties.law : nullptr;  // none: bonded for ever, or contact alone
+        const Law* law = properties.law ? &*properties.law : nullptr;  // none: bonded permanently, or contact alone
         if (law != nullptr && problem_.options.mixity == "auto" && !law->depends_on_mixity())
             fixed = law->toughness(0.0);
         if (law != nullptr && law->gradient > 0.0)
@@ -68,8 +68,8 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
     for (const std::size_t row : lift_.driven_rows(1e-9 * largest)) {
         const std::size_t pair = row / static_cast<std::size_t>(mesh.dimension());
         if (contact_.bonded[pair] != 0)
-            fail(DELAM_ERROR_PROBLEM, "prescribed displacements tear pair ", pair,
-                 " apart, whose interface is bonded for ever");
+            fail(DELAM_ERROR_PROBLEM, "prescribed displacements open pair ", pair,
+                 ", but its interface is bonded permanently");
     }
 }
 
@@ -265,9 +265,10 @@ void Stepper::search(Result& best, const Increment& step) {
     // Candidates under the variational rule have energies at the mixities of the start, which are no bound.
     outcome.search_gap =
         step.bounds_candidates() ? std::max(0.0, kept - found.bound) : std::numeric_limits<double>::infinity();
-    searched_ = text(
-        "step ", best.state.step, " at time ", best.state.time, ": ", found.candidates, " candidates, ", minimised,
-        " of them minimised from; lowest candidate less the state kept: ", outcome.search_margin, "\n", found.words);
+    searched_ = text("step ", best.state.step, " at time ", best.state.time, ": ", found.candidates,
+                     " candidates, the step was minimised from ", minimised,
+                     " of them; energy of the lowest candidate less that of the state kept: ", outcome.search_margin,
+                     "\n", found.words);
 }
 
 Stepper::Result Stepper::equilibrate(const State& before, double time, std::span<const double> adhesion) {

@@ -58,7 +58,7 @@ public:
     const ReductionChoice& reduction() const { return reduction_; }
     const std::vector<double>& initial_adhesion() const { return initial_adhesion_; }
     // Warns the host about the mixity of a kept step.
-    void warn(const State& state) const { rule_->warn_of_snap(monitor_, state); }
+    void warn(const State& state) const { rule_->warn_of_mixity_error(monitor_, state); }
     // Description of what the last search compared; empty: nothing.
     const std::string& searched() const { return searched_; }
 
