@@ -56,7 +56,7 @@ void write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
     // rename() would replace a device, a pipe or a socket that others need by a regular file.
     struct stat there {};
     if (::stat(path.c_str(), &there) == 0 && !S_ISREG(there.st_mode))
-        fail(DELAM_ERROR_FILE, "'", path, "': is ", kind_of(there.st_mode), ", and only files are replaced");
+        fail(DELAM_ERROR_FILE, "'", path, "' is ", kind_of(there.st_mode), "; only regular files are replaced");
     // Other processes and threads may save to the same path at the same time, so the temporary name must be unique.
     std::string part;
     int opened = -1;
@@ -68,7 +68,7 @@ void write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
         if (opened < 0 && errno != EEXIST) break;
     }
     Descriptor file(opened);
-    if (file.number() < 0) refuse(part, "cannot be made", errno);
+    if (file.number() < 0) refuse(part, "cannot be created", errno);
     const auto give_up = [&](const char* what) {
         const int number = errno;
         file.close();
@@ -81,9 +81,9 @@ void write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
         if (written < 0 && errno != EINTR) give_up("cannot be written");
         if (written > 0) at += static_cast<std::size_t>(written);
     }
-    if (::fsync(file.number()) != 0 && errno != EINVAL) give_up("cannot be put on disk");
+    if (::fsync(file.number()) != 0 && errno != EINVAL) give_up("cannot be written to disk");
     if (file.close() != 0) give_up("cannot be closed");
-    if (std::rename(part.c_str(), path.c_str()) != 0) give_up("cannot be put in its place");
+    if (std::rename(part.c_str(), path.c_str()) != 0) give_up("cannot be replaced by the new file");
     // fsync() of the folder makes the new name durable; if the file system does not support it, that is no error.
     const Descriptor folder(::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (folder.number() >= 0) (void)::fsync(folder.number());

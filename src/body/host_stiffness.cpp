@@ -213,7 +213,7 @@ Split found_split(const SparseMatrix& k, std::span<const std::int64_t> local, st
     DenseMatrix energy = multiply_transposed(q, forces(k, local, dim, q)),
                 lower = multiply_transposed(q, diagonal_forces(k, local, dim, q));
     if (!factor_definite(lower))
-        fail(DELAM_ERROR_ARGUMENT, where, ": diagonal entries that are too far apart, by more than 1e16");
+        fail(DELAM_ERROR_ARGUMENT, where, ": diagonal entries differ by a factor of more than 1e16");
     for (int side = 0; side < 2; ++side) {  // L^-1 A, then L^-1 of its transpose
         solve_lower(lower, energy);
         for (std::int64_t i = 0; i < q.columns; ++i)
@@ -226,12 +226,12 @@ Split found_split(const SparseMatrix& k, std::span<const std::int64_t> local, st
     for (std::int64_t e = 0; e < q.columns; ++e) {
         const double ratio = eigen.value[index(e)];
         if (ratio < -resisted)
-            fail(DELAM_ERROR_ARGUMENT, where, ": a rigid motion has an energy < 0, ", ratio,
-                 " of the diagonal's: the matrix is indefinite");
+            fail(DELAM_ERROR_ARGUMENT, where, ": a rigid motion has a negative energy, ", ratio,
+                 " times that of the diagonal alone: the matrix is indefinite");
         if (std::abs(ratio) > rounding) {
             if (ratio >= resisted) continue;
-            fail(DELAM_ERROR_ARGUMENT, where, ": a rigid motion costs ", ratio,
-                 " of the energy of the diagonal, between ", rounding, " (free) and ", resisted,
+            fail(DELAM_ERROR_ARGUMENT, where, ": the energy of a rigid motion is ", ratio,
+                 " times that of the diagonal alone, neither <= ", rounding, " (free) nor >= ", resisted,
                  " (held): give the kernel");
         }
         std::vector<double> x(eigen.vector.value.begin() + e * q.columns,
@@ -266,11 +266,11 @@ Split told_split(const SparseMatrix& k, std::span<const std::int64_t> local, std
             most += held(i, c) * held(i, c);
         }
         if (std::sqrt(off) > told_tolerance * std::sqrt(length))
-            fail(DELAM_ERROR_ARGUMENT, "kernel[", c, "] is no rigid motion of ", where, " (", std::sqrt(off / length),
-                 " of it is not; allowed ", told_tolerance, ")");
+            fail(DELAM_ERROR_ARGUMENT, "kernel[", c, "] is not a rigid motion of ", where, ": it deviates by ",
+                 std::sqrt(off / length), " of its norm, allowed: up to ", told_tolerance);
         if (std::sqrt(pull) > told_tolerance * std::sqrt(most))
-            fail(DELAM_ERROR_ARGUMENT, "kernel[", c, "] takes forces of ", std::sqrt(pull / most),
-                 " of those of the diagonal alone to move ", where, "; allowed ", told_tolerance);
+            fail(DELAM_ERROR_ARGUMENT, "kernel[", c, "] is not free: moving ", where, " along it takes forces of ",
+                 std::sqrt(pull / most), " times those of the diagonal alone, allowed: up to ", told_tolerance);
     }
     return split_by(share);
 }
@@ -299,8 +299,8 @@ HostStiffness host_stiffness(const Mesh& mesh, std::int32_t body, SparseMatrix m
         // A single node whose rows the host has emptied for its own supports has only translations; its diagonal
         // resists them.
         if (split.free_count > 0 && q.columns < rigid)
-            fail(DELAM_ERROR_ARGUMENT, where, ", lie on one ", dim == 2 ? "point" : "line",
-                 ": they are no solid, whose rigid motions are ", rigid);
+            fail(DELAM_ERROR_ARGUMENT, where, ", lie ", dim == 2 ? "in one point" : "on one line",
+                 " and have fewer rigid motions than the ", rigid, " of a solid");
         piece.free = some_columns(q, split.combination, 0, split.free_count);
         piece.held = some_columns(q, split.combination, split.free_count, q.columns);
         free_motions += split.free_count;

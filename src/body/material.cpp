@@ -101,19 +101,18 @@ std::string indefinite_constant(const Orthotropic& m) {
         if (std::abs(coupling[p]) < 1.0) continue;
         const std::size_t i = p == 2 ? 1 : 0, j = p == 0 ? 1 : 2;
         const double largest = std::sqrt(m.constant[i] / m.constant[j]);
-        return text(name[3 + p], " = ", m.constant[3 + p], " is outside -", largest, " .. ", largest, ", the root of ",
-                    name[i], "/", name[j], " (the other way round nu", j + 1, i + 1, " = ", name[3 + p], " ", name[j],
-                    "/", name[i], " = ", m.constant[3 + p] * m.constant[j] / m.constant[i], ")");
+        return text(name[3 + p], " = ", m.constant[3 + p], " is outside -", largest, " .. ", largest,
+                    ", the square root of ", name[i], "/", name[j], " (nu", j + 1, i + 1, " = ", name[3 + p], " ",
+                    name[j], "/", name[i], " = ", m.constant[3 + p] * m.constant[j] / m.constant[i], ")");
     }
     if (k.determinant() > definite) return "";
     // Positive between the roots of 1 - a2 - b2 - c2 - 2abc in c.
     const double reach = std::sqrt((1.0 - k.a * k.a) * (1.0 - k.b * k.b));
     const double scale = std::sqrt(m.constant[Orthotropic::e2] / m.constant[Orthotropic::e3]);
     return text("nu23 = ", m.constant[Orthotropic::nu23], " is outside ", (-k.a * k.b - reach) * scale, " .. ",
-                (-k.a * k.b + reach) * scale, ", what nu12 = ", m.constant[Orthotropic::nu12],
+                (-k.a * k.b + reach) * scale, ", the range left by nu12 = ", m.constant[Orthotropic::nu12],
                 " and nu13 = ", m.constant[Orthotropic::nu13],
-                " leave (1 - nu12 nu21 - nu13 nu31 - nu23 nu32 - 2 nu21 nu32 nu13 = ", k.determinant(),
-                " must be > 0)");
+                " (1 - nu12 nu21 - nu13 nu31 - nu23 nu32 - 2 nu21 nu32 nu13 = ", k.determinant(), " must be > 0)");
 }
 
 // The energy is the same in both axes:  D = M^T D_m M.

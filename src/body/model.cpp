@@ -28,9 +28,9 @@ void require_formulation(const Mesh& mesh, std::int32_t body, Formulation formul
         if (modes ? has_modes(row) : !has_one_strain(row)) continue;
         fail(status, "formulation '", name_of(formulation), "' of body ", mesh.body_label(body), ": cell ", c, " is a ",
              row.topology.name,
-             modes
-                 ? ", it is for quad4 and hex8 only"
-                 : ", whose dilatation is constant already: it locks all the same; use quadratic cells, quad4 or hex8");
+             modes ? "; allowed are quad4 and hex8"
+                   : ", whose dilatation is constant already, so that it locks as before; use quadratic cells, quad4 "
+                     "or hex8");
     }
 }
 

@@ -124,8 +124,8 @@ inline std::int32_t report(Context& context, std::int32_t status, const char* wh
 inline std::int32_t refuse_callback(Context& context) noexcept {
     try {
         context.message =
-            "called from inside a callback of the same context, or from another thread while it is at work: "
-            "delam_context_cancel alone may be";
+            "called from inside a callback of the same context, or from another thread during a call with this "
+            "context: only delam_context_cancel is allowed";
     } catch (...) {
         context.message.clear();
     }

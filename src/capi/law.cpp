@@ -37,9 +37,9 @@ const LawParameter& require_parameter(const Law& law, const std::string& key, co
     if (found != nullptr) {
         const std::string own = found->type;
         fail(DELAM_ERROR_ARGUMENT, "law parameter '", key, "' is a ",
-             own == "real"   ? "number: delam_law_set"
-             : own == "text" ? "text: delam_law_set_text"
-                             : "table: delam_law_set_table");
+             own == "real"   ? "number: use delam_law_set"
+             : own == "text" ? "text: use delam_law_set_text"
+                             : "table: use delam_law_set_table");
     }
     const std::string known = known_parameters(law, type);
     for (const LawParameter& p : law_parameters()) {
@@ -77,7 +77,7 @@ int32_t delam_law_create(delam_context* context, const char* kind, delam_law** o
             fail(DELAM_ERROR_ARGUMENT, "kind = '", kind, "' is not known; known are ", known);
         }
         if (std::holds_alternative<HostSoftening>(shape))
-            fail(DELAM_ERROR_ARGUMENT, "kind = 'host' needs its callbacks: delam_law_create_host");
+            fail(DELAM_ERROR_ARGUMENT, "kind = 'host' needs callbacks: use delam_law_create_host");
         create(*context, std::move(shape), out);
     });
 }

@@ -117,7 +117,7 @@ std::vector<std::int64_t> require_patterns(const Problem& problem, std::int64_t 
         const Pattern& pattern = problem.patterns[index(list[index(i)])];
         if (pattern.drives != Pattern::Drives::nothing && pattern.drives != drives) {
             fail(DELAM_ERROR_PROBLEM, "pattern '", pattern.name, "' drives ", name_of(pattern.drives),
-                 " already, it cannot drive both");
+                 " already and cannot also drive ", name_of(drives));
         }
     }
     return list;
@@ -331,7 +331,8 @@ int32_t delam_problem_add_periodic(delam_problem* problem, int64_t period_count,
             const bool tied = std::any_of(ties.begin(), ties.end(), [&](const NodeTie& t) { return t.node == node; });
             if (core.mesh->node_body(node) >= 0 || tied)
                 fail(DELAM_ERROR_ARGUMENT, "control_nodes[", k, "] = ", control_nodes[k],
-                     tied ? " is a tied node" : " belongs to cells", ": must be a node of its own");
+                     tied ? " is a tied node" : " belongs to cells",
+                     ": must be a control node, without cells and not tied");
             if (std::find(controls.begin(), controls.end(), node) != controls.end())
                 fail(DELAM_ERROR_ARGUMENT, "control_nodes[", k, "] = ", control_nodes[k], " is listed twice");
             controls.push_back(node);

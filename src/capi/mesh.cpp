@@ -159,7 +159,7 @@ int32_t delam_mesh_create_layers(delam_context* context, int32_t dimension, cons
         double cells = 0.0;
         for (std::int64_t i = 0; i < layer_count; ++i) cells += static_cast<double>(layer_divisions[i]);
         for (std::int32_t d = 0; d + 1 < dimension; ++d) cells *= static_cast<double>(divisions[d]);
-        if (cells > 1e11) fail(DELAM_ERROR_ARGUMENT, "divisions give ", cells, " cells, allowed are 1e11");
+        if (cells > 1e11) fail(DELAM_ERROR_ARGUMENT, "divisions give ", cells, " cells, allowed: up to 1e11");
         hand_out(context,
                  make_layers(dimension, view(lengths, dimension - 1), view(divisions, dimension - 1),
                              view(thickness, layer_count), view(layer_divisions, layer_count),

@@ -129,7 +129,7 @@ void TabulatedSoftening::set_table(std::span<const double> xi, std::span<const d
         fail(DELAM_ERROR_ARGUMENT, "point ", last, " = (", xi[last], ", ", s[last], "): the end (1, 0) is expected");
     const auto second = std::find_if(xi.begin(), xi.end(), [](double v) { return v > 0.0; }) - xi.begin();
     if (s[static_cast<std::size_t>(second) - 1] == 0.0)
-        fail(DELAM_ERROR_ARGUMENT, "s falls to 0 at xi = 0: no area is left under the table (kind griffith does that)");
+        fail(DELAM_ERROR_ARGUMENT, "s falls to 0 at xi = 0, so that the area under the table is 0: use kind griffith");
     set_corners(xi, s);
 }
 

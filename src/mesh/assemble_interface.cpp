@@ -156,7 +156,7 @@ InterfaceGeometry assemble_interface(const Mesh& mesh, std::span<const NodePair>
         if (!(length(area[p]) > 1e-6 * result.weight[p]))
             fail(DELAM_ERROR_MESH, "the faces that meet at ",
                  place(mesh, side == FaceSide::a ? result.node_a[p] : result.node_b[p]),
-                 " face in opposite directions: the normal is not defined");
+                 " have opposite normals: the normal of the interface is not defined");
         write_frame(mesh.dimension(), area[p], &result.frame[p * dim * dim]);
     }
     return result;

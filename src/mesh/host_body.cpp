@@ -97,7 +97,8 @@ std::int64_t Mesh::add_pairs(std::int32_t label_a, std::int32_t label_b, std::sp
             const std::size_t corners = dimension_ == 2 ? 2 : per_face == 3 || per_face == 6 ? 3 : 4, k = i % per_face;
             for (std::size_t j = 0; j < k && k < corners; ++j)
                 if (face[i] == face[i - k + j] && !(corners == 4 && k == 3 && j == 2))
-                    fail(DELAM_ERROR_ARGUMENT, "faces[", i / per_face, "]: pair ", face[i], " is two of its corners");
+                    fail(DELAM_ERROR_ARGUMENT, "faces[", i / per_face, "]: pair ", face[i],
+                         " occurs twice among its corners");
         }
         made.face.assign(face.begin(), face.end());
     }

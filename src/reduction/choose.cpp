@@ -152,24 +152,26 @@ void choose(ReductionChoice& choice) {
         choice.reason = std::move(reason);
     };
     if (!c.possible && !f.possible)
-        fail(DELAM_ERROR_MEMORY, "the dense operator would have ", choice.unknowns, " rows and a subdomain's boundary ",
-             choice.boundary, ", LAPACK addresses ", dense_limit, ": set the option subdomains to more");
+        fail(DELAM_ERROR_MEMORY, "the condensed operator would have ", choice.unknowns,
+             " rows and the boundary of a subdomain ", choice.boundary, ", allowed: up to ", dense_limit,
+             " (LAPACK); increase the option subdomains");
     if (!c.possible)
-        return decide(false,
-                      text("the dense operator would have ", choice.unknowns, " rows, LAPACK addresses ", dense_limit));
+        return decide(false, text("the condensed operator would have ", choice.unknowns, " rows, allowed: up to ",
+                                  dense_limit, " (LAPACK)"));
     const double ratio = choice.monolithic > 0.0 ? c.bytes / choice.monolithic : 0.0;
-    const std::string memory = text("needs ", mebibytes(c.bytes), ", ", std::round(10.0 * ratio) / 10.0,
-                                    " times one monolithic factorisation");
+    const std::string memory =
+        text("the condensed operator needs ", mebibytes(c.bytes), ", ", std::round(10.0 * ratio) / 10.0,
+             " times the memory of one monolithic factorisation");
     if (c.bytes > memory_floor && ratio > memory_ratio) {
-        if (f.possible && f.bytes < c.bytes)
-            return decide(false, text("the condensed operator ", memory, ", more than ", memory_ratio));
+        if (f.possible && f.bytes < c.bytes) return decide(false, text(memory, ", more than ", memory_ratio));
         return decide(true, text(memory, ", more than ", memory_ratio, ", but FETI would need ", mebibytes(f.bytes)));
     }
     if (f.possible && f.analysis() < c.analysis())
-        return decide(false, text("a march of ", nominal_steps, " steps is predicted to take ", seconds(f.analysis()),
-                                  " against ", seconds(c.analysis()), " condensed, at ", nominal_rate * 1e-9, " GF/s"));
-    decide(true, text(memory, "; a march of ", nominal_steps, " steps is predicted to take ", seconds(c.analysis()),
-                      " against ", seconds(f.analysis()), " by FETI, at ", nominal_rate * 1e-9, " GF/s"));
+        return decide(false,
+                      text("an analysis of ", nominal_steps, " steps is predicted to take ", seconds(f.analysis()),
+                           " by FETI and ", seconds(c.analysis()), " condensed, at ", nominal_rate * 1e-9, " GF/s"));
+    decide(true, text(memory, "; an analysis of ", nominal_steps, " steps is predicted to take ", seconds(c.analysis()),
+                      " condensed and ", seconds(f.analysis()), " by FETI, at ", nominal_rate * 1e-9, " GF/s"));
 }
 
 ChosenOperator choose_operator(const Problem& problem, Monitor& monitor) {
@@ -185,13 +187,13 @@ ChosenOperator choose_operator(const Problem& problem, Monitor& monitor) {
     if (options.reduction == "feti" || (options.reduction == "auto" && options.subdomains > 0)) {
         choice.forced = true;
         choice.condensed = false;
-        choice.reason = options.reduction == "feti" ? "option reduction = feti"
-                                                    : text("option subdomains = ", options.subdomains, " asks for it");
+        choice.reason =
+            options.reduction == "feti" ? "option reduction = feti" : text("option subdomains = ", options.subdomains);
     } else if (!choice.condensation.possible && options.reduction == "auto") {
         choose(choice);
     } else {
         if (!choice.condensation.possible)
-            fail(DELAM_ERROR_PROBLEM, "option 'reduction' = 'condensed': the dense operator would have ",
+            fail(DELAM_ERROR_PROBLEM, "option 'reduction' = 'condensed': the condensed operator would have ",
                  choice.unknowns, " rows, allowed: up to ", dense_limit, "; feti has no such limit");
         bulk = std::make_unique<Bulk>(problem, monitor);
         choice.unknowns = bulk->trailing();

@@ -49,7 +49,7 @@ public:
     virtual ~JumpOperator() = default;
     // theta: [patterns].
     virtual void solve(const Springs& springs, std::span<const double> theta, Response& response) = 0;
-    // Forces of the device along the constraints [constraints], F.
+    // Reactions: forces of the constraints [constraints], F.
     virtual std::vector<double> reaction(std::span<const double> theta, const Response& response) const = 0;
     // Displacements [mesh DOFs] of a response of this operator.
     virtual std::vector<double> displacement(std::span<const double> theta, const Response& response) const = 0;
@@ -70,7 +70,8 @@ public:
     // Throws Error(DELAM_ERROR_SNAPSHOT) for numbers that memory() cannot have returned.
     virtual void require_memory(std::span<const double> memory) const {
         if (!memory.empty())
-            fail(DELAM_ERROR_SNAPSHOT, "a memory of ", memory.size(), " numbers, this operator has none");
+            fail(DELAM_ERROR_SNAPSHOT, "snapshot holds ", memory.size(),
+                 " numbers of a zone, but this jump operator saves none");
     }
     // Another operator over the same condensed bodies, with a memory of its own; null: there is no cheap one.
     virtual std::unique_ptr<JumpOperator> twin() const { return nullptr; }

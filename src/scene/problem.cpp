@@ -41,8 +41,8 @@ BodyModel Problem::model(std::int32_t body) const {
     const auto i = static_cast<std::size_t>(body);
     if (formulation[i] == Formulation::mean_dilatation && mesh->dimension() == 2 && plane == Plane::stress)
         fail(DELAM_ERROR_PROBLEM, "body ", mesh->body_label(body),
-             ": formulation 'mean-dilatation' is for plane strain and space; in plane stress the thickness gives way "
-             "and nothing locks");
+             ": formulation 'mean-dilatation' is for plane strain and 3D only; in plane stress no formulation "
+             "locks");
     return {*material[i], plane, formulation[i], orientation};
 }
 

@@ -104,7 +104,7 @@ void check_constraints(const Problem& problem) {
                 std::all_of(row.right.begin(), row.right.end(), [&](double r) { return std::abs(r) <= 1e-9 * scale; });
             fail(DELAM_ERROR_PROBLEM, "constraint ", i, " (of ", c.dof.size(), " displacements, the first at node ",
                  c.dof.front() / problem.mesh->dimension(), ") ",
-                 agrees ? "prescribes what other constraints do already" : "contradicts other constraints");
+                 agrees ? "follows from other constraints" : "contradicts other constraints");
         }
         const auto largest = std::max_element(row.terms.begin(), row.terms.end(), [](const auto& a, const auto& b) {
             return std::abs(a.second) < std::abs(b.second);
@@ -139,8 +139,8 @@ void check_supports(const Problem& problem) {
     for (const FreeMotion& motion : free_motions(problem, false)) {
         if (motion.force_work > 1e-9) {
             fail(DELAM_ERROR_PROBLEM, "missing support: ", names(*problem.mesh, motion), " can ", motion.description,
-                 " where nothing adheres, and the dead forces of pattern '",
-                 problem.patterns[static_cast<std::size_t>(motion.force_pattern)].name, "' act along");
+                 " at the initial adhesion, and the dead forces of pattern '",
+                 problem.patterns[static_cast<std::size_t>(motion.force_pattern)].name, "' do work in this motion");
         }
     }
 }

@@ -378,7 +378,7 @@ CASE_TEST(partly_grounded) {
                           std::string(words) + ": " + text);
         };
         refused(along_y, 1, "forces");
-        refused(bent, 1, "no rigid motion");
+        refused(bent, 1, "not a rigid motion");
         std::vector<double> twice = along_x;
         twice.insert(twice.end(), along_x.begin(), along_x.end());
         refused(twice, 2, "independent");

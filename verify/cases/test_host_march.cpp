@@ -161,10 +161,12 @@ CASE_TEST(states_as_files) {
     // Only regular files are replaced: a host that runs as root could destroy devices.
     const std::string pipe = (folder.path / "pipe").string();
     cases::expect(mkfifo(pipe.c_str(), 0600) == 0, "mkfifo");
-    refused(delam_solver_save_file(again.get(), pipe.c_str()), DELAM_ERROR_FILE, "a pipe, and only files are replaced");
+    refused(delam_solver_save_file(again.get(), pipe.c_str()), DELAM_ERROR_FILE,
+            "a pipe; only regular files are replaced");
     const std::string link = (folder.path / "link").string();
     std::filesystem::create_symlink(pipe, link);
-    refused(delam_solver_save_file(again.get(), link.c_str()), DELAM_ERROR_FILE, "a pipe, and only files are replaced");
+    refused(delam_solver_save_file(again.get(), link.c_str()), DELAM_ERROR_FILE,
+            "a pipe; only regular files are replaced");
     cases::expect(std::filesystem::is_symlink(link) && std::filesystem::remove(link), "the link is gone");
     cases::expect(std::filesystem::is_fifo(pipe) && std::filesystem::remove(pipe) && folder.files() == 1,
                   "the pipe is gone, or something was left beside it");

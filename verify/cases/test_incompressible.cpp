@@ -238,7 +238,7 @@ CASE_TEST(with_eigenstrain_and_axes) {
     if (d == 3) return;
     scene.require(delam_problem_set_plane(scene.problem(), "plane-stress"), "plane");
     cases::expect(delam_problem_check(scene.problem()) == DELAM_ERROR_PROBLEM, "not in plane stress");
-    cases::expect(std::string(delam_context_message(scene.context())).find("nothing locks") != std::string::npos,
+    cases::expect(std::string(delam_context_message(scene.context())).find("no formulation locks") != std::string::npos,
                   "with its reason");
 }
 

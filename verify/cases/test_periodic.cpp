@@ -241,7 +241,7 @@ CASE_TEST(refused) {
     twice.equation({5, 6}, {1.0, 0.0, -1.0, 0.0});
     twice.equation({4, 6}, {1.0, 0.0, -1.0, 0.0});
     cases::expect(delam_problem_check(twice.problem()) == DELAM_ERROR_PROBLEM, "a dependent equation");
-    says(twice, "prescribes what other constraints do already");
+    says(twice, "follows from other constraints");
 }
 
 }  // namespace

@@ -202,7 +202,7 @@ START_TEST(tables) {
     expect(table_refusal({0.0, 1.0}, {1.0, 0.1}), "point 1 = (1, 0.1)");
     expect(table_refusal({0.0, 1.5, 1.0}, {1.0, 0.5, 0.0}), "xi[1] = 1.5");
     expect(table_refusal({0.0, 0.5, 1.0}, {1.0, std::nan(""), 0.0}), "s[1] = nan");
-    expect(table_refusal({0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}), "no area");
+    expect(table_refusal({0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}), "area under the table is 0");
 }
 END_TEST
 

@@ -146,7 +146,7 @@ START_TEST(incomplete_scenes_are_refused_by_name) {
 
     problem = good;
     hold(problem, node_at(problem, 0, {0.0, 0.0}), 0);
-    expect(problem, "prescribes what other constraints do already");
+    expect(problem, "follows from other constraints");
 
     // A mean over nodes that are already fixed, and the same mean twice.
     problem = good;

@@ -264,7 +264,7 @@ for old, new, *patterns in (
         ("point = [1.0, 1.0]", 'control = "nose"', r'"nose": no such control node; none is defined')):
     expect_error(delam("check", write(lever.replace(old, new, 1))), 2, *patterns)
 twice = lever + '[[equations]]\nleft = [{ point = [1.0, 1.0], component = ["y"] }]\npattern = "p"\n'
-expect_error(delam("check", write(twice)), 2, r"equations\[1\], line \d+, constraint 13 .* what other constraints do already")
+expect_error(delam("check", write(twice)), 2, r"equations\[1\], line \d+, constraint 13 .* follows from other constraints")
 expect_error(delam("check", write(lever + '[[equations]]\nleft = [{ point = [0.0, 0.0], component = ["y"] }]\npattern = "p"\n')),
              2, r"equations\[1\], line \d+, constraint .* contradicts other constraints")
 expect_error(delam("check", write(cell + '[[supports]]\nbox = { lower = [0, 0], upper = [0, 1] }\nfix = ["x"]\n')),

@@ -128,7 +128,7 @@ mean = changed("poisson = 0.3", 'poisson = 0.4999\nformulation = "mean-dilatatio
 answer = delam("check", write(mean))
 expect(answer[0] == 0 and "locks" not in answer[1], "nearly incompressible: " + answer[2])
 refuse(changed("dimension = 2", 'dimension = 2\ncell = "tri3"', mean), r"materials\[0\]", "tri3", "constant already")
-refuse(changed("dimension = 2", 'dimension = 2\nplane = "plane-stress"', mean), "nothing locks")
+refuse(changed("dimension = 2", 'dimension = 2\nplane = "plane-stress"', mean), "no formulation locks")
 refuse(changed("incompatible", "reduced", bending), r"materials\[0\]\.formulation", "incompatible")
 
 

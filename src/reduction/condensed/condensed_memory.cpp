@@ -39,7 +39,7 @@ std::vector<double> Condensed::memory() const {
 Condensed::Choice Condensed::parse(std::span<const double> memory) const {
     const std::size_t unknowns = always_.size();
     const auto damaged = [](bool yes) {
-        if (yes) fail(DELAM_ERROR_SNAPSHOT, "the memory of the condensed operator is damaged");
+        if (yes) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a zone that the condensed operator cannot have");
     };
     damaged(memory.size() < 4 * unknowns + 1);
     Choice choice;
