@@ -227,7 +227,7 @@ CASE_TEST(mixed_mode_growth) {
 CASE_TEST(dcb_in_space) {
     Dcb d;
     d.h = 1e-3;
-    d.length = 60e-3;
+    d.length = 50e-3;
     d.notch = 20e-3;
     d.opening = 0.02e-3;
     d.law = {1e14, 1e14, 50.0, 50.0, 250.0, 250.0};
@@ -238,7 +238,7 @@ CASE_TEST(dcb_in_space) {
     for (const bool space : {false, true}) {
         d.cell = space ? (quadratic ? DELAM_HEX20 : DELAM_HEX8) : quadratic ? DELAM_QUAD8 : DELAM_QUAD4;
         d.width = space ? 60e-3 : 0.0;
-        d.across = quadratic ? 8 : 20;
+        d.across = quadratic ? 6 : 10;
         d.through = quadratic ? 1 : 3;
         const reference::Scene scene = make_dcb(d, d.notch);
         if (!quadratic)
@@ -265,7 +265,7 @@ CASE_TEST(dcb_in_space) {
             expect_near(sum / width, plane, 0.05, plane, "mean G on quadratic faces");
             continue;
         }
-        expect(points.size() == 21, "a point at each row of pairs, " + std::to_string(points.size()));
+        expect(points.size() == 11, "a point at each row of pairs, " + std::to_string(points.size()));
         double length = 0.0, mean = 0.0;
         for (const FrontPoint& point : points) {
             length += point.length;
@@ -275,7 +275,7 @@ CASE_TEST(dcb_in_space) {
             expect_near(point.direction[0], 1.0, 1e-9, 1.0, "direction");
             if (d.nu == 0.0) expect_near(point.total(), plane, 1e-6, plane, "G across the width");
         }
-        const double middle = points[10].total();
+        const double middle = points[5].total();
         std::printf("DCB in space, nu %g: G at mid-width / plane %.4f, mean %.4f, edge %.4f\n", d.nu, middle / plane,
                     mean / length / plane, points[0].total() / plane);
         expect_near(length, d.width, 1e-9, d.width, "length of the front");

@@ -14,8 +14,9 @@ using reference::Fronts;
 using reference::MixityRule;
 
 // ENF and MMF, at points and on patches: loop 0 .. 3.
-reference::Flexure specimen(int loop) {
+reference::Flexure specimen(int loop, double h = 1.5e-3) {
     reference::Flexure data = reference::find_flexure(loop % 2 == 0 ? "enf-brittle" : "mmf-brittle");
+    data.h = h;
     data.patch = loop < 2 ? 0.0 : 2e-3;
     return data;
 }
@@ -33,8 +34,9 @@ double stored(const reference::Solver& solver) {
 CASE_TEST(energy_is_quadratic_in_the_load) {
     const Fronts fronts(specimen(loop));
     const reference::FlexureScene& s = fronts.flexure();
+    std::size_t first = 0;
     for (const double load : {0.03e-3, 0.5e-3, 2.7e-3, 6e-3}) {
-        for (std::size_t f = 0; f < fronts.list().size(); f += 11) {
+        for (std::size_t f = first; f < fronts.list().size(); f += 20) {
             // Contact sets are not passed from front to front here.
             reference::Solver solver(s.scene, 0.0);
             const reference::Front& front = fronts.list()[f];
@@ -49,6 +51,7 @@ CASE_TEST(energy_is_quadratic_in_the_load) {
             cases::expect_near(tangential / (normal + tangential), front.mixity[p], 1e-7, 1.0,
                                where + "mixity at the front");
         }
+        first += 5;  // every load has fronts of its own
     }
 }
 
@@ -119,13 +122,13 @@ CASE_TEST(crossing_of_the_energies) {
 // The ENF is pure mode II: the criterion's exponents change the toughness by less than 0.1 %. The MMF has beam theory's
 // psi^2 = 3/4 at the front, 35 J/m2, while pairs far ahead keep the mixity that they had before the front came.
 CASE_TEST(mixity_rules_differ_in_the_mixed_mode_only) {
-    const Fronts enf(specimen(0));
+    const Fronts enf(specimen(0, 1e-3));
     const auto middle = enf.list().size() / 2;
     const double pure = enf.dissipated(0, middle, MixityRule::pure);
     for (const MixityRule rule : {MixityRule::frozen, MixityRule::converged})
         cases::expect_near(enf.dissipated(0, middle, rule), pure, 1e-3, pure,
                            std::string("ENF, ") + reference::rule_name(rule));
-    const Fronts mmf(specimen(1));
+    const Fronts mmf(specimen(1, 1e-3));
     const auto crossing = mmf.crossing(MixityRule::converged);
     const double advance = mmf.list()[crossing.front].advance;
     cases::expect_near(crossing.dissipated / advance, 35.0, 0.01, 35.0,

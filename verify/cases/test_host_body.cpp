@@ -139,30 +139,46 @@ constexpr const char* keys[] = {
     "stored_bulk",         "stored_interface", "dissipated",      "work",          "lower", "upper", "crack_length",
     "energy_release_rate", "contact_pairs",    "debonded_length", "reaction:drive"};
 
+// What every step of an analysis gives.
+struct Marched {
+    std::vector<std::map<std::string, double>> values;
+    std::vector<std::vector<double>> displacement;
+    double equilibrium = 0.0;  // of the last step
+};
+
+Marched march_of(const Scene& scene, double end, int steps) {
+    Solver solver(scene, 0.0);
+    Marched m;
+    for (int k = 1; k <= steps; ++k) {
+        solver.step(end * k / steps);
+        solver.commit();
+        m.values.emplace_back();
+        for (const char* key : keys) m.values.back()[key] = solver.value(key);
+        m.displacement.push_back(solver.field("displacement"));
+    }
+    m.equilibrium = solver.value("kkt_equilibrium");
+    return m;
+}
+
 // Same analysis, same values and jumps, relative to the largest of the analysis.
-void same_march(const Scene& own, const Scene& other, double end, int steps, double tolerance,
-                const std::string& what) {
-    Solver a(own, 0.0), b(other, 0.0);
+void expect_same(const Marched& own, const Marched& other, double tolerance, const std::string& what) {
     std::map<std::string, double> largest;
     double opening = 0.0;
-    for (int k = 1; k <= steps; ++k) {
-        a.step(end * k / steps);
-        b.step(end * k / steps);
-        a.commit();
-        b.commit();
-        for (const char* key : keys) {
-            largest[key] = std::max(largest[key], std::abs(a.value(key)));
-            cases::expect_near(b.value(key), a.value(key), tolerance, std::max(largest[key], 1e-300),
-                               what + ", step " + std::to_string(k) + ", " + key);
+    for (std::size_t k = 0; k < own.values.size(); ++k) {
+        for (const auto& [key, value] : own.values[k]) {
+            largest[key] = std::max(largest[key], std::abs(value));
+            cases::expect_near(other.values[k].at(key), value, tolerance, std::max(largest[key], 1e-300),
+                               what + ", step " + std::to_string(k + 1) + ", " + key);
         }
-        const auto u = a.field("displacement"), v = b.field("displacement");
+        const auto &u = own.displacement[k], &v = other.displacement[k];
         for (std::size_t i = 0; i < u.size(); ++i) opening = std::max(opening, std::abs(u[i]));
         for (std::size_t i = 0; i < u.size(); ++i)
             cases::expect_near(v[i], u[i], tolerance, opening, what + ": displacement " + std::to_string(i));
     }
-    cases::expect(a.value("dissipated") > 0.0 && a.value("debonded_length") > 0.0,
+    const auto& last = own.values.back();
+    cases::expect(last.at("dissipated") > 0.0 && last.at("debonded_length") > 0.0,
                   what + ": nothing debonded, nothing was tested");
-    cases::expect_below(b.value("kkt_equilibrium"), 1e-9, what + ": equilibrium");
+    cases::expect_below(other.equilibrium, 1e-9, what + ": equilibrium");
 }
 
 struct Example {
@@ -215,7 +231,7 @@ const std::vector<Example>& examples() {
     static const std::vector<Example> list{
         {"flexure",
          [] {
-             Scene scene(2, {0.12}, {120}, {3e-3, 3e-3}, {3, 3}, DELAM_QUAD4);
+             Scene scene(2, {0.12}, {60}, {3e-3, 3e-3}, {2, 2}, DELAM_QUAD4);
              scene.interface(0, 1);
              scene.begin();
              scene.elastic(-1, 75e9, 0.3);
@@ -226,7 +242,7 @@ const std::vector<Example>& examples() {
          2.0},
         {"peel",
          [] {
-             Scene scene(3, {0.02, 0.004}, {20, 3}, {1e-3, 1e-3, 1e-3}, {1, 1, 1}, DELAM_HEX8);
+             Scene scene(3, {0.02, 0.004}, {12, 2}, {1e-3, 1e-3, 1e-3}, {1, 1, 1}, DELAM_HEX8);
              scene.interface(0, 1);
              scene.interface(1, 2);
              scene.begin();
@@ -240,7 +256,7 @@ const std::vector<Example>& examples() {
     return list;
 }
 
-constexpr int steps = 12;
+constexpr int steps = 8;
 
 void march_is_the_same(int loop) {
     const Example& example = examples()[static_cast<std::size_t>(loop / 2)];
@@ -255,20 +271,25 @@ void march_is_the_same(int loop) {
     const std::string name = std::string(example.name) + (feti ? ", FETI" : ", condensed");
     const double tolerance = feti ? 1e-6 : 1e-9;  // FETI alternates, to its own tolerance
 
+    const Marched expected = march_of(own, example.end, steps);
+    const auto same_march = [&](const Scene& other, const char* what) {
+        expect_same(expected, march_of(other, example.end, steps), tolerance, name + what);
+    };
+
     // Bodies without cells, one call for each.
     Scene bare = without_cells(own, example.bodies);
     for (const std::int32_t body : example.bodies)
         bare.require(give(bare, nodes_of(own, body), body_matrix(own, body)), "delam_problem_set_stiffness");
     example.dress(bare);
     options(bare);
-    same_march(own, bare, example.end, steps, tolerance, name + ", without cells");
+    same_march(bare, ", without cells");
 
     // One call for all, with another numbering.
     Scene shuffled = without_cells(own, example.bodies);
     give_shuffled(shuffled, own, example.bodies);
     example.dress(shuffled);
     options(shuffled);
-    same_march(own, shuffled, example.end, steps, tolerance, name + ", shuffled");
+    same_march(shuffled, ", shuffled");
 
     // Bodies with cells, one of them stiffened by the host: cells only provide the faces.
     Scene mixed = example.make();
@@ -277,7 +298,7 @@ void march_is_the_same(int loop) {
                   "delam_problem_set_stiffness");
     example.dress(mixed);
     options(mixed);
-    same_march(own, mixed, example.end, steps, tolerance, name + ", cells");
+    same_march(mixed, ", cells");
 }
 
 START_TEST(march) { cases::run_body(march_is_the_same, _i); }
@@ -387,10 +408,7 @@ CASE_TEST(partly_grounded) {
 
 // The host's supports as empty rows with any diagonal, as finite element programs make them: the same analysis as the
 // scene whose supports the library knows.
-void emptied_rows(int loop) {
-    const Example& example = examples()[1];
-    Scene own = example.make();
-    example.dress(own);
+Scene emptied_scene(const Example& example, const Scene& own, double diagonal) {
     Scene scene = without_cells(own, example.bodies);
     const auto dim = static_cast<std::size_t>(own.dimension());
     const std::vector<std::vector<double>> axes{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
@@ -403,7 +421,6 @@ void emptied_rows(int loop) {
         return std::find(foot.begin(), foot.end(), node) != foot.end() ||
                (dof % dim == 2 && std::find(end.begin(), end.end(), node) != end.end());
     };
-    const double diagonal = loop % 3 == 0 ? 1.0 : loop % 3 == 1 ? 1e-3 : 1e25;
     for (std::size_t r = 0; r + 1 < k.start.size(); ++r)
         for (auto e = static_cast<std::size_t>(k.start[r]); e < static_cast<std::size_t>(k.start[r + 1]); ++e) {
             const auto c = static_cast<std::size_t>(k.column[e]);
@@ -425,10 +442,22 @@ void emptied_rows(int loop) {
     }
     const auto top = scene.find(2, {0.0, 0.0, 0.003}, {0.0, 0.004, 0.003});
     scene.drive(top, axes[2], scene.pattern("drive", {0.0, 1.0}, {0.0, 4e-4}), std::vector<double>(top.size(), 1.0));
-    const bool feti = loop >= 3;
-    for (Scene* s : {&own, &scene}) s->text("reduction", feti ? "feti" : "condensed");
-    same_march(own, scene, example.end, steps, feti ? 1e-6 : 1e-9,
-               std::string(feti ? "FETI" : "condensed") + ", diagonal " + std::to_string(diagonal));
+    return scene;
+}
+
+void emptied_rows(int loop) {
+    const Example& example = examples()[1];
+    const bool feti = loop == 1;
+    Scene own = example.make();
+    example.dress(own);
+    own.text("reduction", feti ? "feti" : "condensed");
+    const Marched expected = march_of(own, example.end, steps);
+    for (const double diagonal : {1.0, 1e-3, 1e25}) {
+        Scene scene = emptied_scene(example, own, diagonal);
+        scene.text("reduction", feti ? "feti" : "condensed");
+        expect_same(expected, march_of(scene, example.end, steps), feti ? 1e-6 : 1e-9,
+                    std::string(feti ? "FETI" : "condensed") + ", diagonal " + std::to_string(diagonal));
+    }
 }
 
 START_TEST(emptied) { cases::run_body(emptied_rows, _i); }
@@ -494,7 +523,7 @@ CASE_TEST(kernel_of_two_bodies) {
 
 // One label, two plies that the matrix does not connect: two pieces, each with its own motions.
 CASE_TEST(two_pieces_of_one_body) {
-    Scene own(2, {0.12}, {60}, {2e-3, 2e-3, 2e-3}, {1, 1, 1}, DELAM_QUAD4);
+    Scene own(2, {0.12}, {30}, {2e-3, 2e-3, 2e-3}, {1, 1, 1}, DELAM_QUAD4);
     own.interface(0, 1);
     own.interface(1, 2);
     own.begin();
@@ -502,7 +531,7 @@ CASE_TEST(two_pieces_of_one_body) {
     const auto dress = [](Scene& scene, std::int32_t top_body) {
         for (std::int64_t i = 0; i < 2; ++i) {
             scene.law(i, {1e12, 1e12, 20.0, 20.0, 2000.0, 2000.0});
-            scene.adhesion(i, {0, 1, 2, 3, 4, 5, 6, 7}, std::vector<double>(8, 0.0));
+            scene.adhesion(i, {0, 1, 2, 3}, std::vector<double>(4, 0.0));
         }
         const auto foot = scene.find(0, {0.0, 0.0}, {0.0, 0.0});
         scene.hold(foot, {1.0, 0.0});
@@ -554,7 +583,7 @@ CASE_TEST(two_pieces_of_one_body) {
     scene.require(give(scene, middle, body_matrix(own, 1)), "middle");
     scene.law(0, {1e12, 1e12, 20.0, 20.0, 2000.0, 2000.0});
     std::vector<std::int64_t> notch;
-    for (std::int64_t k = 0; k < 8; ++k) {
+    for (std::int64_t k = 0; k < 4; ++k) {
         notch.push_back(k);
         notch.push_back(k + static_cast<std::int64_t>(a.count()));
     }
@@ -569,9 +598,9 @@ CASE_TEST(two_pieces_of_one_body) {
         own.text("reduction", reduction);
         scene.text("reduction", reduction);
         Solver mine(own, 0.0), theirs(scene, 0.0);
-        for (int k = 1; k <= 8; ++k) {
-            mine.step(k / 8.0);
-            theirs.step(k / 8.0);
+        for (int k = 1; k <= 4; ++k) {
+            mine.step(k / 4.0);
+            theirs.step(k / 4.0);
             mine.commit();
             theirs.commit();
             for (const char* key : {"stored_bulk", "stored_interface", "dissipated", "work", "reaction:drive"})
@@ -751,7 +780,7 @@ int main() {
     tcase_add_loop_test(tests, march, 0, 2 * static_cast<int>(examples().size()));
     tcase_add_loop_test(tests, grounded, 0, 6);
     tcase_add_test(tests, partly_grounded);
-    tcase_add_loop_test(tests, emptied, 0, 6);
+    tcase_add_loop_test(tests, emptied, 0, 2);
     tcase_add_test(tests, large_body);
     tcase_add_test(tests, kernel_of_two_bodies);
     tcase_add_test(tests, two_pieces_of_one_body);

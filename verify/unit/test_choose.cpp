@@ -71,7 +71,9 @@ void expect_within(double predicted, double counted, double factor, const std::s
 // loop: scene and realisation.
 START_TEST(memory_is_what_was_predicted) {
     if (!unit::counting) return;
-    Problem problem = unit::make_flexure(scene(_i % 3));
+    unit::Flexure flexure = scene(_i % 3);
+    if (_i == 3 || _i == 4) flexure.along /= 2;  // Krylov steps grow with the length
+    Problem problem = unit::make_flexure(flexure);
     problem.options.reduction = _i < 3 ? "condensed" : "feti";
     double predicted = 0.0, unknowns = 0.0;
     const double counted = counted_march(problem, predicted, unknowns);

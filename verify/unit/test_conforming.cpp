@@ -18,7 +18,7 @@
 #include "mesh/layers.hpp"
 #include "mesh/mesh.hpp"
 
-#include <check.h>  // last: it has a macro named fail
+#include "quiet_check.hpp"  // last: it has a macro named fail
 
 using namespace delam;
 

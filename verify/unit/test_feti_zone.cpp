@@ -16,7 +16,7 @@
 #include "reduction/zone/zone.hpp"
 
 // Last: its macro fail() would break delam::fail().
-#include <check.h>
+#include "quiet_check.hpp"
 
 using namespace delam;
 

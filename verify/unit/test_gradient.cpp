@@ -17,7 +17,7 @@
 #include "evolution/increment/gradient.hpp"
 #include "mesh/layers.hpp"
 
-#include <check.h>  // last: it has a macro named fail
+#include "quiet_check.hpp"  // last: it has a macro named fail
 
 using namespace delam;
 

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
-#include <map>
 #include <numeric>
 #include <random>
 #include <set>
@@ -23,8 +22,9 @@
 #include "mesh/mesh.hpp"
 #include "mesh/partition.hpp"
 #include "mesh/selection.hpp"
+#include "partitions.hpp"
 
-#include <check.h>  // last: it has a macro named fail
+#include "quiet_check.hpp"  // last: it has a macro named fail
 
 using namespace delam;
 
@@ -711,91 +711,22 @@ START_TEST(patches) {
 }
 END_TEST
 
-namespace {
-
-using Faces = std::vector<std::size_t>;  // of a cell, by numbers that cells share
-
-std::vector<Faces> cell_faces(const Mesh& mesh) {
-    std::map<std::set<std::int64_t>, std::size_t> number;  // of a face, by its nodes
-    std::vector<Faces> list;
-    for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
-        const CellTopology& shape = topology(mesh.cell_type(c));
-        Faces faces;
-        for (std::size_t f = 0; f < at(shape.faces); ++f) {
-            std::set<std::int64_t> nodes;
-            for (std::size_t k = 0; k < at(shape.face_nodes); ++k) nodes.insert(mesh.cell(c)[at(shape.face[f][k])]);
-            faces.push_back(number.emplace(nodes, number.size()).first->second);
-        }
-        list.push_back(std::move(faces));
-    }
-    return list;
-}
-
-// Non-empty, of one body each, connected through whole faces (by flooding over them).
-void check_partition(const Mesh& mesh, const std::vector<Faces>& faces, const Partition& parts) {
-    const std::size_t count = parts.subdomain_body.size();
-    ck_assert(std::is_sorted(parts.subdomain_body.begin(), parts.subdomain_body.end()));
-    ck_assert_uint_eq(parts.cell_subdomain.size(), at(mesh.cell_count()));
-    std::vector<Indices> cells(count);
-    for (std::int64_t c = 0; c < mesh.cell_count(); ++c) {
-        const std::int32_t s = parts.cell_subdomain[at(c)];
-        ck_assert(s >= 0 && at(s) < count);
-        ck_assert_int_eq(parts.subdomain_body[at(s)], mesh.cell_body(c));
-        cells[at(s)].push_back(c);
-    }
-    for (const Indices& members : cells) {
-        ck_assert(!members.empty());
-        std::set<std::size_t> reached;
-        reached.insert(faces[at(members[0])].begin(), faces[at(members[0])].end());
-        std::set<std::int64_t> left(members.begin() + 1, members.end());
-        for (bool moved = true; moved;) {
-            moved = false;
-            for (auto c = left.begin(); c != left.end();) {
-                const Faces& own = faces[at(*c)];
-                if (std::any_of(own.begin(), own.end(), [&](std::size_t f) { return reached.contains(f); })) {
-                    reached.insert(own.begin(), own.end());
-                    c = left.erase(c);
-                    moved = true;
-                } else {
-                    ++c;
-                }
-            }
-        }
-        ck_assert(left.empty());
-    }
-}
-
-}  // namespace
-
+// All numbers of parts for each type are in the long tier.
 START_TEST(partitions) {
     std::array<std::int64_t, 2> shares{};  // in space, in the plane
     for (const CellType type : all_types) {
-        const bool plane = topology(type).dimension == 2;
-        const std::int64_t share = shares[plane ? 1 : 0]++ % 4;
-        const Mesh mesh = layers(type, plane ? Numbers{4.0} : Numbers{4.0, 2.0}, plane ? Indices{40} : Indices{10, 5},
-                                 {1, 0.5}, {6, 3});
-        const std::vector<Faces> faces = cell_faces(mesh);
-        for (std::int64_t n = 0; n <= 64; ++n) {
-            // Every count in the plane and in space, every fourth for each type.
-            if (n > 8 && n < 64 && n % 4 != share) continue;
-            const Partition parts = partition(mesh, n);
-            ck_assert_uint_eq(parts.subdomain_body.size(), at(std::max<std::int64_t>(n, 2)));
-            check_partition(mesh, faces, parts);
-            const Partition again = partition(mesh, n);
-            ck_assert(parts.cell_subdomain == again.cell_subdomain);
-        }
-        std::vector<std::int64_t> size(16, 0);
-        for (const std::int32_t s : partition(mesh, 16).cell_subdomain) ++size[at(s)];
-        const auto [smallest, largest] = std::minmax_element(size.begin(), size.end());
-        ck_assert_msg(*largest <= 2 * *smallest, "%lld .. %lld cells", static_cast<long long>(*smallest),
-                      static_cast<long long>(*largest));
+        // Every number in the plane and in space; for each type the small ones and every fourth.
+        const std::int64_t share = shares[topology(type).dimension == 2 ? 1 : 0]++ % 4;
+        unit::check_partitions(
+            type, [&](std::int64_t n) { return n <= 8 || n == 16 || n == 64 || n % 4 == share; },
+            [&](std::int64_t n) { return n % 8 == share; });
     }
     // Down to single cells.
     const Mesh tiny = layers(CellType::tri3, {1}, {4}, {1}, {2});
     for (std::int64_t n = 1; n <= tiny.cell_count(); ++n) {
         const Partition parts = partition(tiny, n);
         ck_assert_uint_eq(parts.subdomain_body.size(), at(n));
-        check_partition(tiny, cell_faces(tiny), parts);
+        unit::check_partition(tiny, unit::cell_faces(tiny), parts);
     }
     ck_assert_refused(DELAM_ERROR_ARGUMENT, "subdomains 17: must be in 0..16", partition(tiny, 17));
     ck_assert_refused(DELAM_ERROR_ARGUMENT, "subdomains -1", partition(tiny, -1));
@@ -809,7 +740,7 @@ START_TEST(parts_that_touch_in_a_node) {
     mesh.add_cells(CellType::quad4, Indices{0, 1, 2, 3, 2, 4, 5, 6, 7, 8, 9, 10}, {});
     const Partition parts = partition(mesh, 1);
     ck_assert_uint_eq(parts.subdomain_body.size(), 3);
-    check_partition(mesh, cell_faces(mesh), parts);
+    unit::check_partition(mesh, unit::cell_faces(mesh), parts);
 }
 END_TEST
 
@@ -880,7 +811,6 @@ END_TEST
 int main() {
     Suite* suite = suite_create("mesh");
     TCase* cases = tcase_create("mesh");
-    tcase_set_timeout(cases, 240);
     tcase_add_test(cases, two_arms);
     tcase_add_test(cases, layered_blocks);
     tcase_add_test(cases, shuffled_nodes);

@@ -11,7 +11,7 @@
 #include "law/law.hpp"
 #include "laws.hpp"
 
-#include <check.h>  // last: it has a macro named fail
+#include "quiet_check.hpp"  // last: it has a macro named fail
 
 using delam::Law;
 using delam::Toughness;
@@ -22,14 +22,27 @@ bool close(double a, double b, double tolerance) {
     return std::abs(a - b) <= tolerance * std::max(std::abs(a), std::abs(b));
 }
 
-// body(name, law, toughness) over shapes, criteria, ratios and mixities.
+// body(name, law, toughness) over shapes, criteria, ratios and mixities. In the pure modes all criteria give the same
+// toughness, which is expected here, so that one of them is enough for the body.
 template <class Body>
 void everywhere(Body&& body) {
-    for (const delam::Criterion criterion : laws::criteria)
-        for (const double ratio : {1.02, 2.5, 40.0})
-            for (const laws::Named& named : laws::shapes(criterion, ratio))
-                for (const double b : {0.0, 0.3, 1.0})
-                    body((named.name + ", B = " + std::to_string(b)).c_str(), named.law, named.law.toughness(b));
+    for (const double ratio : {1.02, 2.5, 40.0}) {
+        const auto first = laws::shapes(laws::criteria[0], ratio);
+        for (const delam::Criterion criterion : laws::criteria) {
+            const auto shapes = laws::shapes(criterion, ratio);
+            for (std::size_t i = 0; i < shapes.size(); ++i)
+                for (const double b : {0.0, 0.3, 1.0}) {
+                    const Toughness t = shapes[i].law.toughness(b), other = first[i].law.toughness(b);
+                    const std::string name = shapes[i].name + ", B = " + std::to_string(b);
+                    if (criterion == laws::criteria[0] || b == 0.3) {
+                        body(name.c_str(), shapes[i].law, t);
+                        continue;
+                    }
+                    ck_assert_msg(close(t.onset, other.onset, 1e-15) && close(t.total, other.total, 1e-15), "%s",
+                                  name.c_str());
+                }
+        }
+    }
 }
 
 // Y at which the fraction `share` of the adhesion's way down to 1e-3 is done, with room beyond either end.
@@ -126,7 +139,7 @@ START_TEST(inverse) {
 }
 END_TEST
 
-// First loading with stiffness k: peak sqrt(2 k Go) at the onset, area Gc. The midpoint rule with 200,000 steps has an
+// First loading with stiffness k: peak sqrt(2 k Go) at the onset, area Gc. The midpoint rule with 100,000 steps has an
 // error of 1e-9 where the curve is smooth, and of part of a step at a drop.
 START_TEST(traction) {
     constexpr double k = 125e9;
@@ -137,7 +150,7 @@ START_TEST(traction) {
         ck_assert_msg(close(adhesion * k * just_before, peak, 1e-8), "%s", name);
         const bool endless = std::isinf(law.driving(t, 0.0));
         const double last = std::sqrt(2.0 * law.driving(t, endless ? 1e-15 : 0.0) / k) * 1.0001;
-        constexpr int n = 200000;
+        constexpr int n = 100000;
         double area = 0.5 * peak * onset_jump, highest = 0.0;
         const double step = (last - onset_jump) / n;
         for (int i = 0; i < n; ++i) {
@@ -281,7 +294,6 @@ END_TEST
 int main() {
     Suite* suite = suite_create("softening");
     TCase* cases = tcase_create("softening");
-    tcase_set_timeout(cases, 120);
     tcase_add_test(cases, minimiser_is_least);
     tcase_add_test(cases, energy);
     tcase_add_test(cases, inverse);
