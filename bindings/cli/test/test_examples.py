@@ -4,7 +4,7 @@ run at a coarse size."""
 import os
 import subprocess
 
-from coarse_scenes import COARSE, coarse_run, sound
+from coarse_scenes import COARSE, STIFF, coarse_run, sound
 from support import delam, expect, finish
 
 EXAMPLES = os.environ["DELAM_EXAMPLES"]
@@ -61,7 +61,9 @@ for family in (*FAMILIES, "enf-modified", "enf"):
             rule = "converged" if "converged" in family or family == "mmf-brittle-energetic" else "frozen"
             expect(f"solution = {concept}, mixity_rule = {rule}" in out, f"{family}: {concept}, {rule}")
 
-for name, (settings, checks) in COARSE.items():
+stiff, settings, checks = STIFF
+for name, settings, checks in (*((name, *row) for name, row in COARSE.items()),
+                               (stiff, [*settings, "layers[0].divisions=2", "layers[1].divisions=2"], checks)):
     run = coarse_run(os.path.join(EXAMPLES, name, name + ".toml"), settings)
     for check in (sound, *checks) if run else ():
         check(name, run)
