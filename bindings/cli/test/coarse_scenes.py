@@ -238,15 +238,15 @@ def shortened(length, divisions):
 COARSE = {
     "dcb-alfano": ([*shortened(0.075, 750), "time.steps=50"], [grows, softens, mirrored, resolved, as_alfano_and_crisfield]),
     "dcb-krueger": ([*shortened(0.050, 1000), "time.steps=35"], [grows, softens, mirrored, resolved, as_krueger]),
-    "dcb-double": (["geometry.divisions=200"], [grows, softens, both_open]),
+    "dcb-double": (["geometry.divisions=120"], [grows, softens, both_open]),
     "dcb-3d": (["geometry.divisions=[40, 6]", "time.steps=28"], [grows, softens, mirrored, ahead_in_the_middle]),
     "enf-3d": (["geometry.divisions=[68, 6]", "time.steps=20"], [grows, nearly_straight]),
     "4enf": (["geometry.divisions=200", "time.steps=44"], [grows, plateau]),
     "mmb": (["geometry.divisions=400", "time.steps=40"], [grows, half_and_half]),
     "fibre": (["mesh.cells_around=48", "time.steps=25"], [loses_stiffness]),
-    "fibres-30": (["mesh.fibres=10", "mesh.cells_around=16", "time.steps=12"], [loses_stiffness]),
+    "fibres-30": (["mesh.fibres=6", "mesh.cells_around=16", "time.steps=12"], [loses_stiffness]),
     "laminate-thermal": ([], [grows, load_of_lamination_theory]),
-    "laminate-edge": (["geometry.divisions=[20, 10]", "layers[0].divisions=2", "layers[1].divisions=2", "time.steps=30"],
+    "laminate-edge": (["geometry.divisions=[16, 8]", "layers[0].divisions=2", "layers[1].divisions=2", "time.steps=20"],
                       [from_the_free_edge]),
     "weave": (["mesh.h=0.6e-3", 'mesh.cell="tet4"', "time.steps=5"], [yarns_come_off]),
 }

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the tests of the command line share: a small scene, running the program, expectations."""
+import atexit
+import functools
 import os
 import re
 import subprocess
@@ -7,6 +9,7 @@ import sys
 import tempfile
 
 DELAM = os.environ["DELAM"]
+SERVE = os.environ.get("DELAM_SERVE")  # keeps the program loaded (serve.c)
 failures = []
 
 SCENE = """
@@ -85,10 +88,38 @@ def write(text):
     return path
 
 
-def delam(*words, **options):
-    """Exit code, standard output, standard error."""
+def start(*words, **options):
+    """The program itself: exit code, standard output, standard error."""
     done = subprocess.run([DELAM, *words], capture_output=True, text=True, timeout=200, check=False, **options)
     return done.returncode, done.stdout, done.stderr
+
+
+class Served:
+    """The program that is loaded once."""
+
+    def __init__(self):
+        self.process = subprocess.Popen([DELAM], env={**os.environ, "LD_PRELOAD": SERVE}, stdin=subprocess.PIPE,
+                                        stdout=subprocess.PIPE)
+        atexit.register(self.process.communicate)  # it ends with its standard input
+        self.shown = [os.path.join(folder(), name) for name in ("out", "err")]
+
+    def run(self, words):
+        texts = [*self.shown, DELAM, *words]
+        request = f"{len(texts)}\n".encode() + b"".join(os.fsencode(text) + b"\0" for text in texts)
+        self.process.stdin.write(request)
+        self.process.stdin.flush()
+        code = int(self.process.stdout.readline())
+        return code, *(read(path).decode() for path in self.shown)
+
+
+@functools.cache
+def served():
+    return Served()
+
+
+def delam(*words, **options):
+    """Exit code, standard output, standard error; started anew only where there is no other way."""
+    return served().run(words) if SERVE and not options else start(*words, **options)
 
 
 def expect(condition, what):

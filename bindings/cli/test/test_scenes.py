@@ -3,20 +3,22 @@
 import re
 import subprocess
 
-from support import DELAM, SCENE, changed, delam, expect, expect_error, finish, write
+from support import DELAM, SCENE, changed, delam, expect, expect_error, finish, start, write
 
 
 def refuse(text, *patterns, code=2):
     expect_error(delam("check", write(text)), code, *patterns)
 
 
-code, out, _ = delam("check", write(SCENE))
+scene = write(SCENE)
+code, out, _ = answer = start("check", scene)
 expect(code == 0 and "unknowns" in out and "left out" in out, "check prints the plan")
-code, out, _ = delam("--version")
+expect(delam("check", scene) == answer, "a program that is already loaded prints the same")
+code, out, _ = start("--version")
 expect(code == 0 and out.startswith("delam "), "--version")
-code, out, _ = delam("--help")
+code, out, _ = start("--help")
 expect(code == 0 and "Exit codes" in out, "--help documents the exit codes")
-expect(delam()[0] == 2 and delam("run")[0] == 2 and delam("fly")[0] == 2, "wrong usage is exit 2")
+expect(start()[0] == 2 and delam("run")[0] == 2 and delam("fly")[0] == 2, "wrong usage is exit 2")
 
 refuse(changed("young = 75e9", "yuong = 75e9"), r"scene\.toml:10: materials\[0\]\.yuong", "did you mean 'young'")
 refuse(changed("[time]", "[tiem]"), "tiem", "did you mean 'time'")
