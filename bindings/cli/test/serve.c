@@ -57,8 +57,9 @@ static int serve(int argc, char **argv, char **environment) {
 }
 
 // In place of the C library's, which the program's first instructions call.
-int __libc_start_main(main_function *own, int argc, char **argv, void (*init)(void), void (*fini)(void),
-                      void (*unload)(void), void *stack_end) {
+__attribute__((visibility("default"))) int __libc_start_main(main_function *own, int argc, char **argv,
+                                                             void (*init)(void), void (*fini)(void),
+                                                             void (*unload)(void), void *stack_end) {
     typedef int start_function(main_function *, int, char **, void (*)(void), void (*)(void), void (*)(void), void *);
     start_function *start = (start_function *)dlsym(RTLD_NEXT, "__libc_start_main");
     program = own;
