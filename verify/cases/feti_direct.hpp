@@ -15,23 +15,24 @@
 
 namespace cases {
 
-// Direct solutions of every `stride`-th of the 40 steps.
+// Direct solutions of every `stride`-th of the 40 steps, on squares of h.
 struct DirectStates {
-    explicit DirectStates(int stride);
+    DirectStates(double h, int stride);
 
     struct Entry {
         double time;
         std::vector<double> adhesion;
         reference::State state;
     };
+    Enf enf;
     reference::Scene scene;
     reference::Exported exported;
     std::vector<Entry> entries;
 };
 
-inline DirectStates::DirectStates(int stride) : scene(make_enf({})), exported(scene) {
+inline DirectStates::DirectStates(double h, int stride) : enf{h}, scene(make_enf(enf)), exported(scene) {
     constexpr int steps = 40;
-    const auto march = enf_march({}, steps);
+    const auto march = enf_march(enf, steps);
     reference::DirectReference direct(scene);
     for (int k = stride; k <= steps; k += stride) {
         const double time = enf_time(k, steps);
@@ -53,7 +54,7 @@ struct FetiChoice {
 // they end with the reference's.
 template <class Each>
 void solve_all(const DirectStates& states, const FetiChoice& choice, Each&& each, double* worst_kkt = nullptr) {
-    Enf e;
+    Enf e = states.enf;
     e.subdomains = choice.subdomains;
     e.preconditioner = choice.preconditioner;
     e.gluing = choice.gluing;

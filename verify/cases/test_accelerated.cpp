@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <functional>
+#include <utility>
 
 #include "condensed_scenes.hpp"
 #include "enf.hpp"
@@ -51,7 +52,7 @@ CASE_TEST(ductile_enf) {
     const auto march = [&](const char* reduction, const char* minimisation) {
         const std::string where =
             std::string("ductile ENF, ") + (loop == 0 ? "1e-5, " : "1e-10, ") + reduction + ", " + minimisation;
-        const Scene scene = enf(1e-3, ductile, reduction, minimisation, delta);
+        const Scene scene = enf(1.5e-3, ductile, reduction, minimisation, delta);
         return cases::watch(scene, w, where);
     };
     const Watched plain = march("condensed", "alternate");
@@ -143,7 +144,7 @@ constexpr int peel_count = static_cast<int>(std::size(peels));
 // loop: the scene, then in how many steps the load is applied.
 CASE_TEST(peeling) {
     const Peel& p = peels[loop % peel_count];
-    const int steps = loop < peel_count ? 10 : 1;
+    const int steps = loop < peel_count ? 6 : 1;
     Watch w;
     w.laws = {p.law};
     w.times = cases::even_times(1.0, steps);
@@ -181,17 +182,21 @@ CASE_TEST(brittle_steps_from_the_same_states) {
     const Scene fast = enf(1e-3, brittle, "condensed", "accelerated", 1e-5);
     const Scene plain = enf(1e-3, brittle, "condensed", "alternate", 1e-5);
     Solver march(fast, 0.0);
-    int lower = 0, higher = 0, same = 0;
+    int lower = 0, higher = 0, same = 0, steps = 0;
     double time = 0.0;
     for (const double next : cases::even_times(cases::enf_end_time, 40)) {
+        const double from = std::exchange(time, next);
+        if (steps++ % 4 != 1) {  // every fourth state
+            march.step(next);
+            march.commit();
+            continue;
+        }
         const auto zeta = march.field("adhesion");
         double increment[2] = {0.0, 0.0}, scale = 0.0;
         for (const bool accelerated : {true, false}) {
             Solver solver(accelerated ? fast : plain, 0.0);
-            if (time > 0.0) {
-                solver.equilibrate(time, zeta);
-                solver.commit();
-            }
+            solver.equilibrate(from, zeta);
+            solver.commit();
             const double before = cases::energy(solver);
             solver.step(next);
             increment[accelerated ? 0 : 1] = cases::energy(solver) - before + solver.value("dissipated");
@@ -204,10 +209,9 @@ CASE_TEST(brittle_steps_from_the_same_states) {
                         increment[1]);
         march.step(next);
         march.commit();
-        time = next;
     }
     std::printf("brittle ENF: accelerated lower in %d steps, higher in %d, equal in %d\n", lower, higher, same);
-    cases::expect(lower + higher + same == 40, "steps");
+    cases::expect(lower + higher + same == 10, "steps");
 }
 
 // ---- counts --------------------------------------------------------------------------------------------------------

@@ -179,11 +179,11 @@ Block make_block(Host& host, std::int32_t dimension) {
     b.dimension = dimension;
     b.type = dimension == 2 ? DELAM_QUAD4 : DELAM_HEX8;
     b.lengths = {4.0, 4.0};
-    const std::int64_t divisions[] = {dimension == 2 ? 128 : 24, 24},
-                       layers[] = {dimension == 2 ? 16 : 6, dimension == 2 ? 16 : 6};
+    const std::int64_t divisions[] = {dimension == 2 ? 128 : 16, 16},
+                       layers[] = {dimension == 2 ? 16 : 8, dimension == 2 ? 16 : 8};
     const double thickness[] = {1.0, 1.0};
     delam_mesh*& mesh = host.h.other;
-    std::int64_t cells = dimension == 2 ? 128 * 32 : 24 * 24 * 12, entries = 0;
+    std::int64_t cells = dimension == 2 ? 128 * 32 : 16 * 16 * 16, entries = 0;
     host.call(
         "delam_mesh_create_layers", cells, [&] { return print_of(mesh); },
         [&] {

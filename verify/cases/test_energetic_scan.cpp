@@ -1,105 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Energetic analyses of the brittle ENF against the exhaustive scan of fronts: after every step no more energy than the
 // scan, the jump in the same step and, when located, at the load where the scan's energies cross; no bound violated.
-#include <algorithm>
-
-#include "fronts.hpp"
-#include "support.hpp"
+// Finer meshes are in the long tier.
+#include "energetic_scan.hpp"
 
 namespace {
 
-using reference::Fronts;
-using reference::MixityRule;
-using reference::Solver;
-
-constexpr int steps = 40;
-
-struct Run {
-    double h, patch, exponent;
-};
 // With exponents 1 the toughness does not depend on the mixity, and the two histories cannot differ in it.
-constexpr Run runs[] = {{1e-3, 0.0, 2.0}, {1e-3, 2e-3, 1.0}, {0.75e-3, 2e-3, 2.0}, {0.5e-3, 2e-3, 2.0}};
+constexpr cases::ScanRun runs[] = {{1.5e-3, 0.0, 2.0}, {1.5e-3, 3e-3, 1.0}, {1e-3, 2e-3, 2.0}};
 
-reference::Flexure specimen(const Run& run) {
-    reference::Flexure data = reference::find_flexure("enf-brittle");
-    data.h = run.h;
-    data.patch = run.patch;
-    data.law.exponent = run.exponent;
-    return data;
-}
-
-std::vector<double> loads(const reference::Flexure& data) {
-    std::vector<double> all;
-    for (int k = 1; k <= steps; ++k) all.push_back(data.final_load * k / steps);
-    return all;
-}
-
-double total(const Solver& solver) {
-    return solver.value("stored_bulk") + solver.value("stored_interface") + solver.value("dissipated");
-}
-
-CASE_TEST(no_step_above_the_scan) {
-    const reference::Flexure data = specimen(runs[loop]);
-    const auto scan = Fronts(data).scan(loads(data), MixityRule::frozen);
-    const reference::FlexureScene flexure = reference::make_flexure(data);
-    flexure.scene.require(delam_problem_set_text(flexure.scene.problem(), "solution", "energetic"), "solution");
-    Solver solver(flexure.scene, 0.0);
-    for (int k = 1; k <= steps; ++k) {
-        solver.step(data.end_time * k / steps);
-        solver.commit();
-    }
-    // Read again, so that replaced steps count with their final values.
-    for (int k = 1; k <= steps; ++k) {
-        flexure.scene.require(delam_solver_look(solver.get(), k), "delam_solver_look");
-        const reference::ScanStep& s = scan[static_cast<std::size_t>(k - 1)];
-        const std::string where = "step " + std::to_string(k) + ": ";
-        cases::expect_below(total(solver) / s.total(), 1.0 + 1e-6, where + "energy over the scan's");
-        // No significant damage before the scan's jump, and the scan's front after it except for a few pairs: the
-        // energy is flat there.
-        const double advance = s.dissipated / data.law.tangential_toughness;
-        if (s.front == 0)
-            cases::expect_below(solver.value("debonded_length"), 0.0, where + "debonded before the scan's jump");
-        else
-            cases::expect_near(solver.value("debonded_length"), advance, 1.0, 3.0 * data.h, where + "debonded length");
-        const double scale = std::max(std::abs(total(solver)), solver.value("work"));
-        cases::expect_below(solver.value("lower") - solver.value("increment_lower"), 1e-3 * scale,
-                            where + "lower bound");
-        cases::expect_below(solver.value("increment") - solver.value("upper"), 1e-3 * scale, where + "upper bound");
-    }
-}
-
-CASE_TEST(jump_is_located_where_the_energies_cross) {
-    reference::Flexure data = specimen(runs[loop]);
-    const auto crossing = Fronts(data).crossing(MixityRule::frozen);
-    const reference::FlexureScene flexure = reference::make_flexure(data);
-    const reference::Scene& scene = flexure.scene;
-    scene.require(delam_problem_set_text(scene.problem(), "solution", "energetic"), "solution");
-    scene.require(delam_problem_set_number(scene.problem(), "jump_tolerance", 1e-3), "jump_tolerance");
-    Solver solver(scene, 0.0);
-    for (int k = 1; k <= 2; ++k) {
-        solver.step(data.end_time * k / steps);
-        solver.commit();
-    }
-    std::int64_t count = 0;
-    scene.require(delam_solver_jump_count(solver.get(), &count), "delam_solver_jump_count");
-    cases::expect(count > 0, "no jump was located");
-    double time = 0.0, dissipated = 0.0, released = 0.0;
-    scene.require(delam_solver_jump(solver.get(), 0, nullptr, nullptr, &time, nullptr, &dissipated, &released, nullptr,
-                                    nullptr, nullptr, nullptr),
-                  "delam_solver_jump");
-    cases::expect_near(data.load(time), crossing.load, 1e-3, crossing.load, "load of the jump");
-    cases::expect_near(dissipated, crossing.dissipated, 1.0, 3.0 * data.h * data.law.tangential_toughness,
-                       "energy that the jump takes");
-    cases::expect_near(released, 0.0, 1e-2, crossing.dissipated, "energy released where the energies cross");
-}
+CASE_TEST(no_step_above_the_scan) { cases::expect_no_step_above_the_scan(runs[loop]); }
+CASE_TEST(jump_is_located_where_the_energies_cross) { cases::expect_jump_where_the_energies_cross(runs[loop]); }
 
 }  // namespace
 
 int main() {
     Suite* suite = suite_create("energetic_scan");
     TCase* tests = tcase_create("enf");
-    tcase_add_loop_test(tests, no_step_above_the_scan, 0, 4);
-    tcase_add_loop_test(tests, jump_is_located_where_the_energies_cross, 0, 4);
+    tcase_add_loop_test(tests, no_step_above_the_scan, 0, static_cast<int>(std::size(runs)));
+    tcase_add_loop_test(tests, jump_is_located_where_the_energies_cross, 0, static_cast<int>(std::size(runs)));
     suite_add_tcase(suite, tests);
     return cases::run_suite(suite);
 }

@@ -12,7 +12,7 @@ constexpr cases::FetiChoice choices[] = {{8, "lumped", "orthonormal"},
                                          {8, "series", "redundant"}};
 // The test itself computes the states, because OpenMP threads of the linear algebra do not survive Check's fork.
 CASE_TEST(same_displacement_step) {
-    const cases::DirectStates states(8);
+    const cases::DirectStates states(1e-3, 8);
     for (const auto& choice : choices) {
         cases::solve_all(states, choice, [&](std::size_t i, const reference::Comparison& c, std::int32_t, double) {
             const std::string where = choice.text() + ", state " + std::to_string(i) + ": " + c.text();

@@ -11,7 +11,7 @@ constexpr const char* preconditioners[] = {"none", "lumped", "dirichlet", "serie
 constexpr const char* gluings[] = {"orthonormal", "redundant"};
 // The test itself computes the states, because OpenMP threads of the linear algebra do not survive Check's fork.
 CASE_TEST(same_displacement_step) {
-    const cases::DirectStates states(1);
+    const cases::DirectStates states(0.5e-3, 1);
     for (const std::int64_t n : subdomains) {
         for (const char* gluing : gluings) {
             const cases::FetiChoice choice{n, preconditioners[loop], gluing};

@@ -19,12 +19,12 @@ struct Case {
 };
 
 const Case scenes[] = {
-    {"mmb", {"geometry.divisions=200", "time.steps=40"}, {10, 24, 40}, 0},
+    {"mmb", {"geometry.divisions=100", "time.steps=20"}, {5, 12, 20}, 0},
     {"4enf", {"geometry.divisions=100", "time.steps=22"}, {5, 14, 22}, 6},
     // A strip of 200 mm by 0.265 mm in a beam that opens by centimetres: the residual of FETI stalls, and overlaps of
     // 1e-11 of the opening are forces on springs of 1e13 N/m3 that the direct solution shows.
-    {"dcb-double", {"geometry.divisions=100", "time.steps=20"}, {5, 12, 20}, 0, 1e-7, true},
-    {"enf-3d", {"geometry.divisions=[34, 4]", "time.steps=10"}, {4, 10}, 0},
+    {"dcb-double", {"geometry.divisions=40", "time.steps=8"}, {2, 5, 8}, 0, 1e-7, true},
+    {"enf-3d", {"geometry.divisions=[24, 4]", "time.steps=6"}, {3, 6}, 0},
     // Fibres float; control nodes have units of their own, so that the motions that involve them lose half their digits
     // once.
     {"fibres-30", {"mesh.fibres=6", "mesh.cells_around=16", "mesh.gap=0.3", "time.steps=10"}, {2, 5, 10}, 0, 2e-9},
