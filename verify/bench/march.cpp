@@ -54,7 +54,7 @@ double optional_value(const reference::Solver& solver, const char* key) {
 
 const std::vector<Method>& methods() {
     static const std::vector<Method> list = {{"baseline", nullptr, nullptr},
-                                             {"feti", "feti", "alternate"},
+                                             {"feti", "feti", "accelerated"},
                                              {"condensed", "condensed", "alternate"},
                                              {"accelerated", "condensed", "accelerated"}};
     return list;
