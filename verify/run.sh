@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # bash verify/run.sh [--all]: installs, builds, runs the quick tier of the tests, then the unit tests, the light cases
 # and the fuzzer's corpus under AddressSanitizer and UBSan, then the quick part of the verification report (out/report-quick).
-#   --all   also the long tier, the thread sanitizer, clang 14 without warnings, valgrind on the unit tests and two cases
+#   --all   also the long tier, every check of UBSan, the thread sanitizer, clang 14 without warnings, valgrind on the unit tests and two cases
 # bash verify/run.sh --report [--quick] [--only ID|CHAPTER ...] [--accept] [--jobs N]: builds and writes the verification report into
 # out/report (report/README.md) instead; exit code 1 if a case failed.
 # Ends with the line "N passed, N failed", after a line for each test that was skipped; exit code 0 only without failures.
@@ -99,7 +99,17 @@ if [[ $report == yes ]]; then
     exec /usr/bin/python3 verify/report/make.py --build build/release --out out/report "$@"
 fi
 
-check "build release" build release -DDELAM_STATIC=ON
+# A build from scratch compiles the files of a folder together; with --all each is compiled by itself.
+if [[ $all == yes ]]; then
+    whole=(-DDELAM_UNITY=OFF)
+    sanitizer=(-DDELAM_UNITY=ON -DDELAM_SANITIZE_LESS=)
+else
+    whole=(-DDELAM_UNITY=ON)
+    # These checks double the time of the build; the other tier makes them. AddressSanitizer reports what null and
+    # object-size would find when the access happens.
+    sanitizer=(-DDELAM_UNITY=ON -DDELAM_SANITIZE_LESS=alignment,null,object-size,vptr)
+fi
+check "build release" build release -DDELAM_STATIC=ON "${whole[@]}"
 if ((failed == 0)); then
     if [[ $all == yes ]]; then
         tests release -j2
@@ -107,7 +117,7 @@ if ((failed == 0)); then
         tests release -j2 --label-exclude long
     fi
 fi
-check "build with sanitizers" build asan -DDELAM_BUILD_CLI=OFF -DDELAM_BUILD_EXAMPLES=OFF
+check "build with sanitizers" build asan -DDELAM_BUILD_CLI=OFF -DDELAM_BUILD_EXAMPLES=OFF "${sanitizer[@]}"
 if [[ -f build/asan/verify/CTestTestfile.cmake ]]; then
     CK_FORK=no tests asan -j2 --label-regex '^sanitized$'
 fi

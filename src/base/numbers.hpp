@@ -6,9 +6,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 namespace delam {
+
+inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // Converts a non-negative index or count of the public interface to an array index.
 inline constexpr std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }

@@ -12,7 +12,7 @@ namespace delam {
 namespace {
 
 // Pairs in order. In a ring the first pair is also the last one, with half of its weight in each place.
-struct Chain {
+struct EdgeChain {
     std::vector<std::int64_t> pair;
     std::vector<double> arc;  // distance from the first pair
     bool ring = false;
@@ -22,7 +22,7 @@ double distance(const Vector3& p, const Vector3& q) { return std::hypot(q[0] - p
 
 // Chains of edges, beginning at pairs that do not have two edges; the remaining edges are rings. A ring is cut where
 // the adhesion is largest.
-std::vector<Chain> chains(const CrackedInterface& interface) {
+std::vector<EdgeChain> chains(const CrackedInterface& interface) {
     const std::size_t count = interface.adhesion.size();
     std::vector<std::vector<std::int64_t>> next(count);
     for (const PairPiece& piece : pair_pieces(interface.geometry, 2)) {
@@ -35,9 +35,9 @@ std::vector<Chain> chains(const CrackedInterface& interface) {
     };
     std::vector<std::size_t> degree(count);
     for (std::size_t p = 0; p < count; ++p) degree[p] = next[p].size();
-    std::vector<Chain> found;
+    std::vector<EdgeChain> found;
     const auto walk = [&](std::int64_t first) {
-        Chain chain{{first}, {}, false};
+        EdgeChain chain{{first}, {}, false};
         for (std::int64_t p = first; !next[index(p)].empty();) {
             const std::int64_t q = next[index(p)].front();
             take(p, q);
@@ -53,7 +53,7 @@ std::vector<Chain> chains(const CrackedInterface& interface) {
     for (std::size_t p = 0; p < count; ++p)
         if (!next[p].empty()) walk(static_cast<std::int64_t>(p));
 
-    for (Chain& chain : found) {
+    for (EdgeChain& chain : found) {
         if (chain.ring && degree[index(chain.pair.front())] == 2) {
             chain.pair.pop_back();
             const auto less = [&](std::int64_t p, std::int64_t q) {
@@ -76,7 +76,7 @@ std::vector<Chain> chains(const CrackedInterface& interface) {
 class Walk {
 public:
     // corner: of quadratic faces, [pairs]
-    Walk(const CrackedInterface& interface, const Chain& chain, std::span<const std::uint8_t> corner)
+    Walk(const CrackedInterface& interface, const EdgeChain& chain, std::span<const std::uint8_t> corner)
         : interface_(interface), chain_(chain), first_corner_(corner[index(chain.pair.front())] != 0 ? 0 : 1) {}
 
     struct Found {
@@ -205,7 +205,7 @@ private:
     }
 
     const CrackedInterface& interface_;
-    const Chain& chain_;
+    const EdgeChain& chain_;
     std::int64_t first_corner_;  // 0 or 1
 };
 
@@ -217,7 +217,7 @@ std::vector<CrackFront> crack_fronts_on_lines(const CrackedInterface& interface)
     for (std::size_t f = 2; geometry.nodes_per_face == 3 && f < geometry.face.size(); f += 3)
         corner[index(geometry.face[f])] = 0;
     std::vector<CrackFront> fronts;
-    for (const Chain& chain : chains(interface)) {
+    for (const EdgeChain& chain : chains(interface)) {
         const Walk walk(interface, chain, corner);
         const std::vector<Walk::Found> found = walk.fronts();
         for (const Walk::Found& front : found) {

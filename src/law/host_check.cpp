@@ -14,7 +14,6 @@ namespace {
 constexpr int mixities = 8;
 constexpr int adhesions = 64;
 constexpr int drivings = 96;
-constexpr double close = 1e-6;        // relative, for energies and driving energies
 constexpr double step = 1e-4;         // of zeta, relative of Y, of B, for difference quotients
 constexpr double differences = 1e-2;  // relative accuracy of difference quotients
 
@@ -26,9 +25,10 @@ public:
         total_ = at(0.0).value;
         onset_ = -at(1.0).slope;
         const double at_one = at(1.0).value;
-        if (!(std::abs(at_one) <= close * total_)) refuse("g(1) must be 0", "zeta", 1.0, at_one, 0.0);
+        if (!(std::abs(at_one) <= HostSoftening::close_enough * total_))
+            refuse("g(1) must be 0", "zeta", 1.0, at_one, 0.0);
         if (!(onset_ > 0.0)) refuse("the onset -g'(1) must be > 0", "zeta", 1.0, onset_, 0.0);
-        if (!(total_ >= onset_ * (1.0 - close)))
+        if (!(total_ >= onset_ * (1.0 - HostSoftening::close_enough)))
             refuse("the toughness g(0) is below the onset -g'(1)", "zeta", 0.0, total_, onset_);
         for (int i = 0; i < adhesions; ++i) {
             const double low = i / static_cast<double>(adhesions), high = (i + 1) / static_cast<double>(adhesions);
@@ -51,7 +51,8 @@ private:
     void chord(double low, double high) const {
         const HostSoftening::Dissipation left = at(low), right = at(high);
         const double slope = (right.value - left.value) / (high - low);
-        const double slack = close * (onset_ - slope) + close * close * total_ / (high - low);
+        const double slack = HostSoftening::close_enough * (onset_ - slope) +
+                             HostSoftening::close_enough * HostSoftening::close_enough * total_ / (high - low);
         if (slope > slack) refuse("g must not grow with zeta", "zeta", high, right.value, left.value);
         if (slope < left.slope - slack)
             refuse("g is not convex, or its slope is not its derivative", "zeta", low, left.slope, slope);
@@ -62,13 +63,13 @@ private:
     // -g'(zeta) on either side of zeta encloses Y; beyond the ends there is no bound.
     void minimises(double y) const {
         const double zeta = law_.adhesion(b_, y).value;
-        const double slack = close * y;
+        const double slack = HostSoftening::close_enough * y;
         if (zeta < 1.0) {
-            const double above = -at(std::min(1.0, zeta + close)).slope;
+            const double above = -at(std::min(1.0, zeta + HostSoftening::close_enough)).slope;
             if (above > y + slack) refuse("adhesion is not the minimiser of zeta Y + g: too low", "Y", y, zeta, above);
         }
         if (zeta > 0.0) {
-            const double below = -at(std::max(0.0, zeta - close)).slope;
+            const double below = -at(std::max(0.0, zeta - HostSoftening::close_enough)).slope;
             if (below < y - slack) refuse("adhesion is not the minimiser of zeta Y + g: too high", "Y", y, zeta, below);
         }
     }

@@ -11,7 +11,6 @@ namespace delam {
 namespace {
 
 constexpr double mixity_step = 1e-5;    // of the difference quotient of the onset
-constexpr double close = 1e-6;          // of the toughness: the tolerance for g = 0, as in host_check.cpp
 constexpr double adhesion_step = 1e-6;  // of the difference quotient of Y(zeta), where the callback's slope is cut off
 
 [[noreturn]] void refuse(const HostSoftening& law, const std::string& what, double mixity, const char* variable,
@@ -61,7 +60,7 @@ ToughnessSlope HostSoftening::toughness_slope(double mixity) const {
 
 double HostSoftening::dissipated(const Toughness& t, double zeta) const {
     const double value = dissipation(t.mixity, zeta).value;
-    if (value < -close * t.total)
+    if (value < -close_enough * t.total)
         refuse(*this, text("dissipated energy ", value, " must be >= 0"), t.mixity, "zeta", zeta);
     return value;
 }

@@ -19,6 +19,9 @@ struct HostSoftening {
     delam_dissipation_callback dissipation_callback = nullptr;
     void* user = nullptr;
 
+    // Relative tolerance for energies and driving energies that the callbacks return.
+    static constexpr double close_enough = 1e-6;
+
     // What the callbacks say. A failure, or a value that no law can have, throws Error(DELAM_ERROR_PROBLEM) with the
     // name, the place and the value.
     struct Adhesion {

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "delam/delam.h"
+#include "linalg/blas_size.hpp"
 
 extern "C" {
 double ddot_(const int*, const double*, const int*, const double*, const int*);
@@ -41,13 +42,6 @@ namespace {
 
 constexpr int one = 1;
 
-// LAPACK has 32-bit integers; a block with more entries should not be dense.
-int narrow(std::int64_t n) {
-    if (n < 0 || n > std::numeric_limits<int>::max())
-        fail(DELAM_ERROR_MEMORY, "a dense block of ", n, " rows is too large");
-    return static_cast<int>(n);
-}
-
 // Up to `small` rows LAPACK runs without a poll in between; larger matrices are treated in panels of `width` columns.
 constexpr std::int64_t small = 1024, width = 256;
 
@@ -65,7 +59,7 @@ int leading(const DenseMatrix& a) {
     if (a.columns > 0 && a.rows > std::numeric_limits<int>::max() / a.columns)
         fail(DELAM_ERROR_MEMORY, "a dense block of ", a.rows, " rows and ", a.columns,
              " columns is too large; more subdomains make smaller ones");
-    return std::max(1, narrow(a.rows));
+    return std::max(1, blas_size(a.rows));
 }
 
 }  // namespace
@@ -81,14 +75,14 @@ void add_scaled(double a, std::span<const double> x, std::span<double> y) {
 }
 
 void multiply_symmetric(const DenseMatrix& s, std::span<const double> x, std::span<double> y) {
-    const int n = narrow(s.rows), lda = leading(s);
+    const int n = blas_size(s.rows), lda = leading(s);
     const double alpha = 1.0, beta = 0.0;
     if (n > 0) dsymv_("L", &n, &alpha, s.value.data(), &lda, x.data(), &one, &beta, y.data(), &one);
 }
 
 DenseMatrix multiply(const DenseMatrix& a, const DenseMatrix& b) {
     DenseMatrix c(a.rows, b.columns);
-    const int m = narrow(a.rows), n = narrow(b.columns), k = narrow(a.columns);
+    const int m = blas_size(a.rows), n = blas_size(b.columns), k = blas_size(a.columns);
     const int lda = leading(a), ldb = leading(b), ldc = leading(c);
     const double alpha = 1.0, beta = 0.0;
     if (m > 0 && n > 0 && k > 0)
@@ -98,7 +92,7 @@ DenseMatrix multiply(const DenseMatrix& a, const DenseMatrix& b) {
 
 DenseMatrix multiply_transposed(const DenseMatrix& a, const DenseMatrix& b, std::int64_t first) {
     DenseMatrix c(a.columns, b.columns);
-    const int m = narrow(a.columns), n = narrow(b.columns), k = narrow(a.rows - first);
+    const int m = blas_size(a.columns), n = blas_size(b.columns), k = blas_size(a.rows - first);
     const int lda = leading(a), ldb = leading(b), ldc = leading(c);
     const double alpha = 1.0, beta = 0.0;
     if (m > 0 && n > 0 && k > 0)
@@ -124,7 +118,7 @@ DenseMatrix lower_times_transpose(const DenseMatrix& lower, const Poll& poll) {
     const int lda = leading(lower);
     const double unit = 1.0;
     for (std::int64_t k = 0; k < lower.rows; k += narrower) {
-        const int n = narrow(lower.rows - k), panel = static_cast<int>(std::min(narrower, lower.rows - k));
+        const int n = blas_size(lower.rows - k), panel = static_cast<int>(std::min(narrower, lower.rows - k));
         dsyrk_("L", "N", &n, &panel, &unit, &lower.value[static_cast<std::size_t>(k + k * lower.rows)], &lda, &unit,
                &product.value[static_cast<std::size_t>(k + k * lower.rows)], &lda);
         call_if_set(poll);
@@ -134,7 +128,7 @@ DenseMatrix lower_times_transpose(const DenseMatrix& lower, const Poll& poll) {
 }
 
 void multiply(const DenseMatrix& a, std::span<const double> x, std::span<double> y) {
-    const int m = narrow(a.rows), n = narrow(a.columns), lda = leading(a);
+    const int m = blas_size(a.rows), n = blas_size(a.columns), lda = leading(a);
     const double alpha = 1.0, beta = 0.0;
     if (m > 0 && n > 0)
         dgemv_("N", &m, &n, &alpha, a.value.data(), &lda, x.data(), &one, &beta, y.data(), &one);
@@ -143,7 +137,7 @@ void multiply(const DenseMatrix& a, std::span<const double> x, std::span<double>
 }
 
 void multiply_transposed(const DenseMatrix& a, std::span<const double> x, std::span<double> y) {
-    const int m = narrow(a.rows), n = narrow(a.columns), lda = leading(a);
+    const int m = blas_size(a.rows), n = blas_size(a.columns), lda = leading(a);
     const double alpha = 1.0, beta = 0.0;
     if (m > 0 && n > 0)
         dgemv_("T", &m, &n, &alpha, a.value.data(), &lda, x.data(), &one, &beta, y.data(), &one);
@@ -154,7 +148,7 @@ void multiply_transposed(const DenseMatrix& a, std::span<const double> x, std::s
 // Beyond `small` rows, panel by panel: the panel's own triangle, the rows below it, then its contribution to the
 // columns behind it.
 bool factor_definite(DenseMatrix& a, const Poll& poll) {
-    const int n = narrow(a.rows), lda = leading(a);
+    const int n = blas_size(a.rows), lda = leading(a);
     int info = 0;
     if (n <= small) {
         if (n > 0) dpotrf_("L", &n, a.value.data(), &lda, &info);
@@ -185,12 +179,12 @@ bool factor_definite(DenseMatrix& a, const Poll& poll) {
 }
 
 void solve_lower(const DenseMatrix& lower, DenseMatrix& b, std::int64_t first, const Poll& poll) {
-    const int m = narrow(b.rows - first), lda = leading(lower), ldb = leading(b);
+    const int m = blas_size(b.rows - first), lda = leading(lower), ldb = leading(b);
     const double alpha = 1.0;
     if (m == 0) return;
     const std::int64_t step = columns_a_part(0.5 * m * m, b.columns);
     for (std::int64_t j = 0; j < b.columns; j += step) {
-        const int columns = narrow(std::min(step, b.columns - j));
+        const int columns = blas_size(std::min(step, b.columns - j));
         dtrsm_("L", "L", "N", "N", &m, &columns, &alpha, lower.value.data() + first * (lower.rows + 1), &lda,
                b.value.data() + first + j * b.rows, &ldb);
         call_if_set(poll);
@@ -198,19 +192,19 @@ void solve_lower(const DenseMatrix& lower, DenseMatrix& b, std::int64_t first, c
 }
 
 void solve_lower(const DenseMatrix& lower, std::span<double> x) {
-    const int n = narrow(lower.rows), lda = leading(lower);
+    const int n = blas_size(lower.rows), lda = leading(lower);
     if (n > 0) dtrsv_("L", "N", "N", &n, lower.value.data(), &lda, x.data(), &one);
 }
 
 void solve_lower_transposed(const DenseMatrix& lower, std::span<double> x) {
-    const int n = narrow(lower.rows), lda = leading(lower);
+    const int n = blas_size(lower.rows), lda = leading(lower);
     if (n > 0) dtrsv_("L", "T", "N", &n, lower.value.data(), &lda, x.data(), &one);
 }
 
 namespace {
 
 void accumulate_gram(DenseMatrix& c, const DenseMatrix& v, double sign, const Poll& poll) {
-    const int n = narrow(c.rows), k = narrow(v.rows), ldv = leading(v), ldc = leading(c);
+    const int n = blas_size(c.rows), k = blas_size(v.rows), ldv = leading(v), ldc = leading(c);
     const double beta = 1.0;
     if (n == 0 || k == 0) return;
     const std::int64_t step = columns_a_part(0.5 * n * k, n);
@@ -234,7 +228,7 @@ void subtract_gram(DenseMatrix& c, const DenseMatrix& v, const Poll& poll) { acc
 void add_gram(DenseMatrix& c, const DenseMatrix& v, const Poll& poll) { accumulate_gram(c, v, 1.0, poll); }
 
 void subtract_product(DenseMatrix& c, const DenseMatrix& v, const DenseMatrix& w) {
-    const int m = narrow(c.rows), n = narrow(c.columns), k = narrow(v.rows);
+    const int m = blas_size(c.rows), n = blas_size(c.columns), k = blas_size(v.rows);
     const int ldv = leading(v), ldw = leading(w), ldc = leading(c);
     const double alpha = -1.0, beta = 1.0;
     if (m > 0 && n > 0 && k > 0)
@@ -288,7 +282,7 @@ void lower_transpose_times_lower(DenseMatrix& a, const Poll& poll) {
 }  // namespace
 
 DenseMatrix inverse_definite(DenseMatrix a, const Poll& poll) {
-    const int n = narrow(a.rows), lda = leading(a);
+    const int n = blas_size(a.rows), lda = leading(a);
     int info = 0;
     if (!factor_definite(a, poll))
         fail(DELAM_ERROR_NUMERICAL, "a dense block of ", n, " rows is not positive definite");
@@ -322,7 +316,7 @@ DenseMatrix orthonormalised(DenseMatrix a) {
 
 Eigen eigen_symmetric(DenseMatrix a) {
     Eigen result{std::vector<double>(static_cast<std::size_t>(a.rows)), std::move(a)};
-    const int n = narrow(result.vector.rows), lda = leading(result.vector);
+    const int n = blas_size(result.vector.rows), lda = leading(result.vector);
     if (n == 0) return result;
     int info = 0, query = -1;
     double size = 0.0;
@@ -335,7 +329,7 @@ Eigen eigen_symmetric(DenseMatrix a) {
 }
 
 PivotedColumns pivoted_columns(DenseMatrix a, double tolerance) {
-    const int m = narrow(a.rows), lda = leading(a);
+    const int m = blas_size(a.rows), lda = leading(a);
     if (a.columns > 2000000000)
         fail(DELAM_ERROR_MEMORY, "too many columns in a rank-revealing factorisation: ", a.columns);
     const int n = static_cast<int>(a.columns);
@@ -360,7 +354,7 @@ PivotedColumns pivoted_columns(DenseMatrix a, double tolerance) {
 }
 
 std::vector<std::int64_t> independent_rows(DenseMatrix a, double tolerance) {
-    const int n = narrow(a.rows), lda = leading(a);
+    const int n = blas_size(a.rows), lda = leading(a);
     double largest = 0.0;
     for (int i = 0; i < n; ++i) largest = std::max(largest, a(i, i));
     if (largest <= 0.0) return {};
@@ -376,7 +370,7 @@ std::vector<std::int64_t> independent_rows(DenseMatrix a, double tolerance) {
 }
 
 bool solve_general(DenseMatrix& a, DenseMatrix& b, double tolerance) {
-    const int n = narrow(a.rows), lda = leading(a), columns = narrow(b.columns);
+    const int n = blas_size(a.rows), lda = leading(a), columns = blas_size(b.columns);
     if (n == 0) return true;
     for (std::int64_t i = 0; i < a.rows; ++i) {
         double largest = 0.0;
@@ -402,7 +396,7 @@ SemidefiniteFactor::SemidefiniteFactor(const DenseMatrix& a, std::span<const std
     : factor_(static_cast<std::int64_t>(rows.size()), static_cast<std::int64_t>(rows.size())),
       scale_(rows.size()),
       rows_(rows.begin(), rows.end()) {
-    const int n = narrow(factor_.rows), lda = leading(factor_);
+    const int n = blas_size(factor_.rows), lda = leading(factor_);
     if (n == 0) return;
     for (std::size_t i = 0; i < rows_.size(); ++i) scale_[i] = 1.0 / std::sqrt(a(rows_[i], rows_[i]));
     for (std::size_t j = 0; j < rows_.size(); ++j)

@@ -9,15 +9,12 @@
 #include <cmath>
 
 #include "mesh/faces.hpp"
+#include "mesh/points.hpp"
 #include "mesh/shape.hpp"
 
 namespace delam {
 
 namespace {
-
-using Vector = std::array<double, 3>;
-
-double length(const Vector& v) { return std::hypot(v[0], v[1], v[2]); }
 
 // Of linear faces: the trapezoid on edges, a third each on triangles; on quadrilaterals, by 2 x 2 Gauss points at which
 // all N_a are positive,
@@ -33,8 +30,8 @@ std::array<double, 4> linear_weights(const Mesh& mesh, std::span<const std::int6
     for (std::size_t q = 0; q < gauss.points.size(); ++q) {
         const ShapeGradient& g = gauss.gradients[q];
         const ShapeValues value = shape_values(CellType::quad4, gauss.points[q]);
-        Vector u{};
-        Vector v{};
+        Point u{};
+        Point v{};
         for (std::size_t a = 0; a < 4; ++a) {
             for (std::size_t i = 0; i < 3; ++i) {
                 const double x = mesh.node(nodes[a])[i] - mesh.node(nodes[0])[i];
@@ -57,7 +54,7 @@ public:
             bend_[i] = (p[i] - m[i]) + (q[i] - m[i]);
         }
     }
-    Vector tangent(double xi) const { return {slope_[0] + xi * bend_[0], slope_[1] + xi * bend_[1], 0.0}; }
+    Point tangent(double xi) const { return {slope_[0] + xi * bend_[0], slope_[1] + xi * bend_[1], 0.0}; }
 
     // 5 Gauss points: the relative error of the length is 1e-8 if the arc turns by 45 degrees, 1e-5 if it turns by 90.
     double arc() const {
@@ -87,7 +84,7 @@ NodalRule quadratic_edge(const Mesh& mesh, std::span<const std::int64_t> nodes) 
     for (std::size_t k = 0; k < 3; ++k) sum += simpson[k] * length(edge.tangent(xi[k]));
     const double scale = edge.arc() / sum;
     for (std::size_t k = 0; k < 3; ++k) {
-        const Vector t = edge.tangent(xi[k]);
+        const Point t = edge.tangent(xi[k]);
         rule.weight[k] = scale * simpson[k] * length(t);
         rule.area[k] = {scale * simpson[k] * t[1], -scale * simpson[k] * t[0], 0.0};
     }
@@ -104,7 +101,7 @@ NodalRule nodal_rule(const Mesh& mesh, std::span<const std::int64_t> nodes) {
         for (std::size_t k = 0; k < index(piece.nodes); ++k) own[k] = nodes[index(piece.node[k])];
         const auto corner = std::span<const std::int64_t>(own).first(index(piece.nodes));
         const std::array<double, 4> weight = linear_weights(mesh, corner);
-        const Vector area = area_vector(mesh, corner);
+        const Point area = area_vector(mesh, corner);
         for (std::size_t k = 0; k < index(piece.nodes); ++k) {
             const auto node = index(piece.node[k]);
             rule.weight[node] += weight[k];

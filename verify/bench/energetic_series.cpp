@@ -15,8 +15,6 @@ namespace bench {
 namespace {
 
 constexpr double violation = 1e-3;  // eta, of max(|stored|, work)
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 // Energies in J/m, lengths in m. Names of values whose columns a history has.
 constexpr const char* columns[] = {"reaction",
                                    "stored_bulk",

@@ -3,11 +3,14 @@
 // maximal seconds of an analysis.
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "march.hpp"
 
 namespace bench {
+
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // All methods and the LSE in turn, `repeat` rounds: times, counts, histories, agreement (series.cpp).
 Json measure_series(const std::string& scene, int repeat, double cap);

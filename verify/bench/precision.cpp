@@ -22,8 +22,6 @@
 namespace bench {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 SceneData scene_data(const Element& element, double h, int steps) {
     SceneData data = find_scene("enf-patch-1");
     data.element = &element;

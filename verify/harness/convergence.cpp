@@ -14,8 +14,6 @@ namespace {
 
 constexpr int instants = 640;  // at which curves are compared
 constexpr int places = 480;    // along the bonded length
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 struct Level {
     double h = 0.0;
     int steps = 0;

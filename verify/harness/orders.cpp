@@ -5,9 +5,7 @@
 #include <limits>
 
 namespace harness {
-namespace {
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-}
+namespace {}
 
 double order_of_errors(const std::vector<double>& sizes, const std::vector<double>& errors) {
     const std::size_t n = errors.size();

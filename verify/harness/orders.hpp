@@ -2,9 +2,12 @@
 // Observed orders of convergence.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 namespace harness {
+
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // From the last two: error ~ size^p. NaN with fewer, or where an error is 0.
 double order_of_errors(const std::vector<double>& sizes, const std::vector<double>& errors);

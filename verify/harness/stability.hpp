@@ -15,6 +15,9 @@
 
 namespace harness {
 
+// An interface that nothing in these scenes damages.
+inline constexpr reference::LawData intact{1e14, 1e14, 1e30, 1e30, 1e30, 1e30};
+
 enum class Realisation { condensed, feti, direct };
 
 // A state of one realisation. The direct reference has the adhesions of the analysis with which it is compared.

@@ -13,7 +13,6 @@ namespace {
 using reference::LawData;
 using reference::Scene;
 
-constexpr LawData intact{1e14, 1e14, 1e30, 1e30, 1e30, 1e30};
 // The same with lengths in other units; stresses keep their values.
 LawData in_units(double unit) { return {1e14 / unit, 1e14 / unit, 1e30, 1e30, 1e30, 1e30}; }
 

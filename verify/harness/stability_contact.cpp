@@ -14,7 +14,6 @@ using reference::LawData;
 using reference::Scene;
 
 constexpr double young = 70e9, length = 0.04, ply = 3e-3, press = 2e-6;
-constexpr LawData intact{1e14, 1e14, 1e30, 1e30, 1e30, 1e30};
 // Sliding takes no energy, so neither displacements nor slips are unique.
 constexpr Compared sliding{false, false, true, true, true};
 

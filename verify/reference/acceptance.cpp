@@ -9,12 +9,6 @@
 namespace reference {
 namespace {
 
-double largest(const std::vector<double>& values) {
-    double size = 0.0;
-    for (const double v : values) size = std::max(size, std::abs(v));
-    return size;
-}
-
 // A violation of exactly zero is accepted even if its scale is zero.
 double relative(double violation, double scale) {
     if (!(violation > 0.0)) return std::isnan(violation) ? std::numeric_limits<double>::infinity() : 0.0;

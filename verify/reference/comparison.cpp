@@ -9,12 +9,6 @@
 namespace reference {
 namespace {
 
-double largest(const std::vector<double>& values) {
-    double size = 0.0;
-    for (const double v : values) size = std::max(size, std::abs(v));
-    return size;
-}
-
 double difference(const std::vector<double>& a, const std::vector<double>& b) {
     if (a.size() != b.size()) throw Failure(0, "compared fields differ in length");
     double worst = 0.0;

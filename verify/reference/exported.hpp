@@ -2,6 +2,8 @@
 // A scene as the public API exports it. Everything that the reference knows about the mechanics comes from here.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -9,6 +11,13 @@
 #include "api.hpp"
 
 namespace reference {
+
+// The largest absolute value; 0 if there are no values.
+inline double largest(const std::vector<double>& values) {
+    double size = 0.0;
+    for (const double v : values) size = std::max(size, std::abs(v));
+    return size;
+}
 
 struct Csr {
     std::vector<std::int64_t> start{0};

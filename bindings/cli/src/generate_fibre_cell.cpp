@@ -32,10 +32,6 @@ struct Disc {
     double y;
 };
 
-void require(bool holds, const Place& place, const std::string& key, const std::string& text) {
-    if (!holds) throw SceneFailure(key_of(place, key), text);
-}
-
 Packing arrange(const FibreCell& cell) {
     try {
         if (cell.arrangement == "square") return square_packing(cell.fraction, cell.aspect);

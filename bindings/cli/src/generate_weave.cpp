@@ -116,10 +116,6 @@ double amplitude_of(const Section& section, double gap) {
     return amplitude;
 }
 
-void require(bool holds, const Place& place, const std::string& key, const std::string& text) {
-    if (!holds) throw SceneFailure(key_of(place, key), text);
-}
-
 std::vector<std::pair<int, int>> draw_yarn(const Section& section, const Yarn& yarn) {
     std::vector<int> wires;
     gmsh::vectorpair wire_parts;

@@ -18,13 +18,13 @@ namespace {
 // Bounding boxes of OpenCASCADE exceed their contents by its tolerance.
 constexpr double slack = 1e-5;
 
-struct Box {
+struct Bounds {
     std::array<double, 3> lower{};
     std::array<double, 3> upper{};
 };
 
-Box box_of(int dimension, int tag) {
-    Box box;
+Bounds box_of(int dimension, int tag) {
+    Bounds box;
     gmsh::model::getBoundingBox(dimension, tag, box.lower[0], box.lower[1], box.lower[2], box.upper[0], box.upper[1],
                                 box.upper[2]);
     return box;
@@ -33,7 +33,7 @@ Box box_of(int dimension, int tag) {
 std::array<double, 3> centre_of(int dimension, int tag) {
     std::array<double, 3> centre{};
     if (dimension == 0) {
-        const Box box = box_of(0, tag);
+        const Bounds box = box_of(0, tag);
         for (std::size_t k = 0; k < 3; ++k) centre[k] = 0.5 * (box.lower[k] + box.upper[k]);
     } else {
         gmsh::model::occ::getCenterOfMass(dimension, tag, centre[0], centre[1], centre[2]);
@@ -65,7 +65,7 @@ std::vector<int> GeneratorModel::on_plane(int dimension, int axis, double at) co
     gmsh::model::getEntities(all, dimension);
     std::vector<int> found;
     for (const auto& [d, tag] : all) {
-        const Box box = box_of(d, tag);
+        const Bounds box = box_of(d, tag);
         if (std::abs(box.lower[a] - at) < slack && std::abs(box.upper[a] - at) < slack) found.push_back(tag);
     }
     return found;

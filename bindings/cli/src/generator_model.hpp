@@ -53,4 +53,9 @@ inline Place key_of(const Place& table, const std::string& key) {
     return {table.file, table.path.empty() ? key : table.path + "." + key, table.line};
 }
 
+// Throws SceneFailure at the key unless a condition on its value holds.
+inline void require(bool holds, const Place& table, const std::string& key, const std::string& text) {
+    if (!holds) throw SceneFailure(key_of(table, key), text);
+}
+
 }  // namespace cli

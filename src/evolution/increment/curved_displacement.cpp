@@ -12,9 +12,9 @@ namespace delam {
 namespace {
 
 constexpr int most_steps = 200;
-constexpr double tolerance = 1e-10;  // of the largest force
-constexpr double acceptable = 1e-8;  // if rounding or the limit ends the steps
-constexpr double rounding = 1e-13;   // of an energy of the whole scene
+constexpr double tolerance = 1e-10;       // of the largest force
+constexpr double acceptable = 1e-8;       // if rounding or the limit ends the steps
+constexpr double scene_rounding = 1e-13;  // of an energy of the whole scene
 
 double bulk(const Response& r) { return r.stored_bulk + r.load_potential; }
 
@@ -128,7 +128,7 @@ bool CurvedDisplacement::run(const DisplacementSolve& solve, std::vector<std::ui
         const Segment segment(response, to);
         const double energy = bulk(response) + interface_energy(response.jump);
         const double slack =
-            rounding * (std::abs(response.stored_bulk) + std::abs(response.load_potential) + std::abs(energy));
+            scene_rounding * (std::abs(response.stored_bulk) + std::abs(response.load_potential) + std::abs(energy));
         double s = 1.0;
         while (s > 1e-3 && segment.bulk_energy(s) + interface_energy(segment.jump(s)) > energy + slack)
             s *= ahead ? 0.0 : 0.5;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "base/error.hpp"
@@ -15,8 +14,6 @@
 namespace delam {
 
 namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 std::uint64_t key_of(std::span<const double> adhesion) {
     std::uint64_t h = 14695981039346656037ULL;

@@ -15,7 +15,6 @@ namespace delam {
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t seeds = 2;              // places per interface for a new crack besides the ends of lines
 constexpr std::ptrdiff_t most_contacts = 64;  // of the bound E_all
 constexpr int rounds = 3;                     // of sweeps with the other fronts where they were best

@@ -15,7 +15,7 @@ namespace delam {
 
 namespace {
 
-constexpr double rounding = 1e-10;      // of the larger of energy and work: states that differ by less are equivalent
+constexpr double equivalence = 1e-10;   // of the larger of energy and work: states that differ by less are equivalent
 constexpr std::size_t most_starts = 2;  // candidates of a search from which a step is minimised
 // Of its dissipation: by how much a candidate may lie above the step and still be relaxed.
 constexpr double promising = 0.5;
@@ -206,7 +206,7 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
 void Stepper::keep_lower(Result& best, State other, const Increment& step) {
     const bool converged = minimise(other, step);
     const Effort effort = other.effort;
-    if (other.ledger.increment < best.state.ledger.increment - rounding * scale_of(best.state.ledger))
+    if (other.ledger.increment < best.state.ledger.increment - equivalence * scale_of(best.state.ledger))
         best = {std::move(other), converged};
     best.state.effort = effort;
 }
@@ -218,7 +218,7 @@ double Stepper::hold_against(Result& best, const SearchResult& found, const Incr
     bool held = false;
     for (const Candidate& candidate : found.starts) {
         const double kept = best.state.ledger.increment;
-        if (candidate.incremental >= kept - rounding * scale_of(best.state.ledger))
+        if (candidate.incremental >= kept - equivalence * scale_of(best.state.ledger))
             return std::min(lowest, held ? candidate.incremental : found.lowest);
         held = true;
         State own = best.state;

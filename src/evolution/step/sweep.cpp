@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/numbers.hpp"
 
@@ -11,7 +10,6 @@ namespace delam {
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t fine = 16;           // rings that are all sampled; of longer sweeps about as many
 constexpr std::size_t largest_crack = 32;  // rings of a new crack, and of the zone about it
 

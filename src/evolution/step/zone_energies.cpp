@@ -9,7 +9,7 @@ namespace delam {
 
 namespace {
 
-constexpr std::int64_t contact_steps = 200;  // beyond them the energy is not known
+constexpr std::int64_t energy_contact_steps = 200;  // beyond them the energy is not known
 
 }  // namespace
 
@@ -50,7 +50,8 @@ std::optional<double> ZoneEnergies::zone_energy(std::span<const double> adhesion
             couplings.push_back({static_cast<std::int64_t>(z), static_cast<std::int64_t>(z), spring[z]});
     }
     system_->load(std::move(couplings), {});
-    if (!find_active_set(*system_, system_->contact_rows(), closed_, contact_steps, false).settled) return std::nullopt;
+    if (!find_active_set(*system_, system_->contact_rows(), closed_, energy_contact_steps, false).settled)
+        return std::nullopt;
     double energy = system_->zone().energy_of(system_->theta(), system_->unknowns());
     const std::span<const double> jump = system_->jump();
     for (std::size_t z = 0; z < spring.size(); ++z) energy += 0.5 * spring[z] * jump[z] * jump[z];

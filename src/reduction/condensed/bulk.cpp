@@ -17,8 +17,6 @@ namespace delam {
 
 namespace {
 
-constexpr double dependent = dependent_equation;
-
 // The stiffness of all bodies over all mesh DOFs; rows of nodes of no body are empty.
 SparseMatrix assemble(const Problem& problem, const Poll& poll) {
     const Mesh& mesh = *problem.mesh;
@@ -100,7 +98,7 @@ std::vector<double> direct_reactions(std::span<const Constraint* const> list, st
     mirror_lower(gram);
     const Eigen eigen = eigen_symmetric(std::move(gram));
     for (std::int64_t e = 0; e < n; ++e) {
-        if (!(eigen.value[index(e)] > dependent * eigen.value.back())) continue;
+        if (!(eigen.value[index(e)] > dependent_equation * eigen.value.back())) continue;
         double along = 0.0;
         for (std::int64_t i = 0; i < n; ++i) along += eigen.vector(i, e) * right[index(i)];
         for (std::int64_t i = 0; i < n; ++i) rho[index(i)] += along / eigen.value[index(e)] * eigen.vector(i, e);

@@ -10,12 +10,6 @@
 
 namespace delam {
 
-namespace {
-
-constexpr double dependent = dependent_equation;
-
-}  // namespace
-
 // Equations express some trailing variables by the rest; the displacements among the rest are minimised out.
 void Bulk::resolve_equations(const Poll& poll) {
     const std::int64_t trailing = variables_.trailing(), kept = variables_.kept;
@@ -94,12 +88,13 @@ void Bulk::express_rows(std::span<const std::int64_t> place) {
             }
             const std::int64_t pivot = -2 - at;
             for (std::int64_t j = kept_rest_; j < rest; ++j)
-                if (const double m = bound_(pivot, j); std::abs(m) > dependent) entries[j - kept_rest_] += c * m;
+                if (const double m = bound_(pivot, j); std::abs(m) > dependent_equation)
+                    entries[j - kept_rest_] += c * m;
             if (row.offset.empty()) row.offset.assign(problem_.patterns.size(), 0.0);
             for (std::int64_t p = 0; p < prescribed_.columns; ++p) row.offset[index(p)] += c * prescribed_(pivot, p);
         }
         for (const auto& [i, c] : entries)
-            if (std::abs(c) > dependent) row.unknowns.emplace_back(i, c);
+            if (std::abs(c) > dependent_equation) row.unknowns.emplace_back(i, c);
         rows_.push_back(std::move(row));
     }
     row_of_unknown_.assign(index(rest - kept_rest_), -1);

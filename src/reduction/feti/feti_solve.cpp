@@ -15,8 +15,6 @@ namespace delam {
 
 namespace {
 
-// Largest part of a load's resultant that may be left unbalanced before the part counts as not held.
-constexpr double unbalanced = 1e-8;
 // Residuals below this part of the loads' own energy norm are rounding.
 constexpr double rounding = 1e-14;
 
@@ -50,7 +48,7 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     std::vector<double> lambda = first_guess(load, right, response);
     const double resultant = max_abs(load.resultant);
     const double left = dual_.coarse().balance(load.resultant, lambda, resultant);
-    response.balanced = resultant == 0.0 || left <= unbalanced;
+    response.balanced = resultant == 0.0 || left <= unbalanced_part;
     if (!response.balanced) return;
     find_forces(team, load, resultant, right, lambda, response);
     find_jumps(team, springs, load, right, lambda, response);

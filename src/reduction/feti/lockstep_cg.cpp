@@ -6,16 +6,16 @@
 
 #include "base/numbers.hpp"
 #include "linalg/block.hpp"
+#include "reduction/feti/projected_cg.hpp"
 
 namespace delam {
 
 namespace {
 
-constexpr int rounds = 4;            // descents, each from a freshly computed residual
+constexpr int descents = 4;          // descents, each from a freshly computed residual
 constexpr std::int64_t limit = 400;  // iterations of a descent
-constexpr int idle_limit = 25;       // iterations without a lower residual
+constexpr int idle_iterations = 25;  // iterations without a lower residual
 constexpr double slack = 100.0;      // times the tolerance: what a column that rounding has ended may have left
-constexpr double unbalanced = 1e-8;  // largest part of a resultant that may be left
 
 // Of one column in a descent.
 struct Column {
@@ -104,7 +104,7 @@ private:
             own.rz = rz;
             own.idle = rz < 0.98 * own.lowest ? 0 : own.idle + 1;
             own.lowest = std::min(own.lowest, rz);
-            own.done = !(rz > 0.0) || relative(c) <= tolerance_ || own.idle > idle_limit;
+            own.done = !(rz > 0.0) || relative(c) <= tolerance_ || own.idle > idle_iterations;
             if (own.done) continue;
             any = true;
             const std::span<double> p = column(p_, c);
@@ -122,7 +122,7 @@ bool balance(const DualOperator& op, const DenseMatrix& resultant, DenseMatrix& 
         const double scale = max_abs(column(resultant, c));
         left = std::max(left, op.coarse().balance(column(resultant, c), column(lambda, c), scale > 0.0 ? scale : 1.0));
     }
-    return left <= unbalanced;
+    return left <= unbalanced_part;
 }
 
 }  // namespace
@@ -131,7 +131,7 @@ bool lockstep_cg(const DualOperator& op, Team& team, const DenseMatrix& right, c
                  double tolerance, DenseMatrix& lambda, const std::function<void(std::int64_t)>& each_iteration) {
     double best = INFINITY;
     DenseMatrix best_lambda = lambda;
-    for (int round = 0; round <= rounds; ++round) {
+    for (int round = 0; round <= descents; ++round) {
         if (!balance(op, resultant, lambda) && round == 0) return false;
         Descent descent(op, team, right, tolerance, lambda);
         const double residual = descent.residual();
@@ -140,7 +140,7 @@ bool lockstep_cg(const DualOperator& op, Team& team, const DenseMatrix& right, c
             best = residual;
             best_lambda = lambda;
         }
-        if (best <= tolerance || stagnated || round == rounds) break;
+        if (best <= tolerance || stagnated || round == descents) break;
         descent.run(each_iteration);
     }
     lambda = std::move(best_lambda);

@@ -23,7 +23,7 @@ constexpr int rounds = 6;
 constexpr int idle_limit = 100;
 constexpr double growth_limit = 1e3;
 constexpr double noise_zone = 1e3;          // times the floor of rounding
-constexpr double rounding = 1e-14;          // of the energy norm of the start
+constexpr double start_rounding = 1e-14;    // of the energy norm of the start
 constexpr double stagnation_slack = 100.0;  // times the tolerance or the floor
 
 }  // namespace
@@ -40,7 +40,7 @@ CgResult projected_cg(const ProjectedSystem& system, std::span<const double> b, 
         system.apply(lambda, a_lambda);
         for (std::size_t i = 0; i < n; ++i) r[i] = b[i] - a_lambda[i];
         system.project_transposed(r);
-        if (round == 0) floor = std::max(floor, rounding * std::sqrt(std::max(0.0, dot(lambda, a_lambda))));
+        if (round == 0) floor = std::max(floor, start_rounding * std::sqrt(std::max(0.0, dot(lambda, a_lambda))));
         std::vector<Direction> directions;
         double lowest = INFINITY;  // of this round's recursion, and how long it has not moved
         int idle = 0;

@@ -10,6 +10,9 @@
 
 namespace delam {
 
+// The largest part of a load's resultant that may be left unbalanced before a floating part counts as not held.
+inline constexpr double unbalanced_part = 1e-8;
+
 struct ProjectedSystem {
     std::function<void(std::span<const double>, std::span<double>)> apply;         // y = A x
     std::function<void(std::span<const double>, std::span<double>)> precondition;  // z = M r
