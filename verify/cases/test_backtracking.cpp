@@ -15,6 +15,7 @@ constexpr double eta = 1e-3;
 
 reference::Flexure brittle(double exponent = 1.0) {
     reference::Flexure data = reference::find_flexure("enf-brittle");
+    data.h = 1.5e-3;
     data.law.exponent = exponent;
     return data;
 }

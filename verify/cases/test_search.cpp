@@ -80,7 +80,7 @@ CASE_TEST(weak_spot) {
 
 CASE_TEST(straight_fronts_in_space) {
     const double length = 0.06, width = 0.008, layer = 2e-3;
-    Scene scene(3, {length, width}, {30, 4}, {layer, layer}, {1, 1}, DELAM_HEX8);
+    Scene scene(3, {length, width}, {30, 2}, {layer, layer}, {1, 1}, DELAM_HEX8);
     scene.interface(0, 1);
     scene.begin();
     scene.require(delam_problem_set_formulation(scene.problem(), -1, "incompatible"), "formulation");
