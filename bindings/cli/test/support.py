@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the tests of the command line share: a small scene, running the program, expectations."""
 import atexit
+import contextlib
 import functools
+import importlib
+import io
 import os
 import re
 import subprocess
 import sys
 import tempfile
+import traceback
 
 DELAM = os.environ["DELAM"]
 SERVE = os.environ.get("DELAM_SERVE")  # keeps the program loaded (serve.c)
@@ -120,6 +124,24 @@ def served():
 def delam(*words, **options):
     """Exit code, standard output, standard error; started anew only where there is no other way."""
     return served().run(words) if SERVE and not options else start(*words, **options)
+
+
+def draw(script, *words):
+    """A script of plot/ in this process, which imports Matplotlib once: exit code, standard error."""
+    path = os.path.dirname(os.environ["DELAM_PLOT"])
+    if path not in sys.path:
+        sys.path.insert(0, path)
+    before, sys.argv = sys.argv, [script, *words]
+    error = io.StringIO()
+    try:
+        with contextlib.redirect_stderr(error):
+            code = importlib.import_module(script).main()
+    except Exception:  # as the interpreter would end
+        code = 1
+        error.write(traceback.format_exc())
+    finally:
+        sys.argv = before
+    return code, error.getvalue()
 
 
 def expect(condition, what):

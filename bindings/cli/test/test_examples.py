@@ -5,7 +5,7 @@ import os
 import subprocess
 
 from coarse_scenes import COARSE, STIFF, coarse_run, sound
-from support import delam, expect, finish
+from support import delam, draw, expect, finish
 
 EXAMPLES = os.environ["DELAM_EXAMPLES"]
 SIZES = ("1.0", "0.75", "0.5", "0.25", "0.1")
@@ -68,9 +68,9 @@ for name, settings, checks in (*((name, *row) for name, row in COARSE.items()),
     for check in (sound, *checks) if run else ():
         check(name, run)
     if run and name in PICTURES:
-        done = subprocess.run(["/usr/bin/python3", os.environ["DELAM_PLOT"], run.out], capture_output=True, text=True, check=False)
+        code, error = draw("plot", run.out)
         made = {picture for picture in os.listdir(run.out) if picture.endswith(".png")}
         wanted = {"load-displacement.png", "energies.png", "snapshots.png", *PICTURES[name]}
         small = [p for p in made if os.path.getsize(os.path.join(run.out, p)) < 10000]
-        expect(done.returncode == 0 and made == wanted and not small, f"{name}: pictures {sorted(made)} {done.stderr.strip()[-200:]}")
+        expect(code == 0 and made == wanted and not small, f"{name}: pictures {sorted(made)} {error.strip()[-200:]}")
 finish()

@@ -2,31 +2,33 @@
 """The plot script makes its pictures, in 2D and 3D, from whole and partial results."""
 import os
 import subprocess
-import sys
 
-from support import SCENE, brittle, changed, delam, expect, finish, folder, read, write
+from support import SCENE, brittle, changed, delam, draw, expect, finish, folder, read, write
 
 PICTURES = ("load-displacement.png", "energies.png", "snapshots.png")
 
 
-def plot(out):
-    return subprocess.run(["/usr/bin/python3", os.environ["DELAM_PLOT"], out], capture_output=True, text=True,
-                          check=False)
+def script(name, *words):
+    """The script itself, once for each; the rest is drawn in this process."""
+    path = os.path.join(os.path.dirname(os.environ["DELAM_PLOT"]), name + ".py")
+    done = subprocess.run(["/usr/bin/python3", path, *words], capture_output=True, text=True, check=False)
+    return done.returncode, done.stderr
 
 
-def draws(scene, what):
+def draws(scene, what, plot=draw):
     out = folder()
     code, _, error = delam("run", write(scene), "--out", out)
     expect(code == 0, f"{what}: run {error}")
-    done = plot(out)
-    expect(done.returncode == 0, f"{what}: plot.py {done.stderr.strip()[-300:]}")
+    code, error = plot("plot", out)
+    expect(code == 0, f"{what}: plot.py {error.strip()[-300:]}")
     expect(all(read(os.path.join(out, name)).startswith(b"\x89PNG") for name in PICTURES if name in os.listdir(out)) and
            set(PICTURES) <= set(os.listdir(out)), f"{what}: three pictures")
     return out
 
 
-draws(SCENE, "2D")
-triangles = changed("dimension = 2", 'dimension = 2\ncell = "tri3"')
+coarse = changed("h = 0.0015", "h = 0.003")
+draws(coarse, "2D", script)
+triangles = changed("dimension = 2", 'dimension = 2\ncell = "tri3"', coarse)
 draws(changed("steps = 20", "steps = 5\n[output]\nsnapshots = [1.0]", triangles),
       "2D, triangles, one snapshot")
 solid = changed("dimension = 2", "dimension = 3\nwidth = 0.006", changed("h = 0.0015", "h = 0.003"))
@@ -40,11 +42,8 @@ out = draws(changed("steps = 20", "steps = 4", solid), "3D")
 expect("fronts.png" in os.listdir(out) and read(os.path.join(out, "fronts.png")).startswith(b"\x89PNG"), "3D: fronts in plan")
 
 
-def compare(out, *results):
-    script = os.path.join(os.path.dirname(os.environ["DELAM_PLOT"]), "plot_family.py")
-    done = subprocess.run(["/usr/bin/python3", script, "--out", out, *results], capture_output=True, text=True,
-                          check=False)
-    return done.returncode, done.stderr
+def compare(out, *results, plot=draw):
+    return plot("plot_family", "--out", out, *results)
 
 
 both = folder()
@@ -53,7 +52,7 @@ for size in ("0.003", "0.0015"):
     results.append(os.path.join(both, "h" + size))
     code, _, error = delam("run", write(brittle()), "--set", "geometry.h=" + size, "--out", results[-1])
     expect(code == 0, f"a result to compare {error}")
-code, error = compare(os.path.join(both, "family"), *results)
+code, error = compare(os.path.join(both, "family"), *results, plot=script)
 expect(code == 0, f"plot_family.py {error.strip()[-300:]}")
 expect(sorted(os.listdir(os.path.join(both, "family"))) == ["energies.png", "load-displacement.png"] and
        all(read(os.path.join(both, "family", name)).startswith(b"\x89PNG") for name in PICTURES[:2]), "two pictures")
@@ -67,7 +66,6 @@ expect(code == 2 and "different units" in error, "different units are refused")
 code, error = compare(both, results[0], folder())
 expect(code == 2 and "holds no result" in error, "so is a folder without a result")
 # What the legend and the title say.
-sys.path.insert(0, os.path.dirname(os.environ["DELAM_PLOT"]))
 from plot_family import Curves  # noqa: E402
 from result import Result  # noqa: E402
 curves = Curves([Result(path) for path in results])
@@ -76,6 +74,6 @@ expect("20 steps" in curves.title("x") and "local solution, frozen mixity" in cu
        "h =" not in curves.title("x"), f"the title: {curves.title('x')!r}")
 curves = Curves([Result(path) for path in (*results, other)])
 expect(len(set(curves.labels)) == 3 and "other, 10 steps, h = 1.5 mm" in curves.labels, f"the legend: {curves.labels}")
-done = plot(folder())
-expect(done.returncode == 2 and "holds no result" in done.stderr, "an empty folder is refused")
+code, error = script("plot", folder())
+expect(code == 2 and "holds no result" in error, "an empty folder is refused")
 finish()
