@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # bash verify/run.sh [--all]: installs, builds, runs the quick tier of the tests, then the unit tests, the light cases
 # and the fuzzer's corpus under AddressSanitizer and UBSan, then the quick part of the verification report (out/report-quick).
-#   --all   also the long tier, every check of UBSan, the thread sanitizer, clang 14 without warnings, valgrind on the unit tests and two cases
+#   --all   also the long tier, every check of UBSan, the whole report, the thread sanitizer, clang 14 without
+#           warnings, valgrind on the unit tests and two cases
 # bash verify/run.sh --report [--quick] [--only ID|CHAPTER ...] [--accept] [--jobs N]: builds and writes the verification report into
 # out/report (report/README.md) instead; exit code 1 if a case failed.
 # Ends with the line "N passed, N failed", after a line for each test that was skipped; exit code 0 only without failures.
@@ -122,7 +123,11 @@ if [[ -f build/asan/verify/CTestTestfile.cmake ]]; then
     CK_FORK=no tests asan -j2 --label-regex '^sanitized$'
 fi
 if [[ -f build/release/lib/libdelam.so ]]; then
-    check "quick report" /usr/bin/python3 verify/report/make.py --build build/release --out out/report-quick --quick
+    if [[ $all == yes ]]; then
+        check "report" /usr/bin/python3 verify/report/make.py --build build/release --out out/report
+    else
+        check "quick report" /usr/bin/python3 verify/report/make.py --build build/release --out out/report-quick --quick
+    fi
 fi
 if [[ $all == yes ]]; then
     check "build with the thread sanitizer" build tsan -DDELAM_BUILD_CLI=OFF -DDELAM_BUILD_EXAMPLES=OFF

@@ -135,7 +135,7 @@ Table energetic(const Options& options) {
         "candidates",    "not_converged", "note"};
     for (const double h : {1e-3, 0.75e-3, 0.5e-3, 0.25e-3, 0.1e-3}) {
         for (const double patch : {0.0, 2e-3}) {
-            if ((options.quick && (h < 0.7e-3 || (h < 1e-3 && patch == 0.0))) || h < options.finest) continue;
+            if ((options.quick && h < 1e-3) || h < options.finest) continue;
             for (const char* family : {"enf-brittle", "mmf-brittle"}) {
                 if (!options.wants(family)) continue;
                 reference::Flexure data = reference::find_flexure(family);

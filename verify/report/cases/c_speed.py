@@ -446,11 +446,11 @@ def cases():
             march_case("enf-brittle-0.1", quick=False, expected=300, asked=(6, 500), cap=20),
             Case(id="c-methods", chapter="c", title="Work against precision, by method", requirement="At equal error the condensed marches take a fraction of the time of the baseline; where a method "
                  "is slower than the baseline, that is listed first.", geometry="two arms 120 mm x 3 mm, notch 30 mm, 4-node cells of 1.5 to 0.25 (quick: 0.5) mm, plane strain", materials=DUCTILE,
-                 supports=PATCHES, units=f"relative L1 errors; ratios of times; {COSTS}", run=methods, quick=True, timing=True, seconds=1200, expected=90),
+                 supports=PATCHES, units=f"relative L1 errors; ratios of times; {COSTS}", run=methods, quick=False, timing=True, seconds=1200, expected=90),
             Case(id="c-precision", chapter="c", title="Work against precision, by element", requirement="At equal error elements that bend take less time than 4-node cells; the error is one of mesh and "
                  "step, not of the tolerance.", geometry="two arms 120 mm x 3 mm, notch 30 mm, five elements, cells of 3 to 0.1 mm, plane strain", materials=DUCTILE,
                  supports=PATCHES, units=f"relative L1 errors; ratios of times; {COSTS}",
-                 run=precision, quick=True, timing=True, seconds=1500, expected=150),
+                 run=precision, quick=False, timing=True, seconds=1500, expected=150),
             Case(id="c-energetic", chapter="c", title="What an energetic march costs", requirement="An energetic march jumps no later than a local one and stays within the two-sided "
                  "estimate; the goal is 8 linear solves.", materials=BRITTLE, **ENF, run=energetic, quick=True, timing=True, seconds=1200, expected=90),
             Case(id="c-scene-files", chapter="c", title="Marches of scene files", requirement="The library's own choice ends every march, gives what FETI gives, and is listed where it costs "
