@@ -340,7 +340,7 @@ CASE_TEST(hash_and_keys) {
     refused(delam_law_set(law.get(), "onset_exponent_1", 1.0), "does not belong to criterion power; known are");
     refused(delam_law_set(law.get(), "gradient", -1.0), "'gradient' = -1 must be finite and >= 0");
     refused(delam_law_set_text(law.get(), "criterion", "bk"), "'bk' is not known; known are valoroso-champaney, power");
-    refused(delam_law_set_text(law.get(), "gradient", "1"), "'gradient' is a number: delam_law_set");
+    refused(delam_law_set_text(law.get(), "gradient", "1"), "'gradient' is a number: use delam_law_set");
     const double xi[] = {0.0, 1.0}, s[] = {1.0, 0.0};
     refused(delam_law_set_table(law.get(), 2, xi, s), "'softening' does not belong to kind piecewise-linear");
 
