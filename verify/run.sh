@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # bash verify/run.sh [--all]: installs, builds, runs the quick tier of the tests, then the unit tests, the light cases
-# and the fuzzer's corpus under AddressSanitizer and UBSan, then the quick part of the verification report (out/report-quick).
+# and the fuzzer's corpus under AddressSanitizer and UBSan, then judges the quick part of the verification report
+# (out/report-quick, without pages).
 #   --all   also the long tier, every check of UBSan, the whole report, the thread sanitizer, clang 14 without
 #           warnings, valgrind on the unit tests and two cases
 # bash verify/run.sh --report [--quick] [--only ID|CHAPTER ...] [--accept] [--jobs N]: builds and writes the verification report into
@@ -126,7 +127,7 @@ if [[ -f build/release/lib/libdelam.so ]]; then
     if [[ $all == yes ]]; then
         check "report" /usr/bin/python3 verify/report/make.py --build build/release --out out/report
     else
-        check "quick report" /usr/bin/python3 verify/report/make.py --build build/release --out out/report-quick --quick
+        check "quick report" /usr/bin/python3 verify/report/make.py --build build/release --out out/report-quick --quick --no-pages
     fi
 fi
 if [[ $all == yes ]]; then

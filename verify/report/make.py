@@ -272,6 +272,7 @@ def main(argv: list[str]) -> int:
     parser.add_argument("--only", nargs="+", default=[], metavar="ID|CHAPTER", help="run these; the others stay as they are")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="cases at once, of those that do not measure time")
     parser.add_argument("--accept", action="store_true", help="the numbers of what passed its reference are the new past")
+    parser.add_argument("--no-pages", action="store_true", help="judge only: report.json and json/, no pages (their pictures take three minutes)")
     parser.add_argument("--list", action="store_true", help="names the cases")
     parser.add_argument("--cases", type=pathlib.Path, default=HERE / "cases", help=argparse.SUPPRESS)
     parser.add_argument("--past", type=pathlib.Path, default=HERE / "past", help=argparse.SUPPRESS)
@@ -374,16 +375,22 @@ def report(a, cases: list[case_module.Case], library: dict) -> int:
         "quick": a.quick, "commit": library["commit"], "source": source, "library": library, "machine": machine(),
         "seconds": round(time.monotonic() - start, 1), "chapters": case_module.CHAPTERS, "claims": claims.CLAIMS,
         "warnings": warnings, "cases": everything})
-    say("drawing the pages")
-    try:
-        drawn = render(new)
-    except KeyboardInterrupt:
-        shutil.rmtree(new, ignore_errors=True)
-        raise SystemExit("make.py: interrupted; no report was written, the one before stays as it was")
+    drawn = 0
+    if not a.no_pages:
+        say("drawing the pages")
+        try:
+            drawn = render(new)
+        except KeyboardInterrupt:
+            shutil.rmtree(new, ignore_errors=True)
+            raise SystemExit("make.py: interrupted; no report was written, the one before stays as it was")
     publish(new, a.out, not a.only)
+    if a.no_pages:  # pages of an earlier report would contradict this one
+        shutil.rmtree(a.out / "cases", ignore_errors=True)
+        for page in ("index.html", "report.md"):
+            (a.out / page).unlink(missing_ok=True)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     counts = {s: sum(d["status"] == s for d in everything) for s in schema.STATUSES}
-    say(", ".join(f"{n} {s}" for s, n in counts.items()) + f"; {a.out / 'index.html'}")
+    say(", ".join(f"{n} {s}" for s, n in counts.items()) + f"; {a.out / ('report.json' if a.no_pages else 'index.html')}")
     return 1 if counts["failed"] or drawn else 0
 
 
