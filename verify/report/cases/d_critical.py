@@ -108,8 +108,6 @@ def critical_states(context):
     below = max(found - m.stored_and_spent for m in long.values())
     worst = max(m.values["damage_change"] for m in (*long.values(), *short.values()) if m is not feti_joint)
     checks = [check("alternating: condensed and FETI", distance(alternating, feti), 1e-9, "one way through the same states to one fixed point; what is left is the tolerance of the damage, 1e-12, over the stability of the zone"),
-              check("joint: condensed and FETI", distance(joint, feti_joint), 1e-9, "one way through the same states, as above"),
-              check("Newton solves of joint FETI in the last long step", feti_joint.values["newton_solves"], 1, "the supports of the clamped end leave its zone as it is", ">="),
               check("state before the last long step, all ways", apart, 1e-9, "nothing breaks until then, so that the last step starts from one state and energies of its ends may be compared"),
               check("energy of the energetic search above the lowest of the others, same steps", below / found, 1e-9, "it keeps the lowest of the states that it has seen, and theirs are among them; rounding"),
               check("damage change of all ends", worst, DELTA, "each is a fixed point of its own damage, to damage_tolerance; without joint FETI"),
@@ -138,6 +136,8 @@ def critical_states(context):
               + ": the toughness follows the mode mixity of the step before, so that another history costs another energy",
               f"With a zone of several pairs and mixity_rule = converged the two ways end at the same adhesions, but book {100 * split:.1f} % different dissipation ({near.values['dissipated']:.4g} and {far.values['dissipated']:.4g} J/m): pairs that "
               "break within the step keep the mixity of the iterate in which they broke, so that the way, down to its rounding, decides; the past does not judge these numbers"]
+    if distance(joint, feti_joint) > 1e-9:
+        losses.insert(1, f"FETI by default ends at {feti_joint.stored_and_spent:.4g} J/m, not where the condensed operator does: on this scene, whose interface ends at supports of both faces, it offers Newton's method no zone and goes on by alternation")
     rows = [*(row(name, 3, m) for name, m in long.items()), *(row(name, n, m) for (name, n), m in short.items())]
     bars = [name for name, *_ in LONG]
     plots = [plot("Energy at the end of the same three steps", axis("", bars=bars), axis("stored + dissipated", "J/m"),
