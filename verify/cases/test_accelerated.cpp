@@ -272,14 +272,13 @@ CASE_TEST(few_alternations) {
     const char* reduction = loop / 3 == 0 ? "condensed" : "feti";
     Peel p = peels[loop / 6 == 0 ? 4 : 0];
     const std::string where = std::string(reduction) + ", limit " + std::to_string(limit);
-    // FETI needs more rounds than any of these; the condensed operator may need one or two.
+    // Newton's method may need only one or two rounds.
     const Scene scene = peel(p, reduction, "accelerated", 1e-9, limit);
     Solver solver(scene, 0.0);
     const reference::Exported exported(scene);
     const std::int32_t status = solver.advance(1.0);
     cases::expect(status == DELAM_NOT_CONVERGED || (status == DELAM_OK && limit > 1.0),
                   where + ": " + delam_status_name(status));
-    if (std::string(reduction) == "feti") cases::expect(status == DELAM_NOT_CONVERGED, where + ": converged");
     cases::expect_below(solver.value("am_iterations"), limit, where + ": alternations");
     const auto accepted = reference::accept(solver, exported);
     cases::expect_below(accepted.worst(), 1e-10, where + ": " + accepted.text());

@@ -32,6 +32,7 @@ struct Case {
     bool touching = false;  // the second interface only touches
     bool loaded = false;    // dead forces and an eigenstrain
     const char* preconditioner = "series";
+    bool clamped = false;  // supports on both faces of the last pairs
     double tolerance = 1e-7;
 };
 
@@ -46,6 +47,8 @@ constexpr Case cases[] = {
     {"contact alone", 2, 3, 0, 125e9, false, true},
     {"dead forces, eigenstrains", 2, 3, 4, 125e9, false, false, true},
     {"lumped preconditioner", 2, 2, 4, 125e9, false, false, false, "lumped"},
+    {"a clamped end", 2, 3, 5, 125e9, false, false, false, "series", true},
+    {"a clamped end in space", 3, 2, 0, 125e9, false, false, false, "series", true},
 };
 
 Problem make(const Case& c) {
@@ -68,6 +71,14 @@ Problem make(const Case& c) {
             if (problem.mesh->node_body(node) == static_cast<std::int32_t>(c.layers) - 1 &&
                 problem.mesh->node(node)[0] < 1e-9)
                 problem.constraints.push_back({{c.dimension * node}, {1.0}, {}});
+    }
+    if (c.clamped) {
+        std::erase_if(problem.constraints, [&](const Constraint& constraint) {
+            return problem.mesh->node(constraint.dof.front() / c.dimension)[0] > f.length - 1e-9;
+        });
+        for (std::int64_t node = 0; node < problem.mesh->node_count(); ++node)
+            for (int k = 0; k < c.dimension && problem.mesh->node(node)[0] > f.length - 1e-9; ++k)
+                problem.constraints.push_back({{c.dimension * node + k}, {1.0}, {}});
     }
     if (c.loaded) {
         problem.patterns.push_back({"pull", {0.0, 1.0}, {0.0, 1.0}, Pattern::Drives::force});

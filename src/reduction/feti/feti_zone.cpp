@@ -47,17 +47,19 @@ std::vector<std::int64_t> FetiZone::changed(const Springs& springs, std::span<co
     return rows;
 }
 
-// Rows that depend on each other have no flexibility in some direction: all of them together cannot be unknowns.
+// Rows that depend on each other have no flexibility in some direction: all of them together cannot be unknowns. A
+// dependency without springs, of supports on both faces of a pair, leaves no unknown.
 bool FetiZone::allowed(std::span<const std::int64_t> rows) const {
     if (rows.empty() || rows.size() > largest) return false;
     const std::size_t width = columns_.group_rows();
     if (columns_.bytes((rows.size() + width - 1) / width) > largest_bytes) return false;
     for (const Scaling::Dependency& dependency : dual_.scaling().dependencies) {
-        const bool all = std::all_of(dependency.row.begin(), dependency.row.end(), [&](std::int64_t r) {
-            return r >= dual_.rows().jump_count || !columns_.has_spring(index(r)) ||
-                   std::binary_search(rows.begin(), rows.end(), r);
-        });
-        if (all) return false;
+        std::int64_t outside = 0, unknown = 0;
+        for (const std::int64_t r : dependency.row) {
+            if (r >= dual_.rows().jump_count || !columns_.has_spring(index(r))) continue;
+            (std::binary_search(rows.begin(), rows.end(), r) ? unknown : outside) += 1;
+        }
+        if (unknown > 0 && outside == 0) return false;
     }
     return true;
 }

@@ -115,12 +115,14 @@ private:
     }
 };
 
-// The forces nearest to these that carry the resultants.
+// The forces nearest to these that carry the resultants. False: a resultant is there that no forces can carry; where
+// there is none, what is left is the rounding of the forces.
 bool balance(const DualOperator& op, const DenseMatrix& resultant, DenseMatrix& lambda) {
     double left = 0.0;
     for (std::int64_t c = 0; c < lambda.columns; ++c) {
-        const double scale = max_abs(column(resultant, c));
-        left = std::max(left, op.coarse().balance(column(resultant, c), column(lambda, c), scale > 0.0 ? scale : 1.0));
+        const double size = max_abs(column(resultant, c));
+        const double rest = op.coarse().balance(column(resultant, c), column(lambda, c), size);
+        if (size > 0.0) left = std::max(left, rest);
     }
     return left <= unbalanced_part;
 }
