@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
         } else if (std::strcmp(argv[i], "--set") == 0 && i + 1 < argc) {
             options.settings.emplace_back(argv[++i]);
         } else if (std::strcmp(argv[i], "--subject") == 0 && i + 1 < argc) {
-            options.subject = argv[++i];
+            options.subjects.insert(argv[++i]);
         } else if (std::strcmp(argv[i], "--specimen") == 0 && i + 1 < argc) {
             options.specimen = argv[++i];
         } else if (std::strcmp(argv[i], "--solution") == 0 && i + 1 < argc) {
@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
     std::fprintf(
         stderr,
         "usage: delam_harness [--json] [--quick] [--finest MM] [--scene FILE [--set KEY=VALUE ...]]\n"
-        "       [--specimen NAME] [--solution NAME] [--most-steps N] [--subject NAME] TABLE\n"
+        "       [--specimen NAME] [--solution NAME] [--most-steps N] [--subject NAME]... TABLE\n"
         "tables: pcg, contact, balance, feti-direct, energetic, jump-instant, estimate, convergence, stability "
         "(--subject), sets, scene-direct (of --scene)\n");
     return 1;

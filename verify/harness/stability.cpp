@@ -311,85 +311,9 @@ std::string format(const char* text, double value) {
     return line;
 }
 
-}  // namespace
-
-std::vector<Result> states_of(const Trial& trial, Realisation realisation) {
-    March m = march(trial, realisation);
-    if (m.states.size() != trial.times.size()) throw reference::Failure(0, m.message);
-    return std::move(m.states);
-}
-
-double largest(const std::vector<double>& values) {
-    double size = 0.0;
-    for (const double v : values) size = std::isnan(v) ? infinite : std::max(size, std::abs(v));
-    return size;
-}
-
-double relative_difference(const std::vector<double>& a, const std::vector<double>& b) {
-    if (a.size() != b.size()) return infinite;
-    double miss = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) miss = worse(miss, std::abs(a[i] - b[i]));
-    const double size = largest(b);
-    return miss == 0.0 ? 0.0 : size > 0.0 ? miss / size : infinite;
-}
-
-Study::Study(const Options& options) : options_(options) {
-    table_.name = "stability";
-    table_.note =
-        "Hard cases, each over a range of one parameter, by every realisation. error: against the reference named, "
-        "largest relative difference (of displacements, jumps, tractions, reactions, energies) over all steps unless "
-        "the subject says otherwise. kkt: worst violation of the primal KKT conditions of all states, from exported "
-        "fields. ledger: energies and work booked less those computed from the fields, over the largest. defect: what "
-        "the balance of energies at the end misses (it falls with the steps where something is damaged). damage: "
-        "adhesions less the minimisers at their jumps. direct: the monolithic reference at the adhesions of the "
-        "condensed march; FETI whose adhesions are others is compared with a direct solution at its own. Where the "
-        "error of the direct reference is against itself in other units, that is what rounding of the assembled "
-        "matrices leaves, and twenty times as much is allowed. active_set, krylov, alternations: sums over "
-        "the steps.";
-    table_.columns = {"subject", "parameter",    "value",  "realisation", "reference", "error",
-                      "limit",   "kkt",          "ledger", "defect",      "damage",    "active_set",
-                      "krylov",  "alternations", "status", "expected",    "verdict",   "message"};
-}
-
-bool Study::wanted(const std::string& subject) const {
-    if (!options_.subject.empty() && options_.subject != subject) return false;
-    progress("stability: " + subject);
-    return true;
-}
-
-std::vector<double> Study::range(std::vector<double> values, std::size_t stride) const {
-    if (!options_.quick) return values;
-    std::vector<double> thin;
-    for (std::size_t i = 0; i < values.size(); i += stride) thin.push_back(values[i]);
-    if ((values.size() - 1) % stride != 0) thin.push_back(values.back());
-    return thin;
-}
-
-void Study::row(const std::string& subject, const std::string& parameter_name, double parameter,
-                const std::string& realisation, const std::string& reference, double error, double limit,
-                const std::string& status, const std::string& expected, bool good, const std::string& message) {
-    table_.rows.push_back({subject, parameter_name, parameter, realisation, reference, error, limit, 0.0, 0.0, 0.0, 0.0,
-                           0.0, 0.0, 0.0, status, expected, good ? "pass" : "fail", message});
-}
-
-void Study::run(const Trial& trial) {
-    std::vector<std::pair<Realisation, March>> all;
-    if (trial.condensed) all.emplace_back(Realisation::condensed, march(trial, Realisation::condensed));
-    if (trial.feti) all.emplace_back(Realisation::feti, march(trial, Realisation::feti));
-    // FETI at its own adhesions if they differ from the condensed ones, so that only the solves are compared.
-    std::vector<std::optional<March>> beside(std::max<std::size_t>(all.size(), 1));
-    if (all.empty() && trial.direct) beside[0] = direct_march(trial, undamaged(trial));
-    for (std::size_t i = 0; i < all.size() && trial.direct; ++i) {
-        const bool first = i == 0;
-        const auto same = [&] {
-            const auto &a = all[0].second.states, &b = all[i].second.states;
-            if (a.size() != b.size()) return false;
-            for (std::size_t k = 0; k < a.size(); ++k)
-                if (a[k].adhesion != b[k].adhesion) return false;
-            return true;
-        };
-        if (first || !same()) beside[i] = direct_march(trial, all[i].second.states);
-    }
+// Rows of a trial from its analyses, and from the direct ones beside them.
+void judge(Study& study, const Trial& trial, std::vector<std::pair<Realisation, March>> all,
+           std::vector<std::optional<March>> beside) {
     for (std::size_t i = 0; i < all.size(); ++i) {
         March& m = all[i].second;
         const March* other = beside[i] ? &*beside[i] : beside[0] ? &*beside[0] : nullptr;
@@ -443,16 +367,104 @@ void Study::run(const Trial& trial) {
                 check("defect", std::abs(m.defect - trial.defect), trial.defect_limit);
             check("damage", m.damage, 1.01 * trial.delta + 1e-10);
         }
-        table_.rows.push_back({trial.subject, trial.parameter_name, trial.parameter, name_of(realisation),
-                               direct && trial.in_unit  ? "itself in other units, energy"
-                               : trial.error || !direct ? trial.reference
-                                                        : "is the reference",
-                               m.error, limit, m.kkt, m.ledger, m.defect, m.damage, m.active_set, m.krylov,
-                               m.alternations, m.status, expected, why.empty() ? "pass" : "fail: " + why, m.message});
+        study.table().rows.push_back({trial.subject, trial.parameter_name, trial.parameter, name_of(realisation),
+                                      direct && trial.in_unit  ? "itself in other units, energy"
+                                      : trial.error || !direct ? trial.reference
+                                                               : "is the reference",
+                                      m.error, limit, m.kkt, m.ledger, m.defect, m.damage, m.active_set, m.krylov,
+                                      m.alternations, m.status, expected, why.empty() ? "pass" : "fail: " + why,
+                                      m.message});
     }
     for (const auto& [has, who] :
          {std::pair{trial.condensed, "condensed"}, {trial.feti, "FETI"}, {trial.direct, "direct"}}) {
-        if (!has && !trial.left_out.empty()) leave_out(trial, who, trial.left_out);
+        if (!has && !trial.left_out.empty()) study.leave_out(trial, who, trial.left_out);
+    }
+}
+
+}  // namespace
+
+std::vector<Result> states_of(const Trial& trial, Realisation realisation) {
+    March m = march(trial, realisation);
+    if (m.states.size() != trial.times.size()) throw reference::Failure(0, m.message);
+    return std::move(m.states);
+}
+
+double largest(const std::vector<double>& values) {
+    double size = 0.0;
+    for (const double v : values) size = std::isnan(v) ? infinite : std::max(size, std::abs(v));
+    return size;
+}
+
+double relative_difference(const std::vector<double>& a, const std::vector<double>& b) {
+    if (a.size() != b.size()) return infinite;
+    double miss = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) miss = worse(miss, std::abs(a[i] - b[i]));
+    const double size = largest(b);
+    return miss == 0.0 ? 0.0 : size > 0.0 ? miss / size : infinite;
+}
+
+Study::Study(const Options& options) : options_(options) {
+    table_.name = "stability";
+    table_.note =
+        "Hard cases, each over a range of one parameter, by every realisation. error: against the reference named, "
+        "largest relative difference (of displacements, jumps, tractions, reactions, energies) over all steps unless "
+        "the subject says otherwise. kkt: worst violation of the primal KKT conditions of all states, from exported "
+        "fields. ledger: energies and work booked less those computed from the fields, over the largest. defect: what "
+        "the balance of energies at the end misses (it falls with the steps where something is damaged). damage: "
+        "adhesions less the minimisers at their jumps. direct: the monolithic reference at the adhesions of the "
+        "condensed march; FETI whose adhesions are others is compared with a direct solution at its own. Where the "
+        "error of the direct reference is against itself in other units, that is what rounding of the assembled "
+        "matrices leaves, and twenty times as much is allowed. active_set, krylov, alternations: sums over "
+        "the steps.";
+    table_.columns = {"subject", "parameter",    "value",  "realisation", "reference", "error",
+                      "limit",   "kkt",          "ledger", "defect",      "damage",    "active_set",
+                      "krylov",  "alternations", "status", "expected",    "verdict",   "message"};
+}
+
+bool Study::wanted(const std::string& subject) const {
+    if (!options_.subjects.empty() && options_.subjects.count(subject) == 0) return false;
+    progress("stability: " + subject);
+    return true;
+}
+
+std::vector<double> Study::range(std::vector<double> values, std::size_t stride) const {
+    if (!options_.quick) return values;
+    std::vector<double> thin;
+    for (std::size_t i = 0; i < values.size(); i += stride) thin.push_back(values[i]);
+    if ((values.size() - 1) % stride != 0) thin.push_back(values.back());
+    return thin;
+}
+
+void Study::row(const std::string& subject, const std::string& parameter_name, double parameter,
+                const std::string& realisation, const std::string& reference, double error, double limit,
+                const std::string& status, const std::string& expected, bool good, const std::string& message) {
+    table_.rows.push_back({subject, parameter_name, parameter, realisation, reference, error, limit, 0.0, 0.0, 0.0, 0.0,
+                           0.0, 0.0, 0.0, status, expected, good ? "pass" : "fail", message});
+}
+
+void Study::run(const Trial& trial, const Trial* also) {
+    std::vector<std::pair<Realisation, March>> all;
+    if (trial.condensed) all.emplace_back(Realisation::condensed, march(trial, Realisation::condensed));
+    if (trial.feti) all.emplace_back(Realisation::feti, march(trial, Realisation::feti));
+    // FETI at its own adhesions if they differ from the condensed ones, so that only the solves are compared.
+    std::vector<std::optional<March>> beside(std::max<std::size_t>(all.size(), 1));
+    if (all.empty() && trial.direct) beside[0] = direct_march(trial, undamaged(trial));
+    for (std::size_t i = 0; i < all.size() && trial.direct; ++i) {
+        const bool first = i == 0;
+        const auto same = [&] {
+            const auto &a = all[0].second.states, &b = all[i].second.states;
+            if (a.size() != b.size()) return false;
+            for (std::size_t k = 0; k < a.size(); ++k)
+                if (a[k].adhesion != b[k].adhesion) return false;
+            return true;
+        };
+        if (first || !same()) beside[i] = direct_march(trial, all[i].second.states);
+    }
+    if (also != nullptr) {
+        judge(*this, trial, all, beside);
+        judge(*this, *also, std::move(all), std::move(beside));
+    } else {
+        judge(*this, trial, std::move(all), std::move(beside));
     }
 }
 
@@ -576,7 +588,7 @@ Table stability(const Options& options) {
     stability_march(study);
     stability_partition(study);
     if (study.table().rows.empty())
-        throw reference::Failure(DELAM_ERROR_ARGUMENT, "no subject '" + options.subject + "'");
+        throw reference::Failure(DELAM_ERROR_ARGUMENT, "no subject '" + *options.subjects.begin() + "'");
     return study.table();
 }
 

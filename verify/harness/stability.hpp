@@ -79,7 +79,8 @@ public:
     const Options& options() const { return options_; }
     // Whether the subject was requested; names it on stderr.
     bool wanted(const std::string& subject) const;
-    void run(const Trial& trial);
+    // `also`: a trial of the same scene and times; the analyses are made once, and the rows of both follow.
+    void run(const Trial& trial, const Trial* also = nullptr);
     // A row for a realisation with which the trial is not run.
     void leave_out(const Trial& trial, const std::string& realisation, const std::string& why);
     // A separate row, for a case that no trial describes.

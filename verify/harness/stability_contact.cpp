@@ -284,7 +284,7 @@ void crossings(Study& study) {
                  {"cross-points-bonded", true, "orthonormal"}};
     for (const auto& kind : kinds) {
         if (!study.wanted(kind.subject)) continue;
-        for (const double n : study.range({2, 3, 4, 6, 8}, 3)) {
+        for (const double n : study.range({2, 3, 4, 6, 8}, 4)) {
             Trial t;
             t.subject = kind.subject;
             t.parameter_name = "blocks a side";

@@ -128,6 +128,7 @@ void pieces(Study& study) {
     if (!study.wanted("pairs-pieces")) return;
     constexpr std::int64_t cells = 400;
     for (const double length : study.range({5, 10, 20, 50, 100, 200, 400}, 3)) {
+        if (study.options().quick && length > 50) continue;
         Trial t;
         t.subject = "pairs-pieces";
         t.parameter_name = "cells of a piece";
@@ -151,6 +152,8 @@ void subdomains(Study& study) {
         const std::string subject = std::string("subdomains-") + preconditioner;
         if (!study.wanted(subject)) continue;
         for (const double count : study.range(counts, 4)) {
+            // With --quick the largest number with the default preconditioner alone.
+            if (study.options().quick && count == (subject == "subdomains-series" ? 256 : 512)) continue;
             Cantilever c;
             c.columns = 160, c.rows = 4, c.notch = 48;
             c.law = intact;
@@ -267,7 +270,7 @@ void poor_cuts(Study& study) {
         }
     }
     if (!study.wanted("combs-cut")) return;
-    for (const double count : study.range({2, 8, 32, 128, 256, 512}, 2)) {
+    for (const double count : study.range({2, 8, 32, 128, 256, 512}, 5)) {
         Trial t;
         t.subject = "combs-cut";
         t.parameter_name = "subdomains";

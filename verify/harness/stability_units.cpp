@@ -146,12 +146,14 @@ void stability_units(Study& study) {
                            .parameter_name = "unit of length",
                            .factors = odd,
                            .scale = length,
-                           .limit = exact});
+                           .limit = exact,
+                           .stride = 15});
     scaled_marches(study, {.subject = "unit-force-odd",
                            .parameter_name = "unit of force",
                            .factors = odd,
                            .scale = force,
-                           .limit = rounded});
+                           .limit = rounded,
+                           .stride = 15});
     scaled_marches(study, {.subject = "unit-length",
                            .parameter_name = "unit of length",
                            .factors = decimal,

@@ -2,6 +2,7 @@
 // A table, printed as aligned text or as JSON.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,7 @@ struct Options {
     double finest = 0.0;                // m: finer meshes are left out
     std::string scene;                  // a scene file
     std::vector<std::string> settings;  // KEY=VALUE for it
-    std::string subject;                // for the table stability: only this one
+    std::set<std::string> subjects;     // for the table stability: only these
     std::string specimen, solution;     // for tables over several: only this one
     int most_steps = 0;                 // > 0: leaves out analyses of more steps
 
