@@ -42,7 +42,7 @@ class Case:
     units: str
     run: object
     quick: bool = False    # also part of --quick
-    timing: bool = False   # measures time: runs alone
+    timing: bool = False   # measures time: runs alone, but in the quick report, which judges none
     seconds: float = 600.0  # limit; passing it fails the case
     expected: float = 60.0  # seconds on two cores, of the full report
 

@@ -34,9 +34,12 @@ import schema  # noqa: E402
 DATE = "%Y-%m-%d %H:%M UTC"
 
 
-def find_cases(folder: pathlib.Path) -> list[case_module.Case]:
+MODULE_OF: dict[str, str] = {}  # of a case: the name of its file
+
+
+def find_cases(folder: pathlib.Path, pattern: str = "*_*.py") -> list[case_module.Case]:
     found: list[case_module.Case] = []
-    for path in sorted(folder.glob("*_*.py")):
+    for path in sorted(folder.glob(pattern)):
         spec = importlib.util.spec_from_file_location(f"cases_{path.stem}", path)
         module = importlib.util.module_from_spec(spec)
         sys.path.insert(0, str(folder))
@@ -45,7 +48,9 @@ def find_cases(folder: pathlib.Path) -> list[case_module.Case]:
         finally:
             sys.path.remove(str(folder))
         if hasattr(module, "cases"):
-            found += module.cases()
+            of = module.cases()
+            MODULE_OF.update((c.id, path.name) for c in of)
+            found += of
     names = [c.id for c in found]
     twice = sorted({n for n in names if names.count(n) > 1})
     if twice:
@@ -212,7 +217,7 @@ class Runner:
         a = self.arguments
         path = a.out / "new" / "json" / f"{case.id}.json"
         path.unlink(missing_ok=True)
-        command = [sys.executable, str(HERE / "make.py"), "--child", case.id, "--out", str(a.out), "--build", str(a.build),
+        command = [sys.executable, str(HERE / "make.py"), "--child", case.id, "--module", MODULE_OF[case.id], "--out", str(a.out), "--build", str(a.build),
                    "--cases", str(a.cases), "--past", str(a.past), *(["--quick"] if a.quick else [])]
         again = shlex.join(["bash", "verify/run.sh", "--report", *(["--quick"] if a.quick else []), "--only", case.id])
         start = time.monotonic()
@@ -268,18 +273,19 @@ def main(argv: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="make.py", description=__doc__)
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "out" / "report")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build" / "release")
-    parser.add_argument("--quick", action="store_true", help="the part that takes less than 5 minutes")
+    parser.add_argument("--quick", action="store_true", help="the part that takes one to two minutes")
     parser.add_argument("--only", nargs="+", default=[], metavar="ID|CHAPTER", help="run these; the others stay as they are")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="cases at once, of those that do not measure time")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="cases at once, without --quick of those that do not measure time")
     parser.add_argument("--accept", action="store_true", help="the numbers of what passed its reference are the new past")
     parser.add_argument("--no-pages", action="store_true", help="judge only: report.json and json/, no pages (their pictures take three minutes)")
     parser.add_argument("--list", action="store_true", help="names the cases")
     parser.add_argument("--cases", type=pathlib.Path, default=HERE / "cases", help=argparse.SUPPRESS)
     parser.add_argument("--past", type=pathlib.Path, default=HERE / "past", help=argparse.SUPPRESS)
     parser.add_argument("--child", help=argparse.SUPPRESS)
+    parser.add_argument("--module", default="*_*.py", help=argparse.SUPPRESS)
     a = parser.parse_args(argv)
     a.out, a.build, a.cases, a.past = a.out.resolve(), a.build.resolve(), a.cases.resolve(), a.past.resolve()
-    cases = find_cases(a.cases)
+    cases = find_cases(a.cases, a.module)
     if a.list:
         for c in cases:
             print(f"{c.chapter}  {c.id:<32} {'quick' if c.quick else '     '} {'timing' if c.timing else '      '} {c.expected:6.0f} s  {c.title}")
@@ -324,7 +330,9 @@ def report(a, cases: list[case_module.Case], library: dict) -> int:
     say(f"report: {len(wanted)} of {len(cases)} cases, {a.jobs} at once, library {library['name']}")
     try:
         # The long ones first: the last one to end decides.
-        free = sorted((c for c in wanted if not c.timing), key=lambda c: -c.expected)
+        # The quick report judges no time: nothing in it needs the machine for itself.
+        alone = [c for c in wanted if c.timing and not a.quick]
+        free = sorted((c for c in wanted if c not in alone), key=lambda c: -c.expected)
         with concurrent.futures.ThreadPoolExecutor(max(1, a.jobs)) as pool:
             try:
                 for future in concurrent.futures.as_completed([pool.submit(runner, c) for c in free]):
@@ -336,10 +344,9 @@ def report(a, cases: list[case_module.Case], library: dict) -> int:
                 pool.shutdown(wait=False, cancel_futures=True)
                 runner.end_all()
                 raise
-        for c in wanted:
-            if c.timing:
-                results[c.id] = runner(c)
-                tell(results[c.id])
+        for c in alone:
+            results[c.id] = runner(c)
+            tell(results[c.id])
     except KeyboardInterrupt:
         runner.end_all()
         shutil.rmtree(new, ignore_errors=True)
