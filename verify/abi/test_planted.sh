@@ -1,18 +1,21 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# test_planted.sh SOURCE_FOLDER LIBRARY: a gate that lets nothing through is only seen at a break. Each check gets
+# test_planted.sh SOURCE_FOLDER LIBRARY [quick]: a gate that lets nothing through is only seen at a break. Each check gets
 # altered copies of the header, of a small library made from it, or of the contract, and must fail with a message that
-# names the place. 77: none failed, but some were left out because their tool is missing.
+# names the place. With `quick` one break for each script. 77: none failed, but some were left out because their tool is
+# missing.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$1
 library=$2
+tier=${3:-all}
 python=/usr/bin/python3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 failures=0
 checks=0
 left_out=()
+declare -A seen=()
 
 # refused MESSAGE COMMAND...: must fail and say MESSAGE (an extended regular expression).
 refused() {
@@ -36,6 +39,11 @@ accepted() {
         printf 'must pass: %s\n%s\n' "$*" "$said"
         failures=$((failures + 1))
     fi
+}
+# wanted KIND: in the quick tier true for the first of each kind alone.
+wanted() {
+    [[ $tier == all || -z ${seen[$1]:-} ]] || return
+    seen[$1]=yes
 }
 
 # A header of the house, small.
@@ -135,7 +143,9 @@ pack() {
             -P "$root/src/package/one_object.cmake" && ar rcs libdelam.a one.o)
 }
 gate_static() { gate "$1" static --archive "$work/$1/libdelam.a"; }
-if command -v cmake >/dev/null; then
+if [[ $tier == quick ]]; then
+    :
+elif command -v cmake >/dev/null; then
     # What C++ makes weak, hidden, grouped and unique.
     planted inside
     cat >"$work/inside/inside.cpp" <<'CODE'
@@ -185,118 +195,124 @@ edit missing delam.map 's/global: delam_\*/global: delam_law_create; delam_law_r
 make missing
 refused '^delam_law_watch: declared, but the library does not export it' gate missing symbols
 
-planted extra
-printf 'DELAM_API int32_t delam_more(void);\nDELAM_API int32_t delam_more(void) { return 0; }\n' >>"$work/extra/law.c"
-make extra
-refused '^delam_more: exported, but no public header declares it' gate extra symbols
+if [[ $tier == all ]]; then
+    planted extra
+    printf 'DELAM_API int32_t delam_more(void);\nDELAM_API int32_t delam_more(void) { return 0; }\n' >>"$work/extra/law.c"
+    make extra
+    refused '^delam_more: exported, but no public header declares it' gate extra symbols
 
-planted leak
-printf '__attribute__((visibility("default"))) int helper(void);\nint helper(void) { return 0; }\n' >>"$work/leak/law.c"
-edit leak delam.map 's/local: \*;/local: none;/; s/global: delam_\*/global: delam_*; helper/'
-make leak
-refused '^helper: exported, but no public header' gate leak symbols
+    planted leak
+    printf '__attribute__((visibility("default"))) int helper(void);\nint helper(void) { return 0; }\n' >>"$work/leak/law.c"
+    edit leak delam.map 's/local: \*;/local: none;/; s/global: delam_\*/global: delam_*; helper/'
+    make leak
+    refused '^helper: exported, but no public header' gate leak symbols
 
-planted unlisted
-edit unlisted symbols.txt '/watch/d'
-make unlisted
-refused '^delam_law_watch: not in .*symbols.txt' gate unlisted symbols
+    planted unlisted
+    edit unlisted symbols.txt '/watch/d'
+    make unlisted
+    refused '^delam_law_watch: not in .*symbols.txt' gate unlisted symbols
 
-planted gone
-printf 'delam_law_forget 0.1\n' >>"$work/gone/symbols.txt"
-make gone
-refused '^delam_law_forget: since 0.1 in .*does not declare it any more' gate gone symbols
-edit gone symbols.txt 's/forget 0.1/forget soon/'
-refused 'expected a name and a version' gate gone symbols
+    planted gone
+    printf 'delam_law_forget 0.1\n' >>"$work/gone/symbols.txt"
+    make gone
+    refused '^delam_law_forget: since 0.1 in .*does not declare it any more' gate gone symbols
+    edit gone symbols.txt 's/forget 0.1/forget soon/'
+    refused 'expected a name and a version' gate gone symbols
 
-planted soname
-make soname -Wl,-soname,libdelam.so.2
-refused 'SONAME libdelam.so.2, but DELAM_ABI 1' gate soname symbols
-planted abi
-edit abi delam/delam.h 's/DELAM_ABI 1/DELAM_ABI 2/'
-make abi
-refused 'SONAME libdelam.so.1, but DELAM_ABI 2' gate abi symbols
+    planted soname
+    make soname -Wl,-soname,libdelam.so.2
+    refused 'SONAME libdelam.so.2, but DELAM_ABI 1' gate soname symbols
+    planted abi
+    edit abi delam/delam.h 's/DELAM_ABI 1/DELAM_ABI 2/'
+    make abi
+    refused 'SONAME libdelam.so.1, but DELAM_ABI 2' gate abi symbols
 
-planted node
-edit node delam.map 's/^DELAM_1 /DELAM_0 /'
-make node
-refused "^delam_law_create: version node 'DELAM_0', expected DELAM_1" gate node symbols
-planted bare
-printf '{ global: delam_*; local: *; };\n' >"$work/bare/delam.map"
-make bare
-refused "^delam_law_create: version node '', expected DELAM_1" gate bare symbols
+    planted node
+    edit node delam.map 's/^DELAM_1 /DELAM_0 /'
+    make node
+    refused "^delam_law_create: version node 'DELAM_0', expected DELAM_1" gate node symbols
+    planted bare
+    printf '{ global: delam_*; local: *; };\n' >"$work/bare/delam.map"
+    make bare
+    refused "^delam_law_create: version node '', expected DELAM_1" gate bare symbols
 
-planted experimental
-cat >"$work/experimental/delam/experimental.h" <<'HEADER'
+    planted experimental
+    cat >"$work/experimental/delam/experimental.h" <<'HEADER'
 #ifndef DELAM_EXPERIMENTAL_H
 #define DELAM_EXPERIMENTAL_H
 #include <delam/delam.h>
 DELAM_API int32_t delam_experimental_guess(const delam_law *law);
 #endif
 HEADER
-printf '#include "delam/experimental.h"\nint32_t delam_experimental_guess(const delam_law *a) { return a != 0; }\n' \
-    >>"$work/experimental/law.c"
-make experimental
-accepted gate experimental symbols
-edit experimental delam.map '/EXPERIMENTAL/d'
-make experimental
-refused "delam_experimental_guess: version node 'DELAM_1', expected DELAM_EXPERIMENTAL" gate experimental symbols
-edit experimental delam/experimental.h 's/experimental_guess/law_guess/'
-refused 'delam_law_guess: names of the experimental header start with delam_experimental_' gate experimental symbols
+    printf '#include "delam/experimental.h"\nint32_t delam_experimental_guess(const delam_law *a) { return a != 0; }\n' \
+        >>"$work/experimental/law.c"
+    make experimental
+    accepted gate experimental symbols
+    edit experimental delam.map '/EXPERIMENTAL/d'
+    make experimental
+    refused "delam_experimental_guess: version node 'DELAM_1', expected DELAM_EXPERIMENTAL" gate experimental symbols
+    edit experimental delam/experimental.h 's/experimental_guess/law_guess/'
+    refused 'delam_law_guess: names of the experimental header start with delam_experimental_' gate experimental symbols
 
-planted visible
-printf 'namespace delam { int inner(int a) { return a + 1; } }\n' >"$work/visible/inner.cpp"
-g++ -c -fPIC "$work/visible/inner.cpp" -o "$work/visible/inner.o"
-ar rc "$work/visible/libcore.a" "$work/visible/inner.o"
-make visible
-refused '^_ZN5delam5innerEi: visible outside its file' gate visible symbols --archive "$work/visible/libcore.a"
-g++ -c -fPIC -fvisibility=hidden "$work/visible/inner.cpp" -o "$work/visible/inner.o"
-ar rc "$work/visible/libcore.a" "$work/visible/inner.o"
-accepted gate visible symbols --archive "$work/visible/libcore.a"
+    planted visible
+    printf 'namespace delam { int inner(int a) { return a + 1; } }\n' >"$work/visible/inner.cpp"
+    g++ -c -fPIC "$work/visible/inner.cpp" -o "$work/visible/inner.o"
+    ar rc "$work/visible/libcore.a" "$work/visible/inner.o"
+    make visible
+    refused '^_ZN5delam5innerEi: visible outside its file' gate visible symbols --archive "$work/visible/libcore.a"
+    g++ -c -fPIC -fvisibility=hidden "$work/visible/inner.cpp" -o "$work/visible/inner.o"
+    ar rc "$work/visible/libcore.a" "$work/visible/inner.o"
+    accepted gate visible symbols --archive "$work/visible/libcore.a"
 
-planted gpl
-printf 'int cholmod_l_sdmult(void);\nint delam_inner(void);\nint delam_inner(void) { return cholmod_l_sdmult(); }\n' \
-    >>"$work/gpl/law.c"
-make gpl
-refused '^cholmod_l_sdmult: a function of CHOLMOD' gate gpl symbols --cholmod
+    planted gpl
+    printf 'int cholmod_l_sdmult(void);\nint delam_inner(void);\nint delam_inner(void) { return cholmod_l_sdmult(); }\n' \
+        >>"$work/gpl/law.c"
+    make gpl
+    refused '^cholmod_l_sdmult: a function of CHOLMOD' gate gpl symbols --cholmod
+fi
 
 # ---- the header against the baseline's ----
 planted signature
 edit signature delam/delam.h 's/int64_t count, const double \*jump/int32_t count, const double *jump/'
 refused "^delam_law_respond: 'int32_t delam_law_respond\(const delam_law\*, int32_t," gate signature baseline
-planted const
-edit const delam/delam.h 's/, const double \*jump/, double *jump/'
-refused "^delam_law_respond: .*in the baseline .*const double\*" gate const baseline
-planted callback
-edit callback delam/delam.h 's/\(double value, /(float64_t value, /'
-refused "type 'float64_t' is none of the interface's types" gate callback baseline
-planted callback
-edit callback delam/delam.h 's/\(double value, const char \*name, void \*user\)/(void *user, double value)/'
-refused "^delam_watch_callback: 'int32_t delam_watch_callback\(void\*, double\)'" gate callback baseline
-planted constant
-edit constant delam/delam.h 's/ARGUMENT -1/ARGUMENT -2/'
-refused '^DELAM_ERROR_ARGUMENT: -2, in the baseline -1' gate constant baseline
-planted removed
-edit removed delam/delam.h '/delam_law_watch\(/d'
-refused '^delam_law_watch: in the baseline, gone from the header' gate removed baseline
-planted unprotected
-edit unprotected delam/delam.h \
-    's|^/\* Calls back|/* A sum.\n * [status -; thread any; since 0.2] */\nDELAM_API int64_t delam_sum(void);\n&|'
-printf 'delam_sum 0.2\n' >>"$work/unprotected/symbols.txt"
-refused '^delam_sum: listed, but not in the baseline' gate unprotected baseline
+if [[ $tier == all ]]; then
+    planted const
+    edit const delam/delam.h 's/, const double \*jump/, double *jump/'
+    refused "^delam_law_respond: .*in the baseline .*const double\*" gate const baseline
+    planted callback
+    edit callback delam/delam.h 's/\(double value, /(float64_t value, /'
+    refused "type 'float64_t' is none of the interface's types" gate callback baseline
+    planted callback
+    edit callback delam/delam.h 's/\(double value, const char \*name, void \*user\)/(void *user, double value)/'
+    refused "^delam_watch_callback: 'int32_t delam_watch_callback\(void\*, double\)'" gate callback baseline
+    planted constant
+    edit constant delam/delam.h 's/ARGUMENT -1/ARGUMENT -2/'
+    refused '^DELAM_ERROR_ARGUMENT: -2, in the baseline -1' gate constant baseline
+    planted removed
+    edit removed delam/delam.h '/delam_law_watch\(/d'
+    refused '^delam_law_watch: in the baseline, gone from the header' gate removed baseline
+    planted unprotected
+    edit unprotected delam/delam.h \
+        's|^/\* Calls back|/* A sum.\n * [status -; thread any; since 0.2] */\nDELAM_API int64_t delam_sum(void);\n&|'
+    printf 'delam_sum 0.2\n' >>"$work/unprotected/symbols.txt"
+    refused '^delam_sum: listed, but not in the baseline' gate unprotected baseline
+fi
 
 # ---- forms that the header may not have ----
-planted form
-edit form delam/delam.h 's/^typedef struct delam_law delam_law;/&\ntypedef struct delam_point { double x; } dot;/'
-refused 'not a form that the header may have: typedef struct delam_point' gate form baseline
-planted form
-edit form delam/delam.h 's/^typedef struct delam_law delam_law;/&\nenum delam_kind { delam_kind_one };/'
-refused 'not a form that the header may have: enum delam_kind' gate form baseline
-planted form
-edit form delam/delam.h 's/int64_t count, const double \*jump/long count, const double *jump/'
-refused "type 'long' is none of the interface's types" gate form baseline
-planted form
-edit form delam/delam.h 's/^#define DELAM_ABI 1/&\n#define DELAM_TRY(call) (call)/'
-refused 'a macro with arguments: #define DELAM_TRY' gate form baseline
+if [[ $tier == all ]]; then
+    planted form
+    edit form delam/delam.h 's/^typedef struct delam_law delam_law;/&\ntypedef struct delam_point { double x; } dot;/'
+    refused 'not a form that the header may have: typedef struct delam_point' gate form baseline
+    planted form
+    edit form delam/delam.h 's/^typedef struct delam_law delam_law;/&\nenum delam_kind { delam_kind_one };/'
+    refused 'not a form that the header may have: enum delam_kind' gate form baseline
+    planted form
+    edit form delam/delam.h 's/int64_t count, const double \*jump/long count, const double *jump/'
+    refused "type 'long' is none of the interface's types" gate form baseline
+    planted form
+    edit form delam/delam.h 's/^#define DELAM_ABI 1/&\n#define DELAM_TRY(call) (call)/'
+    refused 'a macro with arguments: #define DELAM_TRY' gate form baseline
+fi
 
 # ---- abidiff: a library that was compiled from something else than the baseline ----
 if command -v abidiff >/dev/null; then
@@ -307,24 +323,26 @@ if command -v abidiff >/dev/null; then
     edit type law.c 's/int64_t count/int32_t count/'
     make type
     refused 'function int32_t delam_law_respond.*' gate type abidiff
-    refused 'type size changed from 64 to 32' gate type abidiff
-    planted result
-    edit result delam/delam.h 's/int32_t (delam_law_create)/int64_t \1/'
-    edit result law.c 's/int32_t (delam_law_create)/int64_t \1/'
-    make result
-    refused 'return type changed' gate result abidiff
-    planted pointer
-    edit pointer delam/delam.h 's/\(\*delam_watch_callback\)\(double/(*delam_watch_callback)(int64_t/'
-    edit pointer law.c 's/watch\(1.0/watch(1/'
-    make pointer
-    refused 'delam_law_watch' gate pointer abidiff
-    refused 'abidiff ended with 12' gate missing abidiff
-    accepted gate extra abidiff
-    accepted gate experimental abidiff
-    refused 'SONAME changed' gate soname abidiff
-    strip --strip-debug -o "$work/type/stripped.so" "$work/type/libdelam.so"
-    mv "$work/type/stripped.so" "$work/type/libdelam.so"
-    refused 'no debug information' gate type abidiff
+    if [[ $tier == all ]]; then
+        refused 'type size changed from 64 to 32' gate type abidiff
+        planted result
+        edit result delam/delam.h 's/int32_t (delam_law_create)/int64_t \1/'
+        edit result law.c 's/int32_t (delam_law_create)/int64_t \1/'
+        make result
+        refused 'return type changed' gate result abidiff
+        planted pointer
+        edit pointer delam/delam.h 's/\(\*delam_watch_callback\)\(double/(*delam_watch_callback)(int64_t/'
+        edit pointer law.c 's/watch\(1.0/watch(1/'
+        make pointer
+        refused 'delam_law_watch' gate pointer abidiff
+        refused 'abidiff ended with 12' gate missing abidiff
+        accepted gate extra abidiff
+        accepted gate experimental abidiff
+        refused 'SONAME changed' gate soname abidiff
+        strip --strip-debug -o "$work/type/stripped.so" "$work/type/libdelam.so"
+        mv "$work/type/stripped.so" "$work/type/libdelam.so"
+        refused 'no debug information' gate type abidiff
+    fi
 else
     left_out+=("those of abidiff (Debian: abigail-tools)")
 fi
@@ -347,22 +365,25 @@ alone() {
     edit young delam/delam.h 's/^typedef struct delam_law delam_law;/&\n&/'
     refused "delam/delam.h: not c99 for $cc" bash "$here/headers.sh" "$1" "$2" "$work/young"
 }
-alone gcc g++
-if command -v clang >/dev/null && command -v clang++ >/dev/null; then
-    alone clang clang++
-else
-    left_out+=("those of the headers under clang (Debian: clang)")
-fi
-status=0
-bash "$here/headers.sh" no-such-cc no-such-c++ "$work/sound" >/dev/null || status=$?
-if ((status != 77)); then
-    printf 'a compiler that is not there must be skipped with 77, not %d\n' "$status"
-    failures=$((failures + 1))
+if [[ $tier == all ]]; then
+    alone gcc g++
+    if command -v clang >/dev/null && command -v clang++ >/dev/null; then
+        alone clang clang++
+    else
+        left_out+=("those of the headers under clang (Debian: clang)")
+    fi
+    status=0
+    bash "$here/headers.sh" no-such-cc no-such-c++ "$work/sound" >/dev/null || status=$?
+    if ((status != 77)); then
+        printf 'a compiler that is not there must be skipped with 77, not %d\n' "$status"
+        failures=$((failures + 1))
+    fi
 fi
 
 # ---- the contract ----
 # gap SED MESSAGE
 gap() {
+    wanted gap || return 0
     planted contract
     edit contract delam/delam.h "$1"
     refused "$2" lint contract
@@ -421,11 +442,13 @@ refused 'delam_law_respond: status: argument' \
 "$python" "$here/promise.py" "$work/sound/delam/delam.h" --write >"$work/sound/contract.txt"
 promise() { "$python" "$here/promise.py" "$work/$1/delam/delam.h" --baseline "$work/sound/contract.txt"; }
 broken() {
+    wanted broken || return 0
     planted line
     edit line delam/delam.h "$1"
     refused "$2" promise line
 }
 kept() {
+    wanted kept || return 0
     planted line
     edit line delam/delam.h "$1"
     accepted promise line
@@ -454,6 +477,7 @@ kept 's|^/\* Calls back|/* A sum.\n * [status -; thread any; since 0.3] */\nDELA
 
 # ---- the contract against the library: lines of the header that are not true ----
 untrue() {
+    wanted untrue || return 0
     rm -rf "$work/untrue"
     mkdir "$work/untrue"
     cp "$root/include/delam/delam.h" "$work/untrue/delam.h"
@@ -551,33 +575,36 @@ lying() {
 more=()
 accepted lying -DNONE
 refused '^option threads: in the baseline, gone' lying -DFEWER_OPTIONS
-refused '^option contact_limit: type real, in the baseline integer' \
-    lying '-DOPTION="contact_limit"' -DPLACE=type '-DTEXT="real"'
-refused "^option damage_tolerance: range '0 <= value < 0.1' does not allow all of '0 <= value < 1'" \
-    lying '-DOPTION="damage_tolerance"' -DPLACE=range '-DTEXT="0 <= value < 0.1"'
-accepted lying '-DOPTION="damage_tolerance"' -DPLACE=range '-DTEXT="0 <= value <= 1"'
-refused "^option contact: range 'auto' does not allow" lying '-DOPTION="contact"' -DPLACE=range '-DTEXT="auto"'
-accepted lying '-DOPTION="contact"' -DPLACE=range '-DTEXT="auto | always | never"'
-refused "^option threads: default '2', in the baseline '1': run .*update.sh, and name it" \
-    lying '-DOPTION="threads"' -DPLACE=initial '-DTEXT="2"'
-more=(--new-defaults)
-accepted lying '-DOPTION="threads"' -DPLACE=initial '-DTEXT="2"'
-refused "^law griffith gradient: default '', .*: it must be given now" \
-    lying '-DPARAMETER="gradient"' -DPLACE=initial '-DTEXT=""'
-more=()
-refused '^law trapezoidal normal_stiffness: unit F/L2, in the baseline F/L3' \
-    lying '-DPARAMETER="normal_stiffness"' -DPLACE=unit '-DTEXT="F/L2"'
-refused "^law trapezoidal plateau: in the baseline, gone" lying '-DPARAMETER="plateau"' -DPLACE=key '-DTEXT="level"'
-refused '^cell hex8: shape \[9\]\[3\], in the baseline \[8\]\[3\]' lying '-DCELL="hex8"' -DPLACE=nodes -DNUMBER=9
-refused '^cell hex8: number 3, by the header 4' lying '-DCELL="hex8"' -DPLACE=cell_type -DNUMBER=3
-refused '^value reaction:NAME: in the header, delam_solver_value_name does not give it' lying -DFEWER_VALUES
-refused '^value crack_length: is not recorded any more' lying '-DUNRECORDED="crack_length"' -DIN=2
-refused '^value crack_length: is not recorded any more' lying '-DUNRECORDED="crack_length"' -DIN=3
-refused '^value dissipated: is -?nan in 2D' lying '-DUNKNOWN="dissipated"'
-refused '^field stress: shape None, by the header' lying -DFLAT
+if [[ $tier == all ]]; then
+    refused '^option contact_limit: type real, in the baseline integer' \
+        lying '-DOPTION="contact_limit"' -DPLACE=type '-DTEXT="real"'
+    refused "^option damage_tolerance: range '0 <= value < 0.1' does not allow all of '0 <= value < 1'" \
+        lying '-DOPTION="damage_tolerance"' -DPLACE=range '-DTEXT="0 <= value < 0.1"'
+    accepted lying '-DOPTION="damage_tolerance"' -DPLACE=range '-DTEXT="0 <= value <= 1"'
+    refused "^option contact: range 'auto' does not allow" lying '-DOPTION="contact"' -DPLACE=range '-DTEXT="auto"'
+    accepted lying '-DOPTION="contact"' -DPLACE=range '-DTEXT="auto | always | never"'
+    refused "^option threads: default '2', in the baseline '1': run .*update.sh, and name it" \
+        lying '-DOPTION="threads"' -DPLACE=initial '-DTEXT="2"'
+    more=(--new-defaults)
+    accepted lying '-DOPTION="threads"' -DPLACE=initial '-DTEXT="2"'
+    refused "^law griffith gradient: default '', .*: it must be given now" \
+        lying '-DPARAMETER="gradient"' -DPLACE=initial '-DTEXT=""'
+    more=()
+    refused '^law trapezoidal normal_stiffness: unit F/L2, in the baseline F/L3' \
+        lying '-DPARAMETER="normal_stiffness"' -DPLACE=unit '-DTEXT="F/L2"'
+    refused "^law trapezoidal plateau: in the baseline, gone" lying '-DPARAMETER="plateau"' -DPLACE=key '-DTEXT="level"'
+    refused '^cell hex8: shape \[9\]\[3\], in the baseline \[8\]\[3\]' lying '-DCELL="hex8"' -DPLACE=nodes -DNUMBER=9
+    refused '^cell hex8: number 3, by the header 4' lying '-DCELL="hex8"' -DPLACE=cell_type -DNUMBER=3
+    refused '^value reaction:NAME: in the header, delam_solver_value_name does not give it' lying -DFEWER_VALUES
+    refused '^value crack_length: is not recorded any more' lying '-DUNRECORDED="crack_length"' -DIN=2
+    refused '^value crack_length: is not recorded any more' lying '-DUNRECORDED="crack_length"' -DIN=3
+    refused '^value dissipated: is -?nan in 2D' lying '-DUNKNOWN="dissipated"'
+    refused '^field stress: shape None, by the header' lying -DFLAT
+fi
 
 # table SED MESSAGE: another table in the header.
 table() {
+    wanted table || return 0
     rm -rf "$work/table"
     mkdir "$work/table"
     cp "$root/include/delam/delam.h" "$here/baseline/keys.txt" "$work/table"
@@ -595,26 +622,32 @@ table 's/^( \*   jump +\[pairs\]\[dimension\] +)L,/\1F,/' "^field jump: is .*: n
 table 's/"mean-dilatation"/"mean-pressure"/' "^text delam_problem_set_formulation: range .* does not allow all of"
 table 's/"mean-dilatation"/"mean-pressure"/' \
     "^text delam_problem_set_formulation: 'mean-pressure' of the header is refused"
-# New keys are free.
-sed -i '/^option contact;/d; /^value released;/d' "$work/table/keys.txt"
-more=(--baseline "$work/table/keys.txt")
-accepted lying -DNONE
+if [[ $tier == all ]]; then
+    # New keys are free.
+    sed -i '/^option contact;/d; /^value released;/d' "$work/table/keys.txt"
+    more=(--baseline "$work/table/keys.txt")
+    accepted lying -DNONE
+fi
 
 # ---- a host of another interface ----
-mkdir -p "$work/host/delam"
-cp "$here/baseline/delam/delam.h" "$work/host/delam/delam.h"
-host() {
-    gcc -std=c99 -I "$work/host" "$here/host.c" -o "$work/host/host" "$library" -lm \
-        -Wl,-rpath,"$(dirname "$library")" && "$work/host/host"
-}
-accepted host
-edit host delam/delam.h 's/DELAM_ABI 1/DELAM_ABI 2/'
-refused 'the library has another DELAM_ABI' host
-edit host delam/delam.h 's/DELAM_QUAD4 2/DELAM_QUAD4 4/'
-refused 'delam_mesh_create_layers.*DELAM_ERROR_ARGUMENT.*cell_type' host
+if [[ $tier == all ]]; then
+    mkdir -p "$work/host/delam"
+    cp "$here/baseline/delam/delam.h" "$work/host/delam/delam.h"
+    host() {
+        gcc -std=c99 -I "$work/host" "$here/host.c" -o "$work/host/host" "$library" -lm \
+            -Wl,-rpath,"$(dirname "$library")" && "$work/host/host"
+    }
+    accepted host
+    edit host delam/delam.h 's/DELAM_ABI 1/DELAM_ABI 2/'
+    refused 'the library has another DELAM_ABI' host
+    edit host delam/delam.h 's/DELAM_QUAD4 2/DELAM_QUAD4 4/'
+    refused 'delam_mesh_create_layers.*DELAM_ERROR_ARGUMENT.*cell_type' host
+fi
 
 # ---- the reference as HTML ----
-if command -v doxygen >/dev/null; then
+if [[ $tier == quick ]]; then
+    :
+elif command -v doxygen >/dev/null; then
     mkdir -p "$work/doc/src/capi" "$work/doc/verify"
     cp -r "$root/include" "$work/doc/include"
     cp "$root/src/capi/CONTRACT.md" "$work/doc/src/capi"
