@@ -1,18 +1,40 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The plot script makes its pictures, in 2D and 3D, from whole and partial results."""
+import contextlib
+import io
 import os
+import runpy
 import subprocess
+import sys
 
 from support import SCENE, brittle, changed, delam, draw, expect, finish, folder, read, write
 
 PICTURES = ("load-displacement.png", "energies.png", "snapshots.png")
 
 
+def path_of(name):
+    return os.path.join(os.path.dirname(os.environ["DELAM_PLOT"]), name + ".py")
+
+
 def script(name, *words):
-    """The script itself, once for each; the rest is drawn in this process."""
-    path = os.path.join(os.path.dirname(os.environ["DELAM_PLOT"]), name + ".py")
-    done = subprocess.run(["/usr/bin/python3", path, *words], capture_output=True, text=True, check=False)
+    """The script itself, started once; the rest is drawn in this process."""
+    done = subprocess.run(["/usr/bin/python3", path_of(name), *words], capture_output=True, text=True, check=False)
     return done.returncode, done.stderr
+
+
+def as_script(name, *words):
+    """All lines of the script, as if it was started, but in this process, which has imported Matplotlib."""
+    before, sys.argv = sys.argv, [path_of(name), *words]
+    error = io.StringIO()
+    try:
+        with contextlib.redirect_stderr(error):
+            runpy.run_path(path_of(name), run_name="__main__")
+        code = 0
+    except SystemExit as end:
+        code = end.code or 0
+    finally:
+        sys.argv = before
+    return code, error.getvalue()
 
 
 def draws(scene, what, plot=draw):
@@ -52,7 +74,7 @@ for size in ("0.003", "0.0015"):
     results.append(os.path.join(both, "h" + size))
     code, _, error = delam("run", write(brittle()), "--set", "geometry.h=" + size, "--out", results[-1])
     expect(code == 0, f"a result to compare {error}")
-code, error = compare(os.path.join(both, "family"), *results, plot=script)
+code, error = compare(os.path.join(both, "family"), *results, plot=as_script)
 expect(code == 0, f"plot_family.py {error.strip()[-300:]}")
 expect(sorted(os.listdir(os.path.join(both, "family"))) == ["energies.png", "load-displacement.png"] and
        all(read(os.path.join(both, "family", name)).startswith(b"\x89PNG") for name in PICTURES[:2]), "two pictures")
@@ -74,6 +96,6 @@ expect("20 steps" in curves.title("x") and "local solution, frozen mixity" in cu
        "h =" not in curves.title("x"), f"the title: {curves.title('x')!r}")
 curves = Curves([Result(path) for path in (*results, other)])
 expect(len(set(curves.labels)) == 3 and "other, 10 steps, h = 1.5 mm" in curves.labels, f"the legend: {curves.labels}")
-code, error = script("plot", folder())
+code, error = as_script("plot", folder())
 expect(code == 2 and "holds no result" in error, "an empty folder is refused")
 finish()
