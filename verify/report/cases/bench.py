@@ -2,6 +2,7 @@
 """What the chapters (c), (f) and (g) share: tables of delam_bench and outcomes of ctest, each as JSON or rows."""
 import json
 import os
+import pathlib
 import re
 import shlex
 import shutil
@@ -40,24 +41,41 @@ def middle(spread):
     return spread["median"] if isinstance(spread, dict) else spread
 
 
-def tests(context, pattern):
-    """Outcomes of the tests of the build whose names match: {"name", "outcome", "seconds", "says"}. The long tier is listed, not run; ctest's
-    own files stay out of the build folder."""
+def tests(context, pattern, long=None):
+    """Outcomes of the tests of the build whose names match: {"name", "outcome", "seconds", "says"}. The long tier is listed, not run, but for
+    the tests whose names match `long`; ctest's own files stay out of the build folder."""
     if shutil.which("ctest") is None:
         raise Skip("ctest is not there (Debian: cmake)")
+    rows = ran(context, ["-R", pattern, "-LE", "long"])
+    if long:
+        rows += ran(context, ["-R", long, "-L", "long"])
+    later = subprocess.run([*ctest(context), "-R", pattern, "-L", "long", "-N"], text=True, capture_output=True, check=False, env=environment(context.library)).stdout
+    done = {r["name"] for r in rows}
+    rows += [{"name": name, "outcome": "skipped", "seconds": 0.0, "says": "of the long tier: bash verify/run.sh --all", "output": []}
+             for name in re.findall(r"Test\s+#\d+: (\S+)", later) if name not in done]
+    if not rows:
+        raise Skip(f"the build has no tests {pattern}")
+    return rows
+
+
+def ctest(context):
     folder = context.out / "raw" / f"ctest-{os.getpid()}"
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "CTestTestfile.cmake").write_text(f'subdirs("{context.build}")\n', encoding="utf-8")
-    result = folder / "junit.xml"
+    return ["ctest", "--test-dir", str(folder)]
+
+
+def ran(context, selection):
+    """Outcomes of the tests that ctest selects, run."""
+    base = ctest(context)
+    result = pathlib.Path(base[-1]) / "junit.xml"
     result.unlink(missing_ok=True)
-    base = ["ctest", "--test-dir", str(folder), "-R", pattern]
-    context.commands.append(shlex.join(["ctest", "--test-dir", "BUILD", "-R", pattern, "-LE", "long", "--output-junit", "FILE"]))
-    env = environment(context.library)
-    run = subprocess.run([*base, "-LE", "long", "--test-output-size-passed", "200000", "--test-output-size-failed", "200000",
-                          "--output-junit", str(result)], text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False, env=env)
+    context.commands.append(shlex.join(["ctest", "--test-dir", "BUILD", *selection, "--output-junit", "FILE"]))
+    run = subprocess.run([*base, *selection, "--test-output-size-passed", "200000", "--test-output-size-failed", "200000", "--output-junit", str(result)], text=True,
+                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False, env=environment(context.library))
     print(run.stdout, flush=True)
     if not result.is_file():
-        raise Failed(f"ctest left no results for {pattern}: " + " / ".join(run.stdout.strip().splitlines()[-2:]))
+        raise Failed(f"ctest left no results for {selection[1]}: " + " / ".join(run.stdout.strip().splitlines()[-2:]))
     rows = []
     for entry in xml.etree.ElementTree.parse(result).getroot().iter("testcase"):
         output = (entry.findtext("system-out") or "").strip().splitlines()
@@ -70,11 +88,6 @@ def tests(context, pattern):
         else:
             outcome, says = ("passed", last) if status == "run" else ("failed", last)
         rows.append({"name": entry.get("name"), "outcome": outcome, "seconds": float(entry.get("time") or 0.0), "says": says, "output": output})
-    later = subprocess.run([*base, "-L", "long", "-N"], text=True, capture_output=True, check=False, env=env).stdout
-    rows += [{"name": name, "outcome": "skipped", "seconds": 0.0, "says": "of the long tier: bash verify/run.sh --all", "output": []}
-             for name in re.findall(r"Test\s+#\d+: (\S+)", later)]
-    if not rows:
-        raise Skip(f"the build has no tests {pattern}")
     return rows
 
 

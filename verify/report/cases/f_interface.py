@@ -93,9 +93,9 @@ def symbols(context):
 
 
 def abi(context):
-    rows = tests(context, "^abi/")
+    rows = tests(context, "^abi/", "^abi/long_planted$")
     checks, warnings = judged(rows, 6)
-    planted = said(rows, "abi/planted", r"(\d+) planted checks, (\d+) failures")
+    planted = said(rows, "abi/long_planted", r"(\d+) planted checks, (\d+) failures")
     figures = []
     if planted:
         made, missed = planted[-1]
@@ -154,9 +154,9 @@ def languages(context):
         checks=checks, warnings=warnings, losses=losses, figures=[figure("languages_run", ran, "of 5", "Languages that ran over this library", past="free")])
 
 
-def group_case(case_id, title, pattern, requirement, source, quick, expected, counted=(), quick_pattern=""):
+def group_case(case_id, title, pattern, requirement, source, quick, expected, counted=(), quick_pattern="", long=None):
     def run(context):
-        rows = tests(context, quick_pattern if context.quick and quick_pattern else pattern)
+        rows = tests(context, quick_pattern if context.quick and quick_pattern else pattern, long)
         checks, warnings = judged(rows)
         figures, numbers = [], []
         for name, expression, what, key in counted:
@@ -267,6 +267,7 @@ def cases():
                        [(f"fuzz/replay_{n}", r"(\d+) inputs", "inputs replayed", "fuzz_inputs") for n in ("api_sequence", "saved_state", "mesh_arrays", "scene")]),
             group_case("f-faults", "Faults injected", "^fault/[^t]", "Cancelled at a look, out of memory at an allocation, under other rounding modes, traps and locales: the promised status and "
                        "the state before, bit by bit.", "the undisturbed run of the same scene, bit by bit (verify/faults)", False, 90,
-                       [("fault/cancel", r"(\d+) calls cancelled", "calls cancelled", "fault_cancelled"), ("fault/memory", r"(\d+) (?:failed )?allocations", "allocations failed", "fault_allocations")]),
+                       [("fault/long_cancel", r"(\d+) calls cancelled", "calls cancelled", "fault_cancelled"),
+                        ("fault/long_memory", r"(\d+) (?:failed )?allocations", "allocations failed", "fault_allocations")], long="^fault/long_(cancel|memory)$"),
             group_case("f-threads", "Threads", "^(fault/threads|case/test_threads_host|python/threads)$", "Solvers in eight threads at once give the bits that each gives alone; handles are guarded as the "
                        "contract says.", "each march alone, bit by bit", True, 15, quick_pattern="^fault/threads$")]
