@@ -49,6 +49,10 @@ inline void run_body(void (*body)(int), int loop) {
     ck_abort_msg("%s", text);
 }
 
+// In the long tier (case/whole_NAME, see verify/CMakeLists.txt) a test runs everything, in the quick tier what finds
+// most in little time.
+inline bool whole() { return std::getenv("DELAM_WHOLE") != nullptr; }
+
 inline int run_suite(Suite* suite) {
     SRunner* runner = srunner_create(suite);
     srunner_run_all(runner, CK_ENV);

@@ -60,7 +60,8 @@ CASE_TEST(ductile_enf) {
     const Watched feti = march("feti", "accelerated");
     cases::expect_same_march(fast, plain, tolerance, "condensed, accelerated");
     cases::expect_same_march(feti, plain, tolerance, "feti, accelerated");
-    if (loop == 0) cases::expect_same_march(march("feti", "alternate"), plain, tolerance, "feti, alternate");
+    if (loop == 0 && cases::whole())
+        cases::expect_same_march(march("feti", "alternate"), plain, tolerance, "feti, alternate");
     cases::expect_below(fast.alternations, 0.2 * plain.alternations, "alternations of the accelerated march");
     cases::expect_below(feti.alternations, plain.alternations, "alternations of the extrapolated march");
 }
@@ -143,6 +144,7 @@ constexpr int peel_count = static_cast<int>(std::size(peels));
 
 // loop: the scene, then in how many steps the load is applied.
 CASE_TEST(peeling) {
+    if ((loop == 2 || loop == 3) && !cases::whole()) return;  // in one step all the same
     const Peel& p = peels[loop % peel_count];
     const int steps = loop < peel_count ? 6 : 1;
     Watch w;

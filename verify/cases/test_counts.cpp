@@ -52,6 +52,7 @@ std::string place(const Damage& damage, std::int64_t subdomains, double k) {
 
 // loop: damage and number of subdomains.
 CASE_TEST(iterations_do_not_see_the_stiffness) {
+    if (loop >= damage_count && loop % 2 == 0 && !cases::whole()) return;
     const Damage& damage = damages[loop % damage_count];
     const std::int64_t subdomains = loop < damage_count ? 2 : 8;
     double least = std::numeric_limits<double>::infinity();
@@ -68,6 +69,7 @@ CASE_TEST(iterations_do_not_see_the_stiffness) {
 }
 
 CASE_TEST(iterations_at_constant_ratio) {
+    if (loop % 2 == 0 && !cases::whole()) return;
     const Damage& damage = damages[loop];
     for (const double k : {1.25e11, 1e15, 1e20}) {
         const double coarse = iterations(1e-3, 8, damage, k);

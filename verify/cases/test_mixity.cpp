@@ -181,6 +181,7 @@ void expect_alike(const Seen& a, const Seen& b, double tolerance, double booked,
 
 // loop: rule, then dimension.
 CASE_TEST(one_answer) {
+    if (loop > 3 && !cases::whole()) return;  // the other rules in space
     const char* rule = rules[loop % 3];
     const int d = loop < 3 ? 2 : 3;
     const std::string where = std::string(rule) + ", " + std::to_string(d) + "D: ";
