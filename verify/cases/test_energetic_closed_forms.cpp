@@ -317,7 +317,7 @@ CASE_TEST(free_bar_scan_jumps_halfway) {
 }
 
 CASE_TEST(free_bar_energetic_jumps_halfway) {
-    const cases::Bar bar = bar_of(cases::whole() ? 200 : 100, 0.7, false);
+    const cases::Bar bar = bar_of(cases::whole() ? 200 : 150, 0.7, false);
     Scene scene = cases::make_bar(bar);
     scene.text("solution", "energetic");
     scene.number("jump_tolerance", 1e-5);

@@ -173,6 +173,7 @@ void expect_same(const March& a, const March& b, double tolerance, const std::st
 // ---- both minimisations, both operators, plane and space -----------------------------------------------------------
 
 CASE_TEST(accelerated_is_plain) {
+    if (loop == 3 && !cases::whole()) return;  // half of the time of all
     Peel p;
     p.law = with(ductile, kappa);
     std::string where = "plane";

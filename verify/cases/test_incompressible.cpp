@@ -170,6 +170,7 @@ CASE_TEST(thick_cylinder) {
 // Linear dilatations represent bending exactly; constant ones are too soft, by an error of second order in the size of
 // the cells.
 CASE_TEST(bent_slab) {
+    if (loop == 5 && !cases::whole()) return;  // half of the time of all
     const Case& e = elements[loop];
     const bool exact = e.cell == DELAM_QUAD8 || e.cell == DELAM_QUAD9 || e.cell == DELAM_HEX20;
     double error[3][2];

@@ -185,6 +185,7 @@ Scene pulled(const Shape& shape, const Layout& layout, int subdomains) {
 
 // Each realisation runs its own analysis; at its adhesion the direct solver must find its state.
 CASE_TEST(marches_agree) {
+    if ((loop == 1 || loop == 5) && !cases::whole()) return;  // in space one layout alone
     const Shape& shape = shapes[loop % 2 == 0 ? 0 : 2];
     const Layout& layout = layouts[loop / 2];
     std::vector<std::vector<double>> energies;

@@ -76,6 +76,7 @@ Found march(const Scene& scene) {
 }
 
 CASE_TEST(slender) {
+    if (loop == 3 && !cases::whole()) return;  // bent in space
     const int dimension = loop % 2 == 0 ? 2 : 3;
     const bool opened = loop / 2 == 0;
     for (const double ratio : {10.0, 100.0, 1e3, 3e3, 1e4, 3e4}) {

@@ -32,6 +32,7 @@ const Case scenes[] = {
 
 CASE_TEST(scene_files) {
     const Case& scene = scenes[loop];
+    if (std::string(scene.name) == "enf-3d" && !cases::whole()) return;
     reference::SceneFile file = reference::read_scene_file(
         std::string(DELAM_EXAMPLES) + "/" + scene.name + "/" + scene.name + ".toml", scene.settings);
     for (const reference::Judged& row : reference::judge(file, scene.steps, scene.subdomains)) {

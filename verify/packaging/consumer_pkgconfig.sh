@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Hosts find the installation with pkg-config; the one in Fortran compiles the installed sources of the modules.
+# Hosts find the installation with pkg-config; the one in Fortran compiles the installed sources of the modules. Those in
+# C++ and Fortran with the word "whole" alone (the long tier); consumer_cmake builds them in the quick one.
 # shellcheck source=verify/packaging/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 PKG_CONFIG_PATH=$(dirname "$(find "$STAGE" -name delam.pc)")
@@ -13,7 +14,7 @@ cd "$work" || exit
 
 quietly "$CC" -std=c99 "${flags[@]}" "$SOURCE/examples/enf/enf.c" -o enf_c "${links[@]}"
 same_history ./enf_c
-if has cpp; then
+if [[ ${1:-} == whole ]] && has cpp; then
     quietly "$CXX" -std=c++17 "${flags[@]}" "$SOURCE/examples/enf/enf.cpp" -o enf_cpp "${links[@]}"
     same_history ./enf_cpp
 fi
@@ -23,7 +24,9 @@ last=$(pkg-config --variable=fortrandir delam)/delam.f90
 for file in "${fortran[@]}"; do
     [[ -f $file ]] || fail "no $file"
 done
-if [[ -n ${FC:-} ]]; then
+if [[ ${1:-} != whole ]]; then
+    exit 0
+elif [[ -n ${FC:-} ]]; then
     quietly "$FC" "${fortran[@]}" "$SOURCE/examples/enf/enf.f90" -o enf_fortran "${links[@]}"
     same_history ./enf_fortran
 else

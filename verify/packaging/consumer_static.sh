@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Hosts linked with the installed archive, by CMake and by pkg-config, the linker being that of C: they run without
-# libdelam.so, their errors come as statuses, and names of theirs may be those of the library's inside.
+# libdelam.so, their errors come as statuses, and names of theirs may be those of the library's inside. Hosts in C++ and
+# Fortran with the word "whole" alone (the long tier).
 # shellcheck source=verify/packaging/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 has static || skip "DELAM_STATIC is OFF"
@@ -37,12 +38,12 @@ cd "$work" || exit
 quietly "$CC" -std=c99 "${flags[@]}" "$enf/enf.c" -o enf_c "${links[@]}"
 alone ./enf_c
 same_numbers ./enf_c
-if has cpp; then
+if [[ ${1:-} == whole ]] && has cpp; then
     quietly "$CXX" -std=c++17 "${flags[@]}" "$enf/enf.cpp" -o enf_cpp "${links[@]}"
     alone ./enf_cpp
     same_numbers ./enf_cpp
 fi
-if [[ -n ${FC:-} ]]; then
+if [[ ${1:-} == whole && -n ${FC:-} ]]; then
     read -ra modules <<<"$(pkg-config --variable=fortransources delam)"
     quietly "$FC" "${modules[@]}" "$enf/enf.f90" -o enf_fortran "${links[@]}"
     alone ./enf_fortran
@@ -68,4 +69,4 @@ done
 same_numbers ./enf_names
 ./refused_names
 printf '%d names of the inside taken by the host\n' "$count"
-[[ -n ${FC:-} ]] || skip "the host in Fortran was left out: no Fortran compiler was found; the others ran"
+[[ ${1:-} != whole || -n ${FC:-} ]] || skip "the host in Fortran was left out: no Fortran compiler was found; the others ran"

@@ -184,21 +184,21 @@ class Report(unittest.TestCase):
         shutil.copytree(self.out, out)
         path = out / "json" / "t-right.json"
         path.write_text(path.read_text(encoding="utf-8").replace('"error"', '"eror"', 1)[:-40], encoding="utf-8")
-        self.make(self.build, out, "--only", "t-refused")
+        self.make(self.build, out, "--only", "t-refused", "--no-pages")
         cases = {c["id"]: c for c in json.loads((out / "report.json").read_text(encoding="utf-8"))["cases"]}
         self.assertEqual(cases["t-right"]["status"], "failed")
         self.assertIn("cannot be used", cases["t-right"]["reason"])
 
     def test_quick_leaves_out_visibly(self):
         out = self.base / "quick"
-        self.make(self.build, out, "--quick", "--only", "t-right", "t-refused")
+        self.make(self.build, out, "--quick", "--only", "t-right", "t-refused", "--no-pages")
         cases = {c["id"]: c for c in json.loads((out / "report.json").read_text(encoding="utf-8"))["cases"]}
         self.assertEqual((cases["t-right"]["status"], cases["t-right"]["reason"]), ("skipped", "not part of --quick"))
         self.assertEqual(cases["t-fail"]["reason"], "left out by --only")
 
     def test_accept_and_the_past(self):
         out = self.base / "accepted"
-        run = self.make(self.build, out, "--only", "t-right", "--accept")
+        run = self.make(self.build, out, "--only", "t-right", "--accept", "--no-pages")
         self.assertEqual(run.returncode, 0, run.stderr)
         path = self.base / "past" / "t-right.json"
         stored = json.loads(path.read_text(encoding="utf-8"))
@@ -206,7 +206,7 @@ class Report(unittest.TestCase):
         stored["full"]["numbers"][name] *= 1.001
         path.write_text(json.dumps(stored), encoding="utf-8")
         try:
-            run = self.make(self.build, out, "--only", "t-right")
+            run = self.make(self.build, out, "--only", "t-right", "--no-pages")
             self.assertEqual(run.returncode, 1)
             self.assertIn("own past", run.stderr)
         finally:
