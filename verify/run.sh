@@ -104,12 +104,14 @@ fi
 # A build from scratch compiles the files of a folder together; with --all each is compiled by itself.
 if [[ $all == yes ]]; then
     whole=(-DDELAM_UNITY=OFF)
-    sanitizer=(-DDELAM_UNITY=ON -DDELAM_SANITIZE_LESS=)
+    sanitizer=(-DDELAM_UNITY=ON -DDELAM_SANITIZE_LESS= -DDELAM_TEST_OBJECTS=)
 else
     whole=(-DDELAM_UNITY=ON)
-    # These checks double the time of the build; the other tier makes them. AddressSanitizer reports what null and
-    # object-size would find when the access happens.
-    sanitizer=(-DDELAM_UNITY=ON -DDELAM_SANITIZE_LESS=alignment,null,object-size,vptr)
+    # These checks more than double the time of the build; the other tier makes them. AddressSanitizer reports what null,
+    # object-size and pointer-overflow would find when the access happens. The programs of the tests are those of the
+    # release build, linked with the instrumented library.
+    sanitizer=(-DDELAM_UNITY=ON -DDELAM_SANITIZE_LESS=alignment,null,object-size,vptr,pointer-overflow
+        "-DDELAM_TEST_OBJECTS=$PWD/build/release")
 fi
 check "build release" build release -DDELAM_STATIC=ON "${whole[@]}"
 if ((failed == 0)); then
