@@ -17,6 +17,26 @@ namespace {
 constexpr std::int64_t newton_steps = 1000;  // within the zone before the plain step sees all pairs again
 constexpr double rounding = 1e-11;           // of an energy of the whole scene, a sum of large terms
 
+// Newton's method runs in the zone as long as each round brings the bodies nearer to their fixed point. Where a round
+// does not, and the change of the adhesion is within the rounding of the zone, alternations with the bodies go on.
+class ZoneProgress {
+public:
+    explicit ZoneProgress(double rounding) : rounding_(rounding) {}
+    bool use(double change) {
+        if (change > rounding_)
+            spent_ = false;
+        else if (change > 0.5 * before_)
+            spent_ = true;
+        before_ = change;
+        return !spent_;
+    }
+
+private:
+    double rounding_;
+    double before_ = INFINITY;  // the change of the round before
+    bool spent_ = false;
+};
+
 double largest_change(std::span<const double> from, std::span<const double> to) {
     double change = 0.0;
     for (std::size_t p = 0; p < to.size(); ++p) change = std::max(change, std::abs(to[p] - from[p]));
@@ -92,6 +112,7 @@ bool Minimiser::accelerate(State& state, Increment& increment) const {
     // Newton's method eliminates the damage pair by pair, which a gradient term forbids.
     const bool by_newton = increment.pairs().gradient.empty() && op.offers_zone();
     const ZoneNewton newton{op, contact, monitor, tolerance, std::min(newton_steps, limit)};
+    ZoneProgress progress(op.zone_rounding());
     bool ahead = false;
     std::optional<State> before;
     std::optional<Increment::Memory> mixity_before;
@@ -126,7 +147,8 @@ bool Minimiser::accelerate(State& state, Increment& increment) const {
         }
         before = state;
         mixity_before = increment.memory();
-        if (const std::optional<double> added = by_newton ? newton.run(state, increment) : std::nullopt) {
+        const bool in_zone = progress.use(state.outcome.damage_change) && by_newton;
+        if (const std::optional<double> added = in_zone ? newton.run(state, increment) : std::nullopt) {
             level += *added;
             ahead = state.adhesion != before->adhesion;
             if (!ahead) state.adhesion = plain;
