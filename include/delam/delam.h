@@ -260,12 +260,12 @@ DELAM_API int32_t delam_mesh_add_interface(delam_mesh *mesh, int32_t body_a, int
 DELAM_API int32_t delam_mesh_add_all_interfaces(delam_mesh *mesh, double tolerance, int64_t *out_count);
 /* Adds an interface between two bodies, a = body_a and b = body_b, whose meshes do not match. *out_interface receives
  * its index. The function pairs each face of b that lies on faces of a. A face lies on them if its distance from them
- * is at most gap (L; 0 selects 1e-6 of the shortest edge) and its normal is opposite to theirs within 60 degrees. The
- * function projects each node of such a face to the nearest point of a's faces and appends a tied node there, a node
- * without cells. A tied node moves with the face of a on which it lies: its displacement is sum_i N_i u_i over the
- * nodes of that face, curved or not, with the shape functions N_i (see delam_mesh_node_ties). node_a of a pair is the
- * tied node and node_b the node of b. Weights, faces and order of the pairs follow from b's faces as in
- * delam_mesh_add_interface; so do the normals, which point from a to b.
+ * is at most gap (L; smaller values, 0 among them, count as 1e-6 of the shortest edge) and its normal is opposite to
+ * theirs within 60 degrees. The function projects each node of such a face to the nearest point of a's faces and
+ * appends a tied node there, a node without cells. A tied node moves with the face of a on which it lies: its
+ * displacement is sum_i N_i u_i over the nodes of that face, curved or not, with the shape functions N_i (see
+ * delam_mesh_node_ties). node_a of a pair is the tied node and node_b the node of b. Weights, faces and order of the
+ * pairs follow from b's faces as in delam_mesh_add_interface; so do the normals, which point from a to b.
  * Take the body with the finer mesh as b. With either choice, linear displacements are continuous across a perfect
  * bond. A uniform traction, however, reaches a as forces at b's nodes, which the N_i distribute to a's nodes. This
  * distribution is exact if every node of a is also a node of b (b refines a). Otherwise it causes a stress error in the

@@ -16,10 +16,9 @@ namespace {
 // adds energy, but on a stiff interface an avalanche begins with steps that release less than this. Increases cannot
 // accumulate, because the caller compares the total energy before and after.
 constexpr double energy_rounding = 1e-11;
-constexpr std::int64_t longest_wait = 8;  // plain steps between two attempts of a failed method
-constexpr std::int64_t newton_contact_steps =
-    30;                               // active-set steps of one Newton step; beyond them the step is rejected
-constexpr std::int64_t halvings = 7;  // of a line search, including the full step
+constexpr std::int64_t longest_wait = 8;           // plain steps between two attempts of a failed method
+constexpr std::int64_t newton_contact_steps = 30;  // of the active set in one Newton step; beyond them it is rejected
+constexpr std::int64_t halvings = 7;               // of a line search, including the full step
 // A pair joins the zone if its driving energy exceeds this fraction of the one that damages it.
 constexpr double nearly_loaded = 0.7;
 
