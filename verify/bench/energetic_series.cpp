@@ -131,7 +131,7 @@ Json findings(const Course& course) {
     return f;
 }
 
-struct Entry {
+struct SeriesEntry {
     std::optional<Choice> choice;
     std::string refusal;
     std::vector<double> total, factor, iterate, processor;
@@ -163,9 +163,9 @@ Json measure_concepts(const std::string& scene, int repeat, double cap) {
     result["lse_facts"] = lse.facts();
 
     // Round 0 warms up and records the history.
-    std::map<std::string, Entry> entries;
+    std::map<std::string, SeriesEntry> entries;
     for (const Method& method : concepts()) {
-        Entry& entry = entries[method.key];
+        SeriesEntry& entry = entries[method.key];
         entry.choice = resolve(stage, method, 1e-5, entry.refusal);
         if (!entry.choice) continue;
         progress(scene + ": course, " + method.key);
@@ -185,7 +185,7 @@ Json measure_concepts(const std::string& scene, int repeat, double cap) {
         double before = unit();
         double local = nan;
         for (const Method& method : concepts()) {
-            Entry& entry = entries[method.key];
+            SeriesEntry& entry = entries[method.key];
             if (!entry.choice || entry.first->capped) continue;
             progress(scene + ": round " + std::to_string(round + 1) + ", " + method.key);
             const March march = run_library(stage, *entry.choice, cap);
@@ -211,7 +211,7 @@ Json measure_concepts(const std::string& scene, int repeat, double cap) {
                              {"series_b", spread(lse_times[1])},
                              {"ratio_of_medians", median(lse_times[0]) / median(lse_times[1])}};
     for (const Method& method : concepts()) {
-        Entry& entry = entries[method.key];
+        SeriesEntry& entry = entries[method.key];
         Json& m = result["methods"][method.key];
         if (!entry.first) {
             m["skipped"] = entry.refusal;

@@ -25,7 +25,7 @@ double worse(double a, double b) { return std::isnan(a) || std::isnan(b) ? infin
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 // The analysis of one realisation, its cost and its outcome.
-struct March {
+struct TrialMarch {
     std::vector<Result> states;
     std::string status = "converged", message;
     bool ended = false;  // by an error, or by an outcome without a state
@@ -201,8 +201,8 @@ double difference(const Result& a, const Result& b, const Compared& what) {
 }
 
 // The analysis, its energies computed again from fields, and the primal KKT conditions of every state.
-March march(const Trial& trial, Realisation realisation) {
-    March m;
+TrialMarch march(const Trial& trial, Realisation realisation) {
+    TrialMarch m;
     std::optional<Scene> kept;
     try {
         kept.emplace(trial.scene());
@@ -257,8 +257,8 @@ March march(const Trial& trial, Realisation realisation) {
 }
 
 // The reference's displacement steps at the adhesions of an analysis.
-March direct_march(const Trial& trial, const std::vector<Result>& states) {
-    March m;
+TrialMarch direct_march(const Trial& trial, const std::vector<Result>& states) {
+    TrialMarch m;
     try {
         const Scene scene = trial.held ? trial.held() : trial.scene();
         DirectReference direct(scene);
@@ -295,7 +295,7 @@ std::vector<Result> undamaged(const Trial& trial) {
 }
 
 // Relative difference of the direct energies of the last step in two units of length.
-double left_by_rounding(const Trial& trial, const March& march) {
+double left_by_rounding(const Trial& trial, const TrialMarch& march) {
     constexpr double unit = 3.0;
     const Result& at = march.states.back();
     const Scene scene = trial.in_unit(unit);
@@ -312,11 +312,11 @@ std::string format(const char* text, double value) {
 }
 
 // Rows of a trial from its analyses, and from the direct ones beside them.
-void judge(Study& study, const Trial& trial, std::vector<std::pair<Realisation, March>> all,
-           std::vector<std::optional<March>> beside) {
+void judge(Study& study, const Trial& trial, std::vector<std::pair<Realisation, TrialMarch>> all,
+           std::vector<std::optional<TrialMarch>> beside) {
     for (std::size_t i = 0; i < all.size(); ++i) {
-        March& m = all[i].second;
-        const March* other = beside[i] ? &*beside[i] : beside[0] ? &*beside[0] : nullptr;
+        TrialMarch& m = all[i].second;
+        const TrialMarch* other = beside[i] ? &*beside[i] : beside[0] ? &*beside[0] : nullptr;
         for (std::size_t k = 0; k < m.states.size(); ++k) {
             if (trial.error) {
                 m.error = worse(m.error, trial.error(m.states[k]));
@@ -330,7 +330,7 @@ void judge(Study& study, const Trial& trial, std::vector<std::pair<Realisation, 
     }
     double raised = 0.0;
     if (beside[0] && trial.refused.empty()) {
-        March& m = *beside[0];
+        TrialMarch& m = *beside[0];
         for (const Result& r : m.states) m.error = trial.error ? worse(m.error, trial.error(r)) : 0.0;
         if (m.ended) m.error = unknown;
         if (trial.in_unit && !m.states.empty()) {
@@ -384,7 +384,7 @@ void judge(Study& study, const Trial& trial, std::vector<std::pair<Realisation, 
 }  // namespace
 
 std::vector<Result> states_of(const Trial& trial, Realisation realisation) {
-    March m = march(trial, realisation);
+    TrialMarch m = march(trial, realisation);
     if (m.states.size() != trial.times.size()) throw reference::Failure(0, m.message);
     return std::move(m.states);
 }
@@ -443,11 +443,11 @@ void Study::row(const std::string& subject, const std::string& parameter_name, d
 }
 
 void Study::run(const Trial& trial, const Trial* also) {
-    std::vector<std::pair<Realisation, March>> all;
+    std::vector<std::pair<Realisation, TrialMarch>> all;
     if (trial.condensed) all.emplace_back(Realisation::condensed, march(trial, Realisation::condensed));
     if (trial.feti) all.emplace_back(Realisation::feti, march(trial, Realisation::feti));
     // FETI at its own adhesions if they differ from the condensed ones, so that only the solves are compared.
-    std::vector<std::optional<March>> beside(std::max<std::size_t>(all.size(), 1));
+    std::vector<std::optional<TrialMarch>> beside(std::max<std::size_t>(all.size(), 1));
     if (all.empty() && trial.direct) beside[0] = direct_march(trial, undamaged(trial));
     for (std::size_t i = 0; i < all.size() && trial.direct; ++i) {
         const bool first = i == 0;
