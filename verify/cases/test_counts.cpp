@@ -58,6 +58,7 @@ CASE_TEST(iterations_do_not_see_the_stiffness) {
     double least = std::numeric_limits<double>::infinity();
     double most = 0.0;
     for (const double k : {1e9, 1.25e11, 1e13, 1e15, 1e20}) {
+        if ((k == 1.25e11 || k == 1e15) && !cases::whole()) continue;
         const double count = iterations(1e-3, subdomains, damage, k);
         std::printf("krylov: %s%.1f\n", place(damage, subdomains, k).c_str(), count);
         cases::expect(count > 0.0, place(damage, subdomains, k) + "nothing was counted");
