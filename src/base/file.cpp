@@ -89,22 +89,37 @@ void write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
     if (folder.number() >= 0) (void)::fsync(folder.number());
 }
 
-std::vector<std::uint8_t> read_file(const std::string& path) {
-    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-    if (file.number() < 0) refuse(path, "cannot be opened", errno);
+InputFile::InputFile(std::string path) : path_(std::move(path)) {
+    if (path_.empty()) fail(DELAM_ERROR_FILE, "the path is empty");
+    const auto require_regular = [this](const struct stat& about) {
+        if (!S_ISREG(about.st_mode))
+            fail(DELAM_ERROR_FILE, "'", path_, "' is ", kind_of(about.st_mode), "; only regular files are read");
+    };
+    // To open a device may already do something, and to open a pipe waits for its other end.
     struct stat about {};
-    if (::fstat(file.number(), &about) != 0) refuse(path, "cannot be read", errno);
-    if (S_ISDIR(about.st_mode)) refuse(path, "cannot be read", EISDIR);
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(std::max<off_t>(about.st_size, 0)) + 1);
-    std::size_t at = 0;
-    for (;;) {
-        if (at == bytes.size()) bytes.resize(2 * bytes.size());
-        const ssize_t got = ::read(file.number(), bytes.data() + at, bytes.size() - at);
-        if (got < 0 && errno != EINTR) refuse(path, "cannot be read", errno);
-        if (got == 0) break;
+    if (::stat(path_.c_str(), &about) == 0) require_regular(about);
+    number_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (number_ < 0) refuse(path_, "cannot be opened", errno);
+    try {
+        if (::fstat(number_, &about) != 0) refuse(path_, "cannot be read", errno);
+        require_regular(about);  // it may have been replaced since
+    } catch (...) {
+        ::close(number_);
+        throw;
+    }
+    size_ = static_cast<std::uint64_t>(std::max<off_t>(about.st_size, 0));
+}
+
+InputFile::~InputFile() { ::close(number_); }
+
+std::vector<std::uint8_t> InputFile::read(std::uint64_t first, std::uint64_t count) const {
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(std::min(count, size_ - std::min(first, size_))));
+    for (std::size_t at = 0; at < bytes.size();) {
+        const ssize_t got = ::pread(number_, bytes.data() + at, bytes.size() - at, static_cast<off_t>(first + at));
+        if (got < 0 && errno != EINTR) refuse(path_, "cannot be read", errno);
+        if (got == 0) bytes.resize(at);  // it has been cut since
         if (got > 0) at += static_cast<std::size_t>(got);
     }
-    bytes.resize(at);
     return bytes;
 }
 

@@ -12,6 +12,22 @@ namespace delam {
 // Writes a temporary file and renames it to `path`: the path then holds either all of the new content, on disk, or the
 // old.
 void write_file(const std::string& path, std::span<const std::uint8_t> bytes);
-std::vector<std::uint8_t> read_file(const std::string& path);
+
+// A regular file open for reading. Refuses everything else without waiting for it: pipes and devices may have no end.
+class InputFile {
+public:
+    explicit InputFile(std::string path);
+    ~InputFile();
+    InputFile(const InputFile&) = delete;
+    InputFile& operator=(const InputFile&) = delete;
+    std::uint64_t size() const { return size_; }
+    // Up to `count` bytes from `first` on; fewer at the end of the file.
+    std::vector<std::uint8_t> read(std::uint64_t first, std::uint64_t count) const;
+
+private:
+    std::string path_;
+    std::uint64_t size_ = 0;
+    int number_ = -1;
+};
 
 }  // namespace delam

@@ -378,7 +378,7 @@ int32_t delam_solver_save_file(const delam_solver* solver, const char* path) {
 int32_t delam_solver_load_file(delam_solver* solver, const char* path) {
     return guard_solve(solver, [&] {
         require_pointer(path, "path");
-        load(*solver->core, read_file(path));
+        load_file(*solver->core, path);
     });
 }
 

@@ -7,7 +7,9 @@
 #include <string>
 
 #include "base/archive.hpp"
+#include "base/cancel_scope.hpp"
 #include "base/error.hpp"
+#include "base/file.hpp"
 #include "delam/delam.h"
 #include "evolution/increment/state_fields.hpp"
 #include "evolution/jump_event_fields.hpp"
@@ -21,9 +23,11 @@ constexpr std::uint64_t magic = 0x31305453'4d4c4544;  // "DELMST01" in memory on
 // 5: the first that was ever published. 6: histories of patterns that the host has changed. 7: recorded values.
 constexpr std::uint32_t version = 7, oldest = 5;
 constexpr std::int64_t most_steps = std::int64_t{1} << 53;
+// Of a larger file, hash and checksum are compared piece by piece, before there is memory for all of it.
+constexpr std::uint64_t largest_unchecked = std::uint64_t{1} << 20;
 
-std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
-    std::uint64_t h = 14695981039346656037ULL;
+constexpr std::uint64_t checksum_start = 14695981039346656037ULL;
+std::uint64_t checksum(std::span<const std::uint8_t> bytes, std::uint64_t h = checksum_start) {
     for (const std::uint8_t b : bytes) h = (h ^ b) * 1099511628211ULL;
     return h;
 }
@@ -160,10 +164,9 @@ void check(const Record& record, const State& state) {
                  "' from step ", record.first(), " on, but its state is of step ", state.step);
 }
 
-// For complete bytes that this library has written, in any version.
-std::uint32_t read_version(std::span<const std::uint8_t> bytes) {
-    Reader r(bytes, version);
-    std::uint64_t found_magic = 0, found_sum = 0;
+// Of bytes that begin as those of this library do, in any version that it reads.
+std::uint32_t read_head(Reader& r) {
+    std::uint64_t found_magic = 0;
     std::uint32_t found_version = 0;
     r.item(found_magic);
     if (found_magic != magic) fail(DELAM_ERROR_SNAPSHOT, "not a snapshot of a libdelam solver");
@@ -171,12 +174,39 @@ std::uint32_t read_version(std::span<const std::uint8_t> bytes) {
     if (found_version < oldest || found_version > version)
         fail(DELAM_ERROR_SNAPSHOT, "snapshot version ", found_version, ", this library reads ", oldest, " to ",
              version);
+    return found_version;
+}
+
+// For complete bytes that this library has written.
+std::uint32_t read_version(std::span<const std::uint8_t> bytes) {
+    Reader r(bytes, version);
+    std::uint64_t found_sum = 0;
+    const std::uint32_t found_version = read_head(r);
     if (r.left() < sizeof(found_sum)) fail(DELAM_ERROR_SNAPSHOT, "snapshot ends early");
     const auto checked = bytes.first(bytes.size() - sizeof(found_sum));
     std::memcpy(&found_sum, bytes.data() + checked.size(), sizeof(found_sum));
     if (found_sum != checksum(checked))
         fail(DELAM_ERROR_SNAPSHOT, "snapshot is damaged: its checksum does not match its ", bytes.size(), " bytes");
     return found_version;
+}
+
+// A file of this scene and undamaged, with memory for one piece of it. r: behind magic and version.
+void require_whole(const InputFile& file, Reader& r, std::uint64_t hash) {
+    std::uint64_t found = 0;
+    r.item(found);
+    if (found != hash)
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot of ", file.size(),
+             " bytes belongs to another scene or other options (its hash differs), or is damaged");
+    const std::uint64_t checked = file.size() - sizeof(found);
+    std::uint64_t sum = checksum_start;
+    for (std::uint64_t at = 0; at < checked; at += largest_unchecked) {
+        poll_cancel_now("load");
+        sum = checksum(file.read(at, std::min(largest_unchecked, checked - at)), sum);
+    }
+    const std::vector<std::uint8_t> last = file.read(checked, sizeof(found));
+    if (last.size() == sizeof(found)) std::memcpy(&found, last.data(), sizeof(found));
+    if (last.size() != sizeof(found) || found != sum)
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot is damaged: its checksum does not match its ", file.size(), " bytes");
 }
 
 }  // namespace
@@ -228,6 +258,15 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
     for (const JumpEvent& jump : jumps) check(jump, solver);
     check(record, state);
     solver.restore(std::move(state), std::move(past), std::move(jumps), std::move(patterns), std::move(record));
+}
+
+void load_file(Solver& solver, const std::string& path) {
+    const InputFile file(path);
+    const std::vector<std::uint8_t> head = file.read(0, 2 * sizeof(std::uint64_t) + sizeof(std::uint32_t));
+    Reader r(head, version);
+    (void)read_head(r);
+    if (file.size() > largest_unchecked) require_whole(file, r, solver.scene_hash());
+    load(solver, file.read(0, file.size()));
 }
 
 }  // namespace delam

@@ -180,6 +180,76 @@ CASE_TEST(states_as_files) {
     cases::expect_same(again, cases::read_bits(again), end, "after refusals");
 }
 
+// Addresses for as many more bytes while it lives; the memory of a sanitizer would meet the limit.
+class Room {
+public:
+    explicit Room(std::uint64_t more) {
+        getrlimit(RLIMIT_AS, &before_);
+        std::ifstream statm("/proc/self/statm");
+        std::uint64_t pages = 0;
+        statm >> pages;
+        const rlimit less{pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) + more, before_.rlim_max};
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+        cases::expect(pages > 0 && setrlimit(RLIMIT_AS, &less) == 0, "setrlimit");
+#endif
+    }
+    ~Room() { setrlimit(RLIMIT_AS, &before_); }
+    Room(const Room&) = delete;
+    Room& operator=(const Room&) = delete;
+
+private:
+    rlimit before_{};
+};
+
+// What is no state is refused without waiting for it, and without memory for all of it.
+CASE_TEST(not_a_state) {
+    const Folder folder;
+    const Scene scene = bar({0.0, 1.0}, {0.0, 9e-5});
+    Solver solver(scene, 0.0);
+    to(solver, 0.5);
+    const auto bits = cases::read_bits(solver);
+    alarm(60);
+    const Room room(std::uint64_t{8} << 20);
+    const auto refused = [&](const std::string& path, std::int32_t expected, const char* words) {
+        const std::int32_t status = delam_solver_load_file(solver.get(), path.c_str());
+        const std::string message = delam_context_message(scene.context());
+        cases::expect(status == expected && message.find(words) != std::string::npos,
+                      path + ": " + delam_status_name(status) + ": " + message);
+    };
+    const std::string pipe = (folder.path / "pipe").string(), link = (folder.path / "link").string();
+    cases::expect(mkfifo(pipe.c_str(), 0600) == 0, "mkfifo");
+    std::filesystem::create_symlink(pipe, link);
+    for (const std::string& path : {pipe, link}) refused(path, DELAM_ERROR_FILE, "a pipe; only regular files are read");
+    refused("/dev/zero", DELAM_ERROR_FILE, "a device; only regular files are read");
+    refused(folder.path.string(), DELAM_ERROR_FILE, "a directory; only regular files are read");
+    refused("", DELAM_ERROR_FILE, "the path is empty");
+    const std::string large = (folder.path / "large").string();
+    const auto grow = [&](std::uint64_t size, std::size_t bytes, std::size_t damaged) {
+        std::vector<std::uint8_t> saved = solver.save();
+        saved.resize(bytes);
+        if (damaged < bytes) saved[damaged] ^= 0x80;
+        std::ofstream(large, std::ios::binary)
+            .write(reinterpret_cast<const char*>(saved.data()), static_cast<std::streamsize>(bytes));
+        std::filesystem::resize_file(large, size);
+    };
+    const std::size_t all = solver.save().size();
+    const std::uint64_t four_giga = std::uint64_t{4} << 30, little = std::uint64_t{32} << 20;
+    grow(four_giga, 0, 0);
+    refused(large, DELAM_ERROR_SNAPSHOT, "not a snapshot");
+    grow(four_giga, all, 0);
+    refused(large, DELAM_ERROR_SNAPSHOT, "not a snapshot");
+    grow(four_giga, all, 8);
+    refused(large, DELAM_ERROR_SNAPSHOT, "snapshot version");
+    grow(four_giga, all, 12);
+    refused(large, DELAM_ERROR_SNAPSHOT, "another scene");
+    grow(little, all, all);
+    refused(large, DELAM_ERROR_SNAPSHOT, "checksum");
+    cases::expect_same(solver, cases::read_bits(solver), bits, "after refusals");
+    grow(all, all, all);
+    scene.require(delam_solver_load_file(solver.get(), large.c_str()), "the state itself");
+    cases::expect_same(solver, cases::read_bits(solver), bits, "loaded");
+}
+
 // A disk that fills up: the existing file stays, and nothing else is left.
 CASE_TEST(full_disk) {
     const Folder folder;
@@ -290,6 +360,7 @@ int main() {
     tcase_add_loop_test(tests, history, 0, 2);
     tcase_add_test(tests, history_refused);
     tcase_add_test(tests, states_as_files);
+    tcase_add_test(tests, not_a_state);
     tcase_add_test(tests, full_disk);
     tcase_add_test(tests, two_writers);
     tcase_add_test(tests, threads_change_no_digit);
