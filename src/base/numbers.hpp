@@ -23,4 +23,17 @@ inline double max_abs(std::span<const double> values) {
     return largest;
 }
 
+// e such that 2^-e takes the size >= 0 into [1/2, 1); 0 if it is 0 or not finite.
+inline int exponent(double size) {
+    int e = 0;
+    if (std::isfinite(size)) (void)std::frexp(size, &e);
+    return e;
+}
+
+// Multiplies by 2^e, without rounding as long as the results are normal numbers.
+inline void scale_by_power(std::span<double> values, int e) {
+    if (e == 0) return;
+    for (double& v : values) v = std::ldexp(v, e);
+}
+
 }  // namespace delam

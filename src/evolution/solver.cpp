@@ -11,6 +11,7 @@
 #include "evolution/backtrack.hpp"
 #include "evolution/step/balance.hpp"
 #include "evolution/step/fronts.hpp"
+#include "evolution/step/soundness.hpp"
 #include "evolution/step_control.hpp"
 #include "evolution/values.hpp"
 #include "scene/strain_loads.hpp"
@@ -35,6 +36,7 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time)
     Stepper::Result first = stepper_.initial(time);
     committed_ = std::move(first.state);
     if (!first.converged) initial_outcome_ = unconverged_displacement(committed_);
+    require_sound(problem_, committed_, first.converged);
     judge_balance(committed_, initial_outcome_);
 }
 
@@ -86,9 +88,11 @@ Outcome Solver::advance(double time) {
         pending.jumps = std::move(controlled.jumps);
     }
     pending.state = std::move(result.state);
+    for (auto& [step, state] : chain.revised()) pending.revised.push_back(std::move(state));
+    require_sound(problem_, pending.state, result.converged);
+    for (const State& revised : pending.revised) require_sound(problem_, revised, result.converged);
     stepper_.warn(pending.state);
     warn_of_unresolved_front(committed_, pending.state);
-    for (auto& [step, state] : chain.revised()) pending.revised.push_back(std::move(state));
     Outcome outcome;
     if (!result.converged) {
         const State& next = pending.state;
@@ -116,6 +120,7 @@ Outcome Solver::equilibrate(double time, std::span<const double> adhesion) {
     Stepper::Result result = stepper_.equilibrate(committed_, time, adhesion);
     Outcome outcome;
     if (!result.converged) outcome = unconverged_displacement(result.state);
+    require_sound(problem_, result.state, result.converged);
     judge_balance(result.state, outcome);
     forget();
     selected_ = nullptr;

@@ -30,6 +30,16 @@ struct Springs {
         force{};  // [rows] h, F: the spring pulls with s j - h; only where s > 0 or the row is held. Empty: none
 };
 
+// The support whose equation B_d u = c a response misses most.
+struct SupportError {
+    std::int64_t constraint = -1;  // -1: none misses
+    double error = 0.0;            // |B_d u - c|, L
+    double size = 0.0;             // of the displacements of which this is a difference, L
+    // Far above what a converged solve leaves (1e-12), far below what anybody would call held.
+    static constexpr double allowed = 1e-6;
+    bool violated() const { return !(error <= allowed * size); }
+};
+
 struct Response {
     std::vector<double> jump;         // [rows] L
     std::vector<double> force;        // [rows] force of a pair, F, pulling positive
@@ -40,6 +50,7 @@ struct Response {
     double load_potential = 0.0;      // -f^T u of the dead forces in f
     double residual = 0.0;            // relative residual of the linear solve (energy norm)
     std::int64_t iterations = 0;      // Krylov iterations of this solve
+    SupportError support;             // none where the realisation meets the supports by construction
     bool balanced = true;             // false: a floating part carries an unbalanced load; the rest is then not set
     bool converged = true;
 };

@@ -13,6 +13,10 @@ namespace delam {
 // One row a line.
 // clang-format off
 template <>
+inline constexpr auto saved_fields<SupportError> =
+    saved_since(unsaved, &SupportError::constraint, &SupportError::error, &SupportError::size);
+
+template <>
 inline constexpr auto saved_fields<Response> = std::tuple_cat(
     saved_since(5,
         &Response::jump,
@@ -24,7 +28,8 @@ inline constexpr auto saved_fields<Response> = std::tuple_cat(
         &Response::load_potential,
         &Response::residual,
         &Response::iterations),
-    saved_since(unsaved,  // a committed state is balanced and converged
+    saved_since(unsaved,  // a committed state is balanced and converged, and meets its supports
+        &Response::support,
         &Response::balanced,
         &Response::converged));
 

@@ -125,6 +125,8 @@ std::vector<double> iterated_reactions(std::span<const Constraint* const> list, 
     const SparseMatrix d = from_triplets(n, static_cast<std::int64_t>(place.size()), std::move(triplets));
     std::vector<double> residual(place.size()), step(place.size()), s(list.size()), p, rho(list.size(), 0.0);
     for (const auto& [dof, at] : place) residual[index(at)] = left[index(dof)];
+    const int power = exponent(max_abs(residual));  // squares of the smallest and largest forces leave the doubles
+    scale_by_power(residual, -power);
     multiply(d, residual, s);
     p = s;
     double size = dot(s, s);
@@ -139,6 +141,7 @@ std::vector<double> iterated_reactions(std::span<const Constraint* const> list, 
         for (std::size_t i = 0; i < p.size(); ++i) p[i] = s[i] + next / size * p[i];
         size = next;
     }
+    scale_by_power(rho, power);
     for (std::size_t i = 0; i < rho.size(); ++i) rho[i] /= length[i];
     return rho;
 }

@@ -74,6 +74,12 @@ void DualLoads::carry(std::size_t pattern, bool strained, const FetiParts& parts
     multiply(rows.b, boundary, jump[pattern]);
 }
 
+void DualLoads::Sum::scale(int e) {
+    scale_by_power(jump, e);
+    scale_by_power(resultant, e);
+    scale_by_power(prescribed, e);
+}
+
 DualLoads::Sum DualLoads::at(std::span<const double> theta) const {
     Sum sum{std::vector<double>(rows_, 0.0), std::vector<double>(coarse_, 0.0), std::vector<double>(constraints_, 0.0)};
     for (std::size_t p = 0; p < theta.size(); ++p) {

@@ -19,6 +19,7 @@ struct DualLoads {
         std::vector<double> jump;        // [rows] B K^+ f - c
         std::vector<double> resultant;   // [coarse] R^T f
         std::vector<double> prescribed;  // [constraints] c
+        void scale(int e);               // by 2^e
     };
     Sum at(std::span<const double> theta) const;
 

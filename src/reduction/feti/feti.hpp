@@ -44,6 +44,7 @@ public:
 private:
     Poll condensing();
     // The phases of a solve, in feti_solve.cpp.
+    void solve_unit(Team& team, const Springs& springs, const DualLoads::Sum& load, Response& response);
     std::vector<double> right_side(const Springs& springs, const DualLoads::Sum& load) const;
     std::vector<double> first_guess(const DualLoads::Sum& load, std::span<const double> right,
                                     const Response& response) const;
@@ -51,6 +52,8 @@ private:
                      std::span<double> lambda, Response& response);
     void find_jumps(Team& team, const Springs& springs, const DualLoads::Sum& load, std::span<const double> right,
                     std::span<const double> lambda, Response& response) const;
+    SupportError find_support_error(const DualLoads::Sum& load, std::span<const double> f_lambda,
+                                    std::span<const double> rigid_jump) const;
     void share_prescribed(const Springs& springs, const DualLoads::Sum& load, std::span<double> lambda,
                           Response& response) const;
     void find_energies(std::span<const double> theta, const DualLoads::Sum& load, std::span<const double> lambda,

@@ -17,6 +17,8 @@ namespace {
 
 // Residuals below this part of the loads' own energy norm are rounding.
 constexpr double rounding = 1e-14;
+// A warm start larger than the load by 2^900 is none: its squares would not be finite.
+constexpr int largest_start = 900;
 
 // The force of its own that a spring has.
 double pulled(const Springs& springs, std::size_t row) {
@@ -36,14 +38,43 @@ void require_springs(const Springs& springs) {
 
 }  // namespace
 
-// Rows whose jump is prescribed have a known force s j: the system is solved without them, and that force is
-// divided between spring and constraints afterwards (B_i = sum_k y_k B_k).
+// Conjugate gradients square forces and jumps: at jumps of 1e-170 all energies would be 0, and no residual would ask
+// for a force. The problem is linear, so it is solved at a load of size 1; powers of two change no digit. A warm start
+// much larger than the load leaves its rounding behind: where that violates the supports, the solve begins with no
+// forces.
 void Feti::solve(const Springs& springs, std::span<const double> theta, Response& response) {
     monitor_.progress("displacement", 0, 0);
     Team team(problem_.options.threads);
     require_springs(springs);
     dual_.set(springs);
-    const DualLoads::Sum load = loads_.at(theta);
+    DualLoads::Sum load = loads_.at(theta);
+    Springs unit = springs;
+    std::vector<double> rest(springs.stiffness.size());
+    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = dual_.compliance()[i] * pulled(springs, i);
+    const int size = exponent(std::max({max_abs(load.jump), max_abs(load.resultant), max_abs(rest)}));
+    load.scale(-size);
+    scale_by_power(unit.force, -size);
+    if (exponent(max_abs(response.multipliers)) - size > largest_start) response.multipliers.clear();
+    scale_by_power(response.multipliers, -size);
+    const bool warm = !response.multipliers.empty();
+    solve_unit(team, unit, load, response);
+    if (warm && response.balanced && response.support.violated()) {
+        response.multipliers.clear();
+        solve_unit(team, unit, load, response);
+    }
+    scale_by_power(response.multipliers, size);
+    if (!response.balanced) return;
+    for (std::vector<double>* result : {&response.rigid, &response.jump, &response.force})
+        scale_by_power(*result, size);
+    response.support.error = std::ldexp(response.support.error, size);
+    response.support.size = std::ldexp(response.support.size, size);
+    load.scale(size);
+    find_energies(theta, load, response.multipliers, response);
+}
+
+// Rows whose jump is prescribed have a known force s j: the system is solved without them, and that force is
+// divided between spring and constraints afterwards (B_i = sum_k y_k B_k).
+void Feti::solve_unit(Team& team, const Springs& springs, const DualLoads::Sum& load, Response& response) {
     const std::vector<double> right = right_side(springs, load);
     std::vector<double> lambda = first_guess(load, right, response);
     const double resultant = max_abs(load.resultant);
@@ -53,7 +84,6 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     find_forces(team, load, resultant, right, lambda, response);
     find_jumps(team, springs, load, right, lambda, response);
     share_prescribed(springs, load, lambda, response);
-    find_energies(theta, load, lambda, response);
     response.multipliers = std::move(lambda);
 }
 
@@ -118,6 +148,28 @@ void Feti::find_jumps(Team& team, const Springs& springs, const DualLoads::Sum& 
         else
             response.jump[i] = compliance[i] * (lambda[i] + pulled(springs, i));
     }
+    response.support = find_support_error(load, f_lambda, rigid_jump);
+}
+
+// B_d u - c, per displacement that the row adds up, so that its units and its number of nodes do not matter.
+SupportError Feti::find_support_error(const DualLoads::Sum& load, std::span<const double> f_lambda,
+                                      std::span<const double> rigid_jump) const {
+    const SparseMatrix& b = dual_.rows().b;
+    const std::int64_t first = dual_.rows().count() - dual_.rows().constraint_count;
+    SupportError found;
+    for (std::size_t i = 0; i < f_lambda.size() && !std::isnan(found.error); ++i) {
+        double sum = 0.0;
+        for (std::int64_t e = b.start[i]; e < b.start[i + 1]; ++e) sum += std::abs(b.value[index(e)]);
+        if (!(sum > 0.0)) continue;
+        const std::int64_t d = static_cast<std::int64_t>(i) - first;
+        found.size = std::max({found.size, std::abs(load.jump[i]) / sum, std::abs(f_lambda[i]) / sum,
+                               std::abs(rigid_jump[i]) / sum, d < 0 ? 0.0 : std::abs(load.prescribed[index(d)]) / sum});
+        const double error = std::abs(load.jump[i] - f_lambda[i] + rigid_jump[i]) / sum;
+        if (d < 0 || error <= found.error) continue;
+        found.constraint = d;
+        found.error = error;
+    }
+    return found;
 }
 
 void Feti::share_prescribed(const Springs& springs, const DualLoads::Sum& load, std::span<double> lambda,

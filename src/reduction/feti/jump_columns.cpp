@@ -124,10 +124,18 @@ bool JumpColumns::find_loads() {
         std::copy(load.jump.begin(), load.jump.end(), column(right, p).begin());
         std::copy(load.resultant.begin(), load.resultant.end(), column(resultant, p).begin());
     }
+    // As in Feti::solve: loads of size 1, whatever the units of a pattern.
+    std::vector<int> size;
+    for (std::int64_t p = 0; p < patterns; ++p) {
+        size.push_back(exponent(std::max(max_abs(column(right, p)), max_abs(column(resultant, p)))));
+        scale_by_power(column(right, p), -size.back());
+        scale_by_power(column(resultant, p), -size.back());
+    }
     const DenseMatrix rest = right;
     dual_.set(base_);
     for (std::int64_t p = 0; p < patterns; ++p) dual_.mask(column(right, p));
     loaded_ = solve(right, resultant, rest, load_);
+    for (std::int64_t p = 0; p < patterns && loaded_; ++p) scale_by_power(column(load_, p), size[index(p)]);
     return loaded_;
 }
 
