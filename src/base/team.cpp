@@ -1,10 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/team.hpp"
 
+#include <sched.h>
+
+#include <algorithm>
 #include <csignal>
 #include <system_error>
 
 namespace delam {
+
+std::int64_t processors() {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    if (sched_getaffinity(0, sizeof set, &set) == 0) return std::max(1, CPU_COUNT(&set));
+    return std::max<std::int64_t>(1, std::thread::hardware_concurrency());  // more than the set has room for
+}
+
+std::int64_t useful_threads(std::int64_t asked) { return asked > 1 ? std::min(asked, processors()) : asked; }
 
 Team::Team(std::int64_t threads) {
     // Only the host's threads handle signals.

@@ -13,6 +13,10 @@
 
 namespace delam {
 
+// As many as are of use: the processors that this process may use bound what a host asks for.
+std::int64_t useful_threads(std::int64_t asked);
+std::int64_t processors();
+
 class Team {
 public:
     // Starts up to `threads` - 1 threads, or as many as the system allows.

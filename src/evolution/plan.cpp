@@ -6,6 +6,7 @@
 
 #include "base/blas_threads.hpp"
 #include "base/error.hpp"
+#include "base/team.hpp"
 #include "evolution/solver.hpp"
 
 namespace delam {
@@ -54,7 +55,11 @@ void add_reduction(std::vector<PlanItem>& items, const Solver& solver) {
                      choice.condensed
                          ? text("the condensed operator uses those of the BLAS alone, ", of_blas,
                                 own > 1 ? text("; option threads = ", own, " has no effect") : std::string())
-                         : text(own, " of the library (option threads); the BLAS uses ", of_blas),
+                         : text(useful_threads(own), " of the library (option threads",
+                                own > useful_threads(own)
+                                    ? text(" = ", own, ", of which this process has processors for ", processors())
+                                    : std::string(),
+                                "); the BLAS uses ", of_blas),
                      0.0, 0.0, "-"});
     const double longest = choice.condensed ? c.longest : f.longest;
     items.push_back(

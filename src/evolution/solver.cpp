@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/team.hpp"
 #include "body/assembly.hpp"
 #include "body/rotation.hpp"
 #include "evolution/backtrack.hpp"
@@ -38,6 +39,10 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time)
     if (!first.converged) initial_outcome_ = unconverged_displacement(committed_);
     require_sound(problem_, committed_, first.converged);
     judge_balance(committed_, initial_outcome_);
+    const std::int64_t threads = problem_.options.threads;
+    if (!reduction().condensed && threads > processors())
+        monitor_.log(1, text("option threads = ", threads, ": ", useful_threads(threads),
+                             " are used, as this process has ", processors(), " processors"));
 }
 
 Outcome Solver::unconverged_displacement(const State& state) const {

@@ -44,7 +44,7 @@ void require_springs(const Springs& springs) {
 // forces.
 void Feti::solve(const Springs& springs, std::span<const double> theta, Response& response) {
     monitor_.progress("displacement", 0, 0);
-    Team team(problem_.options.threads);
+    Team team(useful_threads(problem_.options.threads));
     require_springs(springs);
     dual_.set(springs);
     DualLoads::Sum load = loads_.at(theta);

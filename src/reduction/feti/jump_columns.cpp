@@ -65,7 +65,7 @@ double JumpColumns::bytes(std::size_t groups) const {
 // rest: the jumps of the bodies without forces, [rows][columns].
 bool JumpColumns::solve(const DenseMatrix& right, const DenseMatrix& resultant, const DenseMatrix& rest,
                         DenseMatrix& kept) {
-    Team team(problem_.options.threads);
+    Team team(useful_threads(problem_.options.threads));
     dual_.set(base_);
     if (dense_ == nullptr && right.rows <= few_rows)
         dense_ = std::make_unique<DenseDual>(dual_, subdomains_, [this] { monitor_.progress("zone", 0, 0); });

@@ -136,7 +136,7 @@ FetiParts make_parts(const Problem& problem, Monitor& monitor) {
         assemble(problem, result.cells[s], subdomain, poll);
         subdomain.condense(problem.mesh->body_label(subdomain.body), with_schur, poll);
     };
-    Team(problem.options.threads).run(parts, condense, [&](std::int64_t done) {
+    Team(useful_threads(problem.options.threads)).run(parts, condense, [&](std::int64_t done) {
         monitor.progress("condense", done, parts);
     });
     call_if_set(poll);
