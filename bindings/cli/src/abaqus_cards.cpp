@@ -65,6 +65,9 @@ const std::set<std::string> passed_over{"AMPLITUDE",
                                         "USER DEFINED FIELD",
                                         "USER MATERIAL"};
 
+// Numbers that GENERATE stands for, in all sets of a mesh together: a line of 20 bytes may name any number of them.
+constexpr std::int64_t most_generated = 20000000;
+
 // Rotation of a point by an angle about the axis from a to b (Rodrigues).
 std::array<double, 3> rotated(const std::array<double, 3>& point, const std::array<double, 3>& a,
                               const std::array<double, 3>& b, double angle) {
@@ -280,7 +283,7 @@ private:
         }
     }
 
-    static void generate(const InpLine& line, const Part* scope, Set& set) {
+    void generate(const InpLine& line, const Part* scope, Set& set) {
         if (line.fields.size() < 2 || line.fields.size() > 3)
             throw SceneFailure(
                 line.place, fmt::format("{} entries: first, last and (1) increment are expected", line.fields.size()));
@@ -290,6 +293,11 @@ private:
         if (by <= 0 || last < first || last - first > std::int64_t{1000000000} || (last - first) % by != 0)
             throw SceneFailure(
                 line.place, fmt::format("{}, {}, {}: from first up to last in whole increments > 0", first, last, by));
+        generated_ += (last - first) / by + 1;
+        if (generated_ > most_generated)
+            throw SceneFailure(line.place, fmt::format("{}, {}, {}: with it sets generate {} numbers, and at most {} "
+                                                       "are allowed",
+                                                       first, last, by, generated_, most_generated));
         for (std::int64_t id = first; id <= last; id += by)
             set.entries.push_back({scope, std::to_string(id), line.place});
     }
@@ -327,6 +335,7 @@ private:
     Model& model_;
     Part* open_;
     bool in_step_ = false;
+    std::int64_t generated_ = 0;
     std::set<std::string> passed_;
 };
 

@@ -25,7 +25,37 @@ Entry Model::resolved_scope(const Entry& entry) const {
     return {instance_named(entry.text.substr(0, dot), entry.place), entry.text.substr(dot + 1), entry.place};
 }
 
-void Model::collect_elements(const Entry& raw, std::set<ElementAt>& out, int depth) const {
+bool Trail::enter(const Set& set, const Place& place, const char* what) {
+    constexpr std::size_t deepest = 22;
+    const auto [at, fresh] = open_.emplace(&set, true);
+    if (!fresh && at->second) throw SceneFailure(place, fmt::format("{} sets contain each other", what));
+    if (fresh && ++depth_ > deepest)
+        throw SceneFailure(place, fmt::format("{} sets contain each other more than {} deep", what, deepest));
+    return fresh;
+}
+
+void Trail::leave(const Set& set) {
+    open_[&set] = false;
+    --depth_;
+}
+
+void Model::collect_elements(const Entry& raw, std::set<ElementAt>& out) const {
+    Trail trail;
+    collect_elements(raw, out, trail);
+}
+
+void Model::collect_nodes(const Entry& raw, std::set<std::int64_t>& out) const {
+    Trail trail;
+    collect_nodes(raw, out, trail);
+}
+
+void Model::collect_set(const Set& set, std::set<std::int64_t>& out) const {
+    Trail trail;
+    if (!trail.enter(set, set.place, "node")) return;
+    collect_set(set, out, trail);
+}
+
+void Model::collect_elements(const Entry& raw, std::set<ElementAt>& out, Trail& trail) const {
     const Entry entry = resolved_scope(raw);
     if (const auto id = inp_whole(entry.text)) {
         const auto at = entry.scope->element_of.find(*id);
@@ -37,11 +67,12 @@ void Model::collect_elements(const Entry& raw, std::set<ElementAt>& out, int dep
     const auto set = entry.scope->element_sets.find(upper(entry.text));
     if (set == entry.scope->element_sets.end())
         throw SceneFailure(entry.place, fmt::format("element set \"{}\" is not there", entry.text));
-    if (depth > 20) throw SceneFailure(entry.place, "element sets contain each other");
-    for (const Entry& part : set->second.entries) collect_elements(part, out, depth + 1);
+    if (!trail.enter(set->second, entry.place, "element")) return;
+    for (const Entry& part : set->second.entries) collect_elements(part, out, trail);
+    trail.leave(set->second);
 }
 
-void Model::collect_nodes(const Entry& raw, std::set<std::int64_t>& out, int depth) const {
+void Model::collect_nodes(const Entry& raw, std::set<std::int64_t>& out, Trail& trail) const {
     const Entry entry = resolved_scope(raw);
     if (const auto id = inp_whole(entry.text)) {
         out.insert(node_number(*entry.scope, *id, entry.place));
@@ -50,12 +81,13 @@ void Model::collect_nodes(const Entry& raw, std::set<std::int64_t>& out, int dep
     const auto set = entry.scope->node_sets.find(upper(entry.text));
     if (set == entry.scope->node_sets.end())
         throw SceneFailure(entry.place, fmt::format("node set \"{}\" is not there", entry.text));
-    if (depth > 20) throw SceneFailure(entry.place, "node sets contain each other");
-    collect_set(set->second, out, depth + 1);
+    if (!trail.enter(set->second, entry.place, "node")) return;
+    collect_set(set->second, out, trail);
+    trail.leave(set->second);
 }
 
-void Model::collect_set(const Set& set, std::set<std::int64_t>& out, int depth) const {
-    for (const Entry& part : set.entries) collect_nodes(part, out, depth);
+void Model::collect_set(const Set& set, std::set<std::int64_t>& out, Trail& trail) const {
+    for (const Entry& part : set.entries) collect_nodes(part, out, trail);
     for (const Entry& from : set.element_sets) {
         std::set<ElementAt> elements;
         collect_elements(from, elements);

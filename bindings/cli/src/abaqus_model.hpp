@@ -83,6 +83,18 @@ struct ElementAt {
     }
 };
 
+// The sets met while one is collected: each is followed once, however often others name it.
+class Trail {
+public:
+    // Whether the set is new. Throws SceneFailure at `place` if it contains itself or is nested too deeply.
+    bool enter(const Set& set, const Place& place, const char* what);
+    void leave(const Set& set);
+
+private:
+    std::map<const Set*, bool> open_;  // true: its entries are being followed
+    std::size_t depth_ = 0;
+};
+
 // Everything that a file says about its mesh.
 struct Model {
     Place file;
@@ -97,10 +109,15 @@ struct Model {
     // Splits off the instance of "instance.rest".
     [[nodiscard]] Entry resolved_scope(const Entry& entry) const;
     // The elements of an entry: a number or the name of a set.
-    void collect_elements(const Entry& raw, std::set<ElementAt>& out, int depth = 0) const;
+    void collect_elements(const Entry& raw, std::set<ElementAt>& out) const;
     // Nodes by their numbers in the mesh; requires Part::first_node.
-    void collect_nodes(const Entry& raw, std::set<std::int64_t>& out, int depth = 0) const;
-    void collect_set(const Set& set, std::set<std::int64_t>& out, int depth = 0) const;
+    void collect_nodes(const Entry& raw, std::set<std::int64_t>& out) const;
+    void collect_set(const Set& set, std::set<std::int64_t>& out) const;
+
+private:
+    void collect_elements(const Entry& raw, std::set<ElementAt>& out, Trail& trail) const;
+    void collect_nodes(const Entry& raw, std::set<std::int64_t>& out, Trail& trail) const;
+    void collect_set(const Set& set, std::set<std::int64_t>& out, Trail& trail) const;
 };
 
 std::int64_t node_number(const Part& scope, std::int64_t id, const Place& place);

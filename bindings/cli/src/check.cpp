@@ -30,12 +30,18 @@ void say_mesh(const MeshData& mesh, const Scene& scene) {
     }
 }
 
+// An error ends the call, whose caller says it.
+extern "C" void on_check_log(std::int32_t level, const char* text, void*) {
+    if (level == 1) complain("warning: {}\n", text);
+}
+
 }  // namespace
 
 int check(const std::string& scene_file, const std::vector<std::string>& settings) {
     const Scene scene = read_scene(scene_file, settings);
     Context context = new_context();
     const Interrupt interrupt(context.get());
+    delam_context_set_log(context.get(), on_check_log, nullptr);
     const Model model = build(std::move(context), scene);
     bool converged = true;
     const Solver solver = new_solver(model, scene, converged);

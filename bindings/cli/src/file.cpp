@@ -54,24 +54,6 @@ void write_all(int descriptor, const std::string& path, std::string_view bytes) 
 
 }  // namespace
 
-std::string read_bytes(const std::string& path) {
-    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) throw Failure(exit_scene, path + ": cannot be read: " + system_text(errno));
-    std::string out;
-    char block[65536];
-    while (true) {
-        const ssize_t got = ::read(descriptor, block, sizeof block);
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) {
-            const int code = errno;
-            ::close(descriptor);
-            if (got < 0) throw Failure(exit_scene, path + ": cannot be read: " + system_text(code));
-            return out;
-        }
-        out.append(block, static_cast<std::size_t>(got));
-    }
-}
-
 void write_atomic(const std::string& path, std::string_view bytes) {
     const std::string beside = path + ".new";
     try {

@@ -8,9 +8,6 @@
 
 namespace cli {
 
-// Reads all bytes; throws Failure(exit_scene) naming the file if it cannot be read.
-std::string read_bytes(const std::string& path);
-
 // Writes PATH.new, synchronises and renames it: PATH has either the old or the new content.
 void write_atomic(const std::string& path, std::string_view bytes);
 

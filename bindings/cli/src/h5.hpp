@@ -68,6 +68,8 @@ void write(hid_t parent, const std::string& name, const std::vector<T>& values, 
     const hsize_t shape[2] = {values.size() / (columns > 0 ? columns : 1), columns};
     const Space space(H5Screate_simple(columns > 0 ? 2 : 1, shape, nullptr), name);
     const Properties properties(H5Pcreate(H5P_DATASET_CREATE), name);
+    // A date of its own would make each file of a result another.
+    require(H5Pset_obj_track_times(properties.get(), false), name);
     // Padding and constant parts compress well; below the size of a page compression does not pay.
     if (values.size() > 512) {
         require(H5Pset_chunk(properties.get(), columns > 0 ? 2 : 1, shape), name);

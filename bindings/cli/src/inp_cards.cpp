@@ -10,7 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "file.hpp"
+#include "input_file.hpp"
+#include "mesh_file.hpp"
 #include "reader.hpp"
 
 namespace cli {
@@ -18,6 +19,7 @@ namespace cli {
 namespace {
 
 constexpr std::size_t deepest_include = 8;
+constexpr std::size_t most_files = 1000;
 
 std::string trimmed(std::string_view text) {
     const auto blank = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
@@ -73,12 +75,7 @@ public:
     std::string bytes;
 
     void read(const std::string& path, const Place& from, std::size_t depth) {
-        std::string text;
-        try {
-            text = read_bytes(path);
-        } catch (const Failure& e) {
-            throw SceneFailure(from, e.what());
-        }
+        const std::string text = text_of(path, from);
         bytes += text;
         std::istringstream lines(text);
         std::string line;
@@ -113,6 +110,25 @@ public:
     }
 
 private:
+    std::size_t files_ = 0;
+
+    // What files include may repeat, so that a small one could stand for more than any machine can read.
+    std::string text_of(const std::string& path, const Place& from) {
+        if (++files_ > most_files)
+            throw SceneFailure(from, fmt::format("{}: is file {} of this mesh, and at most {} are read, one that is "
+                                                 "included again each time",
+                                                 path, files_, most_files));
+        try {
+            InputFile file(path);
+            require_mesh_size(path, static_cast<std::int64_t>(bytes.size()) + file.size(), from);
+            return file.rest();
+        } catch (const SceneFailure&) {
+            throw;
+        } catch (const Failure& e) {
+            throw SceneFailure(from, e.what());
+        }
+    }
+
     // The lines of the included file replace the card; its name is relative to the including file.
     void include(const InpCard& card, const std::string& path, std::size_t depth) {
         card.only({"INPUT"});

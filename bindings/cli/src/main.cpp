@@ -20,6 +20,8 @@
 namespace {
 
 constexpr const char* footer =
+    "SCENE.md and README.md are installed in share/doc/delam/bindings/cli.\n"
+    "\n"
     "Exit codes\n"
     "  0    done\n"
     "  1    finished, but at least one step did not converge\n"

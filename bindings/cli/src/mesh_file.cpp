@@ -8,6 +8,7 @@
 #include "cell_shape.hpp"
 #include "read_abaqus.hpp"
 #include "read_gmsh.hpp"
+#include "reader.hpp"
 #include "say.hpp"
 
 namespace cli {
@@ -76,6 +77,12 @@ void tidy(MeshData& mesh) {
     if (mesh.dimension == 2) turn_clockwise_cells(mesh);
 }
 
+void require_mesh_size(const std::string& path, std::int64_t bytes, const Place& place) {
+    if (bytes > most_mesh_bytes)
+        throw SceneFailure(place, fmt::format("{}: with it the mesh has {} bytes, and at most {} are allowed", path,
+                                              bytes, most_mesh_bytes));
+}
+
 MeshFile read_mesh(const std::string& path, const std::vector<std::string>& bodies, const Place& place) {
     const auto ends = [&path](std::string_view ending) {
         return path.size() > ending.size() && std::string_view(path).substr(path.size() - ending.size()) == ending;
@@ -86,6 +93,11 @@ MeshFile read_mesh(const std::string& path, const std::vector<std::string>& bodi
     if (!abaqus && !bodies.empty())
         throw SceneFailure(place, "bodies is for .inp alone: in a .msh physical groups are the bodies");
     MeshFile out = abaqus ? read_abaqus(path, bodies, place) : read_gmsh(path, place);
+    for (const std::string& name : out.mesh.body_names)
+        if (name.size() > most_text_bytes)
+            throw SceneFailure(place, fmt::format("{}: the name of a body, \"{}\", has {} bytes, and at most {} are "
+                                                  "allowed",
+                                                  path, shortened(name), name.size(), most_text_bytes));
     tidy(out.mesh);
     return out;
 }

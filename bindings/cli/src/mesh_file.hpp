@@ -2,6 +2,7 @@
 // Meshes from files.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ struct MeshFile {
 // the latter. Nodes without cells that belong to no set are dropped. Throws SceneFailure at `place`, one line that
 // begins with the path.
 MeshFile read_mesh(const std::string& path, const std::vector<std::string>& bodies, const Place& place);
+
+// Of all files of a mesh together. Throws SceneFailure at `place`, which names the last of them.
+constexpr std::int64_t most_mesh_bytes = std::int64_t{1} << 30;
+void require_mesh_size(const std::string& path, std::int64_t bytes, const Place& place);
 
 // Drops nodes that belong to no cell and no set; reverses clockwise plane cells and notes how many.
 void tidy(MeshData& mesh);

@@ -11,7 +11,8 @@ namespace cli {
 
 namespace {
 
-// Replaces every match of `pattern` by the result of `with`.
+// Replaces every match of `pattern` by the result of `with`. std::regex calls itself for each repetition, and a message
+// may contain the user's words: repetitions are bounded.
 template <class With>
 std::string replaced(const std::string& text, const std::regex& pattern, With with) {
     std::string out;
@@ -33,20 +34,21 @@ std::string named(const std::string& message, const Scene& scene, const Model& m
     };
     const std::string noun = scene.mesh ? "body" : "layer", nouns = scene.mesh ? "bodies" : "layers";
     // "bodies 0 and 1", "bodies 0, 1, 2", "body 3"; but not within a name given by the user.
-    std::string out = replaced(message, std::regex(R"(\bbodies (\d+(?:(?:, | and )\d+)*))"), [&](const std::smatch& m) {
-        return nouns + " " +
-               replaced(m[1].str(), std::regex(R"(\d+)"), [&](const std::smatch& n) { return body(n.str()); });
-    });
-    out = replaced(out, std::regex(R"((^|[^"\w-])body (\d+)\b(?!["-]))"),
+    std::string out =
+        replaced(message, std::regex(R"(\bbodies (\d{1,9}(?:(?:, | and )\d{1,9}){0,30}))"), [&](const std::smatch& m) {
+            return nouns + " " +
+                   replaced(m[1].str(), std::regex(R"(\d+)"), [&](const std::smatch& n) { return body(n.str()); });
+        });
+    out = replaced(out, std::regex(R"((^|[^"\w-])body (\d{1,9})\b(?!["-]))"),
                    [&](const std::smatch& m) { return m[1].str() + noun + " " + body(m[2].str()); });
-    out = replaced(out, std::regex(R"(\bcontrol node (\d+))"), [&](const std::smatch& m) {
+    out = replaced(out, std::regex(R"(\bcontrol node (\d{1,9}))"), [&](const std::smatch& m) {
         if (scene.controls.empty() || model.mesh == nullptr) return m.str();
         const std::int64_t first = control_node(model.context.get(), model.mesh.get(), scene, 0, scene.geometry.place);
         const std::int64_t index = std::stoll(m[1].str()) - first;
         if (index < 0 || index >= static_cast<std::int64_t>(scene.controls.size())) return m.str();
         return fmt::format("control node \"{}\"", scene.controls[static_cast<std::size_t>(index)].name);
     });
-    return replaced(out, std::regex(R"(\bconstraint (\d+) \()"), [&](const std::smatch& m) {
+    return replaced(out, std::regex(R"(\bconstraint (\d{1,9}) \()"), [&](const std::smatch& m) {
         const std::size_t index = std::stoul(m[1].str());
         if (index >= model.constraint_places.size()) return m.str();
         const Place& place = model.constraint_places[index];

@@ -13,6 +13,7 @@
 
 #include "error.hpp"
 #include "file.hpp"
+#include "input_file.hpp"
 
 namespace cli {
 

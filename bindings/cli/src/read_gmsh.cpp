@@ -12,9 +12,9 @@
 #include "cell_format.hpp"
 #include "cell_shape.hpp"
 #include "delam/delam.h"
-#include "file.hpp"
 #include "gmsh_session.hpp"
 #include "hash.hpp"
+#include "input_file.hpp"
 
 namespace cli {
 
@@ -22,9 +22,11 @@ namespace {
 
 constexpr const char* entity_names[] = {"point", "curve", "surface", "volume"};
 
-// Gmsh would read, and run, a file that is no mesh as a script.
-void require_mesh_format(const std::string& path, const std::string& bytes, const Place& place) {
-    std::istringstream lines(bytes.substr(0, 4096));
+constexpr std::int64_t format_bytes = 4096;  // $MeshFormat is expected within these
+
+// Gmsh would read, and run, a file that is no mesh as a script. head: the first bytes of the file.
+void require_mesh_format(const std::string& path, const std::string& head, const Place& place) {
+    std::istringstream lines(head);
     std::string line;
     while (std::getline(lines, line) && line.rfind("$Comments", 0) == 0)
         while (std::getline(lines, line) && line.rfind("$EndComments", 0) != 0) continue;
@@ -35,6 +37,9 @@ void require_mesh_format(const std::string& path, const std::string& bytes, cons
         version == "2" || version.rfind("2.", 0) == 0 || version == "4" || version == "4.0" || version == "4.1";
     if (!known)
         throw SceneFailure(place, fmt::format("{}: mesh format {:.20} is not read: 2.2 and 4.1 are", path, version));
+}
+
+void require_sections(const std::string& path, const std::string& bytes, const Place& place) {
     for (const char* section : {"Nodes", "Elements"})
         if (bytes.find(std::string("$") + section) != std::string::npos &&
             bytes.find(std::string("$End") + section) == std::string::npos)
@@ -224,14 +229,30 @@ private:
 
 }  // namespace
 
-MeshFile read_gmsh(const std::string& path, const Place& place) {
+namespace {
+
+// The bytes of a file whose beginning is that of a mesh; another file is not read to its end.
+std::string checked_bytes(const std::string& path, const Place& place) {
     std::string bytes;
     try {
-        bytes = read_bytes(path);
+        InputFile file(path);
+        bytes = file.read(format_bytes);
+        require_mesh_format(path, bytes, place);
+        require_mesh_size(path, file.size(), place);
+        bytes += file.rest();
+    } catch (const SceneFailure&) {
+        throw;
     } catch (const Failure& e) {
         throw SceneFailure(place, e.what());
     }
-    require_mesh_format(path, bytes, place);
+    require_sections(path, bytes, place);
+    return bytes;
+}
+
+}  // namespace
+
+MeshFile read_gmsh(const std::string& path, const Place& place) {
+    const std::string bytes = checked_bytes(path, place);
     return with_gmsh(place, path, [&] {
         gmsh::merge(path);
         return MeshFile{read_gmsh_model(path, place), hash_text(bytes)};

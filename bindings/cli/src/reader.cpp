@@ -43,7 +43,8 @@ std::string shown(const toml::node& node) {
         value && node.is_floating_point() && *value == std::floor(*value) && std::abs(*value) < 1e15)
         return fmt::format("{:.1f}", *value);
     if (const auto value = node.value<double>(); value && node.is_number()) return fmt::format("{}", *value);
-    if (const auto value = node.value<std::string>(); value && node.is_string()) return fmt::format("\"{}\"", *value);
+    if (const auto value = node.value<std::string>(); value && node.is_string())
+        return fmt::format("\"{}\"", shortened(*value));
     if (const auto value = node.value<bool>(); value && node.is_boolean()) return *value ? "true" : "false";
     if (node.is_array()) return "a list";
     if (node.is_table()) return "a table";
@@ -90,7 +91,11 @@ std::string checked_word(const toml::node& node, const Place& where, const std::
     if (!node.is_string())
         throw SceneFailure(
             where, fmt::format("{}: a text in quotes is expected{}{}", shown(node), words.empty() ? "" : ": ", words));
-    return *node.value<std::string>();
+    std::string text = *node.value<std::string>();
+    if (text.size() > most_text_bytes)
+        throw SceneFailure(where, fmt::format("\"{}\" has {} bytes: at most {} are allowed", shortened(text),
+                                              text.size(), most_text_bytes));
+    return text;
 }
 
 std::string checked_text(const toml::node& node, const Place& where) { return checked_word(node, where, ""); }
@@ -125,11 +130,22 @@ bool Range::contains(double value) const {
     return (lower_open ? value > lower : value >= lower) && (upper_open ? value < upper : value <= upper);
 }
 
+std::string shortened(const std::string& text) {
+    constexpr std::size_t most = 60;
+    if (text.size() <= most) return text;
+    std::size_t end = most;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // within a character of UTF-8
+    return text.substr(0, end) + "..";
+}
+
 std::string listing(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
+    constexpr std::size_t longest = 80;  // the comparison takes as long as the product of both lengths
     std::vector<std::pair<std::size_t, std::string>> near;
+    if (word.size() > longest) return "";
     for (const std::string& name : known) {
+        if (name.size() > longest) continue;
         const std::size_t d = distance(word, name);
         const bool part =
             word.size() >= 3 && (name.find(word) != std::string::npos || word.find(name) != std::string_view::npos);

@@ -15,6 +15,11 @@
 
 namespace cli {
 
+// Of a title or a name, which files of HDF5 keep in up to 64 kB.
+constexpr std::size_t most_text_bytes = 4096;
+// The beginning of a text that would be too long for a message.
+std::string shortened(const std::string& text);
+
 // An open or closed interval, with its description in words.
 struct Range {
     double lower;

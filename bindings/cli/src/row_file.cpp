@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "error.hpp"
+#include "input_file.hpp"
 
 namespace cli {
 

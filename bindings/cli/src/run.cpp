@@ -16,6 +16,7 @@
 #include "fields.hpp"
 #include "file.hpp"
 #include "history.hpp"
+#include "input_file.hpp"
 #include "interrupt.hpp"
 #include "jumps.hpp"
 #include "notes.hpp"
@@ -38,7 +39,22 @@ extern "C" std::int32_t on_progress(const char* stage, std::int64_t done, std::i
 }
 
 extern "C" void on_log(std::int32_t level, const char* text, void* user) {
+    // The program says itself that it was interrupted.
+    if (Interrupt::requested() && std::string_view(text).starts_with("cancelled by the host")) return;
     if (level <= 1) static_cast<Progress*>(user)->note(fmt::format("{}: {}", level == 0 ? "error" : "warning", text));
+}
+
+// Reads results, whatever it takes: a request to stop that arrives meanwhile ends the call that reads, and is obeyed
+// once the results are written. The second signal ends the program, and there are two kinds.
+template <class Work>
+auto to_the_end(Work&& work) {
+    for (int left = 2;; --left) {
+        try {
+            return work();
+        } catch (const Failure& failure) {
+            if (failure.code() != exit_interrupted || left == 0) throw;
+        }
+    }
 }
 
 // One run: the analysis and its files.
@@ -52,35 +68,41 @@ public:
           history_(model, solver_.get(), scene),
           fields_(folder.running(), scene),
           running_history_(folder.running() + "/history.csv"),
-          running_state_(folder.running() + "/state.bin") {
+          running_state_(folder.running() + "/state.bin"),
+          running_origin_(folder.running() + "/origin.json") {
         state_.content_hash = scene.content_hash;
         state_.problem_hash = hash_of(model);
-        state_.started = now_text();
+        origin_.started = now_text();
         if (!converged) state_.not_converged.push_back(0);
     }
 
     void begin() {
         folder_.begin();
+        write_atomic(running_origin_, packed(origin_));
         rows_.emplace(running_history_, history_.header());
-        record();
+        to_the_end([this] { record(); });
         save();
     }
 
-    void resume(const State& state) {
+    void resume(const StateFile& file) {
+        const State& state = file.state;
         state_ = state;
         saved_step_ = state.step;
-        state_.resumed += 1;
+        origin_ = file.origin ? *file.origin : read_origin(running_origin_);
+        origin_.resumed += 1;
         call(model_.context.get(),
              delam_solver_load(solver_.get(), static_cast<std::int64_t>(state.bytes.size()),
                                reinterpret_cast<const std::uint8_t*>(state.bytes.data())),
              running_state_);
         // Rows of steps after the saved state are computed again, and with them the earlier ones that they revise.
         rows_.emplace(running_history_, static_cast<std::size_t>(state.step) + 1);
+        write_atomic(running_origin_, packed(origin_));
     }
 
     // Returns the exit code of the analysis; outcome.reason is the reason why it stopped early.
     Exit march(Progress& progress, Outcome& outcome) {
         const auto total = static_cast<std::int64_t>(scene_.step_count());
+        bool first = true;
         while (state_.step < total) {
             if (Interrupt::requested()) return stopped(outcome);
             const double time = scene_.times[static_cast<std::size_t>(state_.step) + 1];
@@ -94,11 +116,15 @@ public:
             call(model_.context.get(), delam_solver_commit(solver_.get()), std::string("commit"));
             state_.step += 1;
             if (status == DELAM_NOT_CONVERGED) state_.not_converged.push_back(state_.step);
-            const bool revised = record();
-            progress.step(state_.step, time, history_.load(solver_.get()),
-                          static_cast<std::int64_t>(history_.value(solver_.get(), "am_iterations")),
-                          status == DELAM_OK);
-            if (revised || std::chrono::steady_clock::now() - saved_ > std::chrono::seconds(1)) save();
+            const bool revised = to_the_end([this] { return record(); });
+            // The first step of each process as well: a run that is ended again and again still gets on.
+            if (first || revised || std::chrono::steady_clock::now() - saved_ > std::chrono::seconds(1)) save();
+            first = false;
+            to_the_end([&] {
+                progress.step(state_.step, time, history_.load(solver_.get()),
+                              static_cast<std::int64_t>(history_.value(solver_.get(), "am_iterations")),
+                              status == DELAM_OK);
+            });
         }
         return state_.not_converged.empty() ? exit_done : exit_not_converged;
     }
@@ -110,8 +136,8 @@ public:
         outcome.not_converged = state_.not_converged;
         outcome.estimate_violated = violated_steps(rows_->text(), estimate_tolerance(scene_));
         outcome.front_unresolved = unresolved_steps(rows_->text(), model_, solver_.get(), scene_);
-        outcome.resumed = state_.resumed;
-        outcome.started = state_.started;
+        outcome.resumed = origin_.resumed;
+        outcome.started = origin_.started;
         outcome.problem_hash = state_.problem_hash;
         outcome.rotation_max = fields_.assemble(model_, scene_, static_cast<std::size_t>(state_.step),
                                                 state_.problem_hash, concept_of(solver_.get()));
@@ -123,8 +149,8 @@ public:
     }
 
     [[nodiscard]] const State& state() const { return state_; }
-    // The starting point of a later --resume.
-    [[nodiscard]] std::int64_t saved_step() const { return saved_step_; }
+    // The starting point of a later --resume; none: nothing is saved yet.
+    [[nodiscard]] std::optional<std::int64_t> saved_step() const { return saved_step_; }
 
 private:
     static Exit stopped(Outcome& outcome) {
@@ -178,22 +204,25 @@ private:
     Fields fields_;
     std::string running_history_;
     std::string running_state_;
+    std::string running_origin_;
     std::optional<RowFile> rows_;
     State state_;
-    std::int64_t saved_step_ = 0;
+    Origin origin_;
+    std::optional<std::int64_t> saved_step_;
     std::chrono::steady_clock::time_point saved_;
 };
 
 // The state from which to continue, if there is one; refuses that of another scene.
-std::optional<State> find_state(const OutputFolder& folder, const Scene& scene, const Model& model) {
+std::optional<StateFile> find_state(const OutputFolder& folder, const Scene& scene, const Model& model) {
     const std::string path = folder.running() + "/state.bin";
     if (!std::filesystem::exists(path)) return std::nullopt;
-    State state = unpack(path, read_bytes(path));
+    StateFile file = read_state(path);
+    const State& state = file.state;
     if (state.content_hash != scene.content_hash || state.problem_hash != hash_of(model))
         throw Failure(exit_scene, fmt::format("{}: the scene, with its --set, is not the one that {} was started with; "
                                               "run again without --resume",
                                               scene.file, folder.path()));
-    return state;
+    return file;
 }
 
 // A word in shell syntax.
@@ -212,6 +241,16 @@ std::string command_again(const Scene& scene, const std::string& folder_path) {
     std::string out = fmt::format("delam run {} --out {}", shell_word(scene.file), shell_word(folder_path));
     for (const std::string& setting : scene.settings) out += " --set " + shell_word(setting);
     return out;
+}
+
+// What to type once files can be written again.
+std::string way_on(const Run& work, const OutputFolder& folder, const std::string& again) {
+    const std::optional<std::int64_t> saved = work.saved_step();
+    if (!saved) return "nothing is saved yet; once there is room, start again with: " + again;
+    return fmt::format("{} saved in {}; once there is room, go on with: {} --resume",
+                       *saved == 0 ? "the initial state is"
+                                   : fmt::format("{} of {} are", *saved, counted(work.state().step, "finished step")),
+                       folder.running(), again);
 }
 
 int already_complete(const OutputFolder& folder, const Scene& scene) {
@@ -242,8 +281,8 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
     OutputFolder folder(folder_path);
     if (resume)
         if (const int code = already_complete(folder, scene); code >= 0) return code;
-    const std::optional<State> state = resume ? find_state(folder, scene, model) : std::nullopt;
-    const std::int64_t first = state ? state->step : 0;
+    const std::optional<StateFile> state = resume ? find_state(folder, scene, model) : std::nullopt;
+    const std::int64_t first = state ? state->state.step : 0;
     Progress progress(static_cast<std::int64_t>(scene.step_count()), first);
     delam_context_set_log(model.context.get(), on_log, &progress);
     delam_context_set_progress(model.context.get(), on_progress, &progress);
@@ -267,14 +306,10 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
             work.begin();
         code = work.march(progress, outcome);
         progress.finish();
-        work.publish(outcome);
+        to_the_end([&] { work.publish(outcome); });
     } catch (const OutputFailure& failure) {
         progress.finish();
-        const std::string hint =
-            work.saved_step() > 0
-                ? fmt::format("finished steps are kept in {}; go on with: {} --resume", folder.running(), again)
-                : "no step is kept; once there is room, start again with: " + again;
-        throw Failure(exit_output, std::string(failure.what()) + "\n" + hint);
+        throw Failure(exit_output, fmt::format("{}\n{}", failure.what(), way_on(work, folder, again)));
     }
     const auto total = static_cast<std::int64_t>(scene.step_count());
     const double eta = estimate_tolerance(scene);

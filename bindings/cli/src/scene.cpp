@@ -12,9 +12,10 @@
 #include "cell_shape.hpp"
 #include "cell_size.hpp"
 #include "delam/delam.h"
-#include "file.hpp"
 #include "hash.hpp"
+#include "input_file.hpp"
 #include "scene_parts.hpp"
+#include "scene_text.hpp"
 #include "setting.hpp"
 
 namespace cli {
@@ -266,15 +267,10 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& settin
     Scene scene;
     scene.file = file;
     scene.settings = settings;
-    std::string bytes;
-    try {
-        bytes = read_bytes(file);
-    } catch (const std::exception& e) {
-        throw Failure(exit_scene, e.what());
-    }
+    const std::string bytes = read_bytes(file, most_scene_bytes);
     toml::table parsed;
     try {
-        parsed = toml::parse(std::string_view(bytes), std::string_view(file));
+        parsed = parsed_text(bytes, {file, "", 0}, file);
     } catch (const toml::parse_error& e) {
         throw SceneFailure({file, "", static_cast<int>(e.source().begin.line)},
                            "not TOML: " + std::string(e.description()));

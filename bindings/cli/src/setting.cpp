@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 
 #include "error.hpp"
+#include "reader.hpp"
+#include "scene_text.hpp"
 
 namespace cli {
 
@@ -49,6 +51,8 @@ std::vector<PathStep> parsed_path(const std::string& text) {
     }
     if (steps.empty() || at != end || text.back() != ']')
         fail(text, "is no key: a path like geometry.h or laws[0].normal_onset is expected");
+    if (steps.size() > most_levels)
+        fail(shortened(text), fmt::format("has {} levels: at most {} are allowed", steps.size(), most_levels));
     return steps;
 }
 
@@ -64,9 +68,9 @@ std::string shown(std::span<const PathStep> steps) {
 }
 
 // A table with the one key `value`; its nodes record their origin.
-std::optional<toml::table> parsed(const std::string& value) {
+std::optional<toml::table> parsed(const std::string& value, const std::string& path) {
     try {
-        toml::table table = toml::parse("value = " + value, setting_source);
+        toml::table table = parsed_text("value = " + value, {std::string(setting_source), path, 0}, setting_source);
         if (table.size() == 1) return table;
     } catch (const toml::parse_error&) {
     }
@@ -86,9 +90,9 @@ std::string quoted(const std::string& text) {
 std::string checked_value(const std::string& path, const std::string& value) {
     const bool one_line =
         std::none_of(value.begin(), value.end(), [](unsigned char c) { return std::iscntrl(c) != 0; });
-    if (one_line && parsed(value)) return value;
+    if (one_line && parsed(value, path)) return value;
     if (one_line && !value.empty() && std::isalpha(static_cast<unsigned char>(value.front())) != 0 &&
-        parsed(quoted(value)))
+        parsed(quoted(value), path))
         return quoted(value);
     fail(path, fmt::format("{}: a number, true, false, a text or a list is expected, as in TOML",
                            value.empty() ? "there is no value" : quoted(value) + " is no value"));
@@ -132,7 +136,7 @@ void apply_setting(toml::table& root, const std::string& setting) {
         if (key == nullptr) fail(path, shown(std::span(steps).first(i)) + " is not there");
         value = fmt::format("{{ {} = {} }}", *key, value);
     }
-    toml::table holder = *parsed(value);
+    toml::table holder = *parsed(value, path);
     // Moved, because a copy loses its origin.
     holder.get("value")->visit([&](auto& node) {
         if (const auto* key = std::get_if<std::string>(&steps[depth])) {

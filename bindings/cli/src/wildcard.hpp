@@ -7,12 +7,19 @@ namespace cli {
 
 // Whether a name matches a pattern in which * stands for any characters or none.
 inline bool fits(std::string_view pattern, std::string_view name) {
-    const std::size_t star = pattern.find('*');
+    std::size_t star = pattern.find('*');
     if (star == std::string_view::npos) return pattern == name;
-    if (name.substr(0, star) != pattern.substr(0, star)) return false;
-    for (std::size_t i = star; i <= name.size(); ++i)
-        if (fits(pattern.substr(star + 1), name.substr(i))) return true;
-    return false;
+    if (!name.starts_with(pattern.substr(0, star))) return false;
+    name.remove_prefix(star);
+    // Each part between two stars at its first place, which leaves most of the name for the parts behind it.
+    for (;;) {
+        pattern.remove_prefix(star + 1);
+        star = pattern.find('*');
+        if (star == std::string_view::npos) return name.ends_with(pattern);
+        const std::size_t at = name.find(pattern.substr(0, star));
+        if (at == std::string_view::npos) return false;
+        name.remove_prefix(at + star);
+    }
 }
 
 inline bool is_pattern(std::string_view text) { return text.find('*') != std::string_view::npos; }

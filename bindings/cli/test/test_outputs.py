@@ -144,12 +144,23 @@ largest = max(len(b) for b in before.values())
 for limit in (1000, 20000, largest - 1000):
     answer = delam("run", scene, "--out", out,
                    preexec_fn=lambda n=limit: resource.setrlimit(resource.RLIMIT_FSIZE, (n, n)))
-    # Before the first state is saved there is nothing to promise.
+    # Before the first state is saved there is nothing to promise; the fields of the initial state take more than 20 kB.
     expect_error(answer, 3, "cannot write .*running/", "File too large",
-                 "--resume" if limit > 20000 else "no step is kept")
+                 r"\d+ of 2\d finished steps are saved in .*--resume" if limit > 20000 else "nothing is saved yet")
     after = {name: read(os.path.join(out, name)) for name in os.listdir(out) if name != "running"}
     expect(after == before, f"files of at most {limit} bytes: the earlier result stays")
 code, text, _ = delam("run", scene, "--out", out, "--resume")
 expect(code == 0 and read(os.path.join(out, "history.csv")) == before["history.csv"], "resumed once there is room")
 expect("running" not in os.listdir(out), "nothing is left over")
+
+# Full in the middle of a run that is over within a second: it goes on from its first step, and says so.
+many = write(changed("steps = 20", "steps = 200\n[output]\nevery = 1000\nsnapshots = [2.0]"))
+straight, halted = folder(), folder()
+expect(delam("run", many, "--out", straight)[0] == 0, "200 steps")
+answer = delam("run", many, "--out", halted, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (50000, 50000)))
+expect_error(answer, 3, "cannot write .*running/history.csv", r"\n\d+ of \d\d+ finished steps are saved in .*running; once",
+             "go on with: delam run .* --resume")
+code, text, _ = delam("run", many, "--out", halted, "--resume")
+expect(code == 0 and "resumed after step" in text, "it goes on once there is room: " + text.split("\n")[1])
+expect(read(os.path.join(halted, "history.csv")) == read(os.path.join(straight, "history.csv")), "to the same end")
 finish()

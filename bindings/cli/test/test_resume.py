@@ -17,12 +17,17 @@ history = read(os.path.join(whole, "history.csv"))
 violated = json.loads(read(os.path.join(whole, "result.json")))["estimate_violated"]
 
 
+shown = []  # lines of the run that was stopped last
+
+
 def stop_after(step, number, out, *words):
-    """Sends a signal when the line of a step is seen; exit code and last step seen."""
+    """Sends a signal when the line of a step is seen; exit code and standard error."""
+    shown.clear()
     with subprocess.Popen([DELAM, "run", scene, "--out", out, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                           text=True) as process:
         sent = False
         for line in process.stdout:
+            shown.append(line)
             if line.startswith("step ") and int(line.split()[1].split("/")[0]) >= step and not sent:
                 process.send_signal(number)
                 sent = True
@@ -33,7 +38,7 @@ def stop_after(step, number, out, *words):
 for number, name in ((signal.SIGINT, "Ctrl-C"), (signal.SIGTERM, "SIGTERM")):
     out = folder()
     code, error = stop_after(5, number, out)
-    expect(code == 130 and "--resume" in error, f"{name}: exit {code}, says how to go on")
+    expect(code == 130 and "interrupted" in error and "--resume" in error, f"{name}: exit {code}, says how to go on")
     about = json.loads(read(os.path.join(out, "result.json")))
     part = read(os.path.join(out, "history.csv"))
     expect(about["status"] == "incomplete" and about["reason"] == "interrupted" and 5 <= about["steps_done"] < 60,
@@ -45,8 +50,8 @@ for number, name in ((signal.SIGINT, "Ctrl-C"), (signal.SIGTERM, "SIGTERM")):
     # Once more, then to the end.
     code, _ = stop_after(max(about["steps_done"] + 3, 40), number, out, "--resume")
     expect(code == 130, f"{name}: interrupted again")
-    code, shown, _ = delam("run", scene, "--out", out, "--resume")
-    expect(code == 0 and "resumed after step" in shown, f"{name}: resumed")
+    code, said, _ = delam("run", scene, "--out", out, "--resume")
+    expect(code == 0 and "resumed after step" in said, f"{name}: resumed")
     expect(read(os.path.join(out, "history.csv")) == history, f"{name}: the history is that of an uninterrupted run")
     with h5py.File(os.path.join(out, "fields.h5")) as a, h5py.File(os.path.join(whole, "fields.h5")) as b:
         expect(list(a["steps"]) == list(b["steps"]) and
@@ -59,8 +64,27 @@ for number, name in ((signal.SIGINT, "Ctrl-C"), (signal.SIGTERM, "SIGTERM")):
 out = folder()
 expect(stop_after(7, signal.SIGKILL, out)[0] == -signal.SIGKILL, "killed")
 expect("result.json" not in os.listdir(out), "no result is claimed")
-code, shown, _ = delam("run", scene, "--out", out, "--resume")
+code, _, _ = delam("run", scene, "--out", out, "--resume")
 expect(code == 0 and read(os.path.join(out, "history.csv")) == history, "resumed after a kill")
+
+# Killed as soon as one step is done, again and again: each time it gets on by that step.
+out = folder()
+for kill in range(4):
+    stop_after(0, signal.SIGKILL, out, *(["--resume"] if kill > 0 else []))
+    begun = [line for line in shown if line.startswith("resumed after step ")]
+    expect(kill == 0 or (begun and int(begun[0].split()[-1]) >= kill), f"killed {kill} times: {''.join(begun).strip()}")
+expect(delam("run", scene, "--out", out, "--resume")[0] == 0, "then to the end")
+expect(read(os.path.join(out, "history.csv")) == history, "which is that of an uninterrupted run")
+expect(json.loads(read(os.path.join(out, "result.json")))["resumed"] == 4, "result.json counts the kills")
+
+# Another run of the scene, of a file elsewhere and at another time, writes the same bytes; so does a resumed one.
+again, elsewhere = folder(), write(text)
+started = json.loads(read(os.path.join(whole, "result.json")))["started"]
+expect(delam("run", elsewhere, "--out", again)[0] == 0, "run again")
+for name in ("history.csv", "state.bin", "fields.h5", "fields.xdmf"):
+    expect(read(os.path.join(again, name)) == read(os.path.join(whole, name)), f"the same {name}, later and elsewhere")
+    expect(read(os.path.join(out, name)) == read(os.path.join(whole, name)), f"the same {name} after four kills")
+expect(json.loads(read(os.path.join(again, "result.json")))["started"] != started, "result.json has the dates")
 
 out = folder()
 stop_after(5, signal.SIGINT, out)
@@ -68,8 +92,32 @@ other = write(changed("young = 75e9", "young = 76e9", text))
 expect_error(delam("run", other, "--out", out, "--resume"), 2, "the scene, with its --set, is not the one")
 comment = write("# a comment\n" + text)
 expect(delam("run", comment, "--out", out, "--resume")[0] == 0, "a comment is no change")
-code, shown, _ = delam("run", scene, "--out", out, "--resume")
-expect(code == 0 and "complete already" in shown, "nothing is left to do")
+code, said, _ = delam("run", scene, "--out", out, "--resume")
+expect(code == 0 and "complete already" in said, "nothing is left to do")
+
+# A state of the format before, which kept the date and the number of resumes.
+out = folder()
+stop_after(5, signal.SIGINT, out)
+state = os.path.join(out, "running", "state.bin")
+line, _, rest = read(state).partition(b"\n")
+head = json.loads(line)
+expect(head.pop("kind") == "delam state 3", "the format of today")
+old = {"kind": "delam state 2", **head, "started": "2026-01-31T12:00:00Z", "resumed": 6}
+with open(state, "wb") as file:
+    file.write(json.dumps(old, separators=(",", ":")).encode() + b"\n" + rest)
+os.remove(os.path.join(out, "running", "origin.json"))
+expect(delam("run", scene, "--out", out, "--resume")[0] == 0, "resumed from a state of format 2")
+expect(read(os.path.join(out, "history.csv")) == history, "to the same end")
+about = json.loads(read(os.path.join(out, "result.json")))
+expect(about["started"] == "2026-01-31T12:00:00Z" and about["resumed"] == 7, "with its date")
+
+# Ctrl-C within a step: a person reads that the run was interrupted, and no error of the library.
+slow = changed("h = 0.0015", "h = 0.00025", text)
+scene, kept = write(slow), scene
+code, error = stop_after(1, signal.SIGINT, folder())
+expect(code == 130 and error.startswith("delam: interrupted after step"), f"within a step: {error.strip()}")
+expect(not any("cancel" in line or "error" in line for line in shown), f"nothing else is said: {shown[-1].strip()}")
+scene = kept
 expect_error(delam("run", other, "--out", out, "--resume"), 2, "the scene, with its --set, is not the one")
 
 out = folder()

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "error.hpp"
-#include "file.hpp"
+#include "input_file.hpp"
 #include "row_file.hpp"
 
 namespace {
