@@ -3,22 +3,36 @@
 # bash verify/fuzz/run.sh [SECONDS [FOLDER [TARGET...]]]: builds the library and the targets with clang, libFuzzer,
 # AddressSanitizer and UBSan in FOLDER (build/fuzz), replays corpus and regressions, then fuzzes each target for SECONDS
 # (600), starting from its corpus. What is found is kept in FOLDER/found/TARGET, new inputs in FOLDER/corpus/TARGET.
+#   --limited    without AddressSanitizer, which needs more of both, and instead with a stack of 512 kB and an address
+#                space of 3 GB; in build/fuzz_limited
 #   --minimise   afterwards: the committed corpus becomes the smallest inputs that cover the same (libFuzzer -merge=1)
 # Exit code 1 when a target fails, 77 when clang or its libFuzzer is missing.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
 minimise=no
-if [[ ${1:-} == --minimise ]]; then
-    minimise=yes
+sanitizers=address,undefined
+default=$root/build/fuzz
+while [[ ${1:-} == --* ]]; do
+    case $1 in
+    --minimise) minimise=yes ;;
+    --limited)
+        sanitizers=undefined
+        default=$root/build/fuzz_limited
+        ;;
+    *)
+        printf '%s: --minimise and --limited are known\n' "$1" >&2
+        exit 2
+        ;;
+    esac
     shift
-fi
+done
 seconds=${1:-600}
-folder=${2:-$root/build/fuzz}
+folder=${2:-$default}
 shift $(($# < 2 ? $# : 2))
 targets=("$@")
 if ((${#targets[@]} == 0)); then
-    targets=(api_sequence scene saved_state mesh_arrays)
+    targets=(api_sequence scene mesh_inp saved_state mesh_arrays)
 fi
 
 probe='extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }'
@@ -31,7 +45,7 @@ mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 flags="-O1 -g -D_GLIBCXX_ASSERTIONS -fsanitize-ignorelist=$here/third_party.txt"
 cmake -S "$root" -B "$folder" -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=None \
-    -DCMAKE_C_FLAGS="-O1 -g" -DCMAKE_CXX_FLAGS="$flags" -DDELAM_SANITIZE=fuzzer-no-link,address,undefined \
+    -DCMAKE_C_FLAGS="-O1 -g" -DCMAKE_CXX_FLAGS="$flags" -DDELAM_SANITIZE=fuzzer-no-link,$sanitizers \
     -DDELAM_FUZZ=ON -DDELAM_BUILD_EXAMPLES=OFF >/dev/null
 cmake --build "$folder" --target "${targets[@]/#/fuzz_}" -- -k 0
 python3 "$here/scene_dictionary.py" "$root/bindings/cli/SCENE.md" >"$folder/scene.dictionary"
@@ -42,13 +56,17 @@ export UBSAN_OPTIONS=print_stacktrace=1
 export OPENBLAS_NUM_THREADS=1
 # What a machine that is shared gave: seconds on the clock, and of the processor.
 TIMEFORMAT='%R s, of the processor %U s and %S s for the system'
+if [[ $sanitizers == undefined ]]; then
+    ulimit -s 512
+    ulimit -v 3000000
+fi
 failed=()
 for target in "${targets[@]}"; do
     program=$(find "$folder" -name "fuzz_$target" -type f -perm -u+x | head -n 1)
     longest=400
     kept=45
     options=()
-    if [[ $target == scene ]]; then
+    if [[ $target == scene || $target == mesh_inp ]]; then
         longest=4000
         options=(-dict="$folder/scene.dictionary")
     elif [[ $target == api_sequence ]]; then

@@ -5,50 +5,22 @@
 // long.
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
-
-#include <unistd.h>
 
 #include "build.hpp"
 #include "contract.hpp"
 #include "error.hpp"
+#include "folder.hpp"
 #include "history.hpp"
 #include "notes.hpp"
 #include "resolution.hpp"
 #include "scene.hpp"
-#include "toml.hpp"
+#include "scene_text.hpp"
 
 namespace {
 
 using fuzz::expect;
-
-// A folder for the files, removed at the end.
-class Folder {
-public:
-    Folder() {
-        const std::filesystem::path memory = "/dev/shm";
-        path_ = (std::filesystem::is_directory(memory) ? memory : std::filesystem::temp_directory_path()) /
-                ("delam-fuzz-" + std::to_string(::getpid()));
-        std::filesystem::create_directories(path_);
-    }
-    ~Folder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    std::string write(const char* name, std::string_view text) const {
-        const std::filesystem::path file = path_ / name;
-        std::ofstream(file, std::ios::binary) << text;
-        return file.string();
-    }
-
-private:
-    std::filesystem::path path_;
-};
 
 // More time steps or cells than this are legitimate work and only take time.
 constexpr std::int64_t most_steps = 1000;
@@ -57,8 +29,10 @@ constexpr double most_cells = 100;
 bool is_work(std::string_view text) {
     const auto parsed = [&]() -> toml::table {
         try {
-            return toml::parse(text);
+            return cli::parsed_text(text, {}, "");
         } catch (const toml::parse_error&) {
+            return {};
+        } catch (const cli::SceneFailure&) {
             return {};
         }
     }();
@@ -95,7 +69,7 @@ void check(const std::string& file) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const Folder folder;
+    static const fuzz::Folder folder;
     const std::string_view all(reinterpret_cast<const char*>(data), size);
     constexpr std::string_view mark = "\n== mesh.inp\n";
     const std::size_t at = all.find(mark);
