@@ -43,7 +43,13 @@ for name in "${named[@]}"; do
     [[ -f $work/development/share/doc/delam/$name ]] || fail "component development has no $name, which delam.h names"
 done
 if has cli; then
-    only cli 'bin/delam|share/delam/[a-z_]+\.py' bin/delam share/delam/plot.py
+    only cli 'bin/delam|share/delam/[a-z_]+\.py|share/doc/delam/(bindings/cli/[A-Z]+\.md|examples/enf/enf\.toml)' \
+        bin/delam share/delam/plot.py share/doc/delam/bindings/cli/README.md share/doc/delam/bindings/cli/SCENE.md
+    # Their links lead to files that are installed with them.
+    documents=$work/cli/share/doc/delam/bindings/cli
+    while read -r target; do
+        [[ -e $documents/$target ]] || fail "a document of component cli links to $target, which is not installed"
+    done < <(grep -ohE '\]\([^)#:]+' "$documents"/*.md | cut -c3- | grep -v '^https\?$' | sort -u)
 fi
 if has cpp; then
     only cpp 'include/delam/(delam|cpp/[a-z]+)\.hpp|lib/cmake/delam/delam-cpp.*\.cmake' \
@@ -65,4 +71,8 @@ if ! difference=$(diff <(cd "$work/all" && find . ! -type d | sort) \
         [[ ! -d $work/$component ]] || (cd "$work/$component" && find . ! -type d)
     done | sort)); then
     fail "the whole (<) and its components (>) differ:"$'\n'"$difference"
+fi
+if has cli; then
+    place=$("$work/all/bin/delam" --help | grep -oE 'share/doc/[a-z/]+') || fail "delam --help names no documents"
+    [[ -f $work/all/$place/SCENE.md ]] || fail "delam --help names $place, where SCENE.md is not"
 fi

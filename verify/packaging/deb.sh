@@ -64,6 +64,7 @@ if has cpp; then
 fi
 if has cli; then
     holds delam '^\./usr/bin/delam$'
+    holds delam 'share/doc/delam/bindings/cli/SCENE\.md$'
     lacks delam '/include/|\.so'
     depends delam "libdelam$ABI"
     "$work/root/usr/bin/delam" --version
