@@ -6,6 +6,7 @@
 
 #include "base/numbers.hpp"
 #include "capi/handles.hpp"
+#include "mesh/cell_type.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/selection.hpp"
 
@@ -249,8 +250,8 @@ int32_t delam_mesh_add_pairs(delam_mesh* mesh, int32_t body_a, int32_t body_b, i
         require_array(normals, count, "normals");
         require_array(weights, count, "weights");
         require_count(face_count, "face_count");
-        if (face_count > 0 && (nodes_per_face < 2 || nodes_per_face > 8))
-            fail(DELAM_ERROR_ARGUMENT, "nodes_per_face = ", nodes_per_face, " is outside 2 .. 8");
+        if (face_count > 0 && find_face_row(core.dimension(), nodes_per_face) == nullptr)
+            fail(DELAM_ERROR_ARGUMENT, "nodes_per_face = ", nodes_per_face, ": must be ", face_sizes(core.dimension()));
         require_base(index_base);
         const std::int64_t corners = face_count > 0 ? face_count * nodes_per_face : 0;
         *out_interface =

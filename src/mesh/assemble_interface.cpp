@@ -41,7 +41,7 @@ std::vector<std::size_t> spatial_order(const Mesh& mesh, std::span<const NodePai
 // A face in terms of pairs, beginning at its smallest pair (edges: at their first corner), so that neither weights nor
 // order depend on the host's numbering of its cells.
 struct PairFace {
-    std::vector<std::int64_t> pair;  // corners, then mid-sides
+    std::vector<std::int64_t> pair;  // corners, then mid-sides, then the centre
     std::size_t corners;
     bool operator<(const PairFace& other) const { return pair < other.pair; }
 };
@@ -51,19 +51,28 @@ PairFace pair_face(const BoundaryFace& face, const std::map<std::int64_t, std::i
     for (const std::int64_t node : face.all()) result.pair.push_back(index.at(node));
     if (result.corners == 2) return result;
     const auto first = result.pair.begin();
-    const auto middle = first + static_cast<std::ptrdiff_t>(result.corners);
+    const auto corners = static_cast<std::ptrdiff_t>(result.corners);
+    const auto middle = first + corners;
     const auto turn = std::min_element(first, middle) - first;
     std::rotate(first, first + turn, middle);
-    if (middle != result.pair.end()) std::rotate(middle, middle + turn, result.pair.end());
+    if (middle != result.pair.end()) std::rotate(middle, middle + turn, middle + corners);
     return result;
 }
 
-// The face in the list of an interface whose largest faces have more corners: the last corner is repeated, and the
-// corner before it replaces the missing mid-side node.
-void append_padded(const PairFace& face, std::size_t corners, std::size_t nodes, std::vector<std::int64_t>& out) {
-    const std::size_t own = face.corners;
+// The face in the list of an interface whose largest faces are of the kind `row`: where it has fewer corners, its last
+// corner is repeated; a corner replaces a missing mid-side node, the first mid-side node a missing centre. The pieces
+// of the larger face then cover the smaller one.
+void append_padded(const PairFace& face, const FaceRow& row, std::vector<std::int64_t>& out) {
+    const std::size_t own = face.corners, corners = index(row.corners), sides = index(row.sides());
+    const std::size_t own_sides = own == 2 ? 1 : own;
+    const std::size_t start = out.size();
     for (std::size_t k = 0; k < corners; ++k) out.push_back(face.pair[std::min(k, own - 1)]);
-    for (std::size_t side = 0; side < nodes - corners; ++side) {
+    for (std::size_t side = 0; corners + side < index(row.nodes); ++side) {
+        if (side >= sides) {
+            const std::size_t centre = own + own_sides + (side - sides);
+            out.push_back(centre < face.pair.size() ? face.pair[centre] : out[start + corners]);
+            continue;
+        }
         const std::size_t mine = side + 1 == corners ? own - 1 : side;  // the last side closes either polygon
         const bool there = own + mine < face.pair.size() && (side + 1 < own || side + 1 == corners);
         out.push_back(there ? face.pair[own + mine] : face.pair[std::min(side, own - 1)]);
@@ -103,7 +112,7 @@ BoundaryFace turned(const BoundaryFace& face) {
     BoundaryFace result = face;
     const auto n = index(face.corners);
     for (std::size_t k = 0; k < n; ++k) result.node[k] = face.node[n - 1 - k];
-    const std::size_t sides = face.middle().size();
+    const std::size_t sides = std::min(face.middle().size(), n == 2 ? 1 : n);
     for (std::size_t k = 0; k < sides; ++k) result.node[n + k] = face.node[n + (2 * sides - 2 - k) % sides];
     return result;
 }
@@ -113,18 +122,17 @@ std::vector<Point> lay_faces(const Mesh& mesh, std::span<const BoundaryFace> fac
     const std::vector<std::int64_t>& on_faces = side == FaceSide::a ? interface.node_a : interface.node_b;
     std::map<std::int64_t, std::int64_t> pair_of;  // pair of a node of the faces
     for (std::size_t p = 0; p < on_faces.size(); ++p) pair_of.emplace(on_faces[p], static_cast<std::int64_t>(p));
-    std::size_t corners = 2;
-    bool quadratic = false;
+    std::size_t corners = index(mesh.dimension()), others = 0;
     std::vector<PairFace> faces;
     for (const BoundaryFace& face : faces_of_nodes) {
         poll_cancel("pairs", 2);
         corners = std::max(corners, face.corner().size());
-        quadratic = quadratic || !face.middle().empty();
+        others = std::max(others, face.middle().size());
         faces.push_back(pair_face(face, pair_of));
     }
     std::sort(faces.begin(), faces.end());
-    const std::size_t nodes_per_face = !quadratic ? corners : corners == 2 ? 3 : 2 * corners;
-    interface.nodes_per_face = static_cast<int>(nodes_per_face);
+    const FaceRow& row = face_row(mesh.dimension(), corners, others);
+    interface.nodes_per_face = row.nodes;
 
     interface.weight.assign(on_faces.size(), 0.0);
     std::vector<Point> area(on_faces.size(), Point{});
@@ -137,7 +145,7 @@ std::vector<Point> lay_faces(const Mesh& mesh, std::span<const BoundaryFace> fac
             interface.weight[index(face.pair[k])] += rule.weight[k];
             for (std::size_t i = 0; i < 3; ++i) area[index(face.pair[k])][i] += rule.area[k][i];
         }
-        append_padded(face, corners, nodes_per_face, interface.face);
+        append_padded(face, row, interface.face);
     }
     return area;
 }

@@ -111,6 +111,17 @@ const FaceRow& face_row(int dimension, std::size_t nodes) {
     fail(DELAM_ERROR_INTERNAL, "no cell has faces of ", nodes, " nodes in ", dimension, "D");
 }
 
+const FaceRow& face_row(int dimension, std::size_t corners, std::size_t others) {
+    const FaceRow* smallest = nullptr;
+    for (const FaceRow& row : face_rows)
+        if (row.dimension == dimension && index(row.corners) == corners && index(row.nodes) >= corners + others &&
+            (smallest == nullptr || row.nodes < smallest->nodes))
+            smallest = &row;
+    if (smallest != nullptr) return *smallest;
+    fail(DELAM_ERROR_INTERNAL, "no cell has faces of ", corners, " corners and ", others, " other nodes in ", dimension,
+         "D");
+}
+
 std::span<const FacePiece> face_pieces(int dimension, std::size_t face_nodes) {
     const FaceRow& row = face_row(dimension, face_nodes);
     return std::span(row.piece).first(index(row.pieces));

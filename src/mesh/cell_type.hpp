@@ -29,7 +29,8 @@ inline constexpr std::size_t most_cell_faces = 6;
 inline constexpr std::size_t most_face_nodes = 8;
 
 // The nodes of a cell are its corners, then those midway between two corners. Its faces (edges in 2D) are lists of
-// local nodes: corners, outward when walked in order, then the mid-side nodes, the k-th between corners k and k+1.
+// local nodes: corners, outward when walked in order, then the mid-side nodes, the k-th between corners k and k+1, then
+// the centre where there is one.
 struct CellTopology {
     const char* name;  // as the C API and the scene file spell it
     int dimension;
@@ -121,6 +122,8 @@ struct FaceRow {
     CellType surface;  // the plane cell whose reference cell and shape functions a face in space has; of edges unused
     int pieces;
     std::array<FacePiece, 5> piece;
+
+    constexpr int sides() const { return corners == 2 ? 1 : corners; }
 };
 
 // clang-format off
@@ -147,6 +150,8 @@ std::string cell_names(bool (*wanted)(const CellRow&));
 const FaceRow* find_face_row(int dimension, std::int64_t nodes);
 // The same, Error(DELAM_ERROR_INTERNAL) where there is none.
 const FaceRow& face_row(int dimension, std::size_t nodes);
+// The smallest row with these corners and at least so many other nodes.
+const FaceRow& face_row(int dimension, std::size_t corners, std::size_t others);
 std::span<const FacePiece> face_pieces(int dimension, std::size_t face_nodes);
 // The numbers of nodes that faces may have, as "3, 4, 6 or 8".
 std::string face_sizes(int dimension);

@@ -85,8 +85,7 @@ std::int64_t Mesh::add_pairs(std::int32_t label_a, std::int32_t label_b, std::sp
 
     made.nodes_per_face = dimension_;
     if (!face.empty()) {
-        if (find_face_row(dimension_, nodes_per_face) == nullptr)
-            fail(DELAM_ERROR_ARGUMENT, "nodes_per_face = ", nodes_per_face, ": must be ", face_sizes(dimension_));
+        const FaceRow& kind = face_row(dimension_, index(nodes_per_face));
         made.nodes_per_face = nodes_per_face;
         const auto per_face = static_cast<std::size_t>(nodes_per_face);
         for (std::size_t i = 0; i < face.size(); ++i) {
@@ -94,7 +93,7 @@ std::int64_t Mesh::add_pairs(std::int32_t label_a, std::int32_t label_b, std::sp
                 fail(DELAM_ERROR_ARGUMENT, "faces[", i / per_face, "][", i % per_face, "] = ", face[i],
                      ": must be in 0..", made.pair_count() - 1);
             // Corners must differ, except the last one of a triangle among quadrilaterals.
-            const std::size_t corners = dimension_ == 2 ? 2 : per_face == 3 || per_face == 6 ? 3 : 4, k = i % per_face;
+            const std::size_t corners = index(kind.corners), k = i % per_face;
             for (std::size_t j = 0; j < k && k < corners; ++j)
                 if (face[i] == face[i - k + j] && !(corners == 4 && k == 3 && j == 2))
                     fail(DELAM_ERROR_ARGUMENT, "faces[", i / per_face, "]: pair ", face[i],

@@ -16,8 +16,8 @@ struct InterfaceGeometry {
     std::vector<double> weight;  // [pairs] length (2D) or area (3D) of a pair, > 0
     std::vector<double> frame;   // [pairs][dim][dim] rows: normal from a to b, tangent(s); orthonormal
     int nodes_per_face = 2;
-    // [faces][nodes_per_face] pair indices, corners then mid-sides; triangles among quadrilaterals repeat their last
-    // corner, also as the mid-side node of the collapsed side
+    // [faces][nodes_per_face] pair indices: corners, then mid-sides, then the centre if the cells have one. Triangles
+    // among quadrilaterals repeat their last corner, also as the mid-side node of the collapsed side.
     std::vector<std::int64_t> face;
 
     std::int64_t pair_count() const { return static_cast<std::int64_t>(node_a.size()); }

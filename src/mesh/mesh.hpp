@@ -123,7 +123,8 @@ private:
     std::vector<NodeTie> ties_;
 };
 
-// A face that one cell alone has: cell, its nodes (corners outward, then mid-sides), in order of cells and local faces.
+// A face that one cell alone has: cell, its nodes (corners outward, then the others), in order of cells and local
+// faces.
 struct BoundaryFace {
     std::int64_t cell;
     int nodes;

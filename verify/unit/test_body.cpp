@@ -102,7 +102,7 @@ double row_norm(const SparseMatrix& k) {
     return largest;
 }
 
-// int over the boundary of x . n / dim, face by face, with the shape functions of the face (6 nodes: tri6, 8: quad8)
+// int over the boundary of x . n / dim, face by face, with the shape functions of the face
 // and enough Gauss points: x . (x_u cross x_v) has at most degree 6 in each variable, on an edge x cross x' has degree
 // 3.
 double curved_volume(const Mesh& mesh, std::int64_t c) {
@@ -138,7 +138,7 @@ double curved_volume(const Mesh& mesh, std::int64_t c) {
                 const double u = triangle ? 0.5 * (1.0 + gauss[p]) : gauss[p];
                 const double v = triangle ? (1.0 - u) * 0.5 * (1.0 + gauss[q]) : gauss[q];
                 const double w = share[p] * share[q] * (triangle ? 0.25 * (1.0 - u) : 1.0);
-                const CellType type = triangle ? CellType::tri6 : CellType::quad8;
+                const CellType type = face_row(3, static_cast<std::size_t>(cell.face_nodes)).surface;
                 const ShapeValues n = shape_values(type, {u, v, 0.0});
                 const ShapeGradient d = reference_gradient(type, {u, v, 0.0});
                 double at[3] = {};

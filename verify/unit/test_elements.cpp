@@ -213,7 +213,8 @@ START_TEST(shape_functions) {
         // A face's middle nodes lie between its corners.
         for (std::size_t f = 0; f < size(shape.faces); ++f) {
             const auto corners = size(shape.face_corners);
-            for (std::size_t k = 0; k + corners < size(shape.face_nodes); ++k)
+            const auto sides = corners == 2 ? 1 : corners;
+            for (std::size_t k = 0; k < sides && k + corners < size(shape.face_nodes); ++k)
                 for (std::size_t i = 0; i < 3; ++i) {
                     const double p = nodes[size(shape.face[f][k])][i];
                     const double q = nodes[size(shape.face[f][(k + 1) % corners])][i];

@@ -15,6 +15,8 @@ namespace {
 
 // The library's node orders are VTK's and Abaqus's; Abaqus numbers the sides S1, S2, .. of these cells in the order of
 // the library's faces. Which element types of Abaqus are which cells: abaqus_elements.cpp.
+constexpr std::uint8_t tetrahedron_10[] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
+constexpr std::uint8_t hexahedron_20[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15};
 constexpr CellFormat formats[] = {
     {DELAM_TRI3, "Triangle", 4, 2, {}},
     {DELAM_QUAD4, "Quadrilateral", 5, 3, {}},
@@ -23,8 +25,8 @@ constexpr CellFormat formats[] = {
     {DELAM_TRI6, "Triangle_6", 36, 9, {}},
     {DELAM_QUAD8, "Quadrilateral_8", 37, 16, {}},
     {DELAM_QUAD9, "Quadrilateral_9", 35, 10, {}},
-    {DELAM_TET10, "Tetrahedron_10", 38, 11, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}},
-    {DELAM_HEX20, "Hexahedron_20", 48, 17, {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15}},
+    {DELAM_TET10, "Tetrahedron_10", 38, 11, tetrahedron_10},
+    {DELAM_HEX20, "Hexahedron_20", 48, 17, hexahedron_20},
 };
 
 }  // namespace

@@ -2,7 +2,6 @@
 // What mesh and result files call the library's cell types.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -14,8 +13,8 @@ struct CellFormat {
     std::int32_t type;      // a delam_cell_type
     std::string_view xdmf;  // XDMF's name, and its number in a topology of mixed cells; its node orders are VTK's
     std::int64_t xdmf_number;
-    int gmsh;                                 // Gmsh's element type
-    std::array<std::uint8_t, 20> gmsh_order;  // node of Gmsh's that each node is; all 0: the same order
+    int gmsh;                                  // Gmsh's element type
+    std::span<const std::uint8_t> gmsh_order;  // node of Gmsh's that each node is; empty: the same order
 };
 
 // The row of a cell type; Failure where the program has no names for it.

@@ -158,12 +158,11 @@ private:
             fail(fmt::format("element {} of {} is a {}: {} are known", tags.at(0), entity, type_name(gmsh_type),
                              fmt::join(shape_names(mesh_.dimension), ", ")));
         const std::size_t per_cell = shape_of(from->type).nodes;
-        const bool same_order = from->gmsh_order == decltype(from->gmsh_order){};
         CellBlock& block = block_of(from->type);
         for (std::size_t c = 0; c < tags.size(); ++c) {
             for (std::size_t i = 0; i < per_cell; ++i)
                 block.connectivity.push_back(
-                    number(nodes.at(c * per_cell + (same_order ? i : from->gmsh_order.at(i))), tags[c]));
+                    number(nodes.at(c * per_cell + (from->gmsh_order.empty() ? i : from->gmsh_order[i])), tags[c]));
             block.bodies.push_back(body);
         }
     }

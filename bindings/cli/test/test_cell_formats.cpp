@@ -36,10 +36,9 @@ void refused(const std::string& part, const std::function<void()>& action) {
 
 // Each middle node of ours is, in Gmsh's order, where Gmsh puts the midpoint of the two corners.
 bool same_places(const cli::CellShape& shape, const cli::CellFormat& format, const std::vector<double>& places) {
-    const bool same = format.gmsh_order == decltype(format.gmsh_order){};
     const auto dimension = static_cast<std::size_t>(shape.dimension);
     const auto place = [&](std::size_t node, std::size_t axis) {
-        return places[dimension * (same ? node : format.gmsh_order.at(node)) + axis];
+        return places[dimension * (format.gmsh_order.empty() ? node : format.gmsh_order[node]) + axis];
     };
     for (std::size_t m = 0; m < shape.middles.size(); ++m)
         for (std::size_t axis = 0; axis < dimension; ++axis) {

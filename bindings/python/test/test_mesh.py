@@ -47,7 +47,7 @@ class Arrays(unittest.TestCase):
                                  [cell.dimension] * cell.corners)
                 for face in cell.faces:
                     # The middle node of an edge of a face lies between the corners before and after it.
-                    corners, between = face[:cell.face_corners], face[cell.face_corners:]
+                    corners, between = face[:cell.face_corners], face[cell.face_corners:2 * cell.face_corners]
                     for k, node in enumerate(between):
                         ends = {int(corners[k]), int(corners[(k + 1) % len(corners)])}
                         self.assertEqual(set(cell.middle[node - cell.corners].tolist()), ends)

@@ -17,22 +17,11 @@ namespace {
 using Node = std::array<double, 3>;
 using Local = std::array<double, most_face_nodes * most_face_nodes>;
 
-// A face as a separate element: its pairs without padding entries (interface_geometry.hpp).
-struct Face {
-    std::vector<std::int64_t> pair;  // corners, then mid-sides
-};
-
-Face unpadded(std::span<const std::int64_t> listed, int dimension) {
-    const std::size_t nodes = listed.size();
-    const std::size_t corners = dimension == 2 ? 2 : nodes > 4 ? nodes / 2 : nodes;
-    const std::size_t own = corners == 4 && listed[3] == listed[2] ? 3 : corners;
-    const auto corner = listed.first(own);
-    Face face{{corner.begin(), corner.end()}};
-    const auto is_corner = [&](std::int64_t pair) {
-        return std::find(corner.begin(), corner.end(), pair) != corner.end();
-    };
-    for (std::size_t side = corners; side < nodes; ++side)
-        if (!is_corner(listed[side])) face.pair.push_back(listed[side]);
+// The pairs of a face without padding entries (interface_geometry.hpp): those of a separate element.
+std::vector<std::int64_t> unpadded(std::span<const std::int64_t> listed) {
+    std::vector<std::int64_t> face;
+    for (const std::int64_t pair : listed)
+        if (std::find(face.begin(), face.end(), pair) == face.end()) face.push_back(pair);
     return face;
 }
 
@@ -91,20 +80,20 @@ SparseMatrix surface_stiffness(const Mesh& mesh, const InterfaceGeometry& interf
     std::vector<Triplet> entries;
     for (std::int64_t p = 0; p < interface.pair_count(); ++p) entries.push_back({p, p, 0.0});
     for (std::size_t f = 0; f + per_face <= interface.face.size(); f += per_face) {
-        const Face face = unpadded(std::span(interface.face).subspan(f, per_face), mesh.dimension());
-        if (std::any_of(face.pair.begin(), face.pair.end(),
+        const std::vector<std::int64_t> face = unpadded(std::span(interface.face).subspan(f, per_face));
+        if (std::any_of(face.begin(), face.end(),
                         [&](std::int64_t p) { return !(adhesion[static_cast<std::size_t>(p)] > 0.0); }))
             continue;
-        const std::size_t n = face.pair.size();
+        const std::size_t n = face.size();
         std::vector<Node> x(n, Node{});
         for (std::size_t a = 0; a < n; ++a) {
-            const auto node = mesh.node(interface.node_a[static_cast<std::size_t>(face.pair[a])]);
+            const auto node = mesh.node(interface.node_a[static_cast<std::size_t>(face[a])]);
             std::copy(node.begin(), node.end(), x[a].begin());
         }
         const Local local = stiffness_of(mesh.dimension(), x);
         for (std::size_t a = 0; a < n; ++a)
             for (std::size_t b = 0; b < n; ++b)
-                entries.push_back({face.pair[a], face.pair[b], 0.5 * (local[a * n + b] + local[b * n + a])});
+                entries.push_back({face[a], face[b], 0.5 * (local[a * n + b] + local[b * n + a])});
     }
     return from_triplets(interface.pair_count(), interface.pair_count(), std::move(entries));
 }
