@@ -4,7 +4,7 @@
  *
  * The calling program, here called the host, describes bodies and the faces where they touch (delam_mesh), the
  * traction-separation laws of these faces (delam_law), and materials, supports and loads (delam_problem). It then
- * advances the load steps (delam_solver). include/GLOSSARY.md explains the terms.
+ * advances through the load steps (delam_solver). include/GLOSSARY.md explains the terms.
  *
  * Rules for every function
  *   status     0: done. > 0: an outcome; the object stays valid and usable. < 0: an error; the object is unchanged.
@@ -21,33 +21,40 @@
  *              function takes the address of the handle, sets the handle to NULL and accepts NULL. Objects may be
  *              destroyed in any order. A handle of another kind gives DELAM_ERROR_HANDLE, and so does a destroyed one
  *              as far as the library can detect it.
- *   numbers    A number that is not finite is an error, and the message names it.
+ *   numbers    An input number that is not finite is an error, and the message names it.
  *   threads    One thread at a time may use a context and the objects made with it. Different contexts are
  *              independent of each other. delam_context_cancel() alone may be called from any thread.
- *   callbacks  Inside a callback, delam_context_cancel() is the only function that may be called with the context and
- *              its objects. All other functions return DELAM_ERROR_STATE; those that return a text return NULL or "". A
- *              callback must return; do not leave it by longjmp or an exception.
- *   promise    The library prints nothing, leaves no signal handler behind, lets no exception escape and never ends
- *              the process.
+ *   callbacks  Inside a callback, call only delam_context_cancel() with the context and its objects. Functions that
+ *              return a status then return DELAM_ERROR_STATE, and functions that return a text return NULL or "". Two
+ *              kinds still work: delam_context_message() returns its text, and a destroy function takes effect when the
+ *              running call ends. A callback must return; do not leave it by longjmp or an exception.
+ *   promise    The library's own code prints nothing, leaves no signal handler behind, lets no exception escape and
+ *              never ends the process. The libraries below it (BLAS, OpenMP, METIS) may print or end it if memory or
+ *              threads run out (src/capi/CONTRACT.md, "Memory").
  *   names      out: receives the new handle. interface_index, pattern: as returned by the function that added the
- *              interface or pattern. index: place in a list, from 0 to its count - 1. body: label of cells; -1 means
- *              all bodies where the function allows it. capacity: number of entries that the array can hold;
- *              DELAM_ERROR_ARGUMENT if it is negative, or too small and the function does not say that it writes as
- *              many entries as fit. user: passed to the callback unchanged.
+ *              interface or pattern. index: place in a list, from 0 to its count - 1. body: label of a body; -1 means
+ *              all bodies where the function allows it. capacity: number of entries that the array can hold. If it is
+ *              negative, the call returns DELAM_ERROR_ARGUMENT; so it does if it is too small, unless the function says
+ *              that it writes as many entries as fit. user: passed to the callback unchanged.
+ *   backticks  Words in backticks stand for themselves: names of parameters, keys, and texts that a key can take, as in
+ *              `solution = energetic`.
  *
  * The line in brackets
  *   The comment of every function and callback ends with a line in brackets, which states the rest of the contract in
  *   fixed words. Where a field is absent, only the rules above apply. The fields, in their order:
  *   unit       name, unit and range of every parameter of type double. Inputs always have a range; "finite" means any
  *              finite number. A condition in parentheses applies to the array as a whole or to each vector in it. The
- *              unit is 1 for dimensionless numbers, t for the time of the load histories, and "of key" where it
- *              depends on the key
- *   null       pointers that may be NULL
+ *              unit is 1 for dimensionless numbers and t for the time of the load histories. Where it depends on the
+ *              key, on the factors of the patterns or on a text in `unit`, it is "of key", "of factors" or "of unit"
+ *   null       pointers that may be NULL. "result": the function may return NULL
  *   owns       pointers that outlive the call, and who frees or keeps them. "out caller": the caller frees *out with
- *              the object's destroy function. "static": valid as long as the library is loaded
+ *              the object's destroy function. "static": valid as long as the library is loaded. "the problem", "the
+ *              solver": valid as long as that object exists
  *   status     statuses that the function may return besides DELAM_OK. Every function with a handle may also return
  *              DELAM_ERROR_HANDLE, _MEMORY and _INTERNAL and, inside a callback, _STATE; the list omits these. "usual":
- *              only these. "only": nothing but the statuses listed. "-": the function returns no status
+ *              only these. "only": nothing but the statuses listed. "-": none. A function that returns a text cannot
+ *              return a status: its list says why it may return NULL, and delam_context_message() has the text of the
+ *              error
  *   thread     "any": any thread may call at any time. If absent, the rule for threads above applies
  *   source     publication or document that describes the method. "none": the function computes no new result; it
  *              returns inputs, counts or results of other functions
@@ -110,20 +117,21 @@ DELAM_API int32_t delam_abi(void);
  * [owns result static; status -; thread any; since 0.1] */
 DELAM_API const char *delam_status_name(int32_t status);
 /* Returns the number of threads that BLAS uses in this process; 0 if BLAS does not report it. The library does not
- * change this number (the option threads sets the library's own threads). Two runs give identical digits only with the
- * same number of BLAS threads.
+ * change this number (the option `threads` sets the library's own threads). Two runs give identical digits only with
+ * the same number of BLAS threads.
  * [status -; thread any; since 0.1] */
 DELAM_API int32_t delam_blas_threads(void);
 
 /* ---- context: messages, log, progress, cancel -------------------------------------------------------------------- */
 
-/* Receives log lines, which are texts for people. level: 0 error, 1 warning, 2 information.
+/* Receives log lines, which are texts for people. level: 0 error, 1 warning or outcome, 2
+ * information.
  * [null user; owns text until the callback returns; status -; thread call's; since 0.1] */
 typedef void (*delam_log_callback)(int32_t level, const char *text, void *user);
 /* Receives the progress of long calls, on the calling thread. stage: static text ("factor", "minimise", ...); done,
  * total: completed and total work of the stage (total 0: unknown). If the callback returns a value other than 0, the
  * running call stops with DELAM_CANCELLED. Functions that only read ignore this value, so that a host that has stopped
- * an analysis can still read its results. They are delam_mesh_find_patch; delam_problem_hash, _process_zone,
+ * an analysis can still read its results. These functions are delam_mesh_find_patch; delam_problem_hash, _process_zone,
  * _body_matrix, _constraints, _forces and _eigenstrain_energy; delam_solver_value, _field, _average and _condensed.
  * [null user; owns stage static; status cancelled; thread call's; since 0.1] */
 typedef int32_t (*delam_progress_callback)(const char *stage, int64_t done, int64_t total, void *user);
@@ -158,12 +166,13 @@ DELAM_API int32_t delam_context_cancel(delam_context *context);
 /* ---- mesh: nodes, cells, bodies, interfaces ---------------------------------------------------------------------- */
 
 /* Cell types. The nodes are ordered as in VTK: corners (counter-clockwise; bottom face before top face), then the nodes
- * midway between two corners, then the centre. With corners numbered from 0, the middle nodes lie between
+ * midway between two corners (mid-side nodes), then the centre. With corners numbered from 0, the mid-side nodes lie
+ * between
  *   tri6    0-1 1-2 2-0
  *   quad8   0-1 1-2 2-3 3-0      quad9 likewise, then the centre
  *   tet10   0-1 1-2 2-0 0-3 1-3 2-3                              (Gmsh exchanges the last two)
  *   hex20   0-1 1-2 2-3 3-0  4-5 5-6 6-7 7-4  0-4 1-5 2-6 3-7    (Gmsh has another order)
- * Cells may be curved: a middle node need not lie exactly midway. Neighbouring cells share all nodes of their common
+ * Cells may be curved: a mid-side node need not lie exactly midway. Neighbouring cells share all nodes of their common
  * face. In bending, tri3, quad4, tet4 and hex8 are far too stiff unless there are many of them across the thickness.
  * With the other types, and with incompatible quad4 and hex8 (delam_problem_set_formulation), a few suffice. */
 #define DELAM_TRI3 1
@@ -187,10 +196,11 @@ DELAM_API int64_t delam_cell_type_count(void);
 DELAM_API int32_t delam_cell_type_info(int64_t index, const char **name, int32_t *cell_type, int32_t *dimension,
                                        int32_t *nodes, int32_t *corners, int32_t *faces, int32_t *face_nodes,
                                        int32_t *face_corners);
-/* Describes the faces and the middle nodes of a cell type, by the index of delam_cell_type_info, in local node numbers
- * from 0. face: [faces][face_nodes], for each face its corners, in the order that gives an outward normal, then its
- * middle nodes, of which the k-th lies between corners k and k+1. middle: [nodes-corners][2], for each middle node the
- * two corners between which it lies; for the centre of quad9 these are corners 0 and 2.
+/* Describes where the nodes of a cell type lie, by the index of delam_cell_type_info, in local node numbers from 0.
+ * face: [faces][face_nodes], for each face its corners, in the order that gives an outward normal, then its mid-side
+ * nodes. With corners and mid-side nodes of the face counted from 0, mid-side node k lies between corners k and k+1; in
+ * 3D, the last one lies between the last corner and corner 0. middle: [nodes-corners][2], for each node of the cell
+ * that is not a corner, the two corners between which it lies; for the centre of quad9 these are corners 0 and 2.
  * [null face, middle; status only argument; thread any; since 0.1] */
 DELAM_API int32_t delam_cell_type_topology(int64_t index, int32_t *face, int32_t *middle);
 
@@ -203,10 +213,10 @@ DELAM_API int32_t delam_mesh_create(delam_context *context, int32_t dimension, i
  * its own; body 0 is at the bottom. The block starts at the origin.
  *   lengths, divisions  [dimension-1] extent (L) and number of cells along the other axes
  *   thickness, layer_divisions  [layer_count] thickness and number of cells of each layer
- *   cell_type           DELAM_TRI3 / QUAD4 / TRI6 / QUAD8 / QUAD9 in 2D, TET4 / HEX8 / TET10 / HEX20 in 3D; triangular
- *                       cells split each box into 2, tetrahedral cells into 6
- * The nodes of neighbouring layers coincide; the function adds no interface. The nodes of a layer, middle nodes
- * included, are numbered with x running fastest and the last axis slowest.
+ *   cell_type           DELAM_TRI3 / QUAD4 / TRI6 / QUAD8 / QUAD9 in 2D, TET4 / HEX8 / TET10 / HEX20 in 3D. Each box of
+ *                       the divisions is one cell, or 2 triangular or 6 tetrahedral cells
+ * The nodes of neighbouring layers coincide; the function adds no interface. The nodes of a layer, corners and others,
+ * are numbered with x running fastest and the last axis slowest.
  * [unit lengths L > 0, thickness L > 0; null none; owns out caller; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_create_layers(delam_context *context, int32_t dimension, const double *lengths,
                                            const int64_t *divisions, int64_t layer_count, const double *thickness,
@@ -243,8 +253,8 @@ DELAM_API int32_t delam_mesh_add_conforming_cells(delam_mesh *mesh, int32_t cell
  * as four triangles, and an 8-node face as four corner triangles and the quadrilateral of its mid-side nodes; the same
  * holds for curved faces. All weights are positive; their sum is the size of the interface. On faces of tet10 and hex20
  * the weights are not proportional to the nodal forces of a uniform traction. Under such a traction, the pairs of a
- * stiff interface carry up to 1.3 times (tet10) or 1.6 times (hex20) the traction at middle nodes; at corner nodes they
- * carry none or are in closed contact.
+ * stiff interface at mid-side nodes carry up to 1.3 times (tet10) or 1.6 times (hex20) that traction; the pairs at
+ * corner nodes carry none or are in closed contact.
  * The pairs are sorted by coordinates, x first.
  * [unit tolerance 1 in [0, 0.5); null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_interface(delam_mesh *mesh, int32_t body_a, int32_t body_b, double tolerance,
@@ -260,31 +270,32 @@ DELAM_API int32_t delam_mesh_add_interface(delam_mesh *mesh, int32_t body_a, int
 DELAM_API int32_t delam_mesh_add_all_interfaces(delam_mesh *mesh, double tolerance, int64_t *out_count);
 /* Adds an interface between two bodies, a = body_a and b = body_b, whose meshes do not match. *out_interface receives
  * its index. The function pairs each face of b that lies on faces of a. A face lies on them if its distance from them
- * is at most gap (L; smaller values, 0 among them, count as 1e-6 of the shortest edge) and its normal is opposite to
- * theirs within 60 degrees. The function projects each node of such a face to the nearest point of a's faces and
- * appends a tied node there, a node without cells. A tied node moves with the face of a on which it lies: its
- * displacement is sum_i N_i u_i over the nodes of that face, curved or not, with the shape functions N_i (see
- * delam_mesh_node_ties). node_a of a pair is the tied node and node_b the node of b. Weights, faces and order of the
- * pairs follow from b's faces as in delam_mesh_add_interface; so do the normals, which point from a to b.
+ * is at most gap (L; a gap below 1e-6 of the shortest edge of the two bodies, e.g. 0, counts as 1e-6 of that edge) and
+ * its normal is opposite to theirs within 60 degrees. The function projects each node of such a face to the nearest
+ * point of a's faces and appends a tied node there, a node that belongs to no body. A tied node moves with the face of
+ * a on which it lies: its displacement is sum_i N_i u_i over the nodes of that face, curved or not, with the shape
+ * functions N_i (see delam_mesh_node_ties). node_a of a pair is the tied node and node_b the node of b. Weights, faces
+ * and order of the pairs follow from b's faces as in delam_mesh_add_interface; so do the normals, which point from a to
+ * b.
  * Take the body with the finer mesh as b. With either choice, linear displacements are continuous across a perfect
  * bond. A uniform traction, however, reaches a as forces at b's nodes, which the N_i distribute to a's nodes. This
- * distribution is exact if every node of a is also a node of b (b refines a). Otherwise it causes a stress error in the
- * cells at the interface, which decreases with the square of the ratio of the edge lengths. In a patch test with 3
- * edges of a on 4, 7 and 13 edges of b, the largest stress error is 0.6, 0.18 and 0.05 % (quad4), 7.5, 2.3 and 0.6 %
- * (hex8). If b is coarser than a, nothing holds those nodes of a that lie between nodes of b: with 3 edges of a on 2 of
- * b, the error is 2.4 % (quad4) and 36 % (hex8).
- * Choose gap no larger than necessary for the distance between the chords of curved faces, because a rigid rotation of
- * both bodies causes a spurious jump: the angle times the distance between a node and its projection. Each face of b
- * must lie either completely on a or completely off it; a may extend beyond b, and b beyond the rim of a.
- * DELAM_ERROR_MESH, with the place: a face of b lies partly on a, no face of b lies on a, or the two bodies are already
- * joined.
+ * distribution is exact if every node of a is also a node of b (b refines a). Otherwise it causes an error of the
+ * stress in the cells at the interface. This error is about proportional to the square of (edge length of b / edge
+ * length of a). In a patch test with 3 edges of a on 4, 7 and 13 edges of b, the largest error is 0.6, 0.18 and 0.05 %
+ * (quad4), 7.5, 2.3 and 0.6 % (hex8). If b is coarser than a, nothing holds those nodes of a that lie between nodes of
+ * b: with 3 edges of a on 2 of b, the error is 2.4 % (quad4) and 36 % (hex8).
+ * Where the faces are curved, the chords of the two meshes lie apart. Choose gap no larger than this distance requires,
+ * because a rigid rotation of both bodies causes a spurious jump: the angle times the distance between a node and its
+ * projection. Each face of b must lie either completely on a or completely off it; a may extend beyond b, and b beyond
+ * the rim of a. DELAM_ERROR_MESH: a face of b lies partly on a, or no face of b lies on a; the message gives the place.
+ * DELAM_ERROR_ARGUMENT: an interface joins the two bodies already.
  * [unit gap L >= 0; null none; status cancelled, argument, mesh; since 0.1] */
 DELAM_API int32_t delam_mesh_add_projected_interface(delam_mesh *mesh, int32_t body_a, int32_t body_b, double gap,
                                                      int64_t *out_interface);
 /* Adds a rigid obstacle (loading nose, support, symmetry plane) that nodes of one body may touch. It translates with
- * control_node, a node of the mesh without cells (counted from 0, like all single indices); obstacles that move
- * together share one control node. *out_interface receives the index of the new interface. It has a pair for each node,
- * in the given order: node_a is the control node (body_a is -1), node_b the node, and the jump u_node - u_control.
+ * control_node, a node that belongs to no body (counted from 0, like all single indices); obstacles that move together
+ * share one control node. *out_interface receives the index of the new interface. It has a pair for each node, in the
+ * given order: node_a is the control node (body_a is -1), node_b the node, and the jump u_node - u_control.
  *   nodes    [count] of one body, each once
  *   normals  [count][dimension], of any length > 0, from the obstacle into the body
  *   weights  [count] > 0, length (2D) or area (3D) that each pair represents; NULL: the function computes them as
@@ -330,8 +341,8 @@ DELAM_API int32_t delam_mesh_nodes(const delam_mesh *mesh, int64_t capacity, dou
 /* Returns the label of the body of each node, bodies: [node_count]; -1 for a node that belongs to no body.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_node_bodies(const delam_mesh *mesh, int64_t capacity, int32_t *bodies);
-/* Returns the original of each node, origins: [node_count]: the node of which delam_mesh_add_conforming_cells made it a
- * copy, or the node itself.
+/* Returns the original of each node, origins: [node_count]. The original of a copy is the node from which
+ * delam_mesh_add_conforming_cells made it; every other node is its own original.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_node_origins(const delam_mesh *mesh, int64_t capacity, int64_t *origins);
 /* Returns the tied nodes (delam_mesh_add_projected_interface) in ascending order. *count and *entries receive the
@@ -364,8 +375,8 @@ DELAM_API int32_t delam_mesh_interface_pairs(const delam_mesh *mesh, int64_t int
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_interface_faces(const delam_mesh *mesh, int64_t interface_index, int64_t *faces);
 /* Finds the nodes of a body inside the closed box from lower [dimension] to upper [dimension], widened by 1e-9 of the
- * mesh's size. body -1 selects the nodes of all bodies and the nodes without cells, tied nodes excepted. *count
- * receives the number of nodes found; as many as fit are written to nodes [capacity], in ascending order.
+ * mesh's size. body -1 selects all nodes except tied ones, those that belong to no body included. *count receives the
+ * number of nodes found; as many as fit are written to nodes [capacity], in ascending order.
  * [unit lower L finite, upper L >= lower; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_mesh_find_nodes(const delam_mesh *mesh, int32_t body, const double *lower, const double *upper,
                                         int64_t capacity, int64_t *nodes, int64_t *count);
@@ -400,29 +411,31 @@ DELAM_API int32_t delam_mesh_find_patch(const delam_mesh *mesh, int32_t body, co
  *   griffith          no softening and no onset of its own: the interface debonds at once when Y reaches Gc
  *   host              callbacks of the host: delam_law_create_host (delam_law_create refuses this kind)
  * Numbers, set by key with delam_law_set (delam_law_parameter_info lists those of each kind):
- *   normal_stiffness, tangential_stiffness  k_n, k_t  F/L3  > 0
- *   normal_onset, tangential_onset          G^o       F/L   > 0
- *   normal_toughness, tangential_toughness  G^c       F/L   >= onset
+ *   normal_stiffness, tangential_stiffness  k_n, k_t               F/L3  > 0
+ *   normal_onset, tangential_onset          Go at B = 0, at B = 1  F/L   > 0
+ *   normal_toughness, tangential_toughness  Gc at B = 0, at B = 1  F/L   >= onset
  *   plateau                                 [0, 1)    trapezoidal only
  *   gradient                                coefficient kappa >= 0 (F L, default 0) of the energy kappa/2 |grad zeta|^2
- * The text `criterion`, set with delam_law_set_text, selects how onset and toughness depend on the mixity. The
- * exponents of a criterion are numbers > 0 with default 2; a change of the criterion resets them to 2:
+ * The text `criterion`, set with delam_law_set_text, selects how onset and toughness depend on the mixity. Below, G is
+ * the onset Go(B) or the toughness Gc(B); G_n and G_t are its values at B = 0 and B = 1, i.e. the numbers normal_...
+ * and tangential_... above. The exponents of a criterion are numbers > 0 with default 2; a change of the criterion
+ * resets them to 2:
  *   valoroso-champaney (default)  ((1-B) G/G_n)^p + (B G/G_t)^q = 1 (Eng. Fract. Mech. 73, 2006), p and q:
  *                                 onset_exponent_1, onset_exponent_2, toughness_exponent_1, toughness_exponent_2
  *   power                         the same with p = q: onset_exponent, toughness_exponent
- *   benzeggagh-kenane             G_n + (G_t - G_n) B^eta (Compos. Sci. Technol. 56, 1996), eta: onset_exponent,
- *                                 toughness_exponent
+ *   benzeggagh-kenane             G = G_n + (G_t - G_n) B^eta (Compos. Sci. Technol. 56, 1996), eta:
+ *                                 onset_exponent, toughness_exponent
  * Gc(B) >= Go(B) must hold for every mixity B in [0,1]. A key that does not belong to the kind or to the criterion
  * gives DELAM_ERROR_ARGUMENT.
  * With kappa > 0, the damage of all pairs of an interface is coupled and follows from one minimisation. It spreads over
- * a length of about sqrt(kappa/G^c), which the mesh of the interface must resolve. The gradient term acts only on faces
+ * a length of about sqrt(kappa/Gc), which the mesh of the interface must resolve. The gradient term acts only on faces
  * whose pairs all have an initial adhesion > 0.
  * [null none; owns out caller; status argument; source in the table above; since 0.1] */
 DELAM_API int32_t delam_law_create(delam_context *context, const char *kind, delam_law **out);
 /* Sets a number of a law by its key; delam_law_create lists the keys and their ranges.
  * [unit value of key in its range; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_law_set(delam_law *law, const char *key, double value);
-/* Sets a text of a law by its key: the criterion, to a value from the list at delam_law_create.
+/* Sets a text of a law by its key: `criterion`, to a value from the list at delam_law_create.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_law_set_text(delam_law *law, const char *key, const char *value);
 /* Sets the softening curve of a tabulated law: straight lines through the points (xi, s), from (0, 1) to (1, 0). xi, s:
@@ -476,15 +489,16 @@ typedef int32_t (*delam_dissipation_callback)(double mixity, double adhesion, do
                                               double *mixity_slope, void *user);
 /* Creates a law of kind host: adhesion computes zeta* and dissipation computes g, with Go = -dg/dzeta at adhesion 1 and
  * Gc = g at adhesion 0. name, which must not be empty, identifies the callbacks in messages and in delam_problem_hash.
- * The callbacks and user must stay valid as long as any problem or solver that took the law exists; if one of these is
- * destroyed during a call, they must stay valid until that call ends. Keys: normal_stiffness, tangential_stiffness,
- * gradient. delam_law_check and delam_problem_set_law test at samples whether the two callbacks belong to the same g,
- * and name the first sample where they do not.
+ * The callbacks and user must stay valid as long as the law is used, and as long as any problem or solver that took it
+ * exists. If such an object is destroyed during a call, the callbacks and user must stay valid until that call ends.
+ * Keys: `normal_stiffness`, `tangential_stiffness`, `gradient`. delam_law_check and delam_problem_set_law test at
+ * samples whether the two callbacks belong to the same g; if they do not, the message names the first such sample.
  * [null user; owns out caller, callbacks and user: the host, as long as problems and solvers that took the law; status
  * argument; since 0.1] */
 DELAM_API int32_t delam_law_create_host(delam_context *context, const char *name, delam_adhesion_callback adhesion,
                                         delam_dissipation_callback dissipation, void *user, delam_law **out);
-/* Checks that all parameters of a law are present and admissible. DELAM_ERROR_PROBLEM names the first that is not.
+/* Checks that all parameters of a law are present and admissible. DELAM_ERROR_PROBLEM: the message names the first that
+ * is not.
  * [status problem; since 0.1] */
 DELAM_API int32_t delam_law_check(const delam_law *law);
 /* Computes the onset Go and the toughness Gc of a law at count mixities B = Y_t/Y; mixity, onset, toughness: [count].
@@ -540,10 +554,11 @@ DELAM_API int32_t delam_problem_set_orientation(delam_problem *problem, int32_t 
                                                 const int64_t *cells, const double *axes, int32_t index_base);
 /* Sets the element formulation of a body (-1: of all), formulation:
  *   "standard"         the default
- *   "incompatible"     adds internal bending modes after Wilson, Taylor and Beresford, condensed in each cell; only for
- *                      bodies of quad4 or hex8 (DELAM_ERROR_ARGUMENT names another cell). Rectangular cells are then
- *                      exact in pure bending, in which standard cells are too stiff (square ones by half). Between the
- *                      nodes, displacements may then be slightly discontinuous from cell to cell
+ *   "incompatible"     adds internal bending modes after Wilson, Taylor and Beresford, condensed in each cell.
+ *                      Rectangular cells are then exact in pure bending, in which standard cells are too stiff (square
+ *                      ones by half); between the nodes, displacements may be slightly discontinuous from cell to cell.
+ *                      Only for bodies of quad4 or hex8; for others the call returns DELAM_ERROR_ARGUMENT, and the
+ *                      message names the first cell of another type
  *   "mean-dilatation"  for nearly incompressible bodies, in which the other formulations lock: projects the dilatation
  *                      of each cell onto constants (quad4, hex8, tri6, tet10) or linear functions (quad8, quad9,
  *                      hex20). Allowed in plane strain and in 3D, but not for tri3 and tet4, whose dilatation is
@@ -566,26 +581,30 @@ DELAM_API int32_t delam_problem_set_formulation(delam_problem *problem, int32_t 
  *               the matrix connects form a piece. The zero-energy motions of a piece must be rigid-body motions; a
  *               mechanism inside a piece is refused. A row in which the host has kept only the diagonal, because of a
  *               support of its own, is fixed permanently. kernel_count -1 (kernel NULL): the library finds the
- *               zero-energy motions of each piece. It cannot decide on a rigid motion whose energy is between 1e-12 and
- *               1e-9 of that of the diagonal alone; the host must then supply the kernel
- * DELAM_ERROR_ARGUMENT names the node, row or entry.
- * FETI does not subdivide a piece. A later call replaces the stiffness of the bodies that it names.
+ *               zero-energy motions of each piece. For the rigid motions x of the piece, it compares x.K x with x.D x,
+ *               D being the diagonal of K. A ratio of at most 1e-12 means free, a ratio of at least 1e-9 means held; in
+ *               between, the call is refused and the host must supply the kernel
+ * DELAM_ERROR_ARGUMENT: the message names the node, row, entry or piece.
+ * FETI does not subdivide a piece. A later call replaces the stiffness of the bodies to which its nodes belong.
  * [unit values F/L finite, kernel 1 finite; null dofs; status cancelled, argument, numerical; source C. Farhat, M.
  * Geradin, Int. J. Numer. Meth. Eng. 41 (1998) 675-696 (motions without energy); since 0.1] */
 DELAM_API int32_t delam_problem_set_stiffness(delam_problem *problem, int64_t count, const int64_t *nodes,
                                               const int64_t *dofs, const int64_t *row_starts, const int64_t *columns,
                                               const double *values, int64_t kernel_count, const double *kernel,
                                               int32_t index_base);
-/* Sets the law of an interface, with a copy of the law's parameters. The initial adhesion does not change: it is 1, or
- * as set with delam_problem_set_adhesion.
+/* Sets the law of an interface, with a copy of the law's parameters. The initial adhesion stays as it is: 1, or as set
+ * with delam_problem_set_adhesion. If the interface was one of contact (delam_problem_set_contact), the call sets it to
+ * 1.
  * [status argument, problem; since 0.1] */
 DELAM_API int32_t delam_problem_set_law(delam_problem *problem, int64_t interface_index, const delam_law *law);
-/* Bonds an interface perfectly and permanently (zero compliance). Every interface needs a law, a perfect bond (this
- * function) or contact without adhesion (delam_problem_set_contact).
+/* Bonds an interface perfectly and permanently (zero compliance). Its initial adhesion must be 1 (delam_problem_check
+ * refuses any other); if the interface was one of contact, the call sets it to 1. Every interface needs a law, a
+ * perfect bond (this function) or contact without adhesion (delam_problem_set_contact).
  * [status argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_bonded(delam_problem *problem, int64_t interface_index);
 /* Makes an interface one of frictionless contact without adhesion: the faces may separate but not overlap, as in an
- * unglued joint or a unilateral support. Its initial adhesion is 0 (delam_problem_check refuses any other).
+ * unglued joint or a unilateral support. The call sets its initial adhesion to 0 (delam_problem_check refuses any
+ * other).
  * [status argument; since 0.1] */
 DELAM_API int32_t delam_problem_set_contact(delam_problem *problem, int64_t interface_index);
 /* Sets the initial adhesion of pairs; 0 makes a notch, in which contact still acts. pairs, adhesion: [count].
@@ -599,11 +618,11 @@ DELAM_API int32_t delam_problem_set_adhesion(delam_problem *problem, int64_t int
  * [unit times t finite (increasing), values 1 finite; null none; status argument; since 0.1] */
 DELAM_API int32_t delam_problem_add_pattern(delam_problem *problem, const char *name, int64_t count,
                                             const double *times, const double *values, int64_t *out_pattern);
-/* A control node is a node of the mesh without cells to which a prescribed displacement or mean, an equation, a period,
- * a force or a pair refers. It represents an unknown translation [dimension] without stiffness, for example that of a
- * rigid loading nose, or an average strain; its position has no effect. Something must hold it. Nodes without cells to
- * which nothing refers are ignored. The functions below accept tied nodes (projected interfaces) as well and replace
- * them by the nodes to which they are tied. */
+/* A control node is a node that belongs to no body and is not tied (projected interfaces), but to which something
+ * refers: a prescribed displacement or mean, an equation, a period, a force or a pair. It represents an unknown
+ * translation [dimension] without stiffness, for example that of a rigid loading nose, or an average strain; its
+ * position has no effect. Something must hold it. Nodes of no body to which nothing refers are ignored. The functions
+ * below accept tied nodes as well and replace them by the nodes to which they are tied. */
 /* Prescribes a displacement component of each of nodes [count]: direction . u_i = sum over patterns of
  * coefficients[i][p] * factor_p(t). direction: [dimension], any length > 0 (the function normalises it). patterns:
  * [pattern_count]; coefficients: [count][pattern_count], L per unit of the factor. pattern_count 0: the displacement is
@@ -629,9 +648,12 @@ DELAM_API int32_t delam_problem_prescribe_mean(delam_problem *problem, int64_t c
  * normalised; patterns, prescribed: [pattern_count]; pattern_count 0: the right-hand side is 0. The reaction of the
  * equation is the force conjugate to its left-hand side, so that each coefficient times the reaction is a nodal force.
  * Equations between at most 32 displacements are eliminated exactly and add no unknowns, however many equations there
- * are; longer ones remain in the dense part of the condensed operator. For a rigid line that may rotate, write u_i =
- * u_0 + w r_i with equations of three nodes each. If an equation follows from other equations or contradicts them,
- * delam_problem_check refuses it and gives its number.
+ * are; longer ones remain in the dense part of the condensed operator. For a rigid line that may rotate, let one
+ * control node carry the displacement u_0 of a point of the line and another, in one of its components, the small
+ * rotation w. For each node i of the line, at the distance r_i from that point, add the equation u_i - u_0 - r_i w = 0
+ * across the line, between the three nodes, and u_i - u_0 = 0 along it; hold what remains of the second control node.
+ * If an equation follows from other equations or contradicts them, delam_problem_check refuses it, and the message
+ * gives its number.
  * [unit coefficients 1 finite (not all 0), prescribed L finite; null none; status cancelled, argument, problem;
  * since 0.1] */
 DELAM_API int32_t delam_problem_add_equation(delam_problem *problem, int64_t count, const int64_t *nodes,
@@ -640,11 +662,12 @@ DELAM_API int32_t delam_problem_add_equation(delam_problem *problem, int64_t cou
 /* Makes the mesh a periodic cell: u(x + period_k) - u(x) = u of control node k for all nodes on opposite faces. The
  * mesh must be a parallelepiped whose edges are the periods; if there are fewer periods than dimensions, it may have
  * any shape in the other directions. periods: [period_count][dimension] L, independent, 1 <= period_count <= dimension;
- * control_nodes: [period_count], distinct, without cells. tolerance: largest deviation of two partners from opposite
- * positions, as a fraction of the largest extent of the cells; 0 selects 1e-6. Partners are nodes of the same body. If
- * bodies touch and just one node without a partner remains on each side (where the boundary of the periodic cell cuts a
- * fibre into two bodies), these two are partners. Edges and corners get no redundant equations. DELAM_ERROR_MESH names
- * nodes without a partner.
+ * control_nodes: [period_count], distinct, of no body. Two nodes at x and x + period_k on opposite faces are partners
+ * if they belong to the same body. If just one node at x and one at x + period_k are then left without a partner (the
+ * boundary of the periodic cell cuts a fibre into two bodies), these two are partners as well. tolerance: largest
+ * deviation of a partner from x + period_k, as a fraction of the largest extent of the bodies; 0 selects 1e-6. Edges
+ * and corners get no redundant equations. DELAM_ERROR_MESH: nodes have no partner; the message names them (the first
+ * eight).
  * The displacement of control node k is the average displacement gradient along its period, <grad u> period_k,
  * including the opening of interfaces. For an average strain e, prescribe u_k = e period_k. For an average stress s,
  * apply the dead forces F_k = V s d_k to the control nodes, with the volume V = |det periods| of the cell and the dual
@@ -656,18 +679,18 @@ DELAM_API int32_t delam_problem_add_equation(delam_problem *problem, int64_t cou
  * since 0.1] */
 DELAM_API int32_t delam_problem_add_periodic(delam_problem *problem, int64_t period_count, const double *periods,
                                              const int64_t *control_nodes, double tolerance, int32_t index_base);
-/* Adds dead forces on nodes [count]: forces [count][dimension] times the factor of the pattern. A pattern drives either
- * forces or prescribed displacements.
+/* Adds dead forces on nodes [count]: forces [count][dimension] times the factor of the pattern. A pattern drives
+ * prescribed displacements, forces or eigenstrains, but only one of these.
  * [unit forces F finite; null none; status cancelled, argument, problem; since 0.1] */
 DELAM_API int32_t delam_problem_add_forces(delam_problem *problem, int64_t pattern, int64_t count, const int64_t *nodes,
                                            const double *forces, int32_t index_base);
 
 /* Adds an eigenstrain (thermal expansion, swelling, cure shrinkage) to a body (-1: to all) in its material axes: strain
  * [6] = xx, yy, zz, 2xy, 2yz, 2zx times the factor of the pattern, which must drive nothing else. Several eigenstrains
- * add up. The stress is C (eps - factor strain), and stored_bulk is the energy of that stress. In plane strain, strain
- * zz causes in-plane stress as well; in plane stress, zz, 2yz and 2zx are free and have no effect. For such a pattern,
- * reaction:NAME is dE/dfactor = - int strain : stress, and `work` includes the work that the changing eigenstrain does
- * on the bodies.
+ * add up. The stress is C (eps - factor strain), and `stored_bulk` is the energy of that stress. In plane strain,
+ * strain zz causes in-plane stress as well; in plane stress, zz, 2yz and 2zx are free and have no effect. For such a
+ * pattern, `reaction:NAME` is dE/dfactor = - int strain : stress, and `work` includes the work that the changing
+ * eigenstrain does on the bodies.
  * [unit strain 1 finite; null none; status argument, problem; since 0.1] */
 DELAM_API int32_t delam_problem_add_eigenstrain(delam_problem *problem, int64_t pattern, int32_t body,
                                                 const double *strain);
@@ -711,8 +734,8 @@ DELAM_API int32_t delam_problem_dofs(const delam_problem *problem, int64_t *prim
 
 /* Estimates *length, the length of the process zone on an interface, and returns *spacing, the mean distance between
  * its pairs with initial adhesion > 0 (3D: square root of their mean weight). At least about 3 pairs should lie in the
- * process zone. The estimate may be off by a factor of 2 either way. It is the shortest of the following lengths over
- * modes I and II and over both bodies: E' Gc/s^2 with the peak traction s = sqrt(2 k Go) and the toughness Gc; for
+ * process zone. The estimate is the shortest of the following lengths over modes I and II and over both bodies, and may
+ * be off by a factor of 2 either way: E' Gc/s^2 with the peak traction s = sqrt(2 k Go) and the toughness Gc; for
  * slender arms of thickness h, (E' Gc/s^2)^(1/4) h^(3/4) in mode I and (h E' Gc)^(1/2)/s in mode II (Yang and Cox, Int.
  * J. Fract. 133, 2005). E' is E/(1 - nu^2), in plane stress E, and for an orthotropic body the smallest of E1, E2 and
  * E3; h is the volume of the body divided by the area of the interface. length 0: the interface is bonded, its law has
@@ -763,8 +786,9 @@ DELAM_API const char *delam_problem_pattern_name(const delam_problem *problem, i
 
 /* Creates a solver with a copy of the problem: checks the problem, partitions and factorises the bodies, and computes
  * the initial state (step 0), i.e. the displacements under the loads at `time` with the initial adhesion. All factors
- * should be 0 at that time. DELAM_NOT_CONVERGED: this displacement step reached an iteration limit, or its forces are
- * out of balance; *out is a valid solver nevertheless. DELAM_CANCELLED, DELAM_LIMIT: *out is NULL.
+ * should be 0 at that time, because `work` does not include the energy of the initial state. DELAM_NOT_CONVERGED: this
+ * displacement step reached an iteration limit, or its forces are out of balance; *out is a valid solver nevertheless.
+ * DELAM_CANCELLED, DELAM_LIMIT: *out is NULL.
  * [unit time t finite; null none; owns out caller; status not_converged, cancelled, limit, argument, mesh, problem,
  * numerical; source src/reduction/README.md; since 0.1] */
 DELAM_API int32_t delam_solver_create(const delam_problem *problem, double time, delam_solver **out);
@@ -773,17 +797,18 @@ DELAM_API int32_t delam_solver_create(const delam_problem *problem, double time,
 DELAM_API void delam_solver_destroy(delam_solver **solver);
 
 /* Computes one load step to `time` (> the committed time): minimises the energy, starting from the committed state
- * (option minimisation). The option solution selects the concept: local, or energetic, which adds a search for states
- * of lower energy. The result is the pending step: read it, then commit it or roll it back; a rollback restores the
- * previous state bit for bit.
- * With option backtracking, the call may replace earlier steps (value revised_from gives the first; delam_solver_look
- * shows each). With jump_tolerance, step_control or mixity_step_tolerance, it may divide the step into substeps.
- * Earlier steps that backtracking replaces are not divided, and their jumps are not located.
+ * (option `minimisation`). The option `solution` selects the concept: `local`, or `energetic`, which adds a search for
+ * states of lower energy. The result is the pending step: read it, then commit it or roll it back; a rollback restores
+ * the previous state bit for bit.
+ * With the option `backtracking`, the call may replace earlier steps (the value `revised_from` gives the first;
+ * delam_solver_look shows each). With `jump_tolerance`, `step_control` or `mixity_step_tolerance`, it may divide the
+ * step into substeps. Earlier steps that backtracking replaces are not divided, and jumps of the state in them are not
+ * located.
  * DELAM_NOT_CONVERGED also leaves a pending step: an iteration limit was reached, or rounding leaves nodal forces out
  * of balance by more than 1e-3 of the largest reaction (plies thousands of times longer than thick). DELAM_LIMIT,
  * DELAM_CANCELLED and errors leave no pending step. The solver warns once (log level 1) if forces are out of balance by
- * more than 1e-6, and once if a front grows with fewer than 3 pairs in its process zone (softening laws, solution =
- * local).
+ * more than 1e-6 of the largest reaction, and once if a front grows with fewer than 3 pairs in its process zone
+ * (softening laws, `solution = local`).
  * If the host's process forks after it has used the library, only one of the two processes should continue to use it,
  * because the linear algebra has threads.
  * [unit time t > committed; status not_converged, cancelled, limit, argument, problem, state, numerical; source J.
@@ -800,54 +825,60 @@ DELAM_API int32_t delam_solver_rollback(delam_solver *solver);
 /* Returns *pending: 1 if a step is pending, to be committed or rolled back, else 0.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_pending(const delam_solver *solver, int32_t *pending);
-/* Replaces the history of a load pattern after the committed time, for hosts that do not know it beforehand. The factor
- * is linear in time from its value at the committed time to values[0] at times[0] and between the points, and constant
- * after the last. Steps up to the committed one keep their history. times: [count] strictly increasing, the first after
- * the committed time; values: [count]; count >= 1. delam_solver_save includes this history. DELAM_ERROR_STATE: a step
- * is pending.
+/* Replaces the history of a load pattern after the committed time, for hosts that do not know it beforehand. From its
+ * value at the committed time, the factor runs along straight lines through the points (times[i], values[i]); after the
+ * last point it is constant. Steps up to the committed one keep their history. times: [count] strictly increasing, the
+ * first after the committed time; values: [count]; count >= 1. delam_solver_save includes this history.
+ * DELAM_ERROR_STATE: a step is pending.
  * [unit times t > committed (increasing), values 1 finite; null none; status argument, state; since 0.1] */
 DELAM_API int32_t delam_solver_set_history(delam_solver *solver, int64_t pattern, int64_t count, const double *times,
                                            const double *values);
 /* Performs one displacement step alone: finds the displacements of least energy at `time` for a given adhesion, which
  * is held fixed. adhesion: [pairs of all interfaces, one after another]; NULL takes the committed one. The result is a
- * pending step, but it does not enter the energy balance: the stored energies are those of the new state, whereas
- * dissipated, work and bounds do not change. Once it is committed, the solver discards the earlier steps, so that
- * backtracking cannot return to them.
+ * pending step with the number of the committed one. It does not enter the energy balance: the stored energies and
+ * `load_potential` are those of the new state, whereas `dissipated`, `work`, `lower`, `increment` and `upper` do not
+ * change. Once it is committed, the solver discards the earlier steps, so that backtracking cannot return to them.
  * [unit time t finite, adhesion 1 in [0, 1]; null adhesion; status not_converged, cancelled, limit, argument, problem,
  * state, numerical; source M. Hintermueller, K. Ito, K. Kunisch, SIAM J. Optim. 13 (2002) 865-888; since 0.1] */
 DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, const double *adhesion);
 
-/* Returns a scalar of the pending state, or of the committed state if none is pending, in *value.
+/* Returns in *value a scalar of the state described. The state described is the step that delam_solver_look has
+ * selected; if none is selected, it is the pending state, or the committed state if no step is pending.
  * delam_solver_value_name lists the keys. The unit is 1 where none is given. Sums run over the pairs; w is the weight
  * of a pair. For B, zeta, Y, g and Gc see delam_law_create.
  *   step                   number of the step; the initial state is step 0
  *   time                   t: time of the state
  *   stored_bulk, stored_interface, dissipated, stored_interface_slides, dissipated_slides, load_potential, work, lower,
- *   increment, upper, increment_lower   F L: energies. The stored energies and load_potential belong to the state;
- *                          dissipated energies and work accumulate from the start; lower, increment, upper and
- *                          increment_lower belong to the step. stored_interface is the sum of w zeta Y, plus the energy
- *                          of the gradient term if there is one; a step adds the sum of w (g(B, zeta) - g(B, zeta_old))
- *                          to dissipated. The keys that end in _slides split stored from dissipated energy as in Zeman,
- *                          Kruzik and Gruber (PANM 15, 2010): the sum of w f(B, zeta), f = g - Gc (1 - zeta), belongs
- *                          to the stored energy, and a step dissipates the sum of w Gc(B) (zeta_old - zeta). increment
- *                          is the sum of what the step adds to stored energy, load_potential and dissipated. The
- *                          two-sided estimate is lower <= increment <= upper (PANM 15, eq. (3)); work grows by (lower +
- *                          upper)/2. increment_lower is the increment computed with the mixity of the step before,
- *                          because the proof of the lower bound assumes this mixity. With mixity_rule = variational,
- *                          the four values of the step use the _slides split
- *   defect, defect_slides  F L: error of the energy balance since the start, i.e. stored energies + load_potential +
- *                          dissipated - work - energy of the first state, each in its own split.
- *                          delam_solver_equilibrate does not change it
+ *   increment, upper, increment_lower   F L: energies. The stored energies and `load_potential` belong to the state;
+ *                          `dissipated`, `dissipated_slides` and `work` accumulate from the start; `lower`,
+ *                          `increment`, `upper` and `increment_lower` belong to the step. `stored_interface` is the sum
+ *                          of w zeta Y, plus the energy of the gradient term if there is one; a step adds the sum of w
+ *                          (g(B, zeta) - g(B, zeta_old)) to `dissipated`. The keys that end in _slides split stored
+ *                          from dissipated energy as in Zeman, Kruzik and Gruber (PANM 15, 2010): the sum of w f(B,
+ *                          zeta), f = g - Gc (1 - zeta), belongs to the stored energy, and a step dissipates the sum of
+ *                          w Gc(B) (zeta_old - zeta). `increment` is the sum of what the step adds to stored energy,
+ *                          `load_potential` and dissipated energy; `lower` and `upper` are its bounds in the two-sided
+ *                          estimate (PANM 15, eq. (3)). The proof of the lower bound assumes the mixity of the step
+ *                          before; `increment_lower` is the increment computed with that mixity. The estimate is
+ *                          therefore tested as lower <= increment_lower and increment <= upper, with a tolerance of
+ *                          `backtracking_tolerance` times the larger of |stored energy + load_potential| and |work|.
+ *                          Backtracking tests the lower bound only. `work` grows by (lower + upper)/2. With
+ *                          `mixity_rule = variational`, `increment` and `increment_lower` use the _slides split
+ *   defect, defect_slides  F L: error of the energy balance since the start: stored energies + load_potential +
+ *                          dissipated - work - energy of the initial state. `defect_slides` uses the _slides split for
+ *                          all of these. delam_solver_equilibrate changes neither, because it changes the last term by
+ *                          as much as the energy of the state
  *   mixity_error           sum w |dzeta| |Gc(B shown) - Gc(B used)| / sum w |dzeta| Gc(B used) of the step, where B
- *                          used determined the toughness of the pair and B shown is its mixity in the last iterate in
- *                          which it still adhered; 0 if no pair was damaged. With mixity_rule = frozen, a value above
- *                          0.1 means that damage grew abruptly within the step, and the solver warns (log level 1)
+ *                          used determined the toughness of a pair, and B shown is the mixity of that pair's own jump
+ *                          in the last iterate in which the pair still adhered; 0 if no pair was damaged. With
+ *                          `mixity_rule = frozen`, a value above 0.1 means that damage grew abruptly within the step,
+ *                          and the solver warns (log level 1)
  *   am_iterations, displacement_solves, contact_iterations, linear_iterations   of the step: alternate minimisation
  *                          steps, displacement solves, and, summed over these solves, active-set steps and Krylov
  *                          iterations
- *   newton_solves, debond_moves   of the step, where the minimisation is accelerated and the operator is condensed:
- *                          dense solves within the process zone, and unstable pairs that were moved directly to their
- *                          debonded branch
+ *   newton_solves, debond_moves   of the step, where the minimisation is accelerated and no law has a gradient term:
+ *                          dense solves in the zone, i.e. for the pairs that a Newton step changes, and unstable pairs
+ *                          that were moved directly to their debonded branch
  *   contact_iterations_first, contact_iterations_max   active-set steps of the first and of the worst displacement
  *                          solve
  *   contact_fallbacks      displacement solves in which the active sets cycled, so that pairs had to be exchanged one
@@ -856,29 +887,31 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   debonded_length        L or L2: weight of the pairs with initial adhesion > 0 that now have zeta <= 1e-3
  *   front                  L or L2: advance of the front, sum of w (1 - zeta) over the pairs with initial adhesion > 0
  *   process_zone           L or L2: weight of the pairs in the process zone (see delam_solver_front)
- *   backtracks             number of returns to an earlier step during this step (option backtracking)
+ *   backtracks             number of returns to an earlier step during this step (option `backtracking`)
  *   revisions              number of times that backtracking has replaced this step
  *   revised_from           first step that the returns of this step have replaced; its own number if there is none
  *   search_candidates      number of states that the energetic search compared
  *   search_margin          F L: lowest energy of these states minus the energy of the accepted state (>= 0 up to
  *                          rounding); 0 if none was compared
  *   search_gap             F L: energy of the accepted state minus a lower bound of the energy at the front positions
- *                          that the search omitted. The bound assumes the mixities, and the contact outside the zone,
- *                          that the search has found. 0: no further advance of a single front by whole rings has a
- *                          lower energy. The value does not cover new cracks, combined fronts or partly damaged
- *                          states. Infinite: no bound exists (dead loads on parts that nothing holds, mixity_rule =
- *                          variational)
+ *                          that the search omitted. The bound assumes the mixities that the search has found, and its
+ *                          contact outside the zone about each front. 0: no further advance of a single front by whole
+ *                          rings has a lower energy. The value does not cover new cracks, combined fronts or partly
+ *                          damaged states. Infinite: no bound exists (dead loads on parts that nothing holds,
+ *                          `mixity_rule = variational`)
  *   substeps, refused_steps  number of accepted substeps of the step, and of substeps that were computed and rejected
- *   jumps                  number of jumps located within the step (option jump_tolerance)
+ *   jumps                  number of jumps of the state (instabilities) located within the step (option
+ *                          `jump_tolerance`)
  *   released               F L: energy that these jumps release and that is neither stored nor dissipated
  *   bulk_factorisations    number of sparse factorisations of the bodies since the solver was created: 1 with the
  *                          condensed operator, one per subdomain with FETI
  *   field_recoveries       number of recoveries of the displacements from the interfaces since the solver was created.
- *                          The fields displacement, stress and rotation, with the condensed operator also reaction,
- *                          need a recovery, and so do rotation_max, the kkt_ values and delam_solver_average, but no
- *                          other value. bulk_factorisations and field_recoveries are part neither of the state nor of
+ *                          A recovery is needed by the fields displacement, stress and rotation, and with the condensed
+ *                          operator reaction; by the values rotation_max and kkt_...; and by delam_solver_average. No
+ *                          other field or value needs one; a step needs one only where rounding may spoil its balance
+ *                          of forces. bulk_factorisations and field_recoveries are part neither of the state nor of
  *                          saved bytes
- *   damage_change          largest change of adhesion in one further damage step at this state; <= damage_tolerance
+ *   damage_change          largest change of adhesion in one further damage step at this state; <= `damage_tolerance`
  *                          when converged
  *   linear_residual        worst relative residual of the iterative linear solves of the step; 0 if they are direct
  *   rotation_max           rad: largest rotation of a cell, from the skew part of the displacement gradient at its
@@ -889,12 +922,12 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   kkt_pressure           largest tension of a closed contact, divided by the largest force of a pair (0: none)
  *   kkt_complementarity    largest |gap * force| of a closed contact, divided by (largest jump * largest force)
  *   kkt_equilibrium        largest out-of-balance nodal force of the recovered displacements, divided by the largest
- *                          reaction or nodal force of eigenstrains (each kkt_ value recovers the displacements: one
- *                          sparse solve)
+ *                          reaction or nodal force of eigenstrains (the kkt_ values recover the displacements: one
+ *                          sparse solve for each state)
  * of the fronts of all interfaces with a law or, with :I appended (crack_length:0), of interface I:
- *   crack_length           L or L2: the initially open part (2D: up to the pair at the tip; 3D: the faces that touch an
- *                          open pair) plus the sum of w (1 - zeta) over the pairs with initial adhesion > 0, at most
- *                          the size of the interface
+ *   crack_length           L or L2: the initially open part (2D: up to the pair at the tip; 3D: the faces that touch a
+ *                          pair without initial adhesion) plus the sum of w (1 - zeta) over the pairs with initial
+ *                          adhesion > 0, at most the size of the interface
  *   energy_release_rate    F/L: G at the point of the fronts with the largest G; 0 if there is no front
  *   front_mixity           (G_II + G_III)/G at that point
  *   process_zone_length    L: at that point
@@ -904,9 +937,10 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   reaction:NAME          F L: conjugate of the factor, positive when the testing machine does work; for a force
  *                          pattern, minus the conjugate displacement; for an eigenstrain, minus the integral of stress
  *                          times strain
- * delam_solver_value_count counts all of them. Some keys have a second name (delam_solver_value_info): am_iterations is
- * also staggered_iterations, debond_moves unstable_debonds, and jumps state_jumps. Every key that ends in _slides has a
- * second name in _linear, e.g. dissipated_linear, because the dissipation of this split is linear in the damage.
+ * delam_solver_value_count counts all of them. Some keys have a second name (delam_solver_value_info):
+ * staggered_iterations for am_iterations, unstable_debonds for debond_moves, state_jumps for jumps. Every key that ends
+ * in _slides has a second name in _linear, e.g. dissipated_linear, because the dissipation of this split is linear in
+ * the damage.
  * [unit value of key; null none; status cancelled, argument, problem; source of what is computed: at
  * delam_solver_advance and delam_solver_front; since 0.1] */
 DELAM_API int32_t delam_solver_value(delam_solver *solver, const char *key, double *value);
@@ -931,14 +965,14 @@ DELAM_API int32_t delam_solver_value_info(const delam_solver *solver, int64_t in
                                           const char **unit, const char **cost, const char **scope,
                                           const char **meaning, int32_t *recorded);
 
-/* Records a value, e.g. for a load curve: of the committed state now, and of every later step when delam_solver_commit
- * commits it. After backtracking, the record holds the values of the replacing steps. A committed
- * delam_solver_equilibrate replaces the entry of its step. key: as in delam_solver_value, except the values that
- * recover the displacements (rotation_max, the kkt_ values) and those that count since the solver was created
- * (bulk_factorisations, field_recoveries). A second request for the same key has no effect. delam_solver_save includes
- * the record; delam_solver_load replaces the record by the one in the bytes; request the keys that you need after
- * loading. DELAM_ERROR_STATE: a step is pending. DELAM_ERROR_PROBLEM: a host law failed while the values of a front
- * were computed; the key is not recorded.
+/* Records a value, e.g. for a load curve. The call records the value of the committed state; from then on,
+ * delam_solver_commit records the value of each step. After backtracking, the record holds the values of the replacing
+ * steps. delam_solver_equilibrate keeps the number of the committed step, so that its commit replaces the entry of that
+ * step. key: as in delam_solver_value, except the values that recover the displacements (`rotation_max`, the kkt_
+ * values) and those that count since the solver was created (`bulk_factorisations`, `field_recoveries`). A second
+ * request for the same key has no effect. delam_solver_save includes the record. delam_solver_load replaces the record
+ * by the one in the bytes; therefore load first, and then request the keys. DELAM_ERROR_STATE: a step is pending.
+ * DELAM_ERROR_PROBLEM: a host law failed while the values of a front were computed; the key is not recorded.
  * [null none; status argument, problem, state; since 0.1] */
 DELAM_API int32_t delam_solver_record(delam_solver *solver, const char *key);
 /* Returns the extent of the record: *steps steps, from step *first to the committed one; both are 0 if nothing is
@@ -949,48 +983,51 @@ DELAM_API int32_t delam_solver_recorded_size(const delam_solver *solver, int64_t
  * [unit values of key; null none; status argument; source none; since 0.1] */
 DELAM_API int32_t delam_solver_recorded(const delam_solver *solver, const char *key, int64_t capacity, double *values);
 
-/* Returns the shape of a field, *rows and *columns. A field belongs to the pending state, or to the committed state if
- * none is pending. key:
+/* Returns the shape of a field, *rows and *columns, in the state described (delam_solver_value). key:
  *   displacement  [nodes][dimension]    L; recovered from the interfaces on request
  *   stress        [cells][4 or 6]       F/L2 at the centre of the cell: xx, yy, zz, xy (2D) or xx, yy, zz, xy, yz, zx
  *   rotation      [cells][1 or 3]       rad at the centre of the cell, axial vector of the skew part of the
  *                 displacement gradient: about z (2D) or x, y, z
  *   jump          [pairs][dimension]    L, local components: normal (>= 0), then tangential
- *   traction      [pairs][dimension]    F/L2, local components, on face b, tension being positive; a contact pressure
- *                 is negative
- *   adhesion, mixity, contact  [pairs][1]   -; mixity is the B = Y_t/Y that the last step used: with mixity_rule =
- *                          frozen, that of the state before; converged, that of the step's own solution, or for a pair
- *                          that broke, of the iterate in which it broke; variational, that of the step's own
- *                          displacements. mixity is 0 where the law does not depend on it, unless option mixity =
- *                          always. contact: 1 if closed
+ *   traction      [pairs][dimension]    F/L2, local components of the traction that b exerts on a; tension is positive.
+ *                 An open pair has zeta k [u] (and with `mixity_rule = variational` the traction that this rule adds);
+ *                 a closed pair has the contact pressure as normal component, which is negative
+ *   adhesion, mixity, contact  [pairs][1]   -; contact: 1 if the pair is closed. mixity: the B = Y_t/Y that the last
+ *                          step used; 0 where the law does not depend on it, unless the option `mixity` is `always`.
+ *                          With `mixity_rule = frozen`, it is that of the state before the step (in the first loaded
+ *                          step, of the elastic solution). With `converged`, it is that of the step's own solution; a
+ *                          pair that broke keeps the B of the last iterate in which it still adhered. With
+ *                          `variational`, it is that of the step's own displacements
  *   reaction      [constraints][1]      F: force that the testing machine exerts, positive along the constraint
  * `part`: an interface index for pair fields, or -1 for all interfaces one after another; -1 for the other fields.
  * [null rows, columns; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_field_shape(const delam_solver *solver, const char *key, int64_t part, int64_t *rows,
                                            int64_t *columns);
-/* Returns a field, values: [rows][columns]; key and part are those of delam_solver_field_shape.
+/* Returns a field of the state described, values: [rows][columns]; key and part are those of delam_solver_field_shape.
  * [unit values of key; null none; status cancelled, argument; source none; since 0.1] */
 DELAM_API int32_t delam_solver_field(delam_solver *solver, const char *key, int64_t part, int64_t capacity,
                                      double *values);
 
-/* Returns the exact averages of strain and stress over the volume of a body (-1: of all), in the state that the values
- * describe. strain, stress: [6] in the order xx, yy, zz, xy, yz, zx; shear strains are doubled, and the strain includes
- * eigenstrains. *volume: in L2 or L3. In 2D the out-of-plane components follow from the plane assumption. The opening
- * of interfaces between bodies is not included. Bodies without cells have no volume; all results are 0 if no body has
- * cells. Recovers the displacements.
+/* Returns the exact averages of strain and stress over the volume of a body (-1: of all), in the state described
+ * (delam_solver_value). strain, stress: [6] in the order xx, yy, zz, xy, yz, zx; shear strains are doubled, and the
+ * strain includes eigenstrains. *volume: in L2 or L3. In 2D the out-of-plane components follow from the plane
+ * assumption. The opening of interfaces between bodies is not included. Bodies without cells have no volume; all
+ * results are 0 if no body has cells. Recovers the displacements.
  * [unit volume L2 or L3, strain 1, stress F/L2; null volume, strain, stress; status cancelled, argument; source none;
  * since 0.1] */
 DELAM_API int32_t delam_solver_average(const delam_solver *solver, int32_t body, double *volume, double *strain,
                                        double *stress);
 
-/* Counts the crack fronts of an interface in the state that the values describe: *fronts fronts with *points points in
- * total. A front is where the adhesion passes 1/2: a point in 2D, and in 3D a polyline on the faces, open or closed. An
- * interface has no front if it has no law, or if no pair has an adhesion below 1/2. The function finds the fronts on
- * request, from the jumps and adhesions alone.
+/* Counts the crack fronts of an interface in the state described (delam_solver_value): *fronts fronts with *points
+ * points in total. A front separates pairs with an adhesion below 1/2 from the others: a point in 2D, and in 3D a
+ * polyline on the faces, open or closed; delam_solver_front gives its exact place. An interface has no front if it has
+ * no law, or if no pair has an adhesion below 1/2. The function finds the fronts on request, from the jumps and
+ * adhesions alone.
  * [null fronts, points; status argument, problem; since 0.1] */
 DELAM_API int32_t delam_solver_front_count(const delam_solver *solver, int64_t interface_index, int64_t *fronts,
                                            int64_t *points);
-/* Returns the crack fronts of an interface; front_capacity counts fronts, point_capacity counts points.
+/* Returns the crack fronts of an interface in the state described; front_capacity counts fronts, point_capacity counts
+ * points.
  *   starts      [fronts + 1]  the points of front f are starts[f] .. starts[f+1] - 1
  *   closed      [fronts]      1: a closed line, whose last point is joined to its first
  *   places      [points][dimension]  L, in the undeformed body. 2D: the tip of the notch (the first pair with initial
@@ -1007,9 +1044,10 @@ DELAM_API int32_t delam_solver_front_count(const delam_solver *solver, int64_t i
  *                             total equals Gc where a front grows steadily. It depends neither on where the path ends
  *                             nor on closed contact
  *   zone_lengths, zone_pairs  [points]  length of the process zone along the direction, and number of pairs in it. A
- *                             pair is in the zone if it has lost at least 1e-3 of its adhesion and has at least 1e-3 of
- *                             its toughness left to dissipate, at the mixity of its jump. With fewer than about 3 pairs
- *                             in the zone, its traction depends on the mesh, and so does the load of a local solution
+ *                             pair is in the process zone if it has lost at least 1e-3 of its adhesion and has at least
+ *                             1e-3 of its toughness left to dissipate, at the mixity of its jump. With fewer than about
+ *                             3 pairs in the process zone, the traction there depends on the mesh, and so does the load
+ *                             of a local solution
  * As the mesh is refined, the rates become exact if the interface is straight, the bodies do not vary along it, and
  * there are no eigenstrains. They are approximate on curved interfaces (radius not much larger than the process zone),
  * with eigenstrains, and where materials change along the interface. In 3D each part of the integral is assigned to the
@@ -1024,42 +1062,45 @@ DELAM_API int32_t delam_solver_front(const delam_solver *solver, int64_t interfa
                                      double *directions, double *lengths, double *rates, double *zone_lengths,
                                      double *zone_pairs);
 
-/* Returns the tangent of the load patterns at fixed adhesion and contact set, in the pending state, or in the committed
- * state if none is pending: matrix [pattern_count][pattern_count], d2 E / d factor_p d factor_q, symmetric. Row p is
- * the derivative of reaction:p (for a force pattern, of minus its displacement). If each component of the control nodes
- * of a periodic cell has a pattern of its own, the matrix is the homogenised stiffness times the volume. Costs one
- * displacement solve per pattern; the state does not change. DELAM_ERROR_STATE: a force pattern acts along a motion
- * that nothing holds.
+/* Returns the tangent of the load patterns at fixed adhesion and contact set, in the state described
+ * (delam_solver_value): matrix [pattern_count][pattern_count], d2 E / d factor_p d factor_q, symmetric. Row p is the
+ * derivative of reaction:p (for a force pattern, of minus its displacement). For a periodic cell, let each component of
+ * <grad u> be the factor of a pattern of its own; if the periods lie along the axes, each component of control node k
+ * has a pattern whose coefficient is the length of period k. The matrix is then the homogenised stiffness times the
+ * volume. Costs one displacement solve per pattern; the state does not change. DELAM_ERROR_STATE: a force pattern acts
+ * along a motion that nothing holds.
  * [unit matrix of factors; null none; status cancelled, argument, state, numerical; source none; since 0.1] */
 DELAM_API int32_t delam_solver_tangent(delam_solver *solver, int64_t capacity, double *matrix);
 
 /* Returns the consistent tangent of the pending step, damage included. matrix: [pattern_count][pattern_count],
- * symmetric unless mixity_rule = converged. Row p, column q is the derivative of reaction:p with respect to the factor
- * of pattern q, both at the end of the step, while the committed state from which the step starts is fixed. With this
- * tangent, a structure with its interfaces can be one element of a host that iterates: define one pattern for each
+ * symmetric unless `mixity_rule = converged`. Row p, column q is the derivative of reaction:p with respect to the
+ * factor of pattern q, both at the end of the step, while the committed state from which the step starts is fixed. With
+ * this tangent, a structure with its interfaces can be one element of a host that iterates: define one pattern for each
  * displacement of the element's boundary and use the reactions as the element's forces. The tangent is the derivative
  * of delam_solver_advance as long as the contact set does not change, no pair reaches the end of a branch of its law,
  * and no jump happens; past a limit point it may be indefinite. In the very first loaded step, the tangent treats the
- * mixity as fixed (with mixity_rule = frozen, it is that of the elastic solution). Costs one displacement solve per
- * pattern and one per damaging pair (mixity_rule = variational: per component of such a pair); the state does not
- * change. DELAM_ERROR_STATE: no step is pending, backtracking has replaced it, or it has more than one substep (value
- * substeps). DELAM_ERROR_NUMERICAL: the tangent is singular, i.e. a jump is about to happen.
+ * mixity as fixed (with `mixity_rule = frozen`, it is that of the elastic solution). Costs one displacement solve per
+ * pattern and one per damaging pair (`mixity_rule = variational`: per component of such a pair); the state does not
+ * change. DELAM_ERROR_STATE: no step is pending; the pending step comes from delam_solver_equilibrate, has more than
+ * one substep (value `substeps`) or has replaced earlier steps (backtracking); `mixity_rule = variational` with a
+ * gradient term; or a force pattern acts along a motion that nothing holds. DELAM_ERROR_NUMERICAL: the tangent is
+ * singular, i.e. a jump is about to happen.
  * [unit matrix of factors; null none; status cancelled, argument, state, numerical; source J. Simo, R. Taylor, Comput.
  * Methods Appl. Mech. Eng. 48 (1985) 101-118; since 0.1] */
 DELAM_API int32_t delam_solver_step_tangent(delam_solver *solver, int64_t capacity, double *matrix);
 
 /* Returns the sizes of the condensed interface operator (delam_solver_condensed): *unknowns, and *entries of the sparse
- * matrix N. DELAM_ERROR_STATE: the solver uses FETI, which has no such operator (option reduction).
+ * matrix N. DELAM_ERROR_STATE: the solver uses FETI, which has no such operator (option `reduction`).
  * [null unknowns, entries; status argument, state; since 0.1] */
 DELAM_API int32_t delam_solver_condensed_size(const delam_solver *solver, int64_t *unknowns, int64_t *entries);
-/* Returns all bodies and loads, condensed onto the interfaces. With x [unknowns], the factors theta [patterns] and the
- * local jumps j [pairs of all interfaces, times dimension] in the frames of delam_mesh_interface_pairs,
+/* Returns all bodies and loads, condensed onto the interfaces: the energy E of bodies and dead forces, minimised over
+ * everything but x [unknowns], and the local jumps j [pairs of all interfaces, times dimension] in the frames of
+ * delam_mesh_interface_pairs. With the factors theta [patterns],
  *   E = 1/2 x.S x - sum theta_p L_p.x + 1/2 theta.A theta,   j = N x + O theta
- * is the energy of bodies and dead forces, minimised over everything else. It does not contain the energy stored in the
- * interfaces. Where a row of N is empty, the loads alone prescribe the jump. stiffness S [unknowns][unknowns],
- * symmetric, semidefinite if bodies float; load L [patterns][unknowns]; constant A [patterns][patterns]; N as
- * row_starts [rows+1], columns and values [entries], with one row per component of j; offset O [rows][patterns].
- * capacity: number of entries that stiffness can hold, at least unknowns^2.
+ * E does not contain the energy stored in the interfaces. Where a row of N is empty, the loads alone prescribe the
+ * jump. stiffness S [unknowns][unknowns], symmetric, semidefinite if bodies float; load L [patterns][unknowns];
+ * constant A [patterns][patterns]; N as row_starts [rows+1], columns and values [entries], with one row per component
+ * of j; offset O [rows][patterns]. capacity: number of entries that stiffness can hold, at least unknowns^2.
  * [unit stiffness F/L, load F, constant F L, values 1, offset L; null stiffness, load, constant, row_starts, columns,
  * values, offset; status cancelled, argument, state; source src/reduction/README.md; since 0.1] */
 DELAM_API int32_t delam_solver_condensed(const delam_solver *solver, int64_t capacity, double *stiffness, double *load,
@@ -1085,7 +1126,7 @@ DELAM_API int32_t delam_solver_plan_item(const delam_solver *solver, int64_t ind
                                          const char **decision, const char **reason, double *cost, double *saving,
                                          const char **unit);
 
-/* Returns the value of an option that the solver uses, as text, e.g. "energetic" for "solution"; hosts may label
+/* Returns the value of an option that the solver uses, as text, e.g. "energetic" for `solution`; hosts may label
  * results with it. NULL for an unknown key.
  * [null result; owns result until the next call with this solver; status argument; since 0.1] */
 DELAM_API const char *delam_solver_option(const delam_solver *solver, const char *key);
@@ -1094,22 +1135,24 @@ DELAM_API const char *delam_solver_option(const delam_solver *solver, const char
  * [owns result until the next call with this solver; status -; since 0.1] */
 DELAM_API const char *delam_solver_searched(const delam_solver *solver);
 
-/* Selects the step that values and fields describe. With option backtracking, the solver keeps the last
- * backtracking_depth steps; if the pending step replaces earlier steps, the function selects the replacements. step -1
- * selects the pending state again, or the committed state if none is pending; successful calls of advance, equilibrate,
- * commit, rollback and load do the same. DELAM_ERROR_ARGUMENT names the steps that are kept.
+/* Selects the state described (delam_solver_value), i.e. the step to which values, fields, fronts, averages and
+ * delam_solver_tangent belong. With the option `backtracking`, the solver keeps the last `backtracking_depth` steps; if
+ * the pending step replaces earlier steps, the function selects the replacements. step -1 selects the pending state
+ * again, or the committed state if no step is pending; successful calls of advance, equilibrate, commit, rollback and
+ * load do the same. DELAM_ERROR_ARGUMENT: the step is not kept; the message names the steps that are.
  * [status argument; since 0.1] */
 DELAM_API int32_t delam_solver_look(delam_solver *solver, int64_t step);
 
-/* Returns in *count the number of jumps located (option jump_tolerance) up to the pending state, or up to the committed
- * state if none is pending. Jumps are ordered by time.
+/* Returns in *count the number of jumps of the state, i.e. instants at which it changes abruptly, that were located
+ * (option `jump_tolerance`) up to the pending state, or up to the committed state if no step is pending;
+ * delam_solver_look does not change it. They are ordered by time.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_jump_count(const delam_solver *solver, int64_t *count);
-/* Returns one jump. It lies within (*before, *time], in step *step. Energies: *stored, change of stored energy and load
- * potential; *dissipated; *released = E(time, state before) - E(time, state after) - dissipated, the energy that is
- * neither stored nor dissipated (in reality, waves would carry it away; for energetic jumps it is 0 up to the
- * tolerance). *debonded: change of the sum of weight (1 - zeta). *interface_index: the interface that changed most;
- * *first_pair, *last_pair: the first and last of its pairs whose adhesion changed (-1: none).
+/* Returns one jump of the state. It lies within (*before, *time], in step *step. Energies: *stored, change of stored
+ * energy and load potential; *dissipated; *released = E(time, state before) - E(time, state after) - dissipated, the
+ * energy that is neither stored nor dissipated (in reality, waves would carry it away; for energetic jumps it is 0 up
+ * to the tolerance). *debonded: change of the sum of weight (1 - zeta). *interface_index: the interface that changed
+ * most; *first_pair, *last_pair: the first and last of its pairs whose adhesion changed (-1: none).
  * [unit before t, time t, stored F L, dissipated F L, released F L, debonded L or L2; null step, before, time, stored,
  * dissipated, released, debonded, interface_index, first_pair, last_pair; status argument; source none; since 0.1] */
 DELAM_API int32_t delam_solver_jump(const delam_solver *solver, int64_t index, int64_t *step, double *before,
@@ -1128,7 +1171,7 @@ DELAM_API int32_t delam_solver_save(const delam_solver *solver, int64_t capacity
 DELAM_API int32_t delam_solver_load(delam_solver *solver, int64_t size, const uint8_t *bytes);
 /* Saves the bytes of delam_solver_save in the file at path (in the encoding of the file system). The function first
  * writes a temporary file in the same folder and gives it the name path once it is complete and on disk; a full disk or
- * an interruption therefore leaves the old file intact. DELAM_ERROR_FILE says what failed.
+ * an interruption therefore leaves the old file intact. DELAM_ERROR_FILE: the message says what failed.
  * [null none; status argument, file; since 0.1] */
 DELAM_API int32_t delam_solver_save_file(const delam_solver *solver, const char *path);
 /* Loads the file at path, which holds bytes of delam_solver_save or delam_solver_save_file, as delam_solver_load does.

@@ -45,7 +45,7 @@ Direction require_direction(const Mesh& mesh, const double* direction) {
     return unit;
 }
 
-// Returns a node of a body, a control node (without cells) or a tied node.
+// Returns a node of a body, a control node (of no body) or a tied node.
 std::int64_t require_node(const Mesh& mesh, std::int64_t value, std::int32_t index_base, const std::string& what) {
     return require_index(value, mesh.node_count(), index_base, what);
 }
@@ -331,8 +331,8 @@ int32_t delam_problem_add_periodic(delam_problem* problem, int64_t period_count,
             const bool tied = std::any_of(ties.begin(), ties.end(), [&](const NodeTie& t) { return t.node == node; });
             if (core.mesh->node_body(node) >= 0 || tied)
                 fail(DELAM_ERROR_ARGUMENT, "control_nodes[", k, "] = ", control_nodes[k],
-                     tied ? " is a tied node" : " belongs to cells",
-                     ": must be a control node, without cells and not tied");
+                     tied ? " is a tied node" : " belongs to a body",
+                     ": must be a control node, of no body and not tied");
             if (std::find(controls.begin(), controls.end(), node) != controls.end())
                 fail(DELAM_ERROR_ARGUMENT, "control_nodes[", k, "] = ", control_nodes[k], " is listed twice");
             controls.push_back(node);

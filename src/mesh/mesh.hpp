@@ -13,7 +13,7 @@
 
 namespace delam {
 
-// A node without cells whose displacement is a combination of others': sum of weight u_node, weights summing to 1.
+// A node of no body whose displacement is a combination of others': sum of weight u_node, weights summing to 1.
 struct NodeTie {
     std::int64_t node;
     std::vector<std::pair<std::int64_t, double>> of;
@@ -37,7 +37,7 @@ public:
     // Ties the nodes of b's faces to their projections on a's faces, within `gap`; appends a tied node for each
     // (projected_interface.cpp).
     std::int64_t add_projected_interface(std::int32_t label_a, std::int32_t label_b, double gap);
-    // Pairs of a control node without cells with nodes of one body (obstacle.cpp). normals: [nodes][dimension] into the
+    // Pairs of a control node of no body with nodes of one body (obstacle.cpp). normals: [nodes][dimension] into the
     // body, any length; weights empty: those of the faces whose nodes are all there.
     std::int64_t add_obstacle(std::span<const std::int64_t> nodes, std::span<const double> normals,
                               std::span<const double> weights, std::int64_t control);

@@ -27,7 +27,7 @@ std::int64_t Mesh::add_obstacle(std::span<const std::int64_t> nodes, std::span<c
         fail(DELAM_ERROR_ARGUMENT, "control_node ", control, ": must be in 0..", node_count() - 1);
     if (node_label_[index(control)] >= 0)
         fail(DELAM_ERROR_MESH, "control_node ", control, " belongs to body ", node_label_[index(control)],
-             ": an obstacle needs a node without cells");
+             ": an obstacle needs a node of no body");
     if (std::any_of(ties_.begin(), ties_.end(), [&](const NodeTie& t) { return t.node == control; }))
         fail(DELAM_ERROR_MESH, "control_node ", control, " is tied to the faces of an interface");
 
@@ -39,7 +39,7 @@ std::int64_t Mesh::add_obstacle(std::span<const std::int64_t> nodes, std::span<c
         if (node < 0 || node >= node_count())
             fail(DELAM_ERROR_ARGUMENT, "nodes[", p, "] = ", node, ": must be in 0..", node_count() - 1);
         const std::int32_t body = node_body(node);
-        if (body < 0) fail(DELAM_ERROR_ARGUMENT, "nodes[", p, "] = ", node, " has no cells");
+        if (body < 0) fail(DELAM_ERROR_ARGUMENT, "nodes[", p, "] = ", node, " belongs to no body");
         if (p == 0) made.body_b = body;
         if (body != made.body_b)
             fail(DELAM_ERROR_ARGUMENT, "nodes[", p, "] = ", node, " belongs to body ", body_label(body),

@@ -220,7 +220,7 @@ CASE_TEST(refused) {
     cases::expect(status(scene, {0.05, 0.0}, {0}) == DELAM_ERROR_MESH, "another length");
     says(scene, "periods long in direction 0");
     cases::expect(status(scene, {0.04, 0.0}, {7}) == DELAM_ERROR_ARGUMENT, "a node of a body as control node");
-    says(scene, "belongs to cells");
+    says(scene, "belongs to a body");
     // Missing partners: the right end is moved up by the map.
     Scene skew = cases::plies_with_controls(2, 1, [](const std::array<double, 3>& x) {
         return std::array<double, 3>{x[0], x[1] + (x[0] > 0.039 && x[1] > 0.004 ? 1e-3 : 0.0), x[2]};

@@ -189,7 +189,7 @@ START_TEST(obstacles) {
         ck_assert_refused(DELAM_ERROR_ARGUMENT, "weights[0] = 0",
                           mesh.add_obstacle(one, normal, Numbers{0.0}, control));
         ck_assert_refused(DELAM_ERROR_MESH, "belongs to body 0", mesh.add_obstacle(one, normal, Numbers{1.0}, top[0]));
-        ck_assert_refused(DELAM_ERROR_ARGUMENT, "has no cells",
+        ck_assert_refused(DELAM_ERROR_ARGUMENT, "belongs to no body",
                           mesh.add_obstacle(Indices{control}, normal, Numbers{1.0}, control));
         ck_assert_refused(DELAM_ERROR_ARGUMENT, "control_node",
                           mesh.add_obstacle(one, normal, Numbers{1.0}, control + 1));

@@ -9,7 +9,8 @@ end
 """
     field(solver, key[, interface])
 
-A field of the pending state, or of the committed one if none is pending: one column per entry, or a vector of numbers.
+A field of the step that `look!` has selected, otherwise of the pending state, or of the committed one if no step is
+pending: one column per entry, or a vector of numbers.
 
 Over nodes: displacement. Cells: stress, rotation. Pairs of an interface, or of all one after another: jump, traction,
 adhesion, mixity, contact. Constraints: reaction.

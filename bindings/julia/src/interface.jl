@@ -40,7 +40,7 @@ end
 """
     add_obstacle!(mesh, nodes, normals, control_node; weights=nothing)
 
-A rigid obstacle that moves with its control node, a node without cells. `normals`: from the obstacle into the body, a
+A rigid obstacle that moves with its control node, a node of no body. `normals`: from the obstacle into the body, a
 column each or one for all.
 """
 function add_obstacle!(mesh::Mesh, nodes, normals, control_node; weights=nothing)

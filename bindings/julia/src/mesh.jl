@@ -113,7 +113,7 @@ function nodes(mesh::Mesh)
     return out
 end
 
-"Body of each node, -1 for one without cells."
+"Body of each node, -1 for one that belongs to no body."
 function node_bodies(mesh::Mesh)
     out = Vector{Int32}(undef, node_count(mesh))
     ask(handle -> Raw.delam_mesh_node_bodies(handle, length(out), out), mesh)

@@ -20,9 +20,9 @@ class CellType(NamedTuple):
     nodes: int
     dimension: int
     corners: int
-    faces: np.ndarray  # [faces][nodes of a face], local nodes: corners in outward order, then middle nodes
+    faces: np.ndarray  # [faces][nodes of a face], local nodes: corners in outward order, then mid-side nodes
     face_corners: int
-    middle: np.ndarray  # [nodes - corners][2], the corners on either side of each middle node
+    middle: np.ndarray  # [nodes - corners][2], the corners on either side of each node that is not a corner
 
 
 def cell_types():
@@ -172,8 +172,8 @@ class Mesh(Object):
         mesh.add_cells("quad4", connectivity, bodies)
         interface = mesh.add_interface(0, 1)
 
-    Indices are 0-based throughout. Nodes without cells are control nodes, or nodes of bodies whose stiffness the
-    host provides (add_host_body)."""
+    Indices are 0-based throughout. Nodes without cells are control nodes or tied nodes, which belong to no body, or
+    nodes of bodies whose stiffness the host provides (add_host_body)."""
 
     def __init__(self, nodes):
         nodes = floats("nodes", nodes, (None, (2, 3)))
@@ -261,7 +261,7 @@ class Mesh(Object):
         return self._add_interface(library.delam_mesh_add_projected_interface, body_a, body_b, number("gap", gap))
 
     def add_obstacle(self, nodes, normals, control_node, weights=None):
-        """A rigid obstacle that moves with its control node, a node without cells. normals: from the obstacle into the
+        """A rigid obstacle that moves with its control node, a node of no body. normals: from the obstacle into the
         body, one per pair or one for all."""
         nodes = indices("nodes", nodes, size=self.node_count)
         normals = self._normals(normals, nodes.size)

@@ -108,7 +108,8 @@ def _encoded(path):
 
 
 class Values(collections.abc.Mapping):
-    """Scalars of the pending state, or of the committed one if none is pending, by name; computed on access."""
+    """Scalars of the state described, by name; computed on access. The state described is the step that look() has
+    selected, otherwise the pending state, or the committed one if no step is pending."""
 
     def __init__(self, solver, keys):
         self._solver = solver
@@ -317,11 +318,11 @@ class Solver(Object):
 
     @property
     def time(self):
-        """Time of the pending state, or of the committed one if none is pending."""
+        """Time of the state described (Values)."""
         return self.values["time"]
 
     def look(self, step):
-        """Makes values and fields those of an earlier step (option backtracking); -1: of the present one again."""
+        """Selects the state described: an earlier step (option backtracking); -1: the pending or committed one again."""
         self._call(library.delam_solver_look, integer("step", step))
 
     @contextlib.contextmanager
@@ -367,8 +368,7 @@ class Solver(Object):
         return rows.value, columns.value
 
     def field(self, name, interface=None):
-        """A field of the pending state, or of the committed one if none is pending: [rows][columns], or [rows] if there is
-        one column.
+        """A field of the state described (Values): [rows][columns], or [rows] if there is one column.
 
         Over nodes: displacement. Cells: stress, rotation. Pairs of an interface, None for all one after another: jump,
         traction, adhesion, mixity, contact. Constraints: reaction."""
