@@ -93,7 +93,7 @@ extern "C" {
 #define DELAM_ERROR_PROBLEM -4   /* incomplete or contradictory scene: missing material, missing support, bad law */
 #define DELAM_ERROR_STATE -5     /* a call out of order (e.g. advance while a step is pending) */
 #define DELAM_ERROR_MEMORY -6    /* not enough memory for the call */
-#define DELAM_ERROR_NUMERICAL -7 /* a factorisation broke down */
+#define DELAM_ERROR_NUMERICAL -7 /* a factorisation broke down; a result is not finite or violates a support */
 #define DELAM_ERROR_SNAPSHOT -8  /* a saved state that is damaged, or of another version or scene */
 #define DELAM_ERROR_INTERNAL -9  /* a defect of the library: please report it */
 #define DELAM_ERROR_FILE -10     /* a file that cannot be opened, read or written: the message says why */
