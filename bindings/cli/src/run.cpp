@@ -118,7 +118,7 @@ public:
             if (status == DELAM_NOT_CONVERGED) state_.not_converged.push_back(state_.step);
             const bool revised = to_the_end([this] { return record(); });
             // The first step of each process as well: a run that is ended again and again still gets on.
-            if (first || revised || std::chrono::steady_clock::now() - saved_ > std::chrono::seconds(1)) save();
+            if (first || revised || Clock::now() - saved_ > interval_) save();
             first = false;
             to_the_end([&] {
                 progress.step(state_.step, time, history_.load(solver_.get()),
@@ -185,6 +185,7 @@ private:
     void save() {
         std::int64_t size = 0;
         call(model_.context.get(), delam_solver_save(solver_.get(), 0, nullptr, &size), running_state_);
+        const Clock::time_point begun = Clock::now();
         state_.bytes.resize(static_cast<std::size_t>(size));
         call(model_.context.get(),
              delam_solver_save(solver_.get(), size, reinterpret_cast<std::uint8_t*>(state_.bytes.data()), &size),
@@ -193,8 +194,14 @@ private:
         synchronise(running_history_);
         write_atomic(running_state_, pack(state_));
         saved_step_ = state_.step;
-        saved_ = std::chrono::steady_clock::now();
+        saved_ = Clock::now();
+        // Up to a twentieth of the time goes into saving, but for states so large that they are saved every second.
+        interval_ = std::clamp<Clock::duration>(20 * (saved_ - begun), shortest_interval, longest_interval);
     }
+
+    using Clock = std::chrono::steady_clock;
+    static constexpr Clock::duration shortest_interval = std::chrono::milliseconds(100);
+    static constexpr Clock::duration longest_interval = std::chrono::seconds(1);
 
     const Scene& scene_;
     const Model& model_;
@@ -209,7 +216,8 @@ private:
     State state_;
     Origin origin_;
     std::optional<std::int64_t> saved_step_;
-    std::chrono::steady_clock::time_point saved_;
+    Clock::time_point saved_;
+    Clock::duration interval_ = shortest_interval;
 };
 
 // The state from which to continue, if there is one; refuses that of another scene.

@@ -96,7 +96,7 @@ for old, new, where in (('title = "small ENF"', f'title = "{long}"', "title"),
                         ('name = "lower"', f'name = "{long}"', r"layers\[0\]\.name"),
                         ("dimension = 2", f'dimension = 2\nplane = "{long}"', r"geometry\.plane")):
     path = write(changed(old, new))
-    for words in (("check", path), ("run", path, "--out", folder())):
+    for words in (("check", path), *([("run", path, "--out", folder())] if where == "title" else [])):
         answer = delam(*words)
         expect_error(answer, 2, where, "has 2000000 bytes: at most 4096")
         expect(len(answer[2]) < 1000, f"{words[0]}: a short message, {len(answer[2])} bytes")
