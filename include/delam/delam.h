@@ -117,8 +117,9 @@ DELAM_API int32_t delam_abi(void);
  * [owns result static; status -; thread any; since 0.1] */
 DELAM_API const char *delam_status_name(int32_t status);
 /* Returns the number of threads that BLAS uses in this process; 0 if BLAS does not report it. The library does not
- * change this number (the option `threads` sets the library's own threads). Two runs give identical digits only with
- * the same number of BLAS threads.
+ * change this number (the option `threads` sets the library's own threads), except to 1 where a limit of the address
+ * space leaves too little room for OpenBLAS' threads. Two runs give identical digits only with the same number of BLAS
+ * threads.
  * [status -; thread any; since 0.1] */
 DELAM_API int32_t delam_blas_threads(void);
 

@@ -13,7 +13,4 @@ void require_room(std::size_t bytes);
 // has no block of the whole size, and the other way round.
 void require_room(std::size_t bytes, std::size_t part);
 
-// Makes OpenBLAS map its working memory, once per process. Throws std::bad_alloc if there is no room for it.
-void prepare_blas();
-
 }  // namespace delam

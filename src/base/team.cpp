@@ -7,6 +7,8 @@
 #include <csignal>
 #include <system_error>
 
+#include "base/blas_memory.hpp"
+
 namespace delam {
 
 std::int64_t processors() {
@@ -19,6 +21,7 @@ std::int64_t processors() {
 std::int64_t useful_threads(std::int64_t asked) { return asked > 1 ? std::min(asked, processors()) : asked; }
 
 Team::Team(std::int64_t threads) {
+    threads = blas_callers(threads);
     // Only the host's threads handle signals.
     sigset_t all, before;
     sigfillset(&all);

@@ -19,7 +19,7 @@ std::int64_t processors();
 
 class Team {
 public:
-    // Starts up to `threads` - 1 threads, or as many as the system allows.
+    // Starts up to `threads` - 1 threads, or as many as the system and the memory of the BLAS allow.
     explicit Team(std::int64_t threads);
     ~Team();
     Team(const Team&) = delete;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "base/room.hpp"
+#include "base/blas_memory.hpp"
 #include "capi/handles.hpp"
 
 int32_t delam_context_create(delam_context** out) {

@@ -20,9 +20,11 @@
 // CHOLMOD 3 requests four OpenMP threads on any machine; on fewer cores they wait for each other at every supernode
 // (measured: twice the time of one thread). The "dynamic" setting of the calling thread lets the runtime provide fewer:
 // GNU's provides as many as there are processors, less the load of the last 15 minutes. The threads share the
-// scattering of blocks, not sums, so that no digit depends on their number. Weak symbols: a CHOLMOD without OpenMP
-// lacks these functions.
+// scattering of blocks, not sums, so that no digit depends on their number. Not where OpenBLAS has OpenMP's threads
+// (2): it waits for as many as it has asked for, and for ever if the runtime provides fewer. Weak symbols: a CHOLMOD
+// without OpenMP, and another BLAS, lack these functions.
 extern "C" {
+int openblas_get_parallel() __attribute__((weak));
 int omp_get_dynamic() __attribute__((weak));
 void omp_set_dynamic(int) __attribute__((weak));
 }
@@ -36,6 +38,7 @@ public:
     AsManyThreadsAsIdleCores() {
         require_room(std::size_t{1} << 16);  // GNU's OpenMP ends the process if this memory is missing
         if (omp_get_dynamic == nullptr || omp_set_dynamic == nullptr) return;
+        if (openblas_get_parallel != nullptr && openblas_get_parallel() == 2) return;
         before_ = omp_get_dynamic();
         omp_set_dynamic(1);
     }

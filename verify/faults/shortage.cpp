@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // fault_shortage: scenes in processes with a limited address space (RLIMIT_AS). Each must end by itself with DELAM_OK
 // or DELAM_ERROR_MEMORY and print nothing, whatever libraries are in use.
+// fault_shortage blas: the same for processes that begin with the limit and have several threads of the BLAS, which
+// need 128 MiB of addresses each and wait for ever where there are none.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -8,7 +10,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "scenes.hpp"
 
@@ -34,12 +38,16 @@ public:
     }
 };
 
-void limit(long room) {
+long size_of_process() {
     long pages = 0;
     std::FILE* size = std::fopen("/proc/self/statm", "r");
     if (size == nullptr || std::fscanf(size, "%ld", &pages) != 1) std::_Exit(3);
     std::fclose(size);
-    const auto all = static_cast<rlim_t>(pages * sysconf(_SC_PAGESIZE) + room);
+    return pages * sysconf(_SC_PAGESIZE);
+}
+
+void limit(long room) {
+    const auto all = static_cast<rlim_t>(size_of_process() + room);
     const rlimit as{all, all};
     if (setrlimit(RLIMIT_AS, &as) != 0) std::_Exit(3);
 }
@@ -94,13 +102,74 @@ bool run(const faults::Strip* strip, long room, int& without) {
     return fine;
 }
 
+// A process of its own under a limit: a scene whose dense factor (300 rows) all threads of the BLAS work on. Its exit
+// code: `finished` + threads of the BLAS, 1: out of memory, 2: another failure.
+constexpr int finished = 100;
+int one_process() {
+    alarm(most_seconds / 3);
+    faults::Strip strip;
+    strip.cells = 150;
+    strip.steps = 1;
+    strip.texts = {{"reduction", "condensed"}};
+    try {
+        Modest host;
+        faults::march(host, strip);
+        return finished + delam_blas_threads();
+    } catch (const NoMemory&) {
+        return 1;
+    } catch (const std::bad_alloc&) {
+        return 1;
+    } catch (const std::exception& e) {
+        std::printf("%s\n", e.what());
+        return 2;
+    }
+}
+
+int run_process(const char* program, int threads, long room) {
+    std::FILE* words = std::tmpfile();
+    if (words == nullptr) return 2;
+    const pid_t pid = fork();
+    if (pid == 0) {
+        dup2(fileno(words), 1);
+        dup2(fileno(words), 2);
+        setenv("OPENBLAS_NUM_THREADS", std::to_string(threads).c_str(), 1);
+        limit(room);
+        execl(program, program, "one", nullptr);
+        std::_Exit(3);
+    }
+    int how = 0;
+    waitpid(pid, &how, 0);
+    char text[300] = "";
+    std::rewind(words);
+    const std::size_t said = std::fread(text, 1, sizeof text - 1, words);
+    std::fclose(words);
+    std::printf("%d threads of the BLAS, room for %ld MiB: %s %d, said '%s'\n", threads, room >> 20,
+                WIFEXITED(how) ? "exit code" : "signal", WIFEXITED(how) ? WEXITSTATUS(how) : WTERMSIG(how), text);
+    const bool words_of_openblas = std::string(text).find("OpenBLAS: malloc failed") == 0;
+    return WIFEXITED(how) && (said == 0 || words_of_openblas) ? WEXITSTATUS(how) : 2;
+}
+
+// Little room ends in DELAM_ERROR_MEMORY or where OpenBLAS finds no memory for its work queues, which it says, more may
+// let the BLAS compute with one thread, and enough with all. Without room for the block of its other thread OpenBLAS
+// itself does not let the process end, so there is no less.
+int several_threads(const char* program) {
+    const int all = run_process(program, 2, 1L << 30);  // fewer threads on one core, or of a serial OpenBLAS
+    const std::set<int> allowed{1, finished + 1, all};
+    if (all < finished) return EXIT_FAILURE;
+    for (const long room : {176L, 208L, 240L, 272L, 304L, 336L, 368L, 432L})
+        if (!allowed.contains(run_process(program, 2, room << 20))) return EXIT_FAILURE;
+    return EXIT_SUCCESS;
+}
+
 }  // namespace
 
-int main() {
+int main(int count, char** words) {
     if (shadowed) {
         std::printf("skipped: the sanitizer's own memory would meet the limit\n");
         return 77;
     }
+    if (count > 1 && std::string(words[1]) == "one") return one_process();
+    if (count > 1) return several_threads(words[0]);
     int failed = 0;
     for (const faults::Strip& strip : faults::strips()) {
         int without = 0, processes = 0;

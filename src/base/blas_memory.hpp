@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The working memory of OpenBLAS: a block of addresses for each thread that computes at the same time, its own or a
+// caller's. A block that the system refuses is asked for again for ever, and whoever waits for that thread waits too;
+// one that was granted is never given back. So the library looks for room before a thread asks.
+#pragma once
+
+#include <cstdint>
+
+namespace delam {
+
+// For one caller and the threads of the BLAS. Where there may be no room for all of them, the BLAS computes with one
+// thread from then on; std::bad_alloc if there is none even for one. Other libraries than OpenBLAS: does nothing.
+void prepare_blas();
+
+// The number of callers, from 1 to `wanted`, for which there is memory when they use the BLAS at the same time.
+std::int64_t blas_callers(std::int64_t wanted);
+
+}  // namespace delam
