@@ -42,7 +42,7 @@ Solver::Solver(const Problem& problem, Monitor& monitor, double time)
     const std::int64_t threads = problem_.options.threads;
     if (!reduction().condensed && threads > processors())
         monitor_.log(1, text("option threads = ", threads, ": ", useful_threads(threads),
-                             " are used, as this process has ", processors(), " processors"));
+                             " are used, the number of processors of this process"));
 }
 
 Outcome Solver::unconverged_displacement(const State& state) const {

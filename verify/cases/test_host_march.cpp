@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a host does between steps: changes histories, saves states as files, uses more threads.
 #include <fcntl.h>
+#include <sched.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "small_march.hpp"
 
@@ -316,6 +320,29 @@ CASE_TEST(threads_change_no_digit) {
         const std::string plan = delam_solver_plan(solver.get());
         cases::expect(plan.find("threads: ") != std::string::npos, plan);
     }
+    // More than there are processors are not started, which the plan and a warning say.
+    Scene crowded = cases::small_enf(6);
+    crowded.number("threads", 1024.0);
+    std::vector<std::string> said;
+    const auto keep = [](std::int32_t level, const char* line, void* user) {
+        if (level == 1) static_cast<std::vector<std::string>*>(user)->emplace_back(line);
+    };
+    crowded.require(delam_context_set_log(crowded.context(), keep, &said), "log");
+    Solver bounded(crowded, 0.0);
+    cases::walk(bounded, 1, cases::small_steps);
+    cases::expect_same(bounded, cases::read_bits(bounded), ends.front(), "1024 threads");
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    cases::expect(sched_getaffinity(0, sizeof set, &set) == 0, "affinity");
+    const std::string processors = std::to_string(CPU_COUNT(&set));
+    cases::expect(std::count_if(said.begin(), said.end(),
+                                [&](const std::string& line) {
+                                    return line == "option threads = 1024: " + processors +
+                                                       " are used, the number of processors of this process";
+                                }) == 1,
+                  "one warning");
+    const std::string plan = delam_solver_plan(bounded.get());
+    cases::expect(plan.find(processors + " of the library (option threads = 1024") != std::string::npos, plan);
     // They are not part of the scene: a state saved with one number continues with another.
     char one[17], two[17];
     Scene scene = cases::small_enf(6);

@@ -137,7 +137,7 @@ expect_error(delam("run", brief, "--out", out, "--resume"), 2, "result.json", "a
 feti = '[solver]\nreduction = "feti"\nsubdomains = 4\nthreads = 256\n'
 crowded = write(changed("steps = 20", "steps = 1", changed("h = 0.0015", "h = 0.003")) + feti)
 count = len(os.sched_getaffinity(0))
-said = f"option threads = 256: {count} are used, as this process has {count} processors"
+said = f"option threads = 256: {count} are used, the number of processors of this process"
 code, text, error = delam("check", crowded)
 expect(code == 0 and f"warning: {said}" in error and f"{count} of the library (option threads = 256" in text,
        f"check bounds threads: {error.strip()}")
