@@ -14,7 +14,9 @@
  *              stiffness F/L3, toughness F/L (J/m2).
  *   arrays     Arrays are contiguous; `[n][d]` is row-major in C and `(d,n)` in Fortran. The library copies inputs
  *              before the call returns, and writes outputs into the caller's buffer. Pointers must not be NULL unless
- *              the function allows it; an array may be NULL when its count is 0.
+ *              the function allows it; an array may be NULL when its count is 0. A call writes no output before it
+ *              has read all inputs, so that an output may lie in the place of an input. Outputs of one call must not
+ *              overlap each other.
  *   indices    Indices are int64_t. Entries of input index arrays count from `index_base` (0 or 1); single indices and
  *              all outputs count from 0.
  *   handles    Handles are opaque. A create function stores the new handle in *out, or NULL if it makes none. A destroy

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
+#include <functional>
 
 #include "capi/handles.hpp"
 
@@ -25,6 +26,14 @@ void require_finite(const double* values, std::int64_t count, const char* name) 
     for (std::int64_t i = 0; i < count; ++i) {
         if (!std::isfinite(values[i])) fail(DELAM_ERROR_ARGUMENT, name, "[", i, "] = ", values[i], " is not finite");
     }
+}
+
+void require_apart(const double* a, const char* name_a, std::int64_t count_a, const double* b, const char* name_b,
+                   std::int64_t count_b) {
+    if (a == nullptr || b == nullptr || count_a == 0 || count_b == 0) return;
+    const std::less<const double*> before;
+    if (before(a, b + count_b) && before(b, a + count_a))
+        fail(DELAM_ERROR_ARGUMENT, "the output arrays ", name_a, " and ", name_b, " overlap");
 }
 
 void require_capacity(std::int64_t capacity, std::int64_t needed, const char* name) {

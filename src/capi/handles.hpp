@@ -206,6 +206,9 @@ void require_pointer(const void* pointer, const char* name);
 void require_count(std::int64_t count, const char* name, std::int64_t smallest = 0);
 void require_array(const void* pointer, std::int64_t count, const char* name);
 void require_finite(const double* values, std::int64_t count, const char* name);
+// Refuses outputs of one call that share entries.
+void require_apart(const double* a, const char* name_a, std::int64_t count_a, const double* b, const char* name_b,
+                   std::int64_t count_b);
 void require_capacity(std::int64_t capacity, std::int64_t needed, const char* name);
 void require_base(std::int32_t index_base);
 // Checks a second handle argument of a call.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "law/law.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/numbers.hpp"
 #include "capi/handles.hpp"
@@ -185,11 +187,14 @@ int32_t delam_law_toughness(const delam_law* law, int64_t count, const double* m
     return guard(law, [&] {
         require_count(count, "count");
         require_fraction(mixity, count, "mixity");
+        require_apart(onset, "onset", count, toughness, "toughness", count);
         law->core->validate();
+        std::vector<Toughness> found;  // an output may be the input array
+        found.reserve(index(count));
+        for (std::int64_t i = 0; i < count; ++i) found.push_back(law->core->toughness(mixity[i]));
         for (std::int64_t i = 0; i < count; ++i) {
-            const Toughness t = law->core->toughness(mixity[i]);
-            if (onset != nullptr) onset[i] = t.onset;
-            if (toughness != nullptr) toughness[i] = t.total;
+            if (onset != nullptr) onset[i] = found[index(i)].onset;
+            if (toughness != nullptr) toughness[i] = found[index(i)].total;
         }
     });
 }
@@ -210,18 +215,22 @@ int32_t delam_law_respond(const delam_law* law, int32_t dimension, int64_t count
                      ": a normal jump must be >= 0 (no penetration)");
             }
         }
+        require_apart(adhesion, "adhesion", count, traction, "traction", count * dimension);
         law->core->validate();
         const Law& p = *law->core;
+        std::vector<double> zetas(index(count)), pulls(index(traction != nullptr ? count * dimension : 0));
         for (std::int64_t i = 0; i < count; ++i) {
             const double* u = jump + i * dimension;
             double driving = 0.5 * p.normal_stiffness * u[0] * u[0];
             for (std::int32_t d = 1; d < dimension; ++d) driving += 0.5 * p.tangential_stiffness * u[d] * u[d];
             const double zeta = p.minimiser(p.toughness(mixity[i]), driving, adhesion_old[i]);
-            adhesion[i] = zeta;
-            for (std::int32_t d = 0; d < dimension && traction != nullptr; ++d) {
-                traction[i * dimension + d] = zeta * (d == 0 ? p.normal_stiffness : p.tangential_stiffness) * u[d];
-            }
+            zetas[index(i)] = zeta;
+            for (std::int32_t d = 0; d < dimension && traction != nullptr; ++d)
+                pulls[index(i * dimension + d)] = zeta * (d == 0 ? p.normal_stiffness : p.tangential_stiffness) * u[d];
         }
+        // All inputs have been read: an output may lie in their place.
+        std::copy(zetas.begin(), zetas.end(), adhesion);
+        if (traction != nullptr) std::copy(pulls.begin(), pulls.end(), traction);
     });
 }
 
