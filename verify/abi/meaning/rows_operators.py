@@ -1,0 +1,255 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The defaults of contact, of the reduction to the interfaces, of FETI and of threads."""
+import ctypes
+import os
+
+import forms
+import scenes
+from host import Out
+from rows_options import observe
+from scenes import TYPES, value
+from table import row
+
+FETI = ("reduction", "feti")
+
+
+@row("contact", options=["contact"])
+def contact(host, see):
+    """A pair that prescribed displacements press together, beside a part that a force lifts off its support. With
+    contact = always the first displacement step already refuses the pressed pair; by default it is not tested before
+    the lifted part has no equilibrium."""
+    def run(options):
+        lower, upper = [(0, 0), (1, 0), (1, 1), (0, 1)], [(0, 1), (1, 1), (1, 2), (0, 2)]
+        points = lower + upper + [(x + 5, y) for x, y in lower + upper]
+        mesh = host("mesh_create", host.context, 2, 16, [float(c) for p in points for c in p], Out())
+        host("mesh_add_cells", mesh, TYPES["quad4"], 4, list(range(16)), [0, 1, 2, 3], 0)
+        host("mesh_add_interface", mesh, 0, 1, 0.0, Out())
+        host("mesh_add_interface", mesh, 2, 3, 0.0, Out())
+        problem = host("problem_create", host.context, mesh, Out())
+        host("problem_set_elastic", problem, -1, 10.0, 0.0)
+        for interface in (0, 1):
+            host("problem_set_contact", problem, interface)
+        press, lift = (scenes.ramp(host, problem, name) for name in ("press", "lift"))
+        scenes.hold(host, problem, list(range(4)) + list(range(8, 12)), [[1.0, 0.0], [0.0, 1.0]])
+        scenes.hold(host, problem, list(range(4, 8)) + [12, 13, 14, 15], [[1.0, 0.0]])
+        scenes.drive(host, problem, list(range(4, 8)), [0.0, 1.0], press, [-0.1] * 4)
+        host("problem_add_forces", problem, lift, 2, [14, 15], [0.0, 1.0, 0.0, 1.0], 0)
+        for key, setting in options:
+            scenes.give(host, problem, key, setting)
+        solver = host("solver_create", problem, 0.0, Out())
+        return [host.status("solver_advance", solver, 1.0)]
+
+    observe(see, "contact", run, ["always"], [3])
+
+
+# A linear complementarity problem K u - f >= 0, u >= 0 whose active sets come back among the first three unknowns, so
+# that single exchanges follow, which walk through all sets of the other eight (Murty, Fathi: 2^8 of them).
+FIRST = [[18.3, -19.0, -20.0], [-19.0, 21.3, 24.0], [-20.0, 24.0, 32.3]]
+FIRST_FORCE, COUPLING, SMALL, WALK = [2.0, -2.0, -1.0], [-32.0, 21.0, 21.0], 1e-5, 8
+
+
+def exchanges():
+    n = 3 + WALK
+    matrix = [[0.0] * n for _ in range(n)]
+    for i in range(3):
+        matrix[i][:3] = FIRST[i]
+    ahead = [[1.0 if i == j else 2.0 if i < j else 0.0 for j in range(WALK)] for i in range(WALK)]
+    for i in range(WALK):
+        for j in range(WALK):
+            matrix[3 + i][3 + j] = SMALL * forms.dot(ahead[i], ahead[j])
+        for j in range(3):
+            matrix[3 + i][j] = matrix[j][3 + i] = SMALL * COUPLING[j]
+    # The first three alone: 0.2334 and 0.1136 in the first and third; there the others start to walk.
+    alone = forms.solve([[FIRST[0][0], FIRST[0][2]], [FIRST[2][0], FIRST[2][2]]], [FIRST_FORCE[0], FIRST_FORCE[2]])
+    force = SMALL * (1.0 + COUPLING[0] * alone[0] + COUPLING[2] * alone[1])
+    return matrix, FIRST_FORCE + [force] * WALK
+
+
+def active_sets(matrix, force, limit):
+    """Number of sets that are solved: all violators move at once, and once a set comes back only the first."""
+    n = len(force)
+    closed, seen, one, count = [True] * n, set(), False, 0
+    while True:
+        free = [i for i in range(n) if not closed[i]]
+        u = [0.0] * n
+        if free:
+            for i, x in zip(free, forms.solve([[matrix[i][j] for j in free] for i in free], [force[i] for i in free])):
+                u[i] = x
+        count += 1
+        wrong = [i for i in range(n) if (forms.dot(matrix[i], u) < force[i] - 1e-10 if closed[i] else u[i] < -1e-10)]
+        if not wrong or count == limit:
+            return count
+        one = one or tuple(closed) in seen
+        seen.add(tuple(closed))
+        for i in wrong[:1] if one else wrong:
+            closed[i] = not closed[i]
+
+
+@row("contact_limit", options=["contact_limit"])
+def contact_limit(host, see):
+    """Eleven nodes of a host's on a rigid obstacle, whose contact takes 265 active sets: it ends after 200."""
+    matrix, force = exchanges()
+    n = len(force)
+
+    def run(options):
+        mesh = host("mesh_create", host.context, 2, n + 1, [float(c) for k in range(n + 1) for c in (k, k * k % 7)], Out())
+        host("mesh_add_host_body", mesh, 0, n, list(range(n)), 0)
+        host("mesh_add_obstacle", mesh, n, list(range(n)), [0.0, 1.0] * n, [1.0] * n, n, 0, Out())
+        problem = host("problem_create", host.context, mesh, Out())
+        host("problem_set_contact", problem, 0)
+        full = [[0.0] * (2 * n) for _ in range(2 * n)]
+        for i in range(n):
+            for j in range(n):
+                full[2 * i][2 * j] = 2.0 if i == j else 0.1
+                full[2 * i + 1][2 * j + 1] = matrix[i][j]
+        host("problem_set_stiffness", problem, n, list(range(n)), None, list(range(0, 4 * n * n + 1, 2 * n)),
+             list(range(2 * n)) * (2 * n), [c for r in full for c in r], 0, None, 0)
+        push = scenes.ramp(host, problem)
+        scenes.hold(host, problem, [n], [[1.0, 0.0], [0.0, 1.0]])
+        host("problem_add_forces", problem, push, n, list(range(n)), [c for f in force for c in (0.0, f)], 0)
+        for key, setting in options:
+            scenes.give(host, problem, key, setting)
+        solver = host("solver_create", problem, 0.0, Out())
+        return [host.status("solver_advance", solver, 1.0), int(value(host, solver, "contact_iterations_first"))]
+
+    observe(see, "contact_limit", run, [199, 201], [1, 200])
+    see.equal("contact_limit = 1000", run([("contact_limit", 1000)]), [0, active_sets(matrix, force, 1000)])
+
+
+class Block:
+    """Two layers of cells with an elastic interface, held below and bent above, by FETI unless options say otherwise."""
+
+    def __init__(self, host, options, columns=6, rows=2, contrast=1.0, springs=1e3, bend=0.01, progress=None):
+        self.host = host
+        mesh = host("mesh_create_layers", host.context, 2, [float(columns)], [columns], 2, [float(rows)] * 2, [rows] * 2,
+                    TYPES["quad4"], Out())
+        host("mesh_add_interface", mesh, 0, 1, 0.0, Out())
+        problem = host("problem_create", host.context, mesh, Out())
+        host("problem_set_elastic", problem, 0, 1e3, 0.25)
+        host("problem_set_elastic", problem, 1, 1e3 * contrast, 0.25)
+        host("problem_set_law", problem, 0, scenes.strong(host, springs, springs))
+        load = scenes.ramp(host, problem)
+        last = 2 * (columns + 1) * (rows + 1)
+        scenes.hold(host, problem, list(range(columns + 1)), [[1.0, 0.0], [0.0, 1.0]])
+        scenes.drive(host, problem, list(range(last - columns - 1, last)), [0.0, 1.0], load,
+                     [0.1 + bend * i * i for i in range(columns + 1)])
+        for key, setting in options:
+            scenes.give(host, problem, key, setting)
+        self.solver = host("solver_create", problem, 0.0, Out())
+        if progress is not None:
+            host("context_set_progress", host.context, progress, None)
+        self.status = host.status("solver_advance", self.solver, 1.0)
+
+    def values(self, *keys):
+        return [value(self.host, self.solver, key) for key in keys]
+
+
+@row("reduction", options=["reduction"])
+def reduction(host, see):
+    """Whether there is a condensed operator: by default yes in a small scene, unless subdomains are asked for."""
+    def run(options):
+        return [host.status("solver_condensed_size", Block(host, [*more, *options], 3, 1).solver, Out(), Out())
+                for more in ([], [("subdomains", 3)])]
+
+    observe(see, "reduction", run, ["condensed", "feti"], [0, -5])
+
+
+@row("subdomains", options=["subdomains"])
+def subdomains(host, see):
+    """One for each body of a small scene, counted by their factorisations."""
+    def run(options):
+        return [int(n) for n in Block(host, [FETI, *options]).values("bulk_factorisations")]
+
+    observe(see, "subdomains", run, [3, 4], [2])
+
+
+def see_iterations(see, key, run, others, most):
+    """Counts of a Krylov method move by one or two with the rounding of another machine: the baseline has their range."""
+    observe(see, key, run, others, expected=run([]))
+    del see.numbers[(see.row, "by default")]
+    see.recorded("iterations by default", run([])[:1], "iterations")
+    see.that(f"at most {most} iterations, not {run([])[0]}", run([])[0] <= most)
+
+
+@row("preconditioner", options=["preconditioner"])
+def preconditioner(host, see):
+    def run(options):
+        return [int(n) for n in Block(host, [FETI, ("subdomains", 4), *options], 8).values("linear_iterations")]
+
+    see_iterations(see, "preconditioner", run, ["none", "lumped", "dirichlet"], 27)
+
+
+@row("scaling", options=["scaling"])
+def scaling(host, see):
+    """Subdomains of stiffness 1 and 100 that share nodes."""
+    def run(options):
+        return [int(n) for n in Block(host, [FETI, ("subdomains", 4), *options], 8,
+                                      contrast=100.0).values("linear_iterations")]
+
+    see_iterations(see, "scaling", run, ["multiplicity"], 28)
+
+
+@row("gluing", options=["gluing"])
+def gluing(host, see):
+    """Nine subdomains, of which several meet in a node, without a preconditioner that would hide the multipliers."""
+    def run(options):
+        return [int(n) for n in Block(host, [FETI, ("subdomains", 9), ("preconditioner", "none"), *options], 6,
+                                      3).values("linear_iterations")]
+
+    see_iterations(see, "gluing", run, ["redundant"], 52)
+
+
+@row("linear_tolerance", options=["linear_tolerance"])
+def linear_tolerance(host, see):
+    """The residuals at which FETI ends with eight interfaces: each below the tolerance, and the iterations move with it."""
+    def run(options):
+        found = []
+        for k in range(8):
+            block = Block(host, [FETI, ("subdomains", 4), ("preconditioner", "lumped"), *options], 6, 1,
+                          springs=300.0 * 2.0 ** k)
+            found.append(block.values("linear_iterations", "linear_residual"))
+        return found
+
+    found = run([])
+    see.that("no residual is above 1e-13", max(r for _, r in found) <= 1e-13)
+    see.equal("iterations by default, against 1e-13", [n for n, _ in found],
+              [n for n, _ in run([("linear_tolerance", 1e-13)])])
+    for other in (0.5e-13, 2e-13):
+        see.differ(f"linear_tolerance left alone and linear_tolerance = {other}", [n for n, _ in found],
+                   [n for n, _ in run([("linear_tolerance", other)])])
+
+
+@row("threads", options=["threads"])
+def threads(host, see):
+    """The threads of the process while FETI works, less those before."""
+    def run(options):
+        most = [0]
+
+        def count(stage, done, _total, _user):
+            if stage == b"linear solve" and done == 1:
+                most[0] = max(most[0], len(os.listdir("/proc/self/task")))
+            return 0
+
+        progress = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_char_p, ctypes.c_int64, ctypes.c_int64,
+                                    ctypes.c_void_p)(count)
+        host.kept.append(progress)
+        before = len(os.listdir("/proc/self/task"))
+        Block(host, [FETI, ("subdomains", 4), *options], progress=progress)
+        host("context_set_progress", host.context, None, None)
+        return [most[0] - before]
+
+    observe(see, "threads", run, [2, 3], [0])
+
+
+@row("linear_limit", options=["linear_limit"])
+def linear_limit(host, see):
+    """A solve that takes more iterations than it may does not converge; by default there is room. How much is told by
+    hash_of_defaults alone: a solve of 2,000 iterations takes seconds."""
+    def run(options):
+        block = Block(host, [FETI, ("subdomains", 4), ("preconditioner", "none"), *options])
+        return [block.status, *[int(n) for n in block.values("linear_iterations")]]
+
+    found = run([])
+    see.equal("status by default", found[:1], [0])
+    see.equal("linear_limit left alone, against 2000", found, run([("linear_limit", 2000)]))
+    see.equal("status with linear_limit = 10", run([("linear_limit", 10)])[:1], [1])
