@@ -1,21 +1,21 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""meanings.py HEADER LIBRARY [--past LIBRARY ...] [--long] [--exchange] [--rows WORDS] [--baseline FILE] [--write]: do
-arguments, options and defaults still mean what they meant?
+"""meanings.py HEADER LIBRARY [--past LIBRARY ...] [--exchange] [--rows WORDS] [--baseline FILE] [--write]
+[--new-defaults]: do arguments, options and defaults still mean what they meant?
 
 The table of meaning/rows_*.py has a row for each array of the header, each option and each default in the words of the
 header. A row computes a small scene and compares its result with a closed form or with an evaluation of its own; the
 numbers that it sees are also compared with those of the baseline, which stand for past releases. --past: shared
 libraries of past releases, which the same table is run on; what a release did not have yet (symbols.txt says since
-when) is left out and listed. --long: also the rows that take longer than a few hundredths of a second.
+when) is left out and listed. --new-defaults: rows of options may differ from the baseline.
 
 The table is complete, or the gate fails with the name of what is missing:
     array      every parameter that points to numbers is told apart by a row, and so is every field
     cell type  has a row "connectivity of NAME"
     option     every key of delam_option_info has a row that observes its default
     default    words of the header such as "0 selects 1e-6" (SPECIAL) have a row, or describe a result (RESULTS)
-A row that claims an array must really pass it; --exchange proves more: it exchanges any two neighbours of every array on
-its way, and the row must see it.
+A row that claims an array must really pass it; --exchange proves more: it exchanges any two neighbours of every array
+on its way, and the row must see it.
 
 Exit code 1, and a line for each difference.
 """
@@ -39,8 +39,8 @@ for module in ("mesh", "law", "problem", "solver", "options", "operators"):
     importlib.import_module(f"rows_{module}")
 
 BASELINE = os.path.join(HERE, "baseline", "meanings.txt")
-SPECIAL = re.compile(r"(?<![\w.])(?:0|-1|NULL)(?:\)?: (?!its name|a second key|\*lower)| selects| gives| means| takes| if "
-                     r"| with count| among)|\bdefault\b(?! value)(?<!its default)")
+SPECIAL = re.compile(r"(?<![\w.])(?<!index from )(?:0|-1|NULL)(?:\)?: | selects| gives| means| takes| if | with count"
+                     r"| among)|\bdefault\b(?! value)(?<!its default)")
 # What such words say of results.
 RESULTS = {
     "blas_threads: 0 if BLAS does not report it", "problem_process_zone: length 0: the interface is bonded",
@@ -130,8 +130,8 @@ def gaps_of_words(header, rows):
 class Table:
     """The rows, run on one library."""
 
-    def __init__(self, path, header, baseline, past=False):
-        self.header, self.baseline, self.past = header, baseline, past
+    def __init__(self, path, header, baseline, past=False, new_defaults=False):
+        self.header, self.baseline, self.past, self.new_defaults = header, baseline, past, new_defaults
         self.host = Host(header, keys.library_of(path, header, past))
         self.numbers, self.failures, self.left_out, self.count = {}, [], [], 0
 
@@ -160,7 +160,8 @@ class Table:
                 else:
                     self.failures.append(f"{row.name}: {missing}: the library does not have it")
                 continue
-            seen.add(row.name)
+            if not (row.options and self.new_defaults):
+                seen.add(row.name)
             self.count += 1
             self.numbers.update(see.numbers)
             self.failures += see.failures
@@ -194,16 +195,12 @@ def arguments():
     parser.add_argument("library")
     parser.add_argument("--past", nargs="+", default=[], help="shared libraries of past releases")
     parser.add_argument("--of-the-past", action="store_true", help=argparse.SUPPRESS)
-    parser.add_argument("--long", action="store_true", help="also the rows that take long")
     parser.add_argument("--exchange", action="store_true", help="exchange neighbours of arrays; each must be seen")
     parser.add_argument("--rows", help="only rows whose name contains these words")
     parser.add_argument("--baseline", default=BASELINE)
+    parser.add_argument("--new-defaults", action="store_true", help="rows of options may differ from the baseline")
     parser.add_argument("--write", action="store_true", help="write what a new baseline would be")
     return parser.parse_args()
-
-
-def chosen(options):
-    return [row for row in table.ROWS if (options.long or not row.slow) and (options.rows or "") in row.name]
 
 
 def main():
@@ -213,8 +210,8 @@ def main():
     except headers.HeaderError as error:
         sys.exit(str(error))
     kept = table.read_baseline(options.baseline) if os.path.exists(options.baseline) and not options.write else None
-    own = Table(options.library, header, kept, options.of_the_past)
-    rows = chosen(options)
+    own = Table(options.library, header, kept, options.of_the_past, options.new_defaults)
+    rows = [row for row in table.ROWS if (options.rows or "") in row.name]
     if options.exchange:
         found = [missed for row in rows for missed in exchanges(own.host, row)]
         missed = [text for text in found if text]
@@ -238,7 +235,7 @@ def main():
           f"({new} not in the baseline yet), {len(own.failures)} failures")
     # Another process for each: a loader may take two libraries of one name for the same.
     past = [subprocess.run([sys.executable, os.path.abspath(__file__), options.header, path, "--of-the-past",
-                            "--baseline", options.baseline] + (["--long"] if options.long else []), check=False).returncode
+                            "--baseline", options.baseline], check=False).returncode
             for path in options.past]
     sys.exit(1 if own.failures or any(past) else 0)
 

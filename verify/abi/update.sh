@@ -28,7 +28,8 @@ if [[ -f $here/baseline/delam.abi && $breaking == no ]]; then
     if ! /usr/bin/python3 "$here/gate.py" baseline --header "$header" ||
         ! /usr/bin/python3 "$here/gate.py" abidiff --header "$header" --library "$library" ||
         ! /usr/bin/python3 "$here/promise.py" "$header" ||
-        ! /usr/bin/python3 "$here/keys.py" "$library" "$header" --new-defaults; then
+        ! /usr/bin/python3 "$here/keys.py" "$library" "$header" --new-defaults ||
+        ! OPENBLAS_NUM_THREADS=1 /usr/bin/python3 "$here/meanings.py" "$header" "$library" --new-defaults; then
         printf 'this breaks hosts that exist. On purpose: --break\n' >&2
         exit 1
     fi
@@ -64,6 +65,8 @@ print(re.sub(r"\n\s*\n+", "\n", re.sub(r"[ \t]+$", "", text, flags=re.M)).strip(
 PYTHON
 /usr/bin/python3 "$here/promise.py" "$header" --write >"$here/baseline/contract.txt"
 /usr/bin/python3 "$here/keys.py" "$library" "$header" --write >"$here/baseline/keys.txt"
+OPENBLAS_NUM_THREADS=1 /usr/bin/python3 "$here/meanings.py" "$header" "$library" --write >"$new"
+cp "$new" "$here/baseline/meanings.txt"
 /usr/bin/python3 "$here/gate.py" abixml --header "$header" --library "$library" >"$new"
 cp "$new" "$here/baseline/delam.abi"
 printf '%s functions in symbols.txt and the baseline\n' "$(grep -vc '^#' "$here/symbols.txt")"

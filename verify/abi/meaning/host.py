@@ -62,7 +62,7 @@ class Host:
 
     # ---- types ----
     def _kinds(self, function):
-        """(name, kind, type) of each parameter; kind: scalar, text, texts out, handle, handle out, in, out, callback."""
+        """(name, kind, type) of each parameter; kind: scalar, text, text out, handle, handle out, in, out, callback."""
         kinds = []
         for p in function.parameters:
             base = p.type.replace("const ", "").rstrip("*")

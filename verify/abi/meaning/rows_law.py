@@ -19,7 +19,8 @@ def see_toughness(host, see, law, expected):
     see.near("toughness", total, [expected(*TOUGHNESS, b) for b in MIXITIES], "F/L")
 
 
-@row("default criterion and exponents", tells=["law_toughness mixity", "law_toughness onset", "law_toughness toughness"],
+@row("default criterion and exponents",
+     tells=["law_toughness mixity", "law_toughness onset", "law_toughness toughness"],
      says=["law_create: valoroso-champaney (default)", "law_create: numbers > 0 with default 2"])
 def criterion(host, see):
     law = scenes.bilinear(host, STIFFNESS, ONSET, TOUGHNESS)
@@ -78,7 +79,7 @@ def respond(host, see):
 @row("softening table", tells=["law_set_table xi", "law_set_table s"])
 def softening(host, see):
     """The traction is the peak times s, the area Gc."""
-    xi, s = [0.0, 0.2, 0.7, 1.0], [1.0, 0.8, 0.3, 0.0]
+    xi, s = [0.0, 0.2, 0.7, 1.0], [1.0, 0.5, 0.2, 0.0]
     law = scenes.bilinear(host, STIFFNESS, ONSET, TOUGHNESS, "tabulated")
     host("law_set_table", law, 4, xi, s)
     first = math.sqrt(2 * ONSET[0] / STIFFNESS[0])
@@ -87,7 +88,7 @@ def softening(host, see):
     longest = (TOUGHNESS[0] / peak - first / 2) / area
     places = [0.1, 0.35, 0.5, 0.9]
     jumps = [first + p * longest for p in places]
-    wanted = [1 - 0.2 * p / 0.2 if p <= 0.2 else 0.8 - 0.5 * (p - 0.2) / 0.5 if p <= 0.7 else 0.3 * (1 - p) / 0.3
+    wanted = [1 - 0.5 * p / 0.2 if p <= 0.2 else 0.5 - 0.3 * (p - 0.2) / 0.5 if p <= 0.7 else 0.2 * (1 - p) / 0.3
               for p in places]
     traction = host("law_respond", law, 2, 4, [c for j in jumps for c in (j, 0.0)], [0.0] * 4, [1.0] * 4, Out(4),
                     Out(8))[1]
@@ -124,7 +125,7 @@ def bounds(host, see):
     see.equal("statuses at 0, 0.999, 1 and -0.001",
               [host.status("law_set", law, "plateau", p) for p in (0.0, 0.999, 1.0, -0.001)], [0, 0, -1, -1])
     hosted = [host("law_kind_info", k, Out(), None, Out()) for k in range(host("law_kind_count"))]
-    see.equal("kinds that take callbacks", [int(name == "host") for name, _, _ in hosted], [flag for *_, flag in hosted])
+    see.equal("kinds that take callbacks", [flag for *_, flag in hosted], [name == "host" for name, *_ in hosted])
 
 
 @row("callbacks of a law")
@@ -150,9 +151,9 @@ def callbacks(host, see):
         mixity_slope[0] = (ends[1] - ends[0]) / (high - low)
         return 0
 
-    first = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_double, ctypes.c_double, double, double, ctypes.c_void_p)(adhesion)
-    second = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_double, ctypes.c_double, double, double, double,
-                              ctypes.c_void_p)(dissipation)
+    given, results = [ctypes.c_int32, ctypes.c_double, ctypes.c_double], [double, double]
+    first = ctypes.CFUNCTYPE(*given, *results, ctypes.c_void_p)(adhesion)
+    second = ctypes.CFUNCTYPE(*given, *results, double, ctypes.c_void_p)(dissipation)
     host.kept += [first, second]
     law = host("law_create_host", host.context, "bilinear of the table", first, second, None, Out())
     for direction, number in zip(("normal", "tangential"), STIFFNESS):

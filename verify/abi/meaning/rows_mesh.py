@@ -71,7 +71,8 @@ def see_cell(host, see, name, adding):
               [where[k] for k in range(n)])
     problem = host("problem_create", host.context, mesh, Out())
     host("problem_set_elastic", problem, 3, 70.0, 0.3)
-    scenes.fill(host, problem, list(range(n)), lambda node: polynomial.at(places[order[node]]), scenes.ramp(host, problem))
+    motion = [polynomial.at(places[order[node]]) for node in range(n)]
+    scenes.fill(host, problem, list(range(n)), lambda node: motion[node], scenes.ramp(host, problem))
     solver = host("solver_create", problem, 1.0, Out())
     back = forms.inverse(a)
     slope = polynomial.slope(centre(name))
@@ -88,8 +89,7 @@ def see_cell(host, see, name, adding):
             0.5 * (gradient[1][0] - gradient[0][1])]
     see.near("rotation at the centre", field(host, solver, "rotation"), spin if d == 3 else spin[2:], "rad")
     see.near("rotation_max", scenes.value(host, solver, "rotation_max"), math.sqrt(forms.dot(spin, spin)), "rad")
-    see.near("displacement", field(host, solver, "displacement"),
-             [polynomial.at(places[order[node]]) for node in range(n)], "L")
+    see.near("displacement", field(host, solver, "displacement"), motion, "L")
 
 
 def forms_flat(points):
@@ -110,7 +110,8 @@ def conforming_cell(host, see):
 
 
 @row("topology of the cell types", tells=["cell_type_topology face", "cell_type_topology middle"] + [
-    f"cell_type_info {p}" for p in ("cell_type", "dimension", "nodes", "corners", "faces", "face_nodes", "face_corners")])
+    f"cell_type_info {p}"
+    for p in ("cell_type", "dimension", "nodes", "corners", "faces", "face_nodes", "face_corners")])
 def topology(host, see):
     """Faces by their geometry, middle nodes by the list of the header; also the numbers of delam_cell_type_info."""
     for index in range(host("cell_type_count")):
@@ -225,8 +226,11 @@ def see_tolerance(see, adding):
 
 @row("tolerance 0 of an interface", says=["mesh_add_interface: 0 selects 1e-6"])
 def tolerance(host, see):
-    see_tolerance(see, lambda shift: host.status("mesh_add_interface", squares(host, shift, 0.0), 0, 1, 0.0, Out()))
-    see.equal("status at tolerance 1e-3", host.status("mesh_add_interface", squares(host, 0.9e-3, 0.0), 0, 1, 1e-3, Out()), 0)
+    def adding(shift, given=0.0):
+        return host.status("mesh_add_interface", squares(host, shift, 0.0), 0, 1, given, Out())
+
+    see_tolerance(see, adding)
+    see.equal("status at tolerance 1e-3", adding(0.9e-3, 1e-3), 0)
 
 
 @row("tolerance 0 of all interfaces", tells=["mesh_add_all_interfaces out_count"])
@@ -238,8 +242,8 @@ def tolerance_of_all(host, see):
 @row("gap 0 of a projected interface",
      says=["mesh_add_projected_interface: 0 among them, count as 1e-6"])
 def gap(host, see):
-    adding = lambda shift: host.status("mesh_add_projected_interface", squares(host, 0.0, shift), 0, 1, 0.0, Out())
-    see_tolerance(see, adding)
+    see_tolerance(see, lambda shift: host.status("mesh_add_projected_interface", squares(host, 0.0, shift), 0, 1, 0.0,
+                                                 Out()))
 
 
 @row("projected interface", tells=["mesh_node_ties nodes", "mesh_node_ties starts", "mesh_node_ties of",
@@ -282,7 +286,8 @@ def projected(host, see):
 def found_interface(host, see):
     """Between rows of quad8 of unequal lengths: Simpson's weights, pairs by coordinates, normals from a to b."""
     xs = [0.0, 0.5, 1.0, 2.0, 3.0]
-    low = [(0, 0), (1, 0), (3, 0), (0, 1), (1, 1), (3, 1), (0.5, 0), (2, 0), (0.5, 1), (2, 1), (0, 0.5), (1, 0.5), (3, 0.5)]
+    low = [(0, 0), (1, 0), (3, 0), (0, 1), (1, 1), (3, 1), (0.5, 0), (2, 0), (0.5, 1), (2, 1), (0, 0.5), (1, 0.5),
+           (3, 0.5)]
     high = [(x, y + 1) for x, y in low]
     mesh = host("mesh_create", host.context, 2, 26, [float(c) for n in low + high for c in n], Out())
     cells = [[0, 1, 4, 3, 6, 11, 8, 10], [1, 2, 5, 4, 7, 12, 9, 11]]

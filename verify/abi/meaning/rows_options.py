@@ -191,9 +191,9 @@ def step_tolerance(host, see):
 
 
 @row("jump_tolerance", options=["jump_tolerance"],
-     tells=["solver_jump_count count", "solver_jump step", "solver_jump before", "solver_jump time", "solver_jump stored",
-            "solver_jump dissipated", "solver_jump released", "solver_jump debonded", "solver_jump interface_index",
-            "solver_jump first_pair", "solver_jump last_pair"])
+     tells=["solver_jump_count count"] + [f"solver_jump {p}" for p in (
+         "step", "before", "time", "stored", "dissipated", "released", "debonded", "interface_index", "first_pair",
+         "last_pair")])
 def jump_tolerance(host, see):
     """A bar that snaps through within a step: its jump is located only when it is asked for. Its energies by hand."""
     def run(options):
@@ -209,7 +209,8 @@ def jump_tolerance(host, see):
     see.near("instant", [before, time], [snap, snap], "t", rel=2e-5)
     see.that("the instant is located to a millionth of the step", 0 < time - before <= 1e-6)
     energy = 0.5 * 2.0 * 0.27
-    see.near("stored, dissipated, released", [stored, dissipated, released], [-energy, 0.1, energy - 0.1], "F L", rel=3e-5)
+    see.near("stored, dissipated, released", [stored, dissipated, released], [-energy, 0.1, energy - 0.1], "F L",
+             rel=3e-5)
     see.near("debonded", debonded, 1.0, "L", rel=1e-5)
 
 
@@ -387,8 +388,8 @@ def backtracking_limit(host, see):
 
 @row("backtracking_tolerance", options=["backtracking_tolerance"])
 def backtracking_tolerance(host, see):
-    """A bar on a soft interface, whose energy at the break is `stiffness`/`bulk` above that of the broken bar: stiffnesses
-    at which the lower bound fails by just less and just more than a thousandth of the energy."""
+    """A bar on a soft interface, whose energy at the break is `stiffness`/`bulk` above that of the broken bar:
+    stiffnesses at which the lower bound fails by just less and just more than a thousandth of the energy."""
     def excess(stiffness):
         bar = broken(stiffness, [("backtracking", "off")])
         energy = sum(bar.value(key) for key in ("stored_bulk", "stored_interface", "load_potential"))
@@ -402,7 +403,8 @@ def backtracking_tolerance(host, see):
     ends = straddle(excess, 1e-3, 1e-5, 1e-2)
 
     def run(options):
-        return [int(broken(stiffness, [("backtracking", "on"), *options]).value("backtracks") > 0) for stiffness in ends]
+        return [int(broken(stiffness, [("backtracking", "on"), *options]).value("backtracks") > 0)
+                for stiffness in ends]
 
     see.near("excess of the lower bound", [excess(s) for s in ends], [1e-3] * 2, rel=6e-3)
     observe(see, "backtracking_tolerance", run, [0.98e-3, 1.02e-3], [0, 1])
@@ -446,13 +448,14 @@ def cantilevers(host, opening, options):
 def search_tolerance(host, see):
     """The number of states that the search of four openings compares."""
     observe(see, "search_tolerance",
-            lambda options: [cantilevers(host, opening, options)[0] for opening in (0.5, 0.8, 1.0, 1.3)], [0.5e-2, 2e-2])
+            lambda options: [cantilevers(host, opening, options)[0] for opening in (0.5, 0.8, 1.0, 1.3)],
+            [0.5e-2, 2e-2])
 
 
 @row("search_limit", options=["search_limit"])
 def search_limit(host, see):
-    """A search compares as many states as it is told to, and all 43 by default. It cannot be seen here where the default
-    ends, since 100,000 states take minutes; hash_of_defaults tells 100,000 from any other number."""
+    """A search compares as many states as it is told to, and all 42 by default. It cannot be seen here where the
+    default ends, since 100,000 states take minutes; hash_of_defaults tells 100,000 from any other number."""
     def run(options):
         return [cantilevers(host, 1.0, options)[0]]
 

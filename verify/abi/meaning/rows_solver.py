@@ -12,8 +12,8 @@ from table import row
 def stack(host, layers, columns=1, laws=(), width=1.0, adhesion=()):
     """Layers of height 1 in the plane, with an interface between every two; the mesh and the problem.
     laws: one for each interface; adhesion: (interface, pairs, values)."""
-    mesh = host("mesh_create_layers", host.context, 2, [width * columns], [columns], layers, [1.0] * layers, [1] * layers,
-                TYPES["quad4"], Out())
+    mesh = host("mesh_create_layers", host.context, 2, [width * columns], [columns], layers, [1.0] * layers,
+                [1] * layers, TYPES["quad4"], Out())
     for k in range(layers - 1):
         host("mesh_add_interface", mesh, k, k + 1, 0.0, Out())
     problem = host("problem_create", host.context, mesh, Out())

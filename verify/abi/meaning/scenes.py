@@ -85,8 +85,8 @@ def strong(host, normal, tangential):
 
 class Bar:
     """Two layers of one quad4 each on top of each other, without lateral contraction, pulled apart at the top: per unit
-    of width the bodies are a spring of `bulk`, in series with the law. The top moves by the factor of `pull`. Both pairs of
-    the interface open alike."""
+    of width the bodies are a spring of `bulk`, in series with the law. The top moves by the factor of `pull`. Both
+    pairs of the interface open alike."""
 
     def __init__(self, host, law, bulk=1.0, width=1.0, options=(), times=(0.0, 1.0), values=(0.0, 1.0), time=0.0):
         self.host, self.bulk, self.width = host, bulk, width

@@ -7,16 +7,16 @@ class Row:
     """tells: the places whose entries the row tells apart, "function parameter" or "function parameter key"; options:
     whose defaults it observes; says: the defaults in words of the header that it observes, "function: words"."""
 
-    def __init__(self, name, run, tells, options, says, slow):
-        self.name, self.run, self.tells, self.options, self.says, self.slow = name, run, tells, options, says, slow
+    def __init__(self, name, run, tells, options, says):
+        self.name, self.run, self.tells, self.options, self.says = name, run, tells, options, says
 
 
 ROWS = []
 
 
-def row(name, tells=(), options=(), says=(), slow=False):
+def row(name, tells=(), options=(), says=()):
     def take(run):
-        ROWS.append(Row(name, run, tuple(tells), tuple(options), tuple(says), slow))
+        ROWS.append(Row(name, run, tuple(tells), tuple(options), tuple(says)))
         return run
     return take
 
