@@ -10,7 +10,8 @@ libraries of past releases, which the same table is run on; what a release did n
 when) is left out and listed. --new-defaults: rows of options may differ from the baseline.
 
 The table is complete, or the gate fails with the name of what is missing:
-    array      every parameter that points to numbers is told apart by a row, and so is every field
+    array      every parameter that points to numbers is told apart by a row, and so is every field; what callbacks are
+               given is seen by a row
     cell type  has a row "connectivity of NAME"
     option     every key of delam_option_info has a row that observes its default
     default    words of the header such as "0 selects 1e-6" (SPECIAL) have a row, or describe a result (RESULTS)
@@ -35,7 +36,7 @@ import keys  # noqa: E402
 import table  # noqa: E402
 from host import Host, Missing, Refused, Twist  # noqa: E402
 
-for module in ("mesh", "law", "problem", "solver", "options", "operators"):
+for module in ("mesh", "law", "problem", "solver", "values", "options", "operators"):
     importlib.import_module(f"rows_{module}")
 
 BASELINE = os.path.join(HERE, "baseline", "meanings.txt")
@@ -71,8 +72,12 @@ def run(host, row):
     return see
 
 
+def places_of(row):
+    """"function parameter key" -> as Host.used has it. The names of callbacks alone are left out."""
+    return {place_of(tell) for tell in row.tells if " " in tell}
+
+
 def place_of(tell):
-    """"function parameter key" -> as Host.used has it."""
     function, parameter, *key = tell.split(" ")
     return "delam_" + function, parameter, key[0] if key else None
 
@@ -88,11 +93,16 @@ def phrases(header):
 
 def gaps(header, host, rows):
     """What the table does not have, and what it has that is not there."""
-    told = {place_of(tell) for row in rows for tell in row.tells}
+    told = {place for row in rows for place in places_of(row)}
     arrays = {("delam_" + name[6:], parameter, None) for name, kinds in host.shapes.items()
               for parameter, kind, _ in kinds if kind in ("in", "out")}
     for function, parameter, _ in sorted(arrays - {(f, p, None) for f, p, _ in told}):
         yield f"{function}: {parameter}: no row of the table tells what its entries mean"
+    alone = {tell for row in rows for tell in row.tells if " " not in tell}
+    for name in sorted(set(header.callbacks) - alone):
+        yield f"{name}: no row of the table tells what it is given"
+    for name in sorted(alone - set(header.callbacks)):
+        yield f"{name}: in the table, not in the header"
     for key in keys.fields_of(header):
         if ("delam_solver_field", "values", key) not in told:
             yield f"field {key}: no row of the table tells what its columns mean"
@@ -166,7 +176,7 @@ class Table:
             self.numbers.update(see.numbers)
             self.failures += see.failures
             if not see.failures:
-                for place in sorted({place_of(t) for t in row.tells} - set(self.host.used), key=str):
+                for place in sorted(places_of(row) - set(self.host.used), key=str):
                     self.failures.append(f"{row.name}: claims {' '.join(p for p in place if p)}, but does not use it")
         if self.baseline is not None:
             self.failures += table.against(self.baseline, self.numbers, seen)
@@ -175,7 +185,7 @@ class Table:
 def exchanges(host, row):
     """Neighbours of arrays that the row claims and that it does not see exchanged."""
     run(host, row)
-    lengths = {place: host.used.get(place, 0) for place in map(place_of, row.tells)}
+    lengths = {place: host.used.get(place, 0) for place in sorted(places_of(row), key=str)}
     baseline = table.read_baseline(BASELINE)
     for (function, parameter, key), length in lengths.items():
         for index in range(max(length - 1, 1)):

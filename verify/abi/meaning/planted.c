@@ -56,6 +56,27 @@ static int32_t dimension_of(const delam_solver *solver) {
     return (int32_t)columns;
 }
 
+/* ---- contexts ---- */
+static delam_log_callback own_log;
+
+static void turned_log(int32_t level, const char *text, void *user) { own_log(2 - level, text, user); }
+
+int32_t delam_context_set_log(delam_context *context, delam_log_callback callback, void *user) {
+    BEHIND(delam_context_set_log);
+    own_log = callback;
+    return behind(context, planted("levels of the log upside down") && callback != NULL ? turned_log : callback, user);
+}
+
+static int32_t go_on(const char *stage, int64_t done, int64_t total, void *user) {
+    (void)stage, (void)done, (void)total, (void)user;
+    return 0;
+}
+
+int32_t delam_context_set_progress(delam_context *context, delam_progress_callback callback, void *user) {
+    BEHIND(delam_context_set_progress);
+    return behind(context, planted("progress that stops nothing") && callback != NULL ? go_on : callback, user);
+}
+
 /* ---- meshes ---- */
 int32_t delam_mesh_create_layers(delam_context *context, int32_t dimension, const double *lengths,
                                  const int64_t *divisions, int64_t layer_count, const double *thickness,
@@ -447,7 +468,15 @@ int32_t delam_solver_set_history(delam_solver *solver, int64_t pattern, int64_t 
 
 int32_t delam_solver_value(delam_solver *solver, const char *key, double *value) {
     BEHIND(delam_solver_value);
+    if (planted("energies of bodies and interfaces")) {
+        if (strcmp(key, "stored_bulk") == 0) return behind(solver, "stored_interface", value);
+        if (strcmp(key, "stored_interface") == 0) return behind(solver, "stored_bulk", value);
+    }
+    if (planted("damage without its slope") && strcmp(key, "dissipated") == 0)
+        return behind(solver, "dissipated_slides", value);
+    if (planted("front as zone") && strcmp(key, "front") == 0) return behind(solver, "process_zone", value);
     const int32_t status = behind(solver, key, value);
+    if (planted("reaction of the body") && strncmp(key, "reaction:", 9) == 0) *value = -*value;
     if (planted("rotation_max in degrees") && strcmp(key, "rotation_max") == 0) *value *= 180.0 / 3.14159265358979;
     return status;
 }

@@ -128,7 +128,7 @@ def bounds(host, see):
     see.equal("kinds that take callbacks", [flag for *_, flag in hosted], [name == "host" for name, *_ in hosted])
 
 
-@row("callbacks of a law")
+@row("callbacks of a law", tells=["delam_adhesion_callback", "delam_dissipation_callback"])
 def callbacks(host, see):
     """A bilinear law of the host, whose toughness depends on the mixity: what the callbacks get and give."""
     double = ctypes.POINTER(ctypes.c_double)

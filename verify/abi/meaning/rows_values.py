@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Values by key, and what the callbacks of a context are told."""
+import ctypes
+
+import forms
+import keys
+import scenes
+from host import Out
+from scenes import TYPES, value
+from table import row
+
+# Rounding, or effort, which any version may change.
+NO_MEASURE = keys.ROUNDING | {
+    "field_recoveries", "linear_iterations", "am_iterations", "displacement_solves", "contact_iterations",
+    "contact_iterations_first", "contact_iterations_max", "contact_fallbacks", "newton_solves", "debond_moves"}
+
+
+@row("values of a bar")
+def bar_values(host, see):
+    """A bar that softens, by hand: bulk 60, and the law falls from a traction of 2 at 0.02 to 0 at 0.1."""
+    bulk, k, onset, toughness, opening = 60.0, 100.0, 0.02, 0.1, 0.07
+    law = scenes.bilinear(host, (k, k), (onset, onset), (toughness, toughness))
+    bar = scenes.Bar(host, law, bulk=bulk, options=[("damage_tolerance", 1e-12)])
+    bar.step(opening)
+    jump = (bulk * opening - 2.5) / (bulk - 25.0)
+    zeta, pull = 25.0 * (0.1 - jump) / (k * jump), bulk * (opening - jump)
+    stored, held = 0.5 * bulk * (opening - jump) ** 2, 0.5 * zeta * k * jump * jump
+    dissipated = forms.bilinear_dissipated(onset, toughness, zeta)
+    slides = dissipated - toughness * (1 - zeta)
+    lower, upper = opening * pull - 0.5 * bulk * opening ** 2, 0.5 * bulk * opening ** 2
+    work, sum_ = 0.5 * (lower + upper), stored + held + dissipated
+    expected = {
+        "step": 1, "time": opening, "stored_bulk": stored, "stored_interface": held, "dissipated": dissipated,
+        "stored_interface_slides": held + slides, "dissipated_slides": toughness * (1 - zeta), "load_potential": 0,
+        "work": work, "lower": lower, "increment": sum_, "upper": upper, "increment_lower": sum_, "defect": sum_ - work,
+        "defect_slides": sum_ - work, "contact_pairs": 0, "debonded_length": 0, "front": 1 - zeta, "process_zone": 1,
+        "crack_length": 1 - zeta, "crack_length:0": 1 - zeta, "load:pull": opening, "reaction:pull": pull,
+        "substeps": 1, "refused_steps": 0, "jumps": 0, "backtracks": 0, "revisions": 0, "revised_from": 1,
+        "bulk_factorisations": 1, "released": 0, "search_candidates": 0, "rotation_max": 0,
+    }
+    for key, number in expected.items():
+        see.near(key, bar.value(key), number, rel=1e-9, scale=max(abs(number), 1e-3))
+
+
+@row("values and fields of a march")
+def march(host, see):
+    """For the baseline alone: values and fields of two beams that are peeled apart, in the plane and in space."""
+    for d in (2, 3):
+        mesh = host("mesh_create_layers", host.context, d, [4.0] + [1.0] * (d - 2), [8] + [1] * (d - 2), 2, [0.5, 0.75],
+                    [1, 1], TYPES["quad4" if d == 2 else "hex8"], Out())
+        host("mesh_add_interface", mesh, 0, 1, 0.0, Out())
+        problem = host("problem_create", host.context, mesh, Out())
+        host("problem_set_elastic", problem, -1, 1e5, 0.3)
+        host("problem_set_law", problem, 0, scenes.bilinear(host, (1e4, 8e3), (0.1, 0.2), (1.0, 1.7)))
+        load = scenes.ramp(host, problem)
+        count = host("mesh_size", mesh, None, Out(), None, None, None)[1]
+        points = host("mesh_nodes", mesh, d * count, Out(d * count))
+        place = [points[d * n:d * n + d] for n in range(count)]
+        scenes.give(host, problem, "damage_tolerance", 1e-12)
+        scenes.hold(host, problem, [n for n in range(count) if place[n][0] == 4.0],
+                    [scenes.axis(d, k) for k in range(d)])
+        up, free = scenes.axis(d, d - 1), [n for n in range(count) if place[n][0] == 0.0]
+        scenes.hold(host, problem, [n for n in free if place[n][-1] == 0.0], [up])
+        top = [n for n in free if place[n][-1] == 1.25]
+        scenes.drive(host, problem, top, up, load, [0.3] * len(top))
+        solver = host("solver_create", problem, 0.0, Out())
+        for time in (0.4, 0.7, 1.0):
+            host("solver_advance", solver, time)
+            host("solver_commit", solver)
+        for index in range(host("solver_value_count", solver, Out())):
+            key = host("solver_value_name", solver, index)
+            if key not in NO_MEASURE:
+                see.recorded(f"{key} in {d}D", value(host, solver, key), "1")
+        for key in keys.fields_of(host.header):
+            see.recorded(f"field {key} in {d}D", scenes.field(host, solver, key)[:6], "1")
+
+
+@row("callbacks of a context", tells=["delam_log_callback", "delam_progress_callback"])
+def callbacks(host, see):
+    """Levels of the log: 0 an error, 1 a warning, about a cell that rotates by half. What the progress returns: 0 goes
+    on, another number stops the step and leaves no step pending."""
+    levels, stages, stop = [], [], [0]
+
+    def log(level, text, _user):
+        levels.append((level, bool(text)))
+
+    def progress(stage, done, total, user):
+        stages.append((stage, done >= 0 and total >= 0, user))
+        return stop[0]
+
+    told = ctypes.CFUNCTYPE(None, ctypes.c_int32, ctypes.c_char_p, ctypes.c_void_p)(log)
+    asked = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_char_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p)(progress)
+    host.kept += [told, asked]
+    host("context_set_log", host.context, told, None)
+    mesh = host("mesh_create_layers", host.context, 2, [1.0], [1], 1, [1.0], [1], TYPES["quad4"], Out())
+    problem = host("problem_create", host.context, mesh, Out())
+    see.equal("status without a material", host.status("problem_check", problem), -4)
+    see.equal("level of an error", levels, [0, 1])
+    host("problem_set_elastic", problem, 0, 1.0, 0.0)
+    scenes.fill(host, problem, [0, 1, 2, 3], lambda n: [[0, 0], [0, 0.5], [-0.5, 0], [-0.5, 0.5]][n],
+                scenes.ramp(host, problem))
+    solver = host("solver_create", problem, 0.0, Out())
+    del levels[:]
+    host("solver_advance", solver, 1.0)
+    see.near("rotation_max", value(host, solver, "rotation_max"), 0.5, "rad")
+    host("solver_rollback", solver)
+    see.that(f"a rotation by 1/2 is a warning: {levels}", (1, True) in levels and (0, True) not in levels)
+    host("context_set_progress", host.context, asked, 17)
+    see.equal("status of a step that goes on", host.status("solver_advance", solver, 1.0), 0)
+    see.that("stages have a name, work is counted, user is passed on",
+             bool(stages) and all(stage and counted and user == 17 for stage, counted, user in stages))
+    host("solver_rollback", solver)
+    stop[0] = 1
+    see.equal("status of a step that is stopped", host.status("solver_advance", solver, 1.0), 2)
+    see.equal("pending", host("solver_pending", solver, Out()), 0)
+    host("context_set_progress", host.context, None, None)
+    host("context_set_log", host.context, None, None)
