@@ -8,13 +8,13 @@
 
 #include "delam/delam.h"
 
-static delam_context* context;
-static delam_mesh* mesh;
-static delam_law* law;
-static delam_problem* problem;
+static delam_context *context;
+static delam_mesh *mesh;
+static delam_law *law;
+static delam_problem *problem;
 
-static void expect(int32_t status, int32_t expected, const char* part) {
-    const char* message = delam_context_message(context);
+static void expect(int32_t status, int32_t expected, const char *part) {
+    const char *message = delam_context_message(context);
     ck_assert_msg(status == expected, "%s instead of %s: %s", delam_status_name(status), delam_status_name(expected),
                   message);
     ck_assert_msg(strstr(message, part) != NULL, "'%s' is not in '%s'", part, message);
@@ -26,7 +26,7 @@ static void fine(int32_t status) {
 
 /* Two layers of 2 x 1 with 2 x 1 quads, one interface, materials, a law, supports at the bottom. */
 static void set_up(void) {
-    static const char* const keys[] = {"normal_stiffness", "tangential_stiffness", "normal_onset",
+    static const char *const keys[] = {"normal_stiffness", "tangential_stiffness", "normal_onset",
                                        "tangential_onset", "normal_toughness",     "tangential_toughness"};
     static const double values[] = {125e9, 125e9, 100.0, 100.0, 250.0, 250.0};
     const double length = 2.0;
@@ -71,13 +71,13 @@ static void unchanged(void) {
 
 START_TEST(handles) {
     int64_t foreign[8] = {0, 0, 0, 0, 0, 0, 0, 0};
-    delam_solver* solver = (delam_solver*)(void*)foreign;
-    delam_mesh* none = NULL;
-    delam_problem* failed = NULL;
+    delam_solver *solver = (delam_solver *)(void *)foreign;
+    delam_mesh *none = NULL;
+    delam_problem *failed = NULL;
     ck_assert_int_eq(delam_mesh_size(NULL, NULL, NULL, NULL, NULL, NULL), DELAM_ERROR_HANDLE);
-    ck_assert_int_eq(delam_mesh_size((const delam_mesh*)(const void*)foreign, NULL, NULL, NULL, NULL, NULL),
+    ck_assert_int_eq(delam_mesh_size((const delam_mesh *)(const void *)foreign, NULL, NULL, NULL, NULL, NULL),
                      DELAM_ERROR_HANDLE);
-    ck_assert_int_eq(delam_mesh_size((const delam_mesh*)(const void*)law, NULL, NULL, NULL, NULL, NULL),
+    ck_assert_int_eq(delam_mesh_size((const delam_mesh *)(const void *)law, NULL, NULL, NULL, NULL, NULL),
                      DELAM_ERROR_HANDLE);
     ck_assert_int_eq(delam_law_set(NULL, "normal_onset", 1.0), DELAM_ERROR_HANDLE);
     ck_assert_int_eq(delam_problem_check(NULL), DELAM_ERROR_HANDLE);
@@ -111,7 +111,7 @@ END_TEST
 
 START_TEST(constants) {
     int64_t i;
-    const char* key = NULL;
+    const char *key = NULL;
     ck_assert_str_eq(delam_version(), "0.1.0");
     ck_assert(strlen(delam_commit()) > 0);
     ck_assert_int_eq(delam_abi(), DELAM_ABI);
@@ -128,7 +128,7 @@ END_TEST
 /* The constants of the header with their names, and what the comment above them says of nodes. */
 START_TEST(cell_types) {
     const struct {
-        const char* name;
+        const char *name;
         int32_t type, dimension, nodes, corners, faces, face_nodes, face_corners;
     } known[] = {{"tri3", DELAM_TRI3, 2, 3, 3, 3, 2, 2},   {"quad4", DELAM_QUAD4, 2, 4, 4, 4, 2, 2},
                  {"tet4", DELAM_TET4, 3, 4, 4, 4, 3, 3},   {"hex8", DELAM_HEX8, 3, 8, 8, 6, 4, 4},
@@ -137,7 +137,7 @@ START_TEST(cell_types) {
                  {"hex20", DELAM_HEX20, 3, 20, 8, 6, 8, 4}};
     const int32_t tet10[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
     const int64_t count = (int64_t)(sizeof known / sizeof known[0]);
-    const char* name = NULL;
+    const char *name = NULL;
     int32_t face[6 * 8];
     int32_t middle[12 * 2];
     int32_t i, k, found[7];
@@ -179,7 +179,7 @@ START_TEST(meshes) {
     const int64_t cells = 2;
     int64_t count = -1;
     int64_t index = -1;
-    delam_mesh* other = NULL;
+    delam_mesh *other = NULL;
     expect(delam_mesh_create(context, 4, 4, square, &other), DELAM_ERROR_ARGUMENT, "dimension = 4");
     expect(delam_mesh_create(context, 2, 0, square, &other), DELAM_ERROR_ARGUMENT, "node_count = 0");
     expect(delam_mesh_create(context, 2, INT64_MAX, square, &other), DELAM_ERROR_ARGUMENT, "node_count = ");
@@ -223,7 +223,7 @@ START_TEST(unpaired_faces) {
     const int32_t bodies[2] = {0, 1};
     int64_t index = -1;
     int64_t count = -1;
-    delam_mesh* other = NULL;
+    delam_mesh *other = NULL;
     fine(delam_mesh_create(context, 2, 8, apart, &other));
     fine(delam_mesh_add_cells(other, DELAM_QUAD4, 2, cells, bodies, 0));
     expect(delam_mesh_add_interface(other, 0, 1, 0.0, &index), DELAM_ERROR_MESH, "");
@@ -253,7 +253,7 @@ START_TEST(conforming_meshes) {
     int64_t count = -1;
     int64_t pairs = 0;
     int64_t i;
-    delam_mesh* other = NULL;
+    delam_mesh *other = NULL;
     fine(delam_mesh_create(context, 2, 7, nodes, &other));
     expect(delam_mesh_add_conforming_cells(other, DELAM_QUAD4, 2, inverted, bodies, 1), DELAM_ERROR_MESH, "body 3");
     fine(delam_mesh_size(other, NULL, &count, NULL, NULL, NULL));
@@ -296,7 +296,7 @@ START_TEST(projections_and_obstacles) {
     double weights[3];
     int32_t a = 5;
     int32_t b = 5;
-    delam_mesh* other = NULL;
+    delam_mesh *other = NULL;
     fine(delam_mesh_create(context, 2, 11, nodes, &other));
     fine(delam_mesh_add_cells(other, DELAM_QUAD4, 3, cells, bodies, 0));
     expect(delam_mesh_add_projected_interface(other, 0, 1, -1.0, &index), DELAM_ERROR_ARGUMENT, "gap = -1");
@@ -328,7 +328,7 @@ START_TEST(laws) {
     const double jump[2] = {-1e-6, 0.0};
     const double nowhere[2] = {0.0, NAN};
     double out = -7.0;
-    delam_law* other = NULL;
+    delam_law *other = NULL;
     expect(delam_law_create(context, "cubic", &other), DELAM_ERROR_ARGUMENT, "'cubic' is not known");
     expect(delam_law_create(context, NULL, &other), DELAM_ERROR_ARGUMENT, "kind is NULL");
     expect(delam_law_set(law, "stiffness", 1.0), DELAM_ERROR_ARGUMENT,
@@ -523,8 +523,8 @@ END_TEST
 START_TEST(missing_parts) {
     const double y[2] = {0.0, 1.0};
     const int64_t corners[2] = {0, 2};
-    delam_problem* bare = NULL;
-    delam_solver* solver = NULL;
+    delam_problem *bare = NULL;
+    delam_solver *solver = NULL;
     fine(delam_problem_create(context, mesh, &bare));
     expect(delam_problem_check(bare), DELAM_ERROR_PROBLEM, "body 0: no material");
     fine(delam_problem_set_elastic(bare, -1, 1.0, 0.3));
@@ -551,8 +551,8 @@ START_TEST(problem_keeps_its_own_mesh) {
     const int64_t cells = 2;
     const double thickness[2] = {1.0, 1.0};
     const int64_t layer_cells[2] = {1, 1};
-    delam_mesh* growing = NULL;
-    delam_problem* early = NULL;
+    delam_mesh *growing = NULL;
+    delam_problem *early = NULL;
     fine(delam_mesh_create_layers(context, 2, &length, &cells, 2, thickness, layer_cells, DELAM_TRI3, &growing));
     fine(delam_problem_create(context, growing, &early));
     fine(delam_mesh_add_interface(growing, 0, 1, 0.0, &index));
@@ -572,10 +572,10 @@ START_TEST(exports) {
     int64_t rows = 0;
     int64_t entries = 0;
     int64_t patterns = -1;
-    int64_t* starts;
-    int64_t* columns;
-    double* values;
-    double* again;
+    int64_t *starts;
+    int64_t *columns;
+    double *values;
+    double *again;
     int64_t i;
     double forces[24];
     char first[17];
@@ -623,10 +623,10 @@ END_TEST
 /* The plan: words and items say the same, each with a reason; a law of exponents 1 needs no mixity, a bonded
  * interface no contact. */
 START_TEST(plans) {
-    static const char* const exponents[] = {"onset_exponent_1", "onset_exponent_2", "toughness_exponent_1",
+    static const char *const exponents[] = {"onset_exponent_1", "onset_exponent_2", "toughness_exponent_1",
                                             "toughness_exponent_2"};
-    delam_solver* solver = NULL;
-    const char* words;
+    delam_solver *solver = NULL;
+    const char *words;
     int64_t count = -1;
     int64_t i;
     int round;
@@ -647,10 +647,10 @@ START_TEST(plans) {
         fine(delam_solver_plan_count(solver, &count));
         ck_assert_int_gt(count, 5);
         for (i = 0; i < count; ++i) {
-            const char* subject = NULL;
-            const char* decision = NULL;
-            const char* reason = NULL;
-            const char* unit = NULL;
+            const char *subject = NULL;
+            const char *decision = NULL;
+            const char *reason = NULL;
+            const char *unit = NULL;
             double cost = -1.0;
             double saving = -1.0;
             int used;
@@ -681,8 +681,8 @@ START_TEST(plans) {
 }
 END_TEST
 
-static void count_lines(int32_t level, const char* text, void* user) {
-    if (level == 0 && strstr(text, "young") != NULL) ++*(int*)user;
+static void count_lines(int32_t level, const char *text, void *user) {
+    if (level == 0 && strstr(text, "young") != NULL) ++*(int *)user;
 }
 
 START_TEST(log_hears_of_errors) {
@@ -698,9 +698,9 @@ END_TEST
 
 int main(void) {
     int failed;
-    Suite* suite = suite_create("capi");
-    TCase* tests = tcase_create("capi");
-    SRunner* runner;
+    Suite *suite = suite_create("capi");
+    TCase *tests = tcase_create("capi");
+    SRunner *runner;
     tcase_add_checked_fixture(tests, set_up, tear_down);
     tcase_add_test(tests, handles);
     tcase_add_test(tests, any_order_of_destruction);
