@@ -96,7 +96,7 @@ Outcome Solver::advance(double time) {
     for (auto& [step, state] : chain.revised()) pending.revised.push_back(std::move(state));
     require_sound(problem_, pending.state, result.converged);
     for (const State& revised : pending.revised) require_sound(problem_, revised, result.converged);
-    stepper_.warn(pending.state);
+    warned_of_mixity_ = warned_of_mixity_ || stepper_.warn(pending.state);
     warn_of_unresolved_front(committed_, pending.state);
     Outcome outcome;
     if (!result.converged) {

@@ -136,6 +136,7 @@ private:
     std::string searched_;
     mutable std::vector<double> displacement_;                            // of state(), empty: not recovered
     mutable std::vector<std::optional<std::vector<CrackFront>>> fronts_;  // likewise, [interfaces]
+    bool warned_of_mixity_ = false;
     bool warned_of_front_ = false;
     bool warned_of_balance_ = false;
     mutable bool warned_of_rotation_ = false;

@@ -49,12 +49,14 @@ void MixityRule::begin(const PairLaws& pairs, const State& before, const Respons
     start.mixity_before = start.mixity;
 }
 
-void MixityRule::warn_of_mixity_error(const Monitor& monitor, const State& next) const {
-    if (kind_ != Kind::frozen || !(next.ledger.mixity_error > tolerated_error)) return;
+bool MixityRule::warn_of_mixity_error(const Monitor& monitor, const State& next) const {
+    if (kind_ != Kind::frozen || !(next.ledger.mixity_error > tolerated_error)) return false;
     monitor.log(
         1, text("step ", next.step, " at time ", next.time,
                 ": the mode mixity changed within the step, so that the toughness at the frozen mixity is in error by ",
-                100.0 * next.ledger.mixity_error, " %: use smaller steps or mixity_rule = converged"));
+                100.0 * next.ledger.mixity_error,
+                " %: use smaller steps or mixity_rule = converged (later steps are not reported; value mixity_error)"));
+    return true;
 }
 
 }  // namespace delam

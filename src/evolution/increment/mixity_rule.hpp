@@ -33,8 +33,9 @@ public:
     void begin(const PairLaws& pairs, const State& before, State& start) const;
     void begin(const PairLaws& pairs, const State& before, const Response& elastic, State& start) const;
 
-    // Warns the host of a step whose frozen mixities miss the toughness of the mode in which the damage came about.
-    void warn_of_mixity_error(const Monitor& monitor, const State& next) const;
+    // Warns the host of a step whose frozen mixities miss the toughness of the mode in which the damage came about; true
+    // if it did.
+    bool warn_of_mixity_error(const Monitor& monitor, const State& next) const;
 
 private:
     enum class Kind : std::uint8_t { frozen, converged, variational };

@@ -57,8 +57,8 @@ public:
     void recall(const State& state) { operator_->recall(state.memory); }
     const ReductionChoice& reduction() const { return reduction_; }
     const std::vector<double>& initial_adhesion() const { return initial_adhesion_; }
-    // Warns the host about the mixity of a kept step.
-    void warn(const State& state) const { rule_->warn_of_mixity_error(monitor_, state); }
+    // Warns the host about the mixity of a step; true if it did.
+    bool warn(const State& state) const { return rule_->warn_of_mixity_error(monitor_, state); }
     // Description of what the last search compared; empty: nothing.
     const std::string& searched() const { return searched_; }
 
