@@ -178,7 +178,8 @@ CASE_TEST(newton_of_a_host) {
         solver.commit();
         // The last error is the square of the one before, times a constant of moderate size.
         const std::size_t n = history.size();
-        if (n >= 3 && history[n - 2] < 1e-3 && history[n - 1] <= 100.0 * history[n - 2] * history[n - 2] + 0.1 * setting.force_tolerance)
+        const double rest = 0.1 * setting.force_tolerance;
+        if (n >= 3 && history[n - 2] < 1e-3 && history[n - 1] <= 100.0 * history[n - 2] * history[n - 2] + rest)
             ++quadratic;
 
         if (!setting.compared()) continue;

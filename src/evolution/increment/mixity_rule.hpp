@@ -33,8 +33,8 @@ public:
     void begin(const PairLaws& pairs, const State& before, State& start) const;
     void begin(const PairLaws& pairs, const State& before, const Response& elastic, State& start) const;
 
-    // Warns the host of a step whose frozen mixities miss the toughness of the mode in which the damage came about; true
-    // if it did.
+    // Warns the host of a step whose frozen mixities miss the toughness of the mode in which the damage came about;
+    // true if it did.
     bool warn_of_mixity_error(const Monitor& monitor, const State& next) const;
 
 private:
