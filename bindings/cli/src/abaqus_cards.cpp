@@ -66,7 +66,7 @@ const std::set<std::string> passed_over{"AMPLITUDE",
                                         "USER MATERIAL"};
 
 // Numbers that GENERATE stands for, in all sets of a mesh together: a line of 20 bytes may name any number of them.
-constexpr std::int64_t most_generated = 20000000;
+constexpr std::uint64_t most_generated = 5000000;
 
 // Rotation of a point by an angle about the axis from a to b (Rodrigues).
 std::array<double, 3> rotated(const std::array<double, 3>& point, const std::array<double, 3>& a,
@@ -290,16 +290,21 @@ private:
         const std::int64_t first = inp_whole(line.fields[0], line.place);
         const std::int64_t last = inp_whole(line.fields[1], line.place);
         const std::int64_t by = line.fields.size() == 3 ? inp_whole(line.fields[2], line.place) : 1;
-        if (by <= 0 || last < first || last - first > std::int64_t{1000000000} || (last - first) % by != 0)
+        // Without a sign, because the difference of two numbers may exceed the largest that has one.
+        const auto from = static_cast<std::uint64_t>(first);
+        const auto step = static_cast<std::uint64_t>(by);
+        const std::uint64_t span = static_cast<std::uint64_t>(last) - from;
+        if (by <= 0 || last < first || span % step != 0)
             throw SceneFailure(
                 line.place, fmt::format("{}, {}, {}: from first up to last in whole increments > 0", first, last, by));
-        generated_ += (last - first) / by + 1;
-        if (generated_ > most_generated)
-            throw SceneFailure(line.place, fmt::format("{}, {}, {}: with it sets generate {} numbers, and at most {} "
-                                                       "are allowed",
-                                                       first, last, by, generated_, most_generated));
-        for (std::int64_t id = first; id <= last; id += by)
-            set.entries.push_back({scope, std::to_string(id), line.place});
+        const std::uint64_t count = span / step + 1;
+        if (count == 0 || count > most_generated - generated_)
+            throw SceneFailure(line.place, fmt::format("{}, {}, {}: with it sets generate more than {} numbers, which "
+                                                       "is not allowed",
+                                                       first, last, by, most_generated));
+        generated_ += count;
+        for (std::uint64_t i = 0; i < count; ++i)
+            set.entries.push_back({scope, std::to_string(static_cast<std::int64_t>(from + i * step)), line.place});
     }
 
     void take_surface(const InpCard& card) {
@@ -335,7 +340,7 @@ private:
     Model& model_;
     Part* open_;
     bool in_step_ = false;
-    std::int64_t generated_ = 0;
+    std::uint64_t generated_ = 0;
     std::set<std::string> passed_;
 };
 

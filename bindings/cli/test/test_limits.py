@@ -86,9 +86,13 @@ expect_error(delam("check", write(MESH.format(with_file("m.inp", nested)))), 2, 
 for kind, word in (("ELSET", "element"), ("NSET", "node")):
     circle = with_file("m.inp", nested + f"*{kind}, {kind}=S0\nS20\n")
     expect_error(delam("check", write(MESH.format(circle))), 2, rf"m\.inp:\d+: \*{kind}: {word} sets contain each other")
-numbers = CELL + "*NSET, NSET=N, GENERATE\n" + "1, 999999999\n" * 3
-expect_error(start("check", write(MESH.format(with_file("m.inp", numbers))), preexec_fn=small), 2,
-             r"m\.inp:9: \*NSET", "at most 20000000")
+for line in ("1, 2600000\n" * 3, "1, 999999999\n" * 2, "0, 2\n-1, 9223372036854775807\n",
+             "0, 2\n-9223372036854775808, 9223372036854775807\n", "0, 2\n1, 9223372036854775801, 100\n"):
+    numbers = with_file("m.inp", CELL + "*NSET, NSET=N, GENERATE\n" + line)
+    expect_error(start("check", write(MESH.format(numbers)), preexec_fn=small), 2, r"m\.inp:(9|10): \*NSET",
+                 "more than 5000000 numbers")
+ends = with_file("m.inp", CELL + "*NSET, NSET=N, GENERATE\n9223372036854775803, 9223372036854775807, 2\n")
+expect_error(delam("check", write(MESH.format(ends))), 2, r"m\.inp:9: \*NSET: node 9223372036854775803 is not there")
 
 # Texts that no result can hold are refused by both commands, and so are patterns that fit nothing.
 long = "x" * 2000000
