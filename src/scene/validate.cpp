@@ -10,6 +10,7 @@
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "delam/delam.h"
 #include "linalg/sparse_elimination.hpp"
 #include "scene/problem.hpp"
@@ -71,6 +72,34 @@ void check_interfaces(const Problem& problem) {
                 fail(DELAM_ERROR_PROBLEM, "interface ", i,
                      ": its law has a gradient term, but it has no faces (delam_mesh_add_pairs)");
         }
+    }
+}
+
+// Under the variational rule a partly damaged pair gains up to the difference between the largest toughness of any mode
+// and that of its own when its jump turns there. Turning costs the energy zeta Y of the pair, at most about the onset,
+// and none as the jump goes to 0, where the mixity is not defined: with a larger gain pairs close in the tougher mode
+// instead of breaking. Measured limit: src/evolution/README.md, "Ledger and mixity".
+constexpr double weak_dependence = 2.0;  // difference of the toughnesses over the smallest onset
+
+void check_mixity_rule(const Problem& problem) {
+    if (problem.options.mixity_rule != "variational") return;
+    for (std::size_t i = 0; i < problem.interfaces.size(); ++i) {
+        const InterfaceProperties& interface = problem.interfaces[i];
+        if (!interface.law || !interface.law->depends_on_mixity()) continue;
+        constexpr int samples = 256;
+        double least = infinite, most = 0.0, onset = infinite;
+        for (int k = 0; k <= samples; ++k) {
+            const Toughness t = interface.law->toughness(static_cast<double>(k) / samples);
+            onset = std::min(onset, t.onset);
+            least = std::min(least, t.total);
+            most = std::max(most, t.total);
+        }
+        if (most - least > weak_dependence * (1.0 + 1e-12) * onset)
+            fail(DELAM_ERROR_PROBLEM, "mixity_rule = variational: the toughness of interface ", i, " varies from ",
+                 least, " to ", most, " with the mode, by ", (most - least) / onset,
+                 " times its smallest onset, allowed: up to ", weak_dependence,
+                 "; partly damaged pairs would close in the tougher mode instead of breaking: use mixity_rule = frozen "
+                 "or converged");
     }
 }
 
@@ -148,7 +177,8 @@ void check_supports(const Problem& problem) {
 }  // namespace
 
 void validate(const Problem& problem, const Poll& poll) {
-    for (const auto& check : {check_bodies, check_interfaces, check_loads, check_constraints, check_supports}) {
+    for (const auto& check :
+         {check_bodies, check_interfaces, check_mixity_rule, check_loads, check_constraints, check_supports}) {
         call_if_set(poll);
         check(problem);
     }

@@ -270,14 +270,14 @@ struct Peel {
 };
 
 const reference::LawData ductile{125e9, 125e9, 100.0, 160.0, 250.0, 700.0},
-    brittle{125e13, 125e13, 1.0, 1.0, 25.0, 60.0};
+    weakly_mixed{125e9, 125e9, 100.0, 120.0, 250.0, 270.0}, brittle{125e13, 125e13, 1.0, 1.0, 25.0, 60.0};
 
 const Peel peels[] = {
     {"condensed", ductile, {{"reduction", "condensed"}}},
     {"FETI", ductile, {{"reduction", "feti"}}, 4},
     {"brittle", brittle, {{"reduction", "condensed"}, {"minimisation", "accelerated"}}},
     {"brittle, FETI", brittle, {{"reduction", "feti"}}, 2},
-    {"variational", ductile, {{"mixity_rule", "variational"}}},
+    {"variational", weakly_mixed, {{"mixity_rule", "variational"}}},
     {"converged", ductile, {{"mixity_rule", "converged"}}},
     {"energetic",
      {125e13, 125e13, 600.0, 600.0, 600.0, 600.0, 1.0},

@@ -260,9 +260,9 @@ def mixity_step_tolerance(host, see):
     observe(see, "mixity_step_tolerance", run, [1e-3], [1, 1])
 
 
-def turning(host, options):
+def turning(host, options, toughness=(0.1, 0.6)):
     """Rigid layers, opened first and sheared afterwards; the solver at time 1, where the mode is I."""
-    law = scenes.bilinear(host, (100.0, 100.0), (0.02, 0.05), (0.1, 0.6))
+    law = scenes.bilinear(host, (100.0, 100.0), (0.02, 0.05), toughness)
     mesh = host("mesh_create_layers", host.context, 2, [1.0], [1], 2, [1.0, 1.0], [1, 1], TYPES["quad4"], Out())
     host("mesh_add_interface", mesh, 0, 1, 0.0, Out())
     problem = host("problem_create", host.context, mesh, Out())
@@ -284,13 +284,16 @@ def turning(host, options):
 @row("mixity_rule", options=["mixity_rule"], tells=["solver_field values mixity"])
 def mixity_rule(host, see):
     """The same scene: the frozen mixity of the step is that of mode I before it, and so is the toughness."""
-    def run(options):
-        _, solver = turning(host, options)
+    def run(options, **law):
+        _, solver = turning(host, options, **law)
         host("solver_advance", solver, 2.0)
         return [field(host, solver, "mixity")[0][0], field(host, solver, "adhesion")[0][0]]
 
     driving = 0.5 * 100.0 * (0.018 ** 2 + 0.05 ** 2)
-    observe(see, "mixity_rule", run, ["converged", "variational"], [0.0, forms.bilinear(0.02, 0.1, driving)], "1")
+    weak = {"toughness": (0.05, 0.06)}  # the variational rule refuses more
+    see.differ("mixity_rule left alone and mixity_rule = variational", run([], **weak),
+               run([("mixity_rule", "variational")], **weak))
+    observe(see, "mixity_rule", run, ["converged"], [0.0, forms.bilinear(0.02, 0.1, driving)], "1")
     tangential = 0.05 ** 2 / (0.018 ** 2 + 0.05 ** 2)
     see.near("mixity_rule = converged", run([("mixity_rule", "converged")]),
              [tangential, forms.bilinear(forms.toughness(0.02, 0.05, tangential),
