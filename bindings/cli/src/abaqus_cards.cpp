@@ -65,9 +65,6 @@ const std::set<std::string> passed_over{"AMPLITUDE",
                                         "USER DEFINED FIELD",
                                         "USER MATERIAL"};
 
-// Numbers that GENERATE stands for, in all sets of a mesh together: a line of 20 bytes may name any number of them.
-constexpr std::uint64_t most_generated = 5000000;
-
 // Rotation of a point by an angle about the axis from a to b (Rodrigues).
 std::array<double, 3> rotated(const std::array<double, 3>& point, const std::array<double, 3>& a,
                               const std::array<double, 3>& b, double angle) {
@@ -283,7 +280,7 @@ private:
         }
     }
 
-    void generate(const InpLine& line, const Part* scope, Set& set) {
+    static void generate(const InpLine& line, const Part* scope, Set& set) {
         if (line.fields.size() < 2 || line.fields.size() > 3)
             throw SceneFailure(
                 line.place, fmt::format("{} entries: first, last and (1) increment are expected", line.fields.size()));
@@ -291,20 +288,12 @@ private:
         const std::int64_t last = inp_whole(line.fields[1], line.place);
         const std::int64_t by = line.fields.size() == 3 ? inp_whole(line.fields[2], line.place) : 1;
         // Without a sign, because the difference of two numbers may exceed the largest that has one.
-        const auto from = static_cast<std::uint64_t>(first);
         const auto step = static_cast<std::uint64_t>(by);
-        const std::uint64_t span = static_cast<std::uint64_t>(last) - from;
+        const std::uint64_t span = static_cast<std::uint64_t>(last) - static_cast<std::uint64_t>(first);
         if (by <= 0 || last < first || span % step != 0)
             throw SceneFailure(
                 line.place, fmt::format("{}, {}, {}: from first up to last in whole increments > 0", first, last, by));
-        const std::uint64_t count = span / step + 1;
-        if (count == 0 || count > most_generated - generated_)
-            throw SceneFailure(line.place, fmt::format("{}, {}, {}: with it sets generate more than {} numbers, which "
-                                                       "is not allowed",
-                                                       first, last, by, most_generated));
-        generated_ += count;
-        for (std::uint64_t i = 0; i < count; ++i)
-            set.entries.push_back({scope, std::to_string(static_cast<std::int64_t>(from + i * step)), line.place});
+        set.entries.push_back({scope, std::to_string(first), line.place, last, by});
     }
 
     void take_surface(const InpCard& card) {
@@ -340,7 +329,6 @@ private:
     Model& model_;
     Part* open_;
     bool in_step_ = false;
-    std::uint64_t generated_ = 0;
     std::set<std::string> passed_;
 };
 

@@ -7,6 +7,17 @@
 
 namespace cli::abaqus {
 
+namespace {
+
+template <class Visit>
+void for_each_number(const Entry& entry, std::int64_t first, Visit&& visit) {
+    visit(first);
+    // The last is reached exactly, so that no sum exceeds it.
+    for (std::int64_t id = first; entry.by > 0 && id != entry.last;) visit(id += entry.by);
+}
+
+}  // namespace
+
 std::vector<const Part*> Model::scopes() const {
     std::vector<const Part*> out{&root};
     for (const auto& instance : instances) out.push_back(instance.get());
@@ -22,7 +33,8 @@ const Part* Model::instance_named(const std::string& name, const Place& place) c
 Entry Model::resolved_scope(const Entry& entry) const {
     const std::size_t dot = entry.text.find('.');
     if (dot == std::string::npos || entry.scope != &root || instances.empty()) return entry;
-    return {instance_named(entry.text.substr(0, dot), entry.place), entry.text.substr(dot + 1), entry.place};
+    return {instance_named(entry.text.substr(0, dot), entry.place), entry.text.substr(dot + 1), entry.place, entry.last,
+            entry.by};
 }
 
 bool Trail::enter(const Set& set, const Place& place, const char* what) {
@@ -57,11 +69,13 @@ void Model::collect_set(const Set& set, std::set<std::int64_t>& out) const {
 
 void Model::collect_elements(const Entry& raw, std::set<ElementAt>& out, Trail& trail) const {
     const Entry entry = resolved_scope(raw);
-    if (const auto id = inp_whole(entry.text)) {
-        const auto at = entry.scope->element_of.find(*id);
-        if (at == entry.scope->element_of.end())
-            throw SceneFailure(entry.place, fmt::format("element {} is not there", entry.text));
-        out.insert({entry.scope, at->second});
+    if (const auto first = inp_whole(entry.text)) {
+        for_each_number(entry, *first, [&](std::int64_t id) {
+            const auto at = entry.scope->element_of.find(id);
+            if (at == entry.scope->element_of.end())
+                throw SceneFailure(entry.place, fmt::format("element {} is not there", id));
+            out.insert({entry.scope, at->second});
+        });
         return;
     }
     const auto set = entry.scope->element_sets.find(upper(entry.text));
@@ -74,8 +88,9 @@ void Model::collect_elements(const Entry& raw, std::set<ElementAt>& out, Trail& 
 
 void Model::collect_nodes(const Entry& raw, std::set<std::int64_t>& out, Trail& trail) const {
     const Entry entry = resolved_scope(raw);
-    if (const auto id = inp_whole(entry.text)) {
-        out.insert(node_number(*entry.scope, *id, entry.place));
+    if (const auto first = inp_whole(entry.text)) {
+        for_each_number(entry, *first,
+                        [&](std::int64_t id) { out.insert(node_number(*entry.scope, id, entry.place)); });
         return;
     }
     const auto set = entry.scope->node_sets.find(upper(entry.text));

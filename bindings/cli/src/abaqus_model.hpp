@@ -38,6 +38,10 @@ struct Entry {
     const Part* scope;
     std::string text;
     Place place;
+    // With by > 0: the number and all up to `last` in increments. A line may stand for more than memory can hold, but
+    // its first number that is not there ends the reading.
+    std::int64_t last = 0;
+    std::int64_t by = 0;
 };
 
 struct Set {

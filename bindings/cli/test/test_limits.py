@@ -86,11 +86,10 @@ expect_error(delam("check", write(MESH.format(with_file("m.inp", nested)))), 2, 
 for kind, word in (("ELSET", "element"), ("NSET", "node")):
     circle = with_file("m.inp", nested + f"*{kind}, {kind}=S0\nS20\n")
     expect_error(delam("check", write(MESH.format(circle))), 2, rf"m\.inp:\d+: \*{kind}: {word} sets contain each other")
-for line in ("1, 2600000\n" * 3, "1, 999999999\n" * 2, "0, 2\n-1, 9223372036854775807\n",
-             "0, 2\n-9223372036854775808, 9223372036854775807\n", "0, 2\n1, 9223372036854775801, 100\n"):
-    numbers = with_file("m.inp", CELL + "*NSET, NSET=N, GENERATE\n" + line)
-    expect_error(start("check", write(MESH.format(numbers)), preexec_fn=small), 2, r"m\.inp:(9|10): \*NSET",
-                 "more than 5000000 numbers")
+for line, missing in (("1, 999999999\n", 5), ("-1, 9223372036854775807\n", -1), ("4, 9223372036854775804, 100\n", 104),
+                      ("-9223372036854775808, 9223372036854775807\n", -9223372036854775808)):
+    numbers = write(MESH.format(with_file("m.inp", CELL + "*NSET, NSET=N, GENERATE\n" + line)))
+    expect_error(start("check", numbers, preexec_fn=small), 2, rf"m\.inp:9: \*NSET: node {missing} is not there")
 ends = with_file("m.inp", CELL + "*NSET, NSET=N, GENERATE\n9223372036854775803, 9223372036854775807, 2\n")
 expect_error(delam("check", write(MESH.format(ends))), 2, r"m\.inp:9: \*NSET: node 9223372036854775803 is not there")
 
