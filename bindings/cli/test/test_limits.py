@@ -74,18 +74,21 @@ with open(os.path.join(bomb, "8.inp"), "w", encoding="utf-8") as file:
 expect_error(delam("check", write(MESH.format(os.path.join(bomb, "0.inp")))), 2, r"7\.inp:\d+: \*INCLUDE",
              "is file 1001 of this mesh.*at most 1000")
 part = with_file("m.inp", f"*INCLUDE, INPUT={sparse('large.inp', 1 << 30)}\n")
-expect_error(delam("check", write(MESH.format(part))), 2, r"m\.inp:1: \*INCLUDE", "10737[0-9]+ bytes.*at most 1073741824")
+expect_error(delam("check", write(MESH.format(part))), 2, r"m\.inp:1: \*INCLUDE",
+             "10737[0-9]+ bytes.*at most 1073741824")
 for path, kind in special("part.inp"):
     expect_error(delam("check", write(MESH.format(with_file("m.inp", f"*INCLUDE, INPUT={path}\n")))), 2,
                  r"m\.inp:1: \*INCLUDE", f"it is {kind}")
 # Sets that name each other, 100 times each; and numbers without an end.
 CELL = "*NODE\n1, 0, 0\n2, 1, 0\n3, 1, 1\n4, 0, 1\n*ELEMENT, TYPE=CPE4, ELSET=S0\n1, 1, 2, 3, 4\n"
 nested = CELL + "".join(f"*{kind}, {kind}=S{i + 1}\n" + f"S{i}, " * 99 + f"S{i}\n"
-                        for i in range(20) for kind in ("ELSET", "NSET")) + "*NSET, NSET=S0\n1, 2\n*SURFACE, NAME=F\nS20, S1\n"
+                        for i in range(20) for kind in ("ELSET", "NSET"))
+nested += "*NSET, NSET=S0\n1, 2\n*SURFACE, NAME=F\nS20, S1\n"
 expect_error(delam("check", write(MESH.format(with_file("m.inp", nested)))), 2, "materials|bodies")
 for kind, word in (("ELSET", "element"), ("NSET", "node")):
     circle = with_file("m.inp", nested + f"*{kind}, {kind}=S0\nS20\n")
-    expect_error(delam("check", write(MESH.format(circle))), 2, rf"m\.inp:\d+: \*{kind}: {word} sets contain each other")
+    expect_error(delam("check", write(MESH.format(circle))), 2,
+                 rf"m\.inp:\d+: \*{kind}: {word} sets contain each other")
 for line, missing in (("1, 999999999\n", 5), ("-1, 9223372036854775807\n", -1), ("4, 9223372036854775804, 100\n", 104),
                       ("-9223372036854775808, 9223372036854775807\n", -9223372036854775808)):
     numbers = write(MESH.format(with_file("m.inp", CELL + "*NSET, NSET=N, GENERATE\n" + line)))
@@ -117,8 +120,8 @@ expect_error(delam("check", write(fitting.format("*S" * 20 + "*S"))), 2, "time")
 # Names that read like those in the library's messages, which are made of numbers of bodies.
 between = changed("point = [0.060, 0.006]", "point = [0.060, 0.003]")
 for name in ("bodies 0" + ", 0" * 1300, "body " + "1" * 40):
-    expect_error(start("check", write(between.replace('"lower"', f'"{name}"')), preexec_fn=small), 2, r"loads\[0\]\.point",
-                 name[:20])
+    expect_error(start("check", write(between.replace('"lower"', f'"{name}"')), preexec_fn=small), 2,
+                 r"loads\[0\]\.point", name[:20])
 bulky = with_file("m.inp", CELL.replace("ELSET=S0", "ELSET=" + long))
 expect_error(delam("check", write(body.replace(body.split('"')[1], bulky).format("*"))), 2, "the name of a body",
              "2000000 bytes.*at most 4096")
