@@ -83,7 +83,8 @@ def _wheel(folder, contents):
 
 
 def _modules():
-    return {path.relative_to(SOURCES).as_posix(): path.read_bytes() for path in (SOURCES / "delam").rglob("*.py")}
+    return {path.relative_to(SOURCES).as_posix(): path.read_bytes()
+            for pattern in ("*.py", "py.typed") for path in (SOURCES / "delam").rglob(pattern)}
 
 
 def get_requires_for_build_wheel(config_settings=None):

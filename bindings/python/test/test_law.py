@@ -13,6 +13,11 @@ NUMBERS = dict(normal_stiffness=1e12, tangential_stiffness=1e12, normal_onset=50
 
 
 class Parameters(unittest.TestCase):
+    def test_law_describes_itself(self):
+        self.assertEqual(repr(delam.Law("exponential")), "<Law 'exponential'>")
+        self.assertEqual(repr(delam.Law.host("mine", lambda b, y: (1.0, 0.0), lambda b, z: (0.0, 0.0, 0.0))),
+                         "<Law 'host'>")
+
     def test_kinds_describe_themselves(self):
         known = delam.Law.parameters("trapezoidal")
         self.assertEqual(known["plateau"].type, "real")

@@ -37,7 +37,7 @@ class Backend(unittest.TestCase):
             metadata = wheel.read("delam-0.1.0.dist-info/METADATA").decode()
         self.assertEqual({line.split(",")[0] for line in record}, set(names))
         modules = {f"delam/{path.name}" for path in (PACKAGE / "src" / "delam").glob("*.py")}
-        self.assertEqual({name for name in names if name.startswith("delam/")}, modules)
+        self.assertEqual({name for name in names if name.startswith("delam/")}, modules | {"delam/py.typed"})
         self.assertIn("delam-0.1.0.dist-info/LICENSE", names)
         self.assertIn("\nRequires-Dist: numpy", metadata)
         self.assertIn('\nRequires-Dist: meshio; extra == "meshes"', metadata)

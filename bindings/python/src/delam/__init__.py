@@ -9,6 +9,8 @@
 Arrays are numpy's, indices start at 0, units are whatever is consistent. Errors are exceptions under DelamError.
 Warnings and notes of the library go to the logger "delam". delam.plot draws (matplotlib), delam.meshes reads and writes
 meshes (meshio)."""
+from __future__ import annotations
+
 from . import _library
 from .errors import (ArgumentError, Cancelled, DelamError, FileError, HandleError, InternalError, LimitReached,
                      MeshError, NotConverged, NotConvergedWarning, NumericalError, Outcome, OutOfMemory,
@@ -29,22 +31,22 @@ __all__ = ["ArgumentError", "Average", "Bounds", "CELLS", "Cancelled", "Cells", 
            "ValueInfo", "Values", "blas_threads", "library_commit", "library_location", "library_version", "options"]
 
 
-def library_version():
+def library_version() -> str:
     """Version of the libdelam that was loaded."""
     return _library.library.delam_version().decode()
 
 
-def library_commit():
+def library_commit() -> str:
     """Commit it was built from, or "unknown"."""
     return _library.library.delam_commit().decode()
 
 
-def library_location():
+def library_location() -> str:
     """File it was loaded from, as passed to the loader."""
     return _library.location
 
 
-def blas_threads():
+def blas_threads() -> int:
     """Threads of the linear algebra of this process, 0: unknown. Equal digits from run to run need an equal number.
     Option threads sets the library's own threads."""
     return _library.library.delam_blas_threads()

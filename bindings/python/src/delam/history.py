@@ -1,8 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Rows of values over the steps, and the progress bar of an analysis."""
+from __future__ import annotations
+
 import sys
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from .solver import Solver
 
 
 class History:
@@ -10,14 +18,14 @@ class History:
     the time of construction; record() appends the present one. If a step has replaced earlier ones (option backtracking),
     their rows are read again."""
 
-    def __init__(self, solver, values=None):
+    def __init__(self, solver: Solver, values: Iterable[str] | None = None) -> None:
         self._solver = solver
         self.names = solver._names(values)
         self._steps = []
         self._rows = []
         self.record()
 
-    def record(self):
+    def record(self) -> None:
         values = self._solver.values
         step, first = int(values["step"]), int(values["revised_from"])
         if first < step and self._steps:
@@ -34,14 +42,14 @@ class History:
     def _row(self):
         return [self._solver.values[name] for name in self.names]
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> NDArray:
         try:
             column = self.names.index(name)
         except ValueError:
             raise KeyError(f"{name!r} is not among {', '.join(self.names)}") from None
         return np.array([row[column] for row in self._rows])
 
-    def __contains__(self, name):
+    def __contains__(self, name: str):
         return name in self.names
 
     def __iter__(self):
@@ -54,10 +62,10 @@ class History:
     def keys(self):
         return self.names
 
-    def row(self, index):
+    def row(self, index: int):
         return dict(zip(self.names, self._rows[index]))
 
-    def write_csv(self, file, titles=None):
+    def write_csv(self, file: object, titles: Mapping | None = None):
         """Writes all digits to an open text file or a path. titles: used instead of the names."""
         if not hasattr(file, "write"):
             with open(file, "w", encoding="utf-8") as opened:

@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Interface laws."""
+from __future__ import annotations
+
 import ctypes
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _raw
 from ._arrays import floats, listed, pointer, spread
@@ -30,12 +34,12 @@ class Bounds(NamedTuple):
     lower_open: bool
     upper_open: bool
 
-    def __contains__(self, value):
+    def __contains__(self, value: object) -> bool:
         above = value > self.lower if self.lower_open else value >= self.lower
         return bool(above and (value < self.upper if self.upper_open else value <= self.upper))
 
 
-def kinds():
+def kinds() -> dict[str, str]:
     """Kinds of laws, each with its meaning."""
     name, meaning = ctypes.c_char_p(), ctypes.c_char_p()
     found = {}
@@ -60,14 +64,15 @@ class Law(Object):
 
     Law.parameters(kind) lists them. A tabulated law takes softening=(xi, s)."""
 
-    def __init__(self, kind, **parameters):
+    def __init__(self, kind: str, **parameters: object) -> None:
         kind_text = text("kind", kind)
         self._create(library.delam_law_create, kind_text)
         self.kind = kind
         self.set(**parameters)
 
     @classmethod
-    def host(cls, name, adhesion, dissipation, **parameters):
+    def host(cls, name: str, adhesion: Callable[[float, float], tuple[float, float]],
+             dissipation: Callable[[float, float], tuple[float, float, float]], **parameters: object) -> Law:
         """A law computed by Python functions, which must always return the same results for the same arguments:
 
             adhesion(mixity, driving) -> (adhesion, slope)
@@ -86,6 +91,9 @@ class Law(Object):
         law.set(**parameters)
         return law
 
+    def __repr__(self) -> str:
+        return f"<Law {self.kind!r}>"
+
     def _create(self, function, *arguments, keep=()):
         context = Context()
         self._callbacks = keep
@@ -95,7 +103,7 @@ class Law(Object):
         self.context.call(function, self._handle, *arguments)
 
     @staticmethod
-    def parameters(kind):
+    def parameters(kind: str) -> dict[str, Parameter]:
         """Parameters of a kind: {key: Parameter}."""
         key = text("kind", kind)
         count = library.delam_law_parameter_count(key)
@@ -105,12 +113,12 @@ class Law(Object):
         return {item.key: item for item in items}
 
     @staticmethod
-    def kinds():
+    def kinds() -> dict[str, str]:
         """Kinds of laws, each with its meaning; "host" is made by Law.host."""
         return kinds()
 
     @staticmethod
-    def bounds(kind):
+    def bounds(kind: str) -> dict[str, Bounds]:
         """Bounds of the numbers that a kind takes, those of a table for each of its numbers: {key: Bounds}."""
         lower, upper, lower_open, upper_open = ctypes.c_double(), ctypes.c_double(), ctypes.c_int32(), ctypes.c_int32()
         found = {}
@@ -120,7 +128,7 @@ class Law(Object):
                 found[parameter.key] = Bounds(lower.value, upper.value, bool(lower_open), bool(upper_open))
         return found
 
-    def set(self, **parameters):
+    def set(self, **parameters: object) -> None:
         """Sets numbers, texts and the table softening=(xi, s). Set texts first: a criterion resets its exponents to their
         initial values."""
         for key, value in sorted(parameters.items(), key=lambda item: not isinstance(item[1], str)):
@@ -137,18 +145,18 @@ class Law(Object):
             else:
                 self._call(library.delam_law_set, key.encode(), number(key, value))
 
-    def check(self):
+    def check(self) -> None:
         """ProblemError names the first parameter that is missing or not admissible."""
         self._call(library.delam_law_check)
 
-    def toughness(self, mixity):
+    def toughness(self, mixity: ArrayLike) -> tuple[NDArray, NDArray]:
         """Onset and total toughness at mixities B = Y_t/Y in [0, 1]."""
         mixity = floats("mixity", listed(mixity), (None,))
         onset, toughness = np.empty(mixity.size), np.empty(mixity.size)
         self._call(library.delam_law_toughness, mixity.size, pointer(mixity), pointer(onset), pointer(toughness))
         return onset, toughness
 
-    def respond(self, jump, mixity, adhesion=1.0):
+    def respond(self, jump: ArrayLike, mixity: ArrayLike, adhesion: ArrayLike = 1.0) -> tuple[NDArray, NDArray]:
         """One damage step at given jumps [n][2 or 3], local (normal first), at frozen mixities, from old adhesions: the
         new adhesions [n] and tractions [n][2 or 3]."""
         jump = floats("jump", jump, (None, (2, 3)))

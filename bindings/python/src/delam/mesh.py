@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Nodes, cells, bodies and the interfaces between them."""
+from __future__ import annotations
+
 import ctypes
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _raw
 from ._arrays import direction as axis
@@ -65,13 +69,13 @@ class Cells(NamedTuple):
     offsets: np.ndarray  # [cells + 1] into connectivity
     connectivity: np.ndarray
 
-    def of(self, name):
+    def of(self, name: str) -> NDArray:
         """Connectivity [n][nodes of a cell] of the cells of one type."""
         number, size = cell_type(name)
         rows = np.flatnonzero(self.types == number)
         return self.connectivity[self.offsets[rows][:, None] + np.arange(size)]
 
-    def names(self):
+    def names(self) -> list[str]:
         """The cell types of the mesh."""
         return [_CELL_NAMES[number] for number in sorted(set(self.types.tolist()))]
 
@@ -96,14 +100,14 @@ class Interface:
     """An interface of a mesh; may be used wherever an index is expected. Its jump is u_b - u_a, its normals point from a
     to b."""
 
-    def __init__(self, mesh, index):
+    def __init__(self, mesh: Mesh, index: int):
         self.mesh = mesh
         self.index = index
 
-    def __index__(self):
+    def __index__(self) -> int:
         return self.index
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<Interface {self.index}: bodies {self.body_a} and {self.body_b}, {self.pair_count} pairs>"
 
     def _size(self):
@@ -113,16 +117,16 @@ class Interface:
         return body_a.value, body_b.value, pairs.value, faces.value, per_face.value
 
     @property
-    def body_a(self):
+    def body_a(self) -> int:
         """-1 for an obstacle."""
         return self._size()[0]
 
     @property
-    def body_b(self):
+    def body_b(self) -> int:
         return self._size()[1]
 
     @property
-    def pair_count(self):
+    def pair_count(self) -> int:
         return self._size()[2]
 
     def _pairs(self, which):
@@ -134,30 +138,30 @@ class Interface:
         return out[which]
 
     @property
-    def nodes_a(self):
+    def nodes_a(self) -> NDArray:
         return self._pairs(0)
 
     @property
-    def nodes_b(self):
+    def nodes_b(self) -> NDArray:
         return self._pairs(1)
 
     @property
-    def weights(self):
+    def weights(self) -> NDArray:
         """Length (2D) or area (3D) of each pair."""
         return self._pairs(2)
 
     @property
-    def frames(self):
+    def frames(self) -> NDArray:
         """[pairs][dimension][dimension]: rows normal, tangent(s)."""
         return self._pairs(3)
 
     @property
-    def places(self):
+    def places(self) -> NDArray:
         """[pairs][dimension]: positions of the nodes of body b."""
         return self.mesh.nodes[self.nodes_b]
 
     @property
-    def faces(self):
+    def faces(self) -> NDArray:
         """[faces][nodes of a face], as indices of pairs."""
         _, _, _, faces, per_face = self._size()
         out = np.empty((faces, per_face), np.int64)
@@ -175,12 +179,13 @@ class Mesh(Object):
     Indices are 0-based throughout. Nodes without cells are control nodes or tied nodes, which belong to no body, or
     nodes of bodies whose stiffness the host provides (add_host_body)."""
 
-    def __init__(self, nodes):
+    def __init__(self, nodes: ArrayLike) -> None:
         nodes = floats("nodes", nodes, (None, (2, 3)))
         self._create(library.delam_mesh_create, nodes.shape[1], nodes.shape[0], pointer(nodes))
 
     @classmethod
-    def layers(cls, lengths, divisions, thickness, layer_divisions, cells="quad4"):
+    def layers(cls, lengths: ArrayLike, divisions: ArrayLike, thickness: ArrayLike, layer_divisions: ArrayLike,
+               cells: str = "quad4") -> Mesh:
         """Block of layers stacked along the last axis (y in 2D, z in 3D), each a separate body, body 0 at the bottom;
         without interfaces. lengths, divisions: along the other axes, a number in 2D or two in 3D; thickness,
         layer_divisions: of each layer."""
@@ -194,12 +199,12 @@ class Mesh(Object):
         return mesh
 
     @classmethod
-    def from_meshio(cls, source, bodies=None, interfaces=True):
+    def from_meshio(cls, source: object, bodies: object | None = None, interfaces: bool = True) -> Mesh:
         """A meshio.Mesh, or a file that meshio reads; see delam.meshes.read."""
         from .meshes import read
         return read(source, bodies, interfaces)
 
-    def to_meshio(self, point_data=None, cell_data=None):
+    def to_meshio(self, point_data: Mapping | None = None, cell_data: Mapping | None = None):
         """A meshio.Mesh with the same nodes and cells, to be written in any of meshio's formats; see
         delam.meshes.write."""
         from .meshes import write
@@ -214,7 +219,7 @@ class Mesh(Object):
     def _call(self, function, *arguments, long=False):
         self.context.call(function, self._handle, *arguments, long=long)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         if self.closed:
             return "<Mesh, closed>"
         return (f"<Mesh in {self.dimension}D: {self.node_count} nodes, {self.cell_count} cells, "
@@ -231,11 +236,11 @@ class Mesh(Object):
         bodies = gate("bodies", bodies, np.int32, (count,))
         self._call(function, number, count, pointer(connectivity), pointer(bodies), 0, long=True)
 
-    def add_cells(self, cells, connectivity, bodies=0):
+    def add_cells(self, cells: str, connectivity: ArrayLike, bodies: ArrayLike = 0):
         """Cells of one type, e.g. "quad4". bodies: a label for all, or one each. A node belongs to one body only."""
         self._add_cells(library.delam_mesh_add_cells, cells, connectivity, bodies)
 
-    def add_conforming_cells(self, cells, connectivity, bodies=0):
+    def add_conforming_cells(self, cells: str, connectivity: ArrayLike, bodies: ArrayLike = 0):
         """As add_cells, of a mesh whose bodies share nodes: those are doubled (node_origins has the originals)."""
         self._add_cells(library.delam_mesh_add_conforming_cells, cells, connectivity, bodies)
 
@@ -245,22 +250,23 @@ class Mesh(Object):
                    long=True)
         return Interface(self, index.value)
 
-    def add_interface(self, body_a, body_b, tolerance=0.0):
+    def add_interface(self, body_a: int, body_b: int, tolerance: float = 0.0) -> Interface:
         """Pairs the coinciding faces of two bodies. tolerance: a fraction of the shortest edge, 0: 1e-6."""
         return self._add_interface(library.delam_mesh_add_interface, body_a, body_b, number("tolerance", tolerance))
 
-    def add_all_interfaces(self, tolerance=0.0):
+    def add_all_interfaces(self, tolerance: float = 0.0):
         """Adds an interface between every two bodies that share faces and have none yet; returns the new ones."""
         before, count = self.interface_count, ctypes.c_int64()
         self._call(library.delam_mesh_add_all_interfaces, number("tolerance", tolerance), count, long=True)
         return [Interface(self, before + i) for i in range(count.value)]
 
-    def add_projected_interface(self, body_a, body_b, gap=0.0):
+    def add_projected_interface(self, body_a: int, body_b: int, gap: float = 0.0) -> Interface:
         """An interface of two bodies whose meshes do not match; b should be the finer one. gap: distance of the faces,
         0: 1e-6 of the shortest edge."""
         return self._add_interface(library.delam_mesh_add_projected_interface, body_a, body_b, number("gap", gap))
 
-    def add_obstacle(self, nodes, normals, control_node, weights=None):
+    def add_obstacle(self, nodes: ArrayLike, normals: ArrayLike, control_node: int,
+                     weights: ArrayLike | None = None) -> Interface:
         """A rigid obstacle that moves with its control node, a node of no body. normals: from the obstacle into the
         body, one per pair or one for all."""
         nodes = indices("nodes", nodes, size=self.node_count)
@@ -272,14 +278,15 @@ class Mesh(Object):
                    integer("control_node", control_node), 0, index, long=True)
         return Interface(self, index.value)
 
-    def add_host_body(self, body, nodes):
+    def add_host_body(self, body: int, nodes: ArrayLike):
         """A body without cells, whose stiffness is given by Problem.set_stiffness. nodes: indices or a mask, of nodes that
         belong to no body yet."""
         nodes = indices("nodes", nodes, size=self.node_count)
         self._call(library.delam_mesh_add_host_body, integer("body", body, 32), nodes.size, pointer(nodes), 0,
                    long=True)
 
-    def add_pairs(self, body_a, body_b, nodes_a, nodes_b, normals, weights, faces=None):
+    def add_pairs(self, body_a: int, body_b: int, nodes_a: ArrayLike, nodes_b: ArrayLike, normals: ArrayLike,
+                  weights: ArrayLike, faces: ArrayLike | None = None) -> Interface:
         """An interface of pairs given by the host, in the given order; the nodes of a pair may lie apart.
 
         normals: from a to b, one per pair or one for all; weights: length (2D) or area (3D) of a pair, likewise; faces:
@@ -315,27 +322,27 @@ class Mesh(Object):
         return (dimension.value, *(count.value for count in counts))
 
     @property
-    def dimension(self):
+    def dimension(self) -> int:
         return self._size()[0]
 
     @property
-    def node_count(self):
+    def node_count(self) -> int:
         return self._size()[1]
 
     @property
-    def cell_count(self):
+    def cell_count(self) -> int:
         return self._size()[2]
 
     @property
-    def body_count(self):
+    def body_count(self) -> int:
         return self._size()[3]
 
     @property
-    def interface_count(self):
+    def interface_count(self) -> int:
         return self._size()[4]
 
     @property
-    def nodes(self):
+    def nodes(self) -> NDArray:
         """[nodes][dimension]"""
         dimension, count = self._size()[:2]
         out = np.empty((count, dimension))
@@ -343,21 +350,21 @@ class Mesh(Object):
         return out
 
     @property
-    def node_bodies(self):
+    def node_bodies(self) -> NDArray:
         """Body of each node, -1 for nodes of no body."""
         out = np.empty(self.node_count, np.int32)
         self._call(library.delam_mesh_node_bodies, out.size, pointer(out))
         return out
 
     @property
-    def node_origins(self):
+    def node_origins(self) -> NDArray:
         """The original of each doubled node (add_conforming_cells); otherwise the node itself."""
         out = np.empty(self.node_count, np.int64)
         self._call(library.delam_mesh_node_origins, out.size, pointer(out))
         return out
 
     @property
-    def ties(self):
+    def ties(self) -> Ties:
         """Tied nodes of projected interfaces."""
         count, entries = ctypes.c_int64(), ctypes.c_int64()
         self._call(library.delam_mesh_node_ties, count, entries, None, None, None, None)
@@ -367,7 +374,7 @@ class Mesh(Object):
         return ties
 
     @property
-    def cells(self):
+    def cells(self) -> Cells:
         count, needed = self.cell_count, ctypes.c_int64()
         self._call(library.delam_mesh_cells, None, None, None, 0, None, needed)
         cells = Cells(np.empty(count, np.int32), np.empty(count, np.int32), np.empty(count + 1, np.int64),
@@ -376,7 +383,7 @@ class Mesh(Object):
                    needed.value, pointer(cells.connectivity), None)
         return cells
 
-    def find_nodes(self, lower, upper=None, body=None):
+    def find_nodes(self, lower: ArrayLike, upper: ArrayLike | None = None, body: int | None = None) -> NDArray:
         """Nodes of a body (None: of all) inside the closed box lower..upper, ascending; without upper, at a point."""
         dimension = self.dimension
         lower = floats("lower", lower, (dimension,))
@@ -388,7 +395,7 @@ class Mesh(Object):
         self._call(library.delam_mesh_find_nodes, *box, nodes.size, pointer(nodes), count)
         return nodes
 
-    def find_node(self, place, body=None):
+    def find_node(self, place: ArrayLike, body: int | None = None) -> int:
         """The one node of a body at a point."""
         place = floats("place", place, (self.dimension,))
         nodes = self.find_nodes(place, body=body)
@@ -398,7 +405,8 @@ class Mesh(Object):
             raise ArgumentError(f"place = {place}: {nodes.size} nodes{of} are there, expected 1")
         return int(nodes[0])
 
-    def find_patch(self, body, lower, upper, direction):
+    def find_patch(self, body: int, lower: ArrayLike, upper: ArrayLike,
+                   direction: str | ArrayLike) -> tuple[NDArray, NDArray]:
         """Nodes and weights of a uniform traction on the part of a body's boundary (None: of each body's) inside the
         box whose outward normal is within 45 degrees of the direction."""
         dimension = self.dimension

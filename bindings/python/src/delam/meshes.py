@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Meshes through meshio: Gmsh, Abaqus, VTK, MED and its other formats. Its node orders are VTK's, and so are
 those of this package."""
+from __future__ import annotations
+
 import os
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -23,7 +26,7 @@ def _meshio():
     return meshio
 
 
-def read(source, bodies=None, interfaces=True):
+def read(source: object, bodies: object | None = None, interfaces: bool = True):
     """The cells of highest dimension of a meshio.Mesh or of a file; those of lower dimension (edges, faces of solids)
     are left out. Plane cells make a mesh in 2D; all must have the same z.
 
@@ -79,7 +82,7 @@ def _fills(kind, solid):
     return kind.startswith(volumes if solid else volumes + surfaces)
 
 
-def write(mesh, point_data=None, cell_data=None):
+def write(mesh: Mesh, point_data: Mapping | None = None, cell_data: Mapping | None = None):
     """A meshio.Mesh with the nodes and cells of `mesh`; plane ones get z = 0. cell_data are arrays over all cells, in
     the order they were added; "bodies" is among them."""
     meshio = _meshio()

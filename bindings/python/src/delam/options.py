@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Options by key, as a mapping that describes its entries."""
+from __future__ import annotations
+
 import collections.abc
 import ctypes
 import difflib
@@ -10,7 +12,7 @@ from ._library import library
 from .law import Bounds, described
 
 
-def options():
+def options() -> dict[str, Parameter]:
     """All options of the library: {key: Parameter}."""
     items = (described(library.delam_option_info, i) for i in range(library.delam_option_count()))
     return {item.key: item for item in items}
@@ -72,12 +74,12 @@ class Options(collections.abc.MutableMapping):
     """problem.options["solution"] = "energetic"; del resets an option to its initial value. Iterates over all options;
     describe() explains them. An alias works like its key."""
 
-    def __init__(self, problem, values):
+    def __init__(self, problem: Problem, values):
         self._call = problem._call
         self._known = known()
         self._values = values
 
-    def __getitem__(self, key):
+    def __getitem__(self, key: str):
         return self._values[key_of(key)]
 
     def __setitem__(self, key, value):
@@ -100,13 +102,13 @@ class Options(collections.abc.MutableMapping):
     def __len__(self):
         return len(self._known)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Options({self._values})"
 
-    def info(self, key):
+    def info(self, key: str) -> Parameter:
         return self._known[key_of(key)]
 
-    def bounds(self, key):
+    def bounds(self, key: str):
         """Bounds of a number; None for a text."""
         return bounds().get(key_of(key))
 

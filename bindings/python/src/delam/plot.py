@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plots with matplotlib: histories, fields on an interface, and deformed bodies. Each function draws into `ax`, or into
 new axes, and returns them."""
+from __future__ import annotations
+
 import numpy as np
 
 from .mesh import CELL_TYPES
@@ -29,7 +31,7 @@ def _adhesion_colours():
     return LinearSegmentedColormap.from_list("adhesion", _DAMAGE)
 
 
-def history(history, y, x="time", ax=None, **style):
+def history(history: object, y, x="time", ax=None, **style: object):
     """Plots values against each other: y is one name or several. `history`: a History, or any mapping of arrays."""
     ax = _axes(ax)
     names = [y] if isinstance(y, str) else list(y)
@@ -43,7 +45,7 @@ def history(history, y, x="time", ax=None, **style):
     return ax
 
 
-def interface(solver, field="adhesion", interface=0, component=0, ax=None, **style):
+def interface(solver, field="adhesion", interface: int | Interface = 0, component=0, ax=None, **style: object):
     """A field of pairs: in 2D along the interface, in 3D in colour on its faces. component: column of jumps and
     tractions."""
     view = solver.problem.mesh.interfaces[interface]

@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The scene: a mesh with materials, laws, supports, loads and options."""
+from __future__ import annotations
+
 import collections.abc
 import ctypes
 import weakref
-from typing import NamedTuple
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _raw
 from ._arrays import direction as axis
@@ -17,6 +21,9 @@ from .law import Law
 from .mesh import Mesh, body_label, interface_index
 from .options import Options, initial_values
 
+if TYPE_CHECKING:
+    from .mesh import Interface
+
 
 class Sparse(NamedTuple):
     """A matrix by rows: the entries of row i are row_starts[i] .. row_starts[i+1]-1 of columns and values. For SciPy:
@@ -27,7 +34,7 @@ class Sparse(NamedTuple):
     columns: np.ndarray
     values: np.ndarray
 
-    def toarray(self):
+    def toarray(self) -> NDArray:
         out = np.zeros(self.shape)
         rows = np.repeat(np.arange(self.shape[0]), np.diff(self.row_starts))
         np.add.at(out, (rows, self.columns), self.values)
@@ -51,7 +58,7 @@ def _rows_of(matrix):
 class Pattern:
     """A load pattern of a problem; may be used wherever an index is expected."""
 
-    def __init__(self, name, index, problem):
+    def __init__(self, name: str, index: int, problem: Problem):
         self.name = name
         self.index = index
         self.problem = None if problem is None else weakref.ref(problem)
@@ -59,10 +66,10 @@ class Pattern:
     def __reduce__(self):  # pickled as its index
         return Pattern, (self.name, self.index, None)
 
-    def __index__(self):
+    def __index__(self) -> int:
         return self.index
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"<Pattern {self.index}: {self.name}>"
 
 
@@ -87,7 +94,7 @@ class Problem(Object):
     progress: a function (stage, done, total) called inside long work, on the calling thread; a true result cancels,
     except in calls that only read, such as fields."""
 
-    def __init__(self, mesh, plane=None, progress=None):
+    def __init__(self, mesh: Mesh, plane: str | None = None, progress: Callable | None = None) -> None:
         if not isinstance(mesh, Mesh):
             raise ArgumentError(f"mesh = {mesh!r}, expected a Mesh")
         context = Context()
@@ -106,7 +113,7 @@ class Problem(Object):
         self.context.call(function, self._handle, *arguments, long=long)
 
     @property
-    def options(self):
+    def options(self) -> Options:
         """Options by key, a mapping; a solver copies them when it is made."""
         return Options(self, self._values)
 
@@ -115,12 +122,12 @@ class Problem(Object):
         return self.context.progress
 
     @progress.setter
-    def progress(self, function):
+    def progress(self, function: Callable | None):
         if function is not None and not callable(function):
             raise ArgumentError(f"progress = {function!r} cannot be called")
         self.context.progress = function
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         if self.closed:
             return "<Problem, closed>"
         primal, dual = self.dofs
@@ -128,21 +135,21 @@ class Problem(Object):
 
     # ---- materials
 
-    def set_plane(self, assumption):
+    def set_plane(self, assumption: str):
         """"plane-strain" (initially) or "plane-stress"."""
         self._call(library.delam_problem_set_plane, text("assumption", assumption))
 
-    def set_elastic(self, young, poisson, body=None):
+    def set_elastic(self, young: float, poisson: float, body: int | None = None):
         self._call(library.delam_problem_set_elastic, body_label(body), number("young", young),
                    number("poisson", poisson))
 
-    def set_orthotropic(self, constants, body=None):
+    def set_orthotropic(self, constants: ArrayLike, body: int | None = None):
         """E1 E2 E3 nu12 nu13 nu23 G12 G13 G23 in the material axes; nu_ij: contraction along j under tension along
         i."""
         constants = floats("constants", constants, (9,))
         self._call(library.delam_problem_set_orthotropic, body_label(body), pointer(constants))
 
-    def set_orientation(self, axes, cells=None, body=None):
+    def set_orientation(self, axes: ArrayLike, cells: ArrayLike | None = None, body: int | None = None):
         """Directions of the material axes 1 and 2 in space, [2][3] for all cells of the body or [cells][2][3]."""
         if cells is None:
             axes = floats("axes", axes, (2, 3))
@@ -155,11 +162,12 @@ class Problem(Object):
         self._call(library.delam_problem_set_orientation, body_label(body), cells.size, pointer(cells), pointer(axes),
                    0, long=True)
 
-    def set_formulation(self, formulation, body=None):
+    def set_formulation(self, formulation: str, body: int | None = None):
         """"standard" (initially), "incompatible" or "mean-dilatation"."""
         self._call(library.delam_problem_set_formulation, body_label(body), text("formulation", formulation))
 
-    def set_stiffness(self, nodes, matrix, dofs=None, kernel=None):
+    def set_stiffness(self, nodes: ArrayLike, matrix: object, dofs: ArrayLike | None = None,
+                      kernel: ArrayLike | None = None):
         """The stiffness of whole bodies as assembled by the host, in place of cells and material.
 
         nodes   all nodes of one or several bodies, indices or a mask
@@ -187,7 +195,7 @@ class Problem(Object):
 
     # ---- interfaces
 
-    def set_law(self, interface, law):
+    def set_law(self, interface: int | Interface, law: Law):
         """Copies the law's present parameters. The adhesion does not change: 1, or the value of set_adhesion."""
         if not isinstance(law, Law):
             raise ArgumentError(f"law = {law!r}, expected a Law")
@@ -203,15 +211,15 @@ class Problem(Object):
             self.context.hosted = hosted
             raise
 
-    def set_bonded(self, interface):
+    def set_bonded(self, interface: int | Interface):
         """Perfectly and permanently bonded."""
         self._call(library.delam_problem_set_bonded, interface_index(interface, self.mesh))
 
-    def set_contact(self, interface):
+    def set_contact(self, interface: int | Interface):
         """Faces without adhesion that may separate but not overlap."""
         self._call(library.delam_problem_set_contact, interface_index(interface, self.mesh))
 
-    def set_adhesion(self, interface, pairs, adhesion=0.0):
+    def set_adhesion(self, interface: int | Interface, pairs: ArrayLike, adhesion: ArrayLike = 0.0):
         """Initial adhesion of some pairs, indices or a mask; 0 makes a notch."""
         interface = interface_index(interface, self.mesh)
         size = self._pair_counts[interface] if 0 <= interface < len(self._pair_counts) else None
@@ -221,7 +229,7 @@ class Problem(Object):
 
     # ---- supports and loads
 
-    def add_pattern(self, name, times, values):
+    def add_pattern(self, name: str, times: ArrayLike, values: ArrayLike) -> Pattern:
         """A named factor that follows a piecewise-linear history, constant beyond its ends."""
         times = floats("times", listed(times), (None,))
         values = floats("values", listed(values), (times.size,))
@@ -237,7 +245,7 @@ class Problem(Object):
         self._call(library.delam_problem_pattern_count, count)
         return [self.context.text(library.delam_problem_pattern_name, self._handle, i) for i in range(count.value)]
 
-    def pattern(self, which):
+    def pattern(self, which: int | str | Pattern):
         """Index of a pattern: itself, its name or its index."""
         return pattern_index(which, self, self.patterns if isinstance(which, str) else ())
 
@@ -257,7 +265,7 @@ class Problem(Object):
             raise ArgumentError(f"drive = {drive} must be finite")
         return patterns, coefficients
 
-    def prescribe(self, nodes, direction, drive=None):
+    def prescribe(self, nodes: ArrayLike, direction: str | ArrayLike, drive: Mapping | None = None):
         """Prescribes direction . u of each node; fixed at zero without drive."""
         nodes = indices("nodes", nodes, size=self._node_count)
         along = axis("direction", direction, self.dimension)
@@ -265,7 +273,8 @@ class Problem(Object):
         self._call(library.delam_problem_prescribe_nodes, nodes.size, pointer(nodes), pointer(along), patterns.size,
                    pointer(patterns), pointer(coefficients), 0, long=True)
 
-    def prescribe_mean(self, nodes, weights, direction, drive=None):
+    def prescribe_mean(self, nodes: ArrayLike, weights: ArrayLike, direction: str | ArrayLike,
+                       drive: Mapping | None = None):
         """Prescribes the weighted mean of direction . u over nodes; with the weights of Mesh.find_patch, a support spread
         over a patch."""
         nodes = indices("nodes", nodes)
@@ -275,7 +284,7 @@ class Problem(Object):
         self._call(library.delam_problem_prescribe_mean, nodes.size, pointer(nodes), pointer(weights), pointer(along),
                    patterns.size, pointer(patterns), pointer(coefficients), 0, long=True)
 
-    def add_equation(self, nodes, coefficients, drive=None):
+    def add_equation(self, nodes: ArrayLike, coefficients: ArrayLike, drive: Mapping | None = None):
         """sum_i coefficients[i] . u_nodes[i] = sum over patterns of drive * factor."""
         nodes = indices("nodes", nodes)
         coefficients = floats("coefficients", coefficients, (nodes.size, self.dimension))
@@ -283,7 +292,7 @@ class Problem(Object):
         self._call(library.delam_problem_add_equation, nodes.size, pointer(nodes), pointer(coefficients), patterns.size,
                    pointer(patterns), pointer(prescribed), 0, long=True)
 
-    def add_periodic(self, periods, control_nodes, tolerance=0.0):
+    def add_periodic(self, periods: ArrayLike, control_nodes: ArrayLike, tolerance: float = 0.0):
         """u(x + period_k) - u(x) = u of control node k, on opposite faces of the mesh. periods:
         [periods][dimension]."""
         periods = floats("periods", [periods] if ndim(periods) == 1 else periods, (None, self.dimension))
@@ -291,7 +300,7 @@ class Problem(Object):
         self._call(library.delam_problem_add_periodic, periods.shape[0], pointer(periods), pointer(control_nodes),
                    number("tolerance", tolerance), 0, long=True)
 
-    def add_forces(self, pattern, nodes, forces):
+    def add_forces(self, pattern: int | str | Pattern, nodes: ArrayLike, forces: ArrayLike):
         """Dead forces times the factor of a pattern: [nodes][dimension], or one vector for all."""
         nodes = indices("nodes", nodes, size=self._node_count)
         if ndim(forces) == 1:
@@ -300,7 +309,7 @@ class Problem(Object):
         self._call(library.delam_problem_add_forces, self.pattern(pattern), nodes.size, pointer(nodes), pointer(forces),
                    0, long=True)
 
-    def add_eigenstrain(self, pattern, strain, body=None):
+    def add_eigenstrain(self, pattern: int | str | Pattern, strain: ArrayLike, body: int | None = None):
         """xx, yy, zz, 2xy, 2yz, 2zx in the material axes, times the factor of a pattern."""
         strain = floats("strain", strain, (6,))
         self._call(library.delam_problem_add_eigenstrain, self.pattern(pattern), body_label(body), pointer(strain))
@@ -312,7 +321,7 @@ class Problem(Object):
         self._call(library.delam_problem_check, long=True)
 
     @property
-    def hash(self):
+    def hash(self) -> str:
         """Of everything that determines the result: 16 hexadecimal digits."""
         out = ctypes.create_string_buffer(17)
         self._call(library.delam_problem_hash, out, long=True)
@@ -325,13 +334,13 @@ class Problem(Object):
         self._call(library.delam_problem_dofs, primal, dual)
         return primal.value, dual.value
 
-    def process_zone(self, interface):
+    def process_zone(self, interface: int | Interface):
         """Expected length of the process zone, 0 if there is none, and the mean distance of pairs."""
         length, spacing = ctypes.c_double(), ctypes.c_double()
         self._call(library.delam_problem_process_zone, interface_index(interface, self.mesh), length, spacing, long=True)
         return length.value, spacing.value
 
-    def body_matrix(self, body):
+    def body_matrix(self, body: int) -> Sparse:
         """Stiffness of a body over its nodes in ascending order, both triangles."""
         body = integer("body", body, 32)
         rows, entries = ctypes.c_int64(), ctypes.c_int64()
@@ -354,19 +363,19 @@ class Problem(Object):
                    pointer(coefficients), long=True)
         return out, coefficients
 
-    def forces(self, pattern):
+    def forces(self, pattern: int | str | Pattern) -> NDArray:
         """Nodal forces [nodes][dimension] of a pattern at factor 1."""
         out = np.empty((self.dofs[0] // self.dimension, self.dimension))
         self._call(library.delam_problem_forces, self.pattern(pattern), out.size, pointer(out), long=True)
         return out
 
-    def eigenstrain_energy(self):
+    def eigenstrain_energy(self) -> NDArray:
         """[patterns][patterns]"""
         out = np.zeros((len(self.patterns),) * 2)
         self._call(library.delam_problem_eigenstrain_energy, out.size, pointer(out), long=True)
         return out
 
-    def factors(self, time):
+    def factors(self, time: float) -> NDArray:
         """Factors of all patterns at a time."""
         out = np.empty(len(self.patterns))
         self._call(library.delam_problem_factors, number("time", time), out.size, pointer(out))

@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Load steps, and the results of their states."""
+from __future__ import annotations
+
 import collections.abc
 import contextlib
 import ctypes
 import os
 import warnings
-from typing import NamedTuple
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _raw
 from ._arrays import floats, listed, pointer
@@ -18,6 +22,10 @@ from .history import History, steps_of
 from .mesh import body_label, interface_index
 from .options import unknown
 from .problem import Problem, Sparse, pattern_index
+
+if TYPE_CHECKING:
+    from .mesh import Interface
+    from .problem import Pattern
 
 
 class ValueInfo(NamedTuple):
@@ -115,7 +123,7 @@ class Values(collections.abc.Mapping):
         self._solver = solver
         self._keys = keys
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> float:
         key = self._keys.get(name) or self._solver._alias(name)
         if key is None:
             raise unknown(name, self._keys, "value")
@@ -129,10 +137,10 @@ class Values(collections.abc.Mapping):
     def __len__(self):
         return len(self._keys)
 
-    def __contains__(self, name):
+    def __contains__(self, name: str):
         return name in self._keys or self._solver._alias(name) is not None
 
-    def describe(self):
+    def describe(self) -> dict[str, ValueInfo]:
         """What each of them is: {name: ValueInfo}."""
         return self._solver._described()
 
@@ -150,7 +158,7 @@ class Solver(Object):
     "raise" (NotConverged, pending too) or "ignore". An interrupted call (Ctrl-C, or an exception from a callback)
     restores the state before it."""
 
-    def __init__(self, problem, time=0.0, not_converged="warn"):
+    def __init__(self, problem: Problem, time: float = 0.0, not_converged: str = "warn") -> None:
         if not_converged not in ("warn", "raise", "ignore"):
             raise ArgumentError(f"not_converged = {not_converged!r}, expected 'warn', 'raise' or 'ignore'")
         if not isinstance(problem, Problem):
@@ -200,20 +208,20 @@ class Solver(Object):
             if self.not_converged == "warn":
                 warnings.warn(message, NotConvergedWarning, stacklevel=level)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         if self.closed:
             return "<Solver, closed>"
         return f"<Solver at time {self.time:g}{', a step is pending' if self.pending else ''}>"
 
     @property
-    def values(self):
+    def values(self) -> Values:
         """Scalars by name, a mapping."""
         return Values(self, self._keys)
 
     # ---- steps
 
     @property
-    def pending(self):
+    def pending(self) -> bool:
         """Whether a step is pending, to be committed or rolled back."""
         out = ctypes.c_int32()
         self._call(library.delam_solver_pending, out)
@@ -235,25 +243,25 @@ class Solver(Object):
             raise
         self._outcome(outcome, 4)
 
-    def advance(self, time):
+    def advance(self, time: float):
         """One load step to `time`, pending."""
         self._step(library.delam_solver_advance, number("time", time))
 
-    def equilibrate(self, time, adhesion=None):
+    def equilibrate(self, time: float, adhesion: ArrayLike | None = None):
         """Displacements of least energy at `time` with fixed adhesion of all pairs, given interface after interface; None:
         the committed one. Pending like a step."""
         if adhesion is not None:
             adhesion = floats("adhesion", adhesion, (self._shape("adhesion", -1)[0],))
         self._step(library.delam_solver_equilibrate, number("time", time), pointer(adhesion))
 
-    def commit(self):
+    def commit(self) -> None:
         self._whole(library.delam_solver_commit, long=False)
 
-    def rollback(self):
+    def rollback(self) -> None:
         """Restores the state before the pending step, bit for bit."""
         self._whole(library.delam_solver_rollback, long=False)
 
-    def set_history(self, pattern, times, values):
+    def set_history(self, pattern: int | str | Pattern, times: ArrayLike, values: ArrayLike):
         """Changes the history of a load pattern from the committed time on: linear from the factor there to values[0] at
         times[0] and through the further points, constant after the last. It is saved with the state."""
         times = floats("times", listed(times), (None,))
@@ -261,7 +269,7 @@ class Solver(Object):
         self._call(library.delam_solver_set_history, pattern_index(pattern, self.problem, self._patterns), times.size,
                    pointer(times), pointer(values))
 
-    def march(self, times, values=None, progress=False):
+    def march(self, times: Iterable[float], values: Iterable[str] | None = None, progress: bool | Callable = False):
         """Advances and commits, time after time; yields a dict of values after each step.
 
         values: names, None for all but the costly ones. progress: a bar (tqdm's if it is installed) on standard
@@ -278,14 +286,15 @@ class Solver(Object):
                 raise
             yield {name: self.values[name] for name in names}
 
-    def history(self, times, values=None, progress=False):
+    def history(self, times: Iterable[float], values: Iterable[str] | None = None,
+                progress: bool | Callable = False) -> History:
         """Runs the analysis and returns the History of all steps, with the present state as its first row."""
         history = History(self, values)
         for _ in self.march(times, (), progress):
             history.record()
         return history
 
-    def record(self, *names):
+    def record(self, *names: str):
         """Records these values for the committed state and, with each later commit, for every further step, including steps
         that returns replace; save() saves them. Any values but the costly ones and the counts over the solver's life."""
         for name in names:
@@ -301,7 +310,7 @@ class Solver(Object):
         self._call(library.delam_solver_recorded_size, first, count)
         return range(first.value, first.value + count.value)
 
-    def recorded(self, name):
+    def recorded(self, name: str) -> NDArray:
         """A recorded value for each step, an array; NaN for steps before record()."""
         out = np.empty(len(self.recorded_steps))
         self._call(library.delam_solver_recorded, text("name", name), out.size, pointer(out))
@@ -317,16 +326,16 @@ class Solver(Object):
         return tuple(values)
 
     @property
-    def time(self):
+    def time(self) -> float:
         """Time of the state described (Values)."""
         return self.values["time"]
 
-    def look(self, step):
+    def look(self, step: int):
         """Selects the state described: an earlier step (option backtracking); -1: the pending or committed one again."""
         self._call(library.delam_solver_look, integer("step", step))
 
     @contextlib.contextmanager
-    def looking(self, step):
+    def looking(self, step: int):
         """with solver.looking(3): values and fields of step 3."""
         self.look(step)
         try:
@@ -336,7 +345,7 @@ class Solver(Object):
 
     # ---- the committed state, as bytes or as a file
 
-    def save(self, path=None):
+    def save(self, path: str | os.PathLike | None = None):
         """Returns the committed state as bytes, or writes them to a file, which replaces `path` when it is complete and on
         disk."""
         if path is not None:
@@ -348,7 +357,7 @@ class Solver(Object):
         self._call(library.delam_solver_save, out.size, pointer(out), needed)
         return out.tobytes()
 
-    def load(self, state):
+    def load(self, state: bytes | str | os.PathLike):
         """Continues from a state of the same scene and options: saved bytes, or the path (str, os.PathLike) of a file with
         them. Discards a pending step."""
         if isinstance(state, (str, os.PathLike)):
@@ -367,7 +376,7 @@ class Solver(Object):
         self._call(library.delam_solver_field_shape, text("name", name), part, rows, columns)
         return rows.value, columns.value
 
-    def field(self, name, interface=None):
+    def field(self, name: str, interface: int | Interface | None = None) -> NDArray:
         """A field of the state described (Values): [rows][columns], or [rows] if there is one column.
 
         Over nodes: displacement. Cells: stress, rotation. Pairs of an interface, None for all one after another: jump,
@@ -378,13 +387,13 @@ class Solver(Object):
         self._call(library.delam_solver_field, text("name", name), part, out.size, pointer(out), long=True)
         return out
 
-    def average(self, body=None):
+    def average(self, body: int | None = None) -> Average:
         """Volume, average strain and average stress of a body; None: of all."""
         volume, strain, stress = ctypes.c_double(), np.empty(6), np.empty(6)
         self._call(library.delam_solver_average, body_label(body), volume, pointer(strain), pointer(stress), long=True)
         return Average(volume.value, strain, stress)
 
-    def fronts(self, interface=0):
+    def fronts(self, interface: int | Interface = 0) -> Fronts:
         """The fronts of the cracks of an interface."""
         interface = interface_index(interface, self.problem.mesh)
         fronts, points = ctypes.c_int64(), ctypes.c_int64()
@@ -395,19 +404,19 @@ class Solver(Object):
         self._call(library.delam_solver_front, interface, m, n, *(pointer(array) for array in out))
         return out._replace(closed=out.closed.astype(bool))
 
-    def tangent(self):
+    def tangent(self) -> NDArray:
         """[patterns][patterns]: change of reactions with factors at fixed adhesion and contact; symmetric."""
         out = np.empty((self._pattern_count,) * 2)
         self._call(library.delam_solver_tangent, out.size, pointer(out), long=True)
         return out
 
-    def step_tangent(self):
+    def step_tangent(self) -> NDArray:
         """[patterns][patterns]: change of reactions with factors at the end of the pending step, damage included."""
         out = np.empty((self._pattern_count,) * 2)
         self._call(library.delam_solver_step_tangent, out.size, pointer(out), long=True)
         return out
 
-    def condensed(self):
+    def condensed(self) -> Condensed:
         """The operator of the steps, for hosts that condense: a Condensed. StateError: the solver uses FETI, which has
         none."""
         unknowns, entries = ctypes.c_int64(), ctypes.c_int64()
@@ -425,12 +434,12 @@ class Solver(Object):
     # ---- reports
 
     @property
-    def plan(self):
+    def plan(self) -> str:
         """The parts of the method that the scene needs and those left out, as text."""
         return self.context.text(library.delam_solver_plan, self._handle)
 
     @property
-    def plan_items(self):
+    def plan_items(self) -> list[PlanItem]:
         count = ctypes.c_int64()
         self._call(library.delam_solver_plan_count, count)
         items = []
@@ -442,7 +451,7 @@ class Solver(Object):
                                   saving.value, unit.value.decode()))
         return items
 
-    def option(self, key):
+    def option(self, key: str) -> str:
         """Value of an option as text, as copied by the solver."""
         value = self.context.text(library.delam_solver_option, self._handle, text("key", key))
         if value is None:
@@ -450,12 +459,12 @@ class Solver(Object):
         return value
 
     @property
-    def searched(self):
+    def searched(self) -> str:
         """What the energetic search of the last step compared."""
         return self.context.text(library.delam_solver_searched, self._handle)
 
     @property
-    def jumps(self):
+    def jumps(self) -> list[Jump]:
         """Located jumps (option jump_tolerance), in the order of time."""
         count = ctypes.c_int64()
         self._call(library.delam_solver_jump_count, count)
