@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests the scanner of functions on code whose lengths are known, and plants what sizes.py and words.py must refuse."""
+"""Tests the scanner of functions on code whose lengths are known, and plants what sizes.py, words.py and
+readmes.py must refuse."""
 
+import pathlib
 import sys
+import tempfile
 
+import readmes
 import scanner
 import sizes
 import words
@@ -93,7 +97,18 @@ def main():
     for what, text in planted.items():
         assert list(words.problems("src/a/b.cpp", text, words.RULES)), f"{what} was not refused"
         assert not list(words.problems("src/a/b.cpp", "// " + text.replace("\n", " "), words.RULES)), f"{what} in a comment was refused"
-    print(f"{len(EXPECTED)} functions, {len(refused) + len(planted)} planted")
+    with tempfile.TemporaryDirectory() as folder:
+        src = pathlib.Path(folder) / "src"
+        (src / "law").mkdir(parents=True)
+        (src / "README.md").write_text("One folder.\n", encoding="utf-8")
+        (src / "law" / "mixity.cpp").touch()
+        (src / "law" / "law_kind.hpp").touch()
+        assert list(readmes.problems(src)) == ["src/law: no README.md"]
+        (src / "law" / "README.md").write_text("- `mixity`\n- `law`\n", encoding="utf-8")
+        assert list(readmes.problems(src)) == ["src/law/README.md: does not name law_kind"]
+        (src / "law" / "README.md").write_text("- `mixity`, `law_kind`\n", encoding="utf-8")
+        assert not list(readmes.problems(src))
+    print(f"{len(EXPECTED)} functions, {len(refused) + len(planted) + 2} planted")
     return 0
 
 
