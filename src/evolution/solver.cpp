@@ -110,6 +110,10 @@ Outcome Solver::advance(double time) {
         if (next.outcome.mixity_held > 0)
             outcome.text +=
                 text("; the mixity of ", next.outcome.mixity_held, " pairs did not converge and was held fixed");
+        else if (next.outcome.damage_change <= options.damage_tolerance)
+            outcome.text +=
+                "; a displacement step at fixed adhesion is what did not converge (linear solve, contact "
+                "set, or the traction that mixity_rule = variational adds)";
     }
     judge_balance(pending.state, outcome);
     std::string searched = stepper_.searched();

@@ -306,6 +306,19 @@ CASE_TEST(two_writers) {
     cases::expect(folder.files() == 1, "parts are left");
 }
 
+// A step that is not converged although the adhesion rests says what did not.
+CASE_TEST(names_the_displacement_step) {
+    Scene scene = cases::small_enf();
+    scene.text("reduction", "condensed");
+    scene.number("contact_limit", 1.0);
+    Solver solver(scene, 0.0);
+    const std::int32_t status = solver.advance(cases::small_time(1));
+    const std::string message = delam_context_message(scene.context());
+    cases::expect(status == DELAM_NOT_CONVERGED && solver.value("damage_change") <= 1e-5,
+                  "the contact set settled at once: " + message);
+    cases::expect(message.find("a displacement step at fixed adhesion") != std::string::npos, message);
+}
+
 // No digit depends on the library's own threads.
 CASE_TEST(threads_change_no_digit) {
     cases::expect(delam_blas_threads() >= 0, "BLAS threads");
@@ -390,6 +403,7 @@ int main() {
     tcase_add_test(tests, not_a_state);
     tcase_add_test(tests, full_disk);
     tcase_add_test(tests, two_writers);
+    tcase_add_test(tests, names_the_displacement_step);
     tcase_add_test(tests, threads_change_no_digit);
     tcase_add_test(tests, cancelled_with_threads);
     suite_add_tcase(suite, tests);
