@@ -1134,7 +1134,9 @@ DELAM_API int32_t delam_solver_plan_item(const delam_solver *solver, int64_t ind
  * [null result; owns result until the next call with this solver; status argument; since 0.1] */
 DELAM_API const char *delam_solver_option(const delam_solver *solver, const char *key);
 /* Returns a text about the energetic search of the last step, one line for each front and each new crack: the states
- * that it compared, why it stopped, and the lowest energy. "" if there was no search. Never NULL.
+ * that it compared, why it stopped, and the lowest energy; of a step in substeps, such a text for each. The step is the
+ * pending one, or the committed one if none is pending. "" if there was no search; saved states do not hold the text.
+ * Never NULL.
  * [owns result until the next call with this solver; status -; since 0.1] */
 DELAM_API const char *delam_solver_searched(const delam_solver *solver);
 

@@ -93,6 +93,7 @@ Outcome Solver::advance(double time) {
         pending.jumps = std::move(controlled.jumps);
     }
     pending.state = std::move(result.state);
+    pending.searched = std::move(result.searched);
     for (auto& [step, state] : chain.revised()) pending.revised.push_back(std::move(state));
     require_sound(problem_, pending.state, result.converged);
     for (const State& revised : pending.revised) require_sound(problem_, revised, result.converged);
@@ -116,11 +117,9 @@ Outcome Solver::advance(double time) {
                 "set, or the traction that mixity_rule = variational adds)";
     }
     judge_balance(pending.state, outcome);
-    std::string searched = stepper_.searched();
     forget();
     selected_ = nullptr;
     pending_ = std::move(pending);
-    searched_ = std::move(searched);
     return outcome;
 }
 
@@ -133,7 +132,7 @@ Outcome Solver::equilibrate(double time, std::span<const double> adhesion) {
     judge_balance(result.state, outcome);
     forget();
     selected_ = nullptr;
-    pending_ = Pending{std::move(result.state), {}, {}};
+    pending_ = Pending{std::move(result.state), {}, {}, {}};
     return outcome;
 }
 
@@ -164,6 +163,7 @@ void Solver::commit() {
         if (past_.size() > static_cast<std::size_t>(problem_.options.backtracking_depth)) past_.erase(past_.begin());
     }
     committed_ = std::move(pending_->state);
+    searched_ = std::move(pending_->searched);
     pending_.reset();
 }
 
@@ -255,6 +255,7 @@ void Solver::restore(State restored, std::vector<State> past, std::vector<JumpEv
     stepper_.recall(restored);
     problem_.patterns = std::move(patterns);
     committed_ = std::move(restored);
+    searched_.clear();
     past_ = std::move(past);
     jumps_ = std::move(jumps);
     record_ = std::move(record);

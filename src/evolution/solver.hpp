@@ -100,14 +100,15 @@ public:
     std::vector<double> stress() const;
     // e* of the bodies at this state, in material axes; empty: there are none.
     std::vector<Strain> eigenstrains() const;
-    // Description of what the last search compared.
-    const std::string& searched() const { return searched_; }
+    // What the search of the pending step compared, or of the committed one if none is pending; empty: no search.
+    const std::string& searched() const { return pending_ ? pending_->searched : searched_; }
 
 private:
     struct Pending {
         State state;
         std::vector<State> revised;  // earlier steps that backtracking has replaced, ascending
         std::vector<JumpEvent> jumps;
+        std::string searched;
     };
 
     bool known(std::int32_t body) const { return problem_.material[static_cast<std::size_t>(body)].has_value(); }
@@ -128,12 +129,12 @@ private:
     PairGraph graph_;
     Outcome initial_outcome_;
     State committed_;
+    std::string searched_;  // of the step to committed_; empty where that was loaded, since it is not saved
     std::vector<State> past_;
     std::vector<JumpEvent> jumps_;
     Record record_;
     std::optional<Pending> pending_;
     const State* selected_ = nullptr;
-    std::string searched_;
     mutable std::vector<double> displacement_;                            // of state(), empty: not recovered
     mutable std::vector<std::optional<std::vector<CrackFront>>> fronts_;  // likewise, [interfaces]
     bool warned_of_mixity_ = false;

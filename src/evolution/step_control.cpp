@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <utility>
 
 namespace delam {
@@ -106,6 +107,7 @@ private:
     Effort effort_;
     StepOutcome outcome_;
     Ledger sum_;  // of the parts
+    std::string searched_;
     bool converged_ = true;
     std::int64_t parts_ = 0, refused_ = 0;
 
@@ -196,6 +198,7 @@ void Parts::accept(Goal goal) {
     outcome_.search_margin = parts_ == 0 ? margin : std::min(outcome_.search_margin, margin);
     converged_ = converged_ && goal.reached->converged;
     ++parts_;
+    searched_ += goal.reached->searched;
     at_ = std::move(next);
     --at_.step;  // the parts of a step share its number
     // What was computed from the start of this part is invalid from its end.
@@ -209,7 +212,7 @@ void Parts::accept(Goal goal) {
 // The whole step: the last state, with the sums and the effort of all parts.
 ControlledStep Parts::close() {
     ++at_.step;
-    ControlledStep out{{std::move(at_), converged_}, std::move(jumps_)};
+    ControlledStep out{{std::move(at_), converged_, std::move(searched_)}, std::move(jumps_)};
     State& state = out.result.state;
     state.ledger.lower = sum_.lower;
     state.ledger.increment = sum_.increment;

@@ -265,10 +265,11 @@ void Stepper::search(Result& best, const Increment& step) {
     // Candidates under the variational rule have energies at the mixities of the start, which are no bound.
     outcome.search_gap =
         step.bounds_candidates() ? std::max(0.0, kept - found.bound) : std::numeric_limits<double>::infinity();
-    searched_ = text("step ", best.state.step, " at time ", best.state.time, ": ", found.candidates,
-                     " candidates, the step was minimised from ", minimised,
-                     " of them; energy of the lowest candidate less that of the state kept: ", outcome.search_margin,
-                     "\n", found.words);
+    best.searched =
+        text("step ", best.state.step, " at time ", best.state.time, ": ", found.candidates,
+             " candidates, the step was minimised from ", minimised,
+             " of them; energy of the lowest candidate less that of the state kept: ", outcome.search_margin, "\n",
+             found.words);
 }
 
 Stepper::Result Stepper::equilibrate(const State& before, double time, std::span<const double> adhesion) {

@@ -31,6 +31,7 @@ public:
     struct Result {
         State state;
         bool converged = true;
+        std::string searched{};  // what the search compared; empty: there was none
     };
     // The initial state: displacements at the initial adhesion.
     Result initial(double time);
@@ -59,8 +60,6 @@ public:
     const std::vector<double>& initial_adhesion() const { return initial_adhesion_; }
     // Warns the host about the mixity of a step; true if it did.
     bool warn(const State& state) const { return rule_->warn_of_mixity_error(monitor_, state); }
-    // Description of what the last search compared; empty: nothing.
-    const std::string& searched() const { return searched_; }
 
 private:
     Minimiser minimiser();
@@ -86,7 +85,6 @@ private:
     Lift lift_;
     std::unique_ptr<JumpOperator> twin_;  // for the search, so that its zone does not disturb that of the analysis
     std::optional<Search> search_;
-    std::string searched_;
 };
 
 }  // namespace delam
