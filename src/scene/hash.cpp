@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // FNV-1a, 64 bits (Fowler, Noll, Vo), over the scene. Every list is hashed with its length, so that entries cannot move
 // from one list to the next unnoticed.
+#include <algorithm>
 #include <bit>
 #include <span>
+#include <vector>
 
 #include "base/cancel_scope.hpp"
+#include "law/law_parameters.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {
@@ -99,12 +102,17 @@ void add_stiffness(Fnv& fnv, const Problem& problem) {
     }
 }
 
+// Every number that laws have in common, once and in the order of the table, also where this kind ignores it.
 void add_law(Fnv& fnv, const Law& law) {
-    for (const double parameter :
-         {law.normal_stiffness, law.tangential_stiffness, law.normal_onset, law.tangential_onset, law.normal_toughness,
-          law.tangential_toughness, law.onset_exponent_1, law.onset_exponent_2, law.toughness_exponent_1,
-          law.toughness_exponent_2, law.gradient}) {
-        fnv.add(parameter);
+    std::vector<double Law::*> added;
+    const auto add = [&](double Law::*member) {
+        if (member == nullptr || std::find(added.begin(), added.end(), member) != added.end()) return;
+        added.push_back(member);
+        fnv.add(law.*member);
+    };
+    for (const LawParameter& parameter : law_parameters()) {
+        add(parameter.value);
+        add(parameter.second);
     }
     fnv.add(std::string(name_of(law.criterion)));
     fnv.add(std::string(law.kind().name));

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "delam/delam.h"
+#include "law/law_parameters.hpp"
 #include "mesh/layers.hpp"
 #include "scene/problem.hpp"
 
@@ -295,6 +296,30 @@ START_TEST(supports_do_not_depend_on_units) {
 }
 END_TEST
 
+// Another number in each row of the table, another kind, another criterion.
+std::vector<std::function<void(Law&)>> law_changes() {
+    std::vector<std::function<void(Law&)>> changes;
+    for (const LawParameter& row : law_parameters()) {
+        if (row.value != nullptr)
+            changes.push_back([&row](Law& law) {
+                law.*row.value += 1.0;
+                if (row.second != nullptr) law.*row.second += 1.0;
+            });
+        for (std::size_t kind = 0; kind < law_kinds.size() && row.write != nullptr; ++kind)
+            if ((row.kinds >> kind & 1u) != 0)
+                changes.push_back([&row, kind](Law& law) {
+                    softening_of(law_kinds[kind].name, law.softening);
+                    row.write(law.softening, row.read(law.softening) + 0.25);
+                });
+    }
+    for (const LawKind& kind : law_kinds)
+        if (kind.name != std::string(ductile().kind().name))
+            changes.push_back([&kind](Law& law) { softening_of(kind.name, law.softening); });
+    for (const Criterion criterion : {Criterion::power, Criterion::benzeggagh_kenane})
+        changes.push_back([criterion](Law& law) { law.criterion = criterion; });
+    return changes;
+}
+
 START_TEST(hash_changes_with_every_datum) {
     Problem base = stack(2, 2);
     hold_bottom(base);
@@ -303,7 +328,7 @@ START_TEST(hash_changes_with_every_datum) {
     base.constraints[0].prescribed = {0.0, 1.0};
     const std::uint64_t origin = hash(base);
     ck_assert(hash(Problem(base)) == origin);
-    const std::vector<std::function<void(Problem&)>> changes{
+    std::vector<std::function<void(Problem&)>> changes{
         [](Problem& p) { p.plane = Plane::stress; },
         [](Problem& p) { std::get<Elastic>(*p.material[1]).young = 76e9; },
         [](Problem& p) { std::get<Elastic>(*p.material[1]).poisson = 0.31; },
@@ -311,17 +336,6 @@ START_TEST(hash_changes_with_every_datum) {
         [](Problem& p) { p.interfaces[0].bonded = true; },
         [](Problem& p) { p.interfaces[0].law.reset(); },
         [](Problem& p) { p.interfaces[0].adhesion[1] = 0.5; },
-        [](Problem& p) { p.interfaces[0].law->normal_stiffness *= 2.0; },
-        [](Problem& p) { p.interfaces[0].law->tangential_stiffness *= 2.0; },
-        [](Problem& p) { p.interfaces[0].law->normal_onset *= 0.5; },
-        [](Problem& p) { p.interfaces[0].law->tangential_onset *= 0.5; },
-        [](Problem& p) { p.interfaces[0].law->normal_toughness *= 2.0; },
-        [](Problem& p) { p.interfaces[0].law->tangential_toughness *= 2.0; },
-        [](Problem& p) { p.interfaces[0].law->onset_exponent_1 = 1.0; },
-        [](Problem& p) { p.interfaces[0].law->onset_exponent_2 = 1.0; },
-        [](Problem& p) { p.interfaces[0].law->toughness_exponent_1 = 1.0; },
-        [](Problem& p) { p.interfaces[0].law->toughness_exponent_2 = 1.0; },
-        [](Problem& p) { p.interfaces[0].law->gradient = 1e-3; },
         [](Problem& p) { p.patterns[0].name = "pull"; },
         [](Problem& p) { p.patterns[0].times[1] = 2.0; },
         [](Problem& p) { p.patterns[0].values[1] = 2.0; },
@@ -335,6 +349,7 @@ START_TEST(hash_changes_with_every_datum) {
         [](Problem& p) { p.forces[0].value = 2.0; },
         [](Problem& p) { p.options.contact_limit = 7; },  // all others: case_test_options
     };
+    for (const auto& change : law_changes()) changes.push_back([change](Problem& p) { change(*p.interfaces[0].law); });
     std::vector<std::uint64_t> seen{origin, hash(stack(2, 2)), hash(stack(2, 3)), hash(stack(3, 2))};
     for (std::size_t i = 0; i < changes.size(); ++i) {
         Problem changed = base;
