@@ -4,6 +4,7 @@
 // what bytes of an older version do not have: such a member keeps its default.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -86,11 +87,18 @@ private:
     std::uint32_t version_;
 };
 
+// What a saved member may be besides the rule: an array of the size that the reader's own has, of finite numbers.
+struct Allowed {
+    bool any_size = false;
+    bool infinite = false;
+};
+
 // A member, or a member of a member, and the version of the format that it came with.
 template <class... Path>
 struct Field {
     std::uint32_t since;
     std::tuple<Path...> path;
+    Allowed allowed{};
 
     template <class Object>
     constexpr auto& of(Object& object) const {
@@ -99,7 +107,8 @@ struct Field {
     }
 };
 
-// Rows of a table: saved_since(version, &Owner::member, ..., member_of(&Owner::part, &Part::member), ...).
+// Rows of a table: saved_since(version, &Owner::member, ..., member_of(&Owner::part, &Part::member), ...), some of them
+// any_size(row) or may_be_infinite(row).
 template <class... Members>
 constexpr std::tuple<Members...> member_of(Members... members) {
     return {members...};
@@ -108,9 +117,28 @@ template <class... Members>
 constexpr Field<Members...> field(std::uint32_t since, std::tuple<Members...> members) {
     return {since, members};
 }
+template <class Row>
+struct Marked {
+    Row row;
+    Allowed allowed;
+};
+template <class Row>
+constexpr Marked<Row> any_size(Row row) {
+    return {row, {.any_size = true}};
+}
+template <class Row>
+constexpr Marked<Row> may_be_infinite(Row row) {
+    return {row, {.infinite = true}};
+}
 template <class Owner, class T>
 constexpr Field<T Owner::*> field(std::uint32_t since, T Owner::*member) {
     return {since, {member}};
+}
+template <class Row>
+constexpr auto field(std::uint32_t since, Marked<Row> marked) {
+    auto row = field(since, marked.row);
+    row.allowed = marked.allowed;
+    return row;
 }
 template <class... Rows>
 constexpr auto saved_since(std::uint32_t version, Rows... rows) {
@@ -138,9 +166,12 @@ constexpr bool complete(const Table& table) {
 template <class Walker, class Object, class Table>
 void walk(Walker& walker, Object& object, const Table& table);
 
+template <class T>
+inline constexpr bool has_table = !std::is_null_pointer_v<std::remove_const_t<decltype(saved_fields<T>)>>;
+
 template <class Walker, class T>
 void walk(Walker& walker, T& value) {
-    if constexpr (std::is_null_pointer_v<std::remove_const_t<decltype(saved_fields<std::remove_const_t<T>>)>>)
+    if constexpr (!has_table<std::remove_const_t<T>>)
         walker.item(value);
     else
         walk(walker, value, saved_fields<std::remove_const_t<T>>);
@@ -153,6 +184,39 @@ void walk(Walker& walker, Object& object, const Table& table) {
     };
     std::apply([&](const auto&... rows) { (visit(rows), ...); }, table);
 }
+
+// Whether the members that a format has keep the rule of their rows, beside an object whose arrays have their sizes.
+class Sound {
+public:
+    explicit Sound(std::uint32_t version) : version_(version) {}
+    bool sizes = true, numbers = true;
+
+    template <class T>
+    void compare(const T& object, const T& own) {
+        const auto visit = [&](const auto& row) {
+            if (row.since > version_) return;
+            const auto& member = row.of(object);
+            if constexpr (has_table<std::remove_cvref_t<decltype(member)>>)
+                compare(member, row.of(own));
+            else
+                item(row.allowed, member, row.of(own));
+        };
+        std::apply([&](const auto&... rows) { (visit(rows), ...); }, saved_fields<T>);
+    }
+
+private:
+    template <class T>
+    void item(const Allowed& allowed, const T& v, const T& /*own*/) {
+        if constexpr (std::is_floating_point_v<T>)
+            numbers = numbers && (allowed.infinite ? !std::isnan(v) : std::isfinite(v));
+    }
+    template <class T>
+    void item(const Allowed& allowed, const std::vector<T>& v, const std::vector<T>& own) {
+        sizes = sizes && (allowed.any_size || v.size() == own.size());
+        for (const T& entry : v) item(allowed, entry, entry);
+    }
+    std::uint32_t version_;
+};
 
 // Bytes of the least value of T, one with empty arrays.
 template <class T>

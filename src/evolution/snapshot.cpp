@@ -32,40 +32,18 @@ std::uint64_t checksum(std::span<const std::uint8_t> bytes, std::uint64_t h = ch
     return h;
 }
 
-// Rejects non-finite numbers in any saved struct.
-class Finite {
-public:
-    bool holds = true;
-    static constexpr std::uint32_t version() { return delam::version; }
-    void item(const double& v) { holds = holds && std::isfinite(v); }
-    template <class T>
-    void item(const T&) {}
-};
-
-// Every array must have the length of this solver's, and every number must be one that an analysis can produce.
-void check(const State& state, const Solver& solver) {
-    const State& mine = solver.committed();
-    const Response &a = state.response, &b = mine.response;
-    const bool sizes = state.theta.size() == mine.theta.size() && state.adhesion.size() == mine.adhesion.size() &&
-                       state.mixity.size() == mine.mixity.size() &&
-                       state.mixity_before.size() == mine.mixity_before.size() &&
-                       state.closed.size() == mine.closed.size() && a.jump.size() == b.jump.size() &&
-                       a.force.size() == b.force.size() && a.conjugate.size() == b.conjugate.size() &&
-                       a.multipliers.size() == b.multipliers.size() && a.rigid.size() == b.rigid.size();
-    if (!sizes) fail(DELAM_ERROR_SNAPSHOT, "snapshot has arrays of other sizes than this solver");
+// Every member must be as its row says, and every number one that an analysis can produce.
+void check(const State& state, const Solver& solver, std::uint32_t found_version) {
+    Sound sound(found_version);
+    sound.compare(state, solver.committed());
+    if (!sound.sizes) fail(DELAM_ERROR_SNAPSHOT, "snapshot has arrays of other sizes than this solver");
     for (const auto* fractions : {&state.adhesion, &state.mixity, &state.mixity_before})
         for (const double v : *fractions)
             if (!(v >= 0.0 && v <= 1.0))
                 fail(DELAM_ERROR_SNAPSHOT, "snapshot holds an adhesion or mixity of ", v, ", allowed: 0 to 1");
-    for (const auto* values :
-         {&state.theta, &a.jump, &a.force, &a.conjugate, &a.multipliers, &a.rigid, &state.memory, &state.search_memory})
-        for (const double v : *values)
-            if (!std::isfinite(v)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a number that is not finite");
-    Finite finite;
-    walk(finite, a);
-    walk(finite, state.ledger);
-    if (!finite.holds) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds an energy or residual that is not finite");
     if (!std::isfinite(state.time)) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a time of ", state.time);
+    if (!sound.numbers)
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a number of step ", state.step, " that is not finite");
     if (state.step < 0 || state.step > most_steps)
         fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", state.step, ", allowed: 0 to 2^53");
     solver.jump_operator().require_memory(state.memory);
@@ -78,9 +56,9 @@ void check(const JumpEvent& jump, const Solver& solver) {
     const std::int64_t pairs = named ? interfaces[static_cast<std::size_t>(jump.interface)].pair_count() : 0;
     const bool sound = named && jump.first_pair >= -1 && jump.first_pair < pairs && jump.last_pair >= -1 &&
                        jump.last_pair < pairs && jump.step >= 0 && jump.before <= jump.time;
-    Finite finite;
-    walk(finite, jump);
-    if (!sound || !finite.holds)
+    Sound finite(version);
+    finite.compare(jump, jump);
+    if (!sound || !finite.numbers)
         fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a jump at time ", jump.time, " of interface ", jump.interface,
              ", pairs ", jump.first_pair, " to ", jump.last_pair, ", which this scene cannot have");
 }
@@ -244,10 +222,10 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
     Record record;
     if (found_version >= 7) record = read_record(r, solver);
     if (r.left() != sizeof(std::uint64_t)) fail(DELAM_ERROR_SNAPSHOT, "snapshot has ", r.left(), " bytes too many");
-    check(state, solver);
+    check(state, solver, found_version);
     std::int64_t step = state.step - static_cast<std::int64_t>(past.size());
     for (const State& earlier : past) {
-        check(earlier, solver);
+        check(earlier, solver, found_version);
         if (earlier.step != step++)
             fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", earlier.step, " instead of ", step - 1);
     }

@@ -3,7 +3,9 @@
 // defaults; the bytes of a state keep their order.
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/archive.hpp"
@@ -30,9 +32,10 @@ struct Sample {
     double added = -7.5;
     bool derived = true;
 };
-constexpr auto rows = std::tuple_cat(
-    saved_since(5, &Sample::first, &Sample::list, member_of(&Sample::part, &Part::count)),
-    saved_since(8, member_of(&Sample::part, &Part::late), &Sample::added), saved_since(unsaved, &Sample::derived));
+constexpr auto rows =
+    std::tuple_cat(saved_since(5, &Sample::first, &Sample::list, member_of(&Sample::part, &Part::count)),
+                   saved_since(8, may_be_infinite(member_of(&Sample::part, &Part::late)), &Sample::added),
+                   saved_since(unsaved, &Sample::derived));
 static_assert(complete<Sample>(rows));
 // A missing row is detected.
 static_assert(!complete<Sample>(saved_since(5, &Sample::first, &Sample::list)));
@@ -70,6 +73,9 @@ std::vector<std::uint8_t> bytes_of(const T& value) {
 }
 
 }  // namespace
+
+template <>
+inline constexpr auto delam::saved_fields<Sample> = rows;
 
 START_TEST(older_bytes_leave_defaults) {
     const auto old = written(changed(), 7), today = written(changed(), 8);
@@ -115,6 +121,23 @@ START_TEST(short_bytes_are_refused) {
         status = e.status();
     }
     ck_assert_int_eq(status, DELAM_ERROR_SNAPSHOT);
+}
+END_TEST
+
+// Members that bytes of an older version do not have are not checked.
+START_TEST(members_keep_the_rule_of_their_rows) {
+    const auto sound = [](const Sample& sample, std::uint32_t version) {
+        Sound found(version);
+        found.compare(sample, changed());
+        return std::pair(found.sizes, found.numbers);
+    };
+    constexpr double infinite = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+    ck_assert(sound({2.0, {4.0, 5.0}, {6, infinite}, 9.0, false}, 8) == std::pair(true, true));
+    ck_assert(sound({2.0, {4.0, 5.0}, {6, nan}, 9.0, false}, 8) == std::pair(true, false));
+    ck_assert(sound({2.0, {4.0, 5.0}, {6, nan}, nan, false}, 7) == std::pair(true, true));
+    ck_assert(sound({2.0, {4.0, 5.0}, {6, 0.5}, infinite, false}, 8) == std::pair(true, false));
+    ck_assert(sound({2.0, {4.0, nan}, {6, 0.5}, 9.0, false}, 5) == std::pair(true, false));
+    ck_assert(sound({2.0, {4.0}, {6, 0.5}, 9.0, false}, 8) == std::pair(false, true));
 }
 END_TEST
 
@@ -164,6 +187,7 @@ int main() {
     TCase* tests = tcase_create("archive");
     tcase_add_test(tests, older_bytes_leave_defaults);
     tcase_add_test(tests, short_bytes_are_refused);
+    tcase_add_test(tests, members_keep_the_rule_of_their_rows);
     tcase_add_test(tests, bytes_keep_their_order);
     suite_add_tcase(suite, tests);
     SRunner* runner = srunner_create(suite);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What of a state is saved: a row for each member, in the order of the bytes, in the group of the version of the format
-// that it came with (snapshot.cpp). A further member is a further row at the end, in a group of a further version.
+// that it came with (snapshot.cpp). A further member is a further row at the end, in a group of a further version. A
+// state is refused where an array has not the size of the solver's own or a number is not finite, unless its row allows
+// it.
 #pragma once
 
 #include <tuple>
@@ -61,8 +63,8 @@ inline constexpr auto saved_fields<State> = saved_since(5,
     &State::closed,
     &State::loaded,
     &State::response,
-    &State::memory,
-    &State::search_memory,
+    any_size(&State::memory),         // that the operator has: JumpOperator::require_memory
+    any_size(&State::search_memory),
     &State::ledger,
     member_of(&State::effort, &Effort::am_iterations),
     member_of(&State::effort, &Effort::displacement_solves),
@@ -79,7 +81,7 @@ inline constexpr auto saved_fields<State> = saved_since(5,
     member_of(&State::history, &StepHistory::revised_from),
     member_of(&State::effort, &Effort::search_candidates),
     member_of(&State::outcome, &StepOutcome::search_margin),
-    member_of(&State::outcome, &StepOutcome::search_gap),
+    may_be_infinite(member_of(&State::outcome, &StepOutcome::search_gap)),
     member_of(&State::history, &StepHistory::substeps),
     member_of(&State::history, &StepHistory::refused_steps),
     member_of(&State::outcome, &StepOutcome::jumps),
