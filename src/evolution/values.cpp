@@ -132,15 +132,20 @@ constexpr const char* counts_on = "it counts since the solver was created and is
 
 // The part is an interface (-1: all together) or a pattern.
 using OfState = double (*)(const State&);
+using OfLedger = double (*)(const Ledger&);
 using OfReading = double (*)(const Reading&);
 using OfPart = double (*)(const Reading&, std::int64_t);
 
 struct Row {
     ValueInfo info;
-    std::variant<OfState, OfReading, OfPart> read;
+    std::variant<OfState, OfLedger, OfReading, OfPart> read;
 };
 
 constexpr Row row(const char* key, const char* unit, const char* meaning, OfState read, const char* alias = "") {
+    return {{key, alias, unit, ValueCost::free, ValueScope::whole, meaning}, read};
+}
+constexpr Row ledger_row(const char* key, const char* unit, const char* meaning, OfLedger read,
+                         const char* alias = "") {
     return {{key, alias, unit, ValueCost::free, ValueScope::whole, meaning}, read};
 }
 constexpr Row read_row(const char* key, const char* unit, const char* meaning, OfReading read) {
@@ -163,36 +168,38 @@ constexpr Row pattern_row(const char* key, const char* unit, const char* meaning
 constexpr Row table[] = {
     row("step", "-", "number of the load step; the initial state is 0", [](const State& s) { return count(s.step); }),
     row("time", "t", "time of the state", [](const State& s) { return s.time; }),
-    row("stored_bulk", "F L", "elastic energy of the bodies", [](const State& s) { return s.ledger.stored_bulk; }),
-    row("stored_interface", "F L", "energy stored in the interfaces, with the gradient term",
-        [](const State& s) { return s.ledger.stored_interface; }),
-    row("dissipated", "F L", "energy dissipated by damage since the start",
-        [](const State& s) { return s.ledger.dissipated; }),
-    row(
+    ledger_row("stored_bulk", "F L", "elastic energy of the bodies", [](const Ledger& l) { return l.stored_bulk; }),
+    ledger_row("stored_interface", "F L", "energy stored in the interfaces, with the gradient term",
+               [](const Ledger& l) { return l.stored_interface; }),
+    ledger_row("dissipated", "F L", "energy dissipated by damage since the start",
+               [](const Ledger& l) { return l.dissipated; }),
+    ledger_row(
         "stored_interface_slides", "F L", "stored_interface in the split whose dissipation is linear in the damage",
-        [](const State& s) { return s.ledger.stored_interface_linear; }, "stored_interface_linear"),
-    row(
+        [](const Ledger& l) { return l.stored_interface_linear; }, "stored_interface_linear"),
+    ledger_row(
         "dissipated_slides", "F L", "dissipated in the split whose dissipation is linear in the damage",
-        [](const State& s) { return s.ledger.dissipated_linear; }, "dissipated_linear"),
-    row("load_potential", "F L", "potential of the dead forces",
-        [](const State& s) { return s.ledger.load_potential; }),
-    row("work", "F L", "work of the loads since the start, the mean of the bounds of every step",
-        [](const State& s) { return s.ledger.work; }),
-    row("lower", "F L", "lower bound of the two-sided estimate of the step",
-        [](const State& s) { return s.ledger.lower; }),
-    row("increment", "F L", "change of stored energy and potential in the step plus what it dissipated",
-        [](const State& s) { return s.ledger.increment; }),
-    row("upper", "F L", "upper bound of the two-sided estimate of the step",
-        [](const State& s) { return s.ledger.upper; }),
-    row("increment_lower", "F L", "increment at the mixities of the step before, which the lower bound holds for",
-        [](const State& s) { return s.ledger.increment_lower; }),
-    row("defect", "F L", "error of the energy balance since the start",
-        [](const State& s) { return s.ledger.defect(); }),
-    row(
+        [](const Ledger& l) { return l.dissipated_linear; }, "dissipated_linear"),
+    ledger_row("load_potential", "F L", "potential of the dead forces",
+               [](const Ledger& l) { return l.load_potential; }),
+    ledger_row("work", "F L", "work of the loads since the start, the mean of the bounds of every step",
+               [](const Ledger& l) { return l.work; }),
+    ledger_row("lower", "F L", "lower bound of the two-sided estimate of the step",
+               [](const Ledger& l) { return l.lower; }),
+    ledger_row("increment", "F L", "change of stored energy and potential in the step plus what it dissipated",
+               [](const Ledger& l) { return l.increment; }),
+    ledger_row("upper", "F L", "upper bound of the two-sided estimate of the step",
+               [](const Ledger& l) { return l.upper; }),
+    ledger_row("increment_lower", "F L",
+               "increment at the mixities of the step before, which the lower bound holds for",
+               [](const Ledger& l) { return l.increment_lower; }),
+    ledger_row("defect", "F L", "error of the energy balance since the start",
+               [](const Ledger& l) { return l.defect(); }),
+    ledger_row(
         "defect_slides", "F L", "defect in the split whose dissipation is linear in the damage",
-        [](const State& s) { return s.ledger.defect_linear(); }, "defect_linear"),
-    row("mixity_error", "-", "relative error of the toughness used in the step against that at the resulting mixity",
-        [](const State& s) { return s.ledger.mixity_error; }),
+        [](const Ledger& l) { return l.defect_linear(); }, "defect_linear"),
+    ledger_row("mixity_error", "-",
+               "relative error of the toughness used in the step against that at the resulting mixity",
+               [](const Ledger& l) { return l.mixity_error; }),
     row(
         "am_iterations", "-", "iterations of the staggered scheme in the step",
         [](const State& s) { return count(s.effort.am_iterations); }, "staggered_iterations"),
@@ -317,6 +324,7 @@ double read(const Reading& r, const std::string& key) {
         fail(DELAM_ERROR_ARGUMENT, "value '", key, "' is not known; known are ", known);
     }
     if (const OfState* of = std::get_if<OfState>(&row->read)) return (*of)(r.state());
+    if (const OfLedger* of = std::get_if<OfLedger>(&row->read)) return (*of)(r.state().ledger);
     if (const OfReading* of = std::get_if<OfReading>(&row->read)) return (*of)(r);
     return std::get<OfPart>(row->read)(r, part);
 }
@@ -359,6 +367,13 @@ std::string value_key(const std::string& key) {
 const char* why_unrecorded(const std::string& key) {
     const ValueInfo* info = find_value(key);
     return info == nullptr ? nullptr : info->unrecorded;
+}
+
+std::optional<KeyedValue> not_finite(const Ledger& ledger) {
+    for (const Row& row : table)
+        if (const OfLedger* of = std::get_if<OfLedger>(&row.read); of != nullptr && !std::isfinite((*of)(ledger)))
+            return KeyedValue{row.info.key, (*of)(ledger)};
+    return std::nullopt;
 }
 
 std::vector<double> values_of(const Solver& solver, const State& state, const std::vector<std::string>& keys) {

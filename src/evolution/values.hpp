@@ -2,6 +2,7 @@
 // The scalars of a state by key: one table for the history, the record, the tests and every host.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,13 @@ const ValueInfo* find_value(const std::string& key);
 std::string value_key(const std::string& key);
 // Why a value is not recorded, in words; nullptr where it can be.
 const char* why_unrecorded(const std::string& key);
+
+struct KeyedValue {
+    const char* key;
+    double value;
+};
+// The first value of the energies that is not finite; nothing if all are.
+std::optional<KeyedValue> not_finite(const Ledger& ledger);
 
 // Values of a state of the solver, which need not be the one that it shows. Throws Error(DELAM_ERROR_ARGUMENT) for an
 // unknown key.

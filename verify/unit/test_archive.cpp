@@ -72,10 +72,39 @@ std::vector<std::uint8_t> bytes_of(const T& value) {
     return writer.bytes;
 }
 
+// Gives every saved number a value of its own, greater than zero.
+struct Numbered {
+    int last = 0;
+    static constexpr std::uint32_t version() { return unsaved - 1; }
+    template <class T>
+    void item(T& v) {
+        v = static_cast<T>(++last);
+    }
+    template <class T>
+    void item(std::vector<T>& /*v*/) {}
+};
+
 }  // namespace
 
 template <>
 inline constexpr auto delam::saved_fields<Sample> = rows;
+
+// A member of the effort that add() leaves out is lost where the efforts of several solves add up.
+START_TEST(efforts_add_with_every_member) {
+    State filled, added, only;
+    Numbered numbers;
+    walk(numbers, filled);
+    only.effort = filled.effort;
+    added.effort.add(filled.effort);
+    ck_assert(bytes_of(added) == bytes_of(only));
+    ck_assert(bytes_of(added) != bytes_of(State{}));
+    added.effort.add(filled.effort);
+    ck_assert_int_eq(added.effort.am_iterations, 2 * filled.effort.am_iterations);
+    ck_assert_int_eq(added.effort.contact_iterations_first, filled.effort.contact_iterations_first);
+    ck_assert_int_eq(added.effort.contact_iterations_max, filled.effort.contact_iterations_max);
+    ck_assert_double_eq(added.effort.linear_residual, filled.effort.linear_residual);
+}
+END_TEST
 
 START_TEST(older_bytes_leave_defaults) {
     const auto old = written(changed(), 7), today = written(changed(), 8);
@@ -185,6 +214,7 @@ END_TEST
 int main() {
     Suite* suite = suite_create("archive");
     TCase* tests = tcase_create("archive");
+    tcase_add_test(tests, efforts_add_with_every_member);
     tcase_add_test(tests, older_bytes_leave_defaults);
     tcase_add_test(tests, short_bytes_are_refused);
     tcase_add_test(tests, members_keep_the_rule_of_their_rows);

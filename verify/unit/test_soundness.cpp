@@ -5,8 +5,9 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "evolution/increment/state_fields.hpp"
 #include "evolution/solver.hpp"
-#include "evolution/step/soundness.hpp"
+#include "evolution/soundness.hpp"
 #include "flexure.hpp"
 
 // Last: its macro fail() would break delam::fail().
@@ -46,6 +47,28 @@ std::string refusal(const Problem& problem, const State& state, bool converged) 
 void expect_named(const std::string& refusal, const char* name) {
     ck_assert_msg(refusal.find(name) != std::string::npos, "'%s' does not name %s", refusal.c_str(), name);
 }
+
+// Plants one of the saved numbers.
+class PlantedNumber {
+public:
+    explicit PlantedNumber(std::size_t target) : target_(target) {}
+    const void* member = nullptr;  // where
+
+    static constexpr std::uint32_t version() { return unsaved - 1; }
+    void item(double& v) {
+        if (at_++ != target_) return;
+        v = std::numeric_limits<double>::quiet_NaN();
+        member = &v;
+    }
+    void item(std::vector<double>& v) {
+        if (!v.empty()) item(v.back());
+    }
+    template <class T>
+    void item(T& /*v*/) {}
+
+private:
+    std::size_t target_, at_ = 0;
+};
 
 }  // namespace
 
@@ -90,6 +113,25 @@ START_TEST(names_what_is_not_finite) {
 }
 END_TEST
 
+// Every row of the tables of a saved state: what a call returns can be saved and loaded.
+START_TEST(refuses_every_saved_number_that_is_not_finite) {
+    const Problem problem = small("feti");
+    const State sound = state_of(problem);
+    std::size_t count = 0;
+    for (bool hit = true; hit; ++count) {
+        State state = sound;
+        PlantedNumber planted(count);
+        walk(planted, state);
+        hit = planted.member != nullptr;
+        const bool infinite = planted.member == &state.outcome.search_gap;
+        ck_assert_msg(refusal(problem, state, true).empty() == !hit, "number %zu is planted unnoticed", count);
+        if (infinite) state.outcome.search_gap = std::numeric_limits<double>::infinity();
+        if (infinite) ck_assert_str_eq(refusal(problem, state, true).c_str(), "");
+    }
+    ck_assert_uint_ge(count, 25);
+}
+END_TEST
+
 START_TEST(names_the_violated_support) {
     const Problem problem = small("feti");
     State state = state_of(problem);
@@ -118,6 +160,7 @@ int main() {
     Suite* suite = suite_create("soundness");
     TCase* test = tcase_create("states");
     tcase_add_test(test, names_what_is_not_finite);
+    tcase_add_test(test, refuses_every_saved_number_that_is_not_finite);
     tcase_add_test(test, names_the_violated_support);
     tcase_add_test(test, condensed_supports_need_no_report);
     suite_add_tcase(suite, test);

@@ -46,18 +46,17 @@ double largest_change(std::span<const double> from, std::span<const double> to) 
 }  // namespace
 
 bool Minimiser::displace(State& state, const Increment& increment, bool cold) const {
-    Effort& effort = state.effort;
     const auto solve = [&](std::span<const double> stiffness, std::span<const double> row_force,
                            std::vector<std::uint8_t>& closed, Response& response) {
         const ContactResult result =
             solve_contact(op, contact, stiffness, state.theta, closed, response, cold, row_force);
-        if (effort.displacement_solves == 0) effort.contact_iterations_first = result.solves;
-        ++effort.displacement_solves;
-        effort.contact_iterations += result.solves;
-        effort.contact_iterations_max = std::max(effort.contact_iterations_max, result.solves);
-        effort.contact_fallbacks += result.fallback ? 1 : 0;
-        effort.linear_iterations += result.linear_iterations;
-        effort.linear_residual = std::max(effort.linear_residual, result.linear_residual);
+        Effort one;
+        one.displacement_solves = 1;
+        one.contact_iterations = one.contact_iterations_first = one.contact_iterations_max = result.solves;
+        one.contact_fallbacks = result.fallback ? 1 : 0;
+        one.linear_iterations = result.linear_iterations;
+        one.linear_residual = result.linear_residual;
+        state.effort.add(one);
         return result.converged;
     };
     return increment.displace(solve, state);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evolution/step/soundness.hpp"
+#include "evolution/soundness.hpp"
 
 #include <cmath>
 #include <limits>
@@ -8,6 +8,8 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "delam/delam.h"
+#include "evolution/increment/state_fields.hpp"
+#include "evolution/values.hpp"
 
 namespace delam {
 
@@ -15,13 +17,16 @@ namespace {
 
 std::string place_of(const State& state) { return text("step ", state.step, " at time ", state.time, ": "); }
 
-class Finite {
+class FiniteState {
 public:
-    explicit Finite(const State& state) : state_(state) {}
+    explicit FiniteState(const State& state) : state_(state) {}
     template <class... Name>
     void number(double value, const Name&... name) const {
-        if (std::isfinite(value)) return;
-        fail(DELAM_ERROR_NUMERICAL, place_of(state_), name..., " is ", value,
+        if (!std::isfinite(value)) refuse(name..., " is ", value);
+    }
+    template <class... Words>
+    [[noreturn]] void refuse(const Words&... words) const {
+        fail(DELAM_ERROR_NUMERICAL, place_of(state_), words...,
              ": energies, which are quadratic in the loads, are beyond the largest number (",
              std::numeric_limits<double>::max(), "); choose other units or smaller loads");
     }
@@ -35,7 +40,7 @@ private:
 };
 
 void require_finite(const Problem& problem, const State& state) {
-    const Finite finite(state);
+    const FiniteState finite(state);
     const auto dim = index(problem.mesh->dimension());
     finite.array(state.response.jump, "jump", "pair", dim);
     finite.array(state.response.force, "force", "pair", dim);
@@ -45,21 +50,11 @@ void require_finite(const Problem& problem, const State& state) {
         finite.number(state.response.conjugate[p], "reaction of pattern '", problem.patterns[p].name, "'");
     finite.array(state.response.multipliers, "dual force", "multiplier");
     finite.array(state.response.rigid, "rigid motion", "coefficient");
-    const Ledger& ledger = state.ledger;
-    finite.number(ledger.stored_bulk, "value 'stored_bulk'");
-    finite.number(ledger.stored_interface, "value 'stored_interface'");
-    finite.number(ledger.stored_interface_linear, "value 'stored_interface_slides'");
-    finite.number(ledger.load_potential, "value 'load_potential'");
-    finite.number(ledger.dissipated, "value 'dissipated'");
-    finite.number(ledger.dissipated_linear, "value 'dissipated_slides'");
-    finite.number(ledger.lower, "value 'lower'");
-    finite.number(ledger.increment, "value 'increment'");
-    finite.number(ledger.increment_lower, "value 'increment_lower'");
-    finite.number(ledger.upper, "value 'upper'");
-    finite.number(ledger.work, "value 'work'");
-    finite.number(ledger.defect(), "value 'defect'");
-    finite.number(ledger.defect_linear(), "value 'defect_slides'");
-    finite.number(ledger.mixity_error, "value 'mixity_error'");
+    if (const std::optional<KeyedValue> energy = not_finite(state.ledger))
+        finite.number(energy->value, "value '", energy->key, "'");
+    Sound saved(unsaved - 1);  // in every version
+    saved.compare(state, state);
+    if (!saved.numbers) finite.refuse("a number that a saved state holds is not finite");
 }
 
 void require_supports(const Problem& problem, const State& state) {
