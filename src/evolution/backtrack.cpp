@@ -2,21 +2,9 @@
 #include "evolution/backtrack.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace delam {
-
-namespace {
-
-constexpr double rounding = 1e-10;  // of the energies: smaller differences do not count as lower
-
-bool lower(const State& a, const State& b) {
-    const double scale = std::max(std::abs(b.ledger.energy()), std::abs(b.ledger.work));
-    return a.ledger.increment < b.ledger.increment - rounding * scale;
-}
-
-}  // namespace
 
 const State& Chain::at(std::int64_t step) const {
     if (const auto it = revised_.find(step); it != revised_.end()) return it->second;
@@ -37,7 +25,7 @@ Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t la
         if (carried) starts.push_back(*carried);
         if (i < k) starts.push_back({chain.at(i).adhesion, chain.at(i).mixity});
         Stepper::Result found = stepper.step(chain.at(i - 1), i < k ? chain.at(i).time : time, starts);
-        if (i < k && same_before && !lower(found.state, chain.at(i))) {
+        if (i < k && same_before && !chain.at(i).ledger.undercut_by(found.state.ledger.increment)) {
             // Nothing lower: step i stays, and so do the later steps computed from it.
             returning = false;
             effort.add(found.state.effort);

@@ -125,9 +125,8 @@ private:
 // While nothing is damaged the work is exact, however wide the band.
 bool Parts::too_long(const Stepper::Result& result, double change) const {
     const Ledger& l = result.state.ledger;
-    const double scale = std::max(std::abs(l.energy()), std::abs(l.work));
     return (options_.step_control == "adaptive" &&
-            (!result.converged || (change > 0.0 && l.upper - l.lower > options_.step_tolerance * scale))) ||
+            (!result.converged || (change > 0.0 && l.upper - l.lower > options_.step_tolerance * l.scale()))) ||
            (options_.mixity_step_tolerance > 0.0 && l.mixity_error > options_.mixity_step_tolerance);
 }
 

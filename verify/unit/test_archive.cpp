@@ -106,6 +106,20 @@ START_TEST(efforts_add_with_every_member) {
 }
 END_TEST
 
+START_TEST(increments_compare_beyond_rounding) {
+    Ledger ledger;
+    ledger.stored_bulk = 3.0;
+    ledger.load_potential = -8.0;
+    ledger.work = -4.0;
+    ledger.increment = 2.0;
+    ck_assert_double_eq(ledger.scale(), 5.0);
+    ck_assert(!ledger.undercut_by(2.0) && !ledger.undercut_by(2.0 - 4.9e-10) && ledger.undercut_by(2.0 - 5.1e-10));
+    ledger.work = -50.0;
+    ck_assert_double_eq(ledger.scale(), 50.0);
+    ck_assert(!ledger.undercut_by(2.0 - 4.9e-9) && ledger.undercut_by(2.0 - 5.1e-9));
+}
+END_TEST
+
 START_TEST(older_bytes_leave_defaults) {
     const auto old = written(changed(), 7), today = written(changed(), 8);
     ck_assert_uint_eq(old.size(), 8 + (8 + 16) + 8);
@@ -215,6 +229,7 @@ int main() {
     Suite* suite = suite_create("archive");
     TCase* tests = tcase_create("archive");
     tcase_add_test(tests, efforts_add_with_every_member);
+    tcase_add_test(tests, increments_compare_beyond_rounding);
     tcase_add_test(tests, older_bytes_leave_defaults);
     tcase_add_test(tests, short_bytes_are_refused);
     tcase_add_test(tests, members_keep_the_rule_of_their_rows);

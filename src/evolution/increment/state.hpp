@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -40,6 +41,13 @@ struct Ledger {
     double defect() const { return energy() - initial + dissipated - work; }
     double defect_linear() const { return energy_linear() - initial_linear + dissipated_linear - work; }
     double energy() const { return stored_bulk + stored_interface + load_potential; }
+    // Of what differences of energies are small.
+    double scale() const { return std::max(std::abs(energy()), std::abs(work)); }
+    // Whether this increment of the same step is lower than the ledger's by more than rounding.
+    bool undercut_by(double other) const {
+        constexpr double equivalence = 1e-10;  // of the scale
+        return other < increment - equivalence * scale();
+    }
 };
 
 // What a step cost; the effort of several minimisations adds up.

@@ -47,8 +47,7 @@ double largest_reaction(const JumpOperator& op, const State& state, double force
 // forces are compared with reactions, and their work with the energies, and the smaller ratio counts.
 double out_of_balance(const Problem& problem, const JumpOperator& op, const State& state, double force_floor) {
     const Ledger& ledger = state.ledger;
-    const double energies =
-        std::max({std::abs(ledger.energy()), std::abs(ledger.work), std::abs(ledger.stored_bulk), ledger.dissipated});
+    const double energies = std::max({ledger.scale(), std::abs(ledger.stored_bulk), ledger.dissipated});
     if (op.rounding_energy(state.theta, state.response) <= doubtful * energies) return 0.0;
     const std::vector<double> displacement = op.displacement(state.theta, state.response);
     const double motion = max_abs(displacement);

@@ -208,15 +208,14 @@ SearchResult Search::run(const Increment& increment, const State& from, std::spa
         result.words = "no load: nothing to search\n";
         return result;
     }
-    SearchRun run{
-        increment,
-        graph_,
-        energies,
-        result,
-        energies.size() * energies.size() * unit_floor_ - increment.energy_before(),
-        from.ledger.increment,
-        problem_.options.search_tolerance * std::max(std::abs(from.ledger.energy()), std::abs(from.ledger.work)),
-        problem_.options.search_limit};
+    SearchRun run{increment,
+                  graph_,
+                  energies,
+                  result,
+                  energies.size() * energies.size() * unit_floor_ - increment.energy_before(),
+                  from.ledger.increment,
+                  problem_.options.search_tolerance * from.ledger.scale(),
+                  problem_.options.search_limit};
     Trials trials(run, from, {increment.adhesion_before(), {mixity.begin(), mixity.end()}, 0.0});
     trials.run();
     result.starts = trials.take_found();

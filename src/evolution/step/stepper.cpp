@@ -15,12 +15,9 @@ namespace delam {
 
 namespace {
 
-constexpr double equivalence = 1e-10;   // of the larger of energy and work: states that differ by less are equivalent
 constexpr std::size_t most_starts = 2;  // candidates of a search from which a step is minimised
 // Of its dissipation: by how much a candidate may lie above the step and still be relaxed.
 constexpr double promising = 0.5;
-
-double scale_of(const Ledger& ledger) { return std::max(std::abs(ledger.energy()), std::abs(ledger.work)); }
 
 }  // namespace
 
@@ -161,7 +158,7 @@ void Stepper::refuse_runaway(const State& state, const Increment& step) {
 }
 
 double Stepper::lower_excess(const State& state) const {
-    const double scale = scale_of(state.ledger);
+    const double scale = state.ledger.scale();
     return scale > 0.0 ? (state.ledger.lower - state.ledger.increment_lower) / scale : 0.0;
 }
 
@@ -206,8 +203,7 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
 void Stepper::keep_lower(Result& best, State other, const Increment& step) {
     const bool converged = minimise(other, step);
     const Effort effort = other.effort;
-    if (other.ledger.increment < best.state.ledger.increment - equivalence * scale_of(best.state.ledger))
-        best = {std::move(other), converged};
+    if (best.state.ledger.undercut_by(other.ledger.increment)) best = {std::move(other), converged};
     best.state.effort = effort;
 }
 
@@ -218,7 +214,7 @@ double Stepper::hold_against(Result& best, const SearchResult& found, const Incr
     bool held = false;
     for (const Candidate& candidate : found.starts) {
         const double kept = best.state.ledger.increment;
-        if (candidate.incremental >= kept - equivalence * scale_of(best.state.ledger))
+        if (!best.state.ledger.undercut_by(candidate.incremental))
             return std::min(lowest, held ? candidate.incremental : found.lowest);
         held = true;
         State own = best.state;
