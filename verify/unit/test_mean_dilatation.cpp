@@ -116,7 +116,8 @@ START_TEST(refused) {
             said = e.what();
         }
         ck_assert(said.find(topology(type).name) != std::string::npos &&
-                  said.find("constant already") != std::string::npos);
+                  said.find("constant already") != std::string::npos &&
+                  said.find("allowed are quad4, hex8, tri6, quad8, quad9, tet10 and hex20") != std::string::npos);
     }
 }
 END_TEST

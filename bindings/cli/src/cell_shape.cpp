@@ -60,6 +60,13 @@ const CellShape& shape_named(const std::string& name) {
     throw Failure(exit_numerical, fmt::format("\"{}\" is no cell type of the library", name));
 }
 
+std::vector<std::string> shape_names(bool (*wanted)(const CellShape&)) {
+    std::vector<std::string> names;
+    for (const CellShape& shape : all_shapes())
+        if (wanted(shape)) names.push_back(shape.name);
+    return names;
+}
+
 std::vector<std::string> shape_names(std::int32_t dimension) {
     std::vector<std::string> names;
     for (const CellShape& shape : all_shapes())

@@ -29,6 +29,7 @@ struct CellShape {
 const CellShape& shape_of(std::int32_t type);
 const CellShape& shape_named(const std::string& name);
 std::span<const CellShape> all_shapes();
+std::vector<std::string> shape_names(bool (*wanted)(const CellShape&));
 std::vector<std::string> shape_names(std::int32_t dimension);
 
 }  // namespace cli

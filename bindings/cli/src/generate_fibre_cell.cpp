@@ -11,7 +11,6 @@
 
 #include <fmt/format.h>
 
-#include "delam/delam.h"
 #include "generator_model.hpp"
 #include "gmsh_session.hpp"
 #include "packing.hpp"
@@ -109,6 +108,11 @@ void mesh_surfaces(double h, bool quadrilaterals) {
 
 }  // namespace
 
+// make_quadratic() adds no node in the middle of a cell.
+std::vector<std::string> fibre_cell_shapes() {
+    return shape_names([](const CellShape& shape) { return shape.dimension == 2 && shape.nodes <= 2 * shape.corners; });
+}
+
 MeshData generate_fibre_cell(const FibreCell& cell) {
     const Place& place = cell.place;
     require(std::isfinite(cell.radius) && cell.radius > 0, place, "radius",
@@ -117,10 +121,7 @@ MeshData generate_fibre_cell(const FibreCell& cell) {
             "arrangement", fmt::format("must be random, square or hexagonal, got \"{}\"", cell.arrangement));
     require(cell.cells_around >= 8 && cell.cells_around <= 1000, place, "cells_around",
             fmt::format("must be in 8..1000, got {}", cell.cells_around));
-    const bool quadratic = cell.cell == DELAM_TRI6 || cell.cell == DELAM_QUAD8;
-    const bool quadrilaterals = cell.cell == DELAM_QUAD4 || cell.cell == DELAM_QUAD8;
-    require(cell.cell == DELAM_TRI3 || quadratic || quadrilaterals, place, "cell",
-            "must be tri3, tri6, quad4 or quad8");
+    const CellShape& shape = required_shape(cell.cell, fibre_cell_shapes(), place);
     const double coarsest = 2 * std::numbers::pi / 8;
     const double h = cell.h > 0 ? cell.h / cell.radius : 2 * std::numbers::pi / static_cast<double>(cell.cells_around);
     require(cell.h >= 0 && h <= coarsest && h >= coarsest / 125, place, "h",
@@ -132,7 +133,7 @@ MeshData generate_fibre_cell(const FibreCell& cell) {
     const std::string subject = fmt::format("generator fibre-cell with h = {:.6g}", h * cell.radius);
     MeshData mesh = with_gmsh(key_of(place, "h"), subject, [&] {
         draw(packing, discs);
-        mesh_surfaces(h, quadrilaterals);
+        mesh_surfaces(h, !shape.simplex());
         MeshData read = read_gmsh_model(subject, place);
         std::vector<std::string> names{"matrix"};
         for (std::size_t i = 0; i < packing.centres.size(); ++i) names.push_back(fmt::format("fibre-{}", i + 1));
@@ -141,7 +142,7 @@ MeshData generate_fibre_cell(const FibreCell& cell) {
     });
     mesh.periods = {{packing.width, 0.0}, {0.0, packing.height}};
     align_borders(mesh, place);
-    if (quadratic) {
+    if (!shape.linear()) {
         // Radially onto the circle of the disc whose interface the edge is a chord of.
         make_quadratic(mesh, [&](const std::vector<std::int32_t>&, double* middle) {
             const Disc* nearest = nullptr;

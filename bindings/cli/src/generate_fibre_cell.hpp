@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "error.hpp"
 #include "mesh_data.hpp"
@@ -21,9 +22,12 @@ struct FibreCell {
     std::uint64_t seed = 1;
     std::int64_t cells_around = 32;  // a fibre; >= 8
     double h = 0;                    // L, instead: edge of a cell; 0: 2 pi radius / cells_around
-    std::int32_t cell = 0;           // DELAM_TRI3, TRI6, QUAD4, QUAD8 (with triangles where these do not fit)
+    std::int32_t cell = 0;           // of fibre_cell_shapes(); quadrilaterals with triangles where they do not fit
     Place place;                     // of the table, for messages
 };
+
+// The names of the cells that it can have.
+std::vector<std::string> fibre_cell_shapes();
 
 // Origin in a corner of the cell; bodies matrix, fibre-1, fibre-2, ..; a fibre cut by the border continues on the
 // opposite side and is one body. Opposite borders have the same nodes, shifted by the period. Node sets left, right,

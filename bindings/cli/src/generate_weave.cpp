@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "cell_shape.hpp"
-#include "delam/delam.h"
 #include "generator_model.hpp"
 #include "gmsh_session.hpp"
 #include "periodic_mesh.hpp"
@@ -248,10 +247,14 @@ void check(const WeaveCell& cell) {
                         0.5 * cell.spacing, cell.h));
     require(cell.section == "ellipse" || cell.section == "lens", place, "section",
             fmt::format("must be ellipse or lens, got \"{}\"", cell.section));
-    require(cell.cell == DELAM_TET4 || cell.cell == DELAM_TET10, place, "cell", "must be tet4 or tet10");
+    required_shape(cell.cell, weave_shapes(), place);
 }
 
 }  // namespace
+
+std::vector<std::string> weave_shapes() {
+    return shape_names([](const CellShape& shape) { return shape.dimension == 3 && shape.simplex(); });
+}
 
 double weave_amplitude(const WeaveCell& cell) {
     check(cell);
@@ -292,7 +295,7 @@ MeshData generate_weave(const WeaveCell& cell) {
     if (cell.stacked) mesh.periods.push_back({0, 0, height});
     align_borders(mesh, place);
     std::int64_t off_surface = 0;
-    if (cell.cell == DELAM_TET10) off_surface = bend_sides(mesh, section, all, middle_z);
+    if (!shape_of(cell.cell).linear()) off_surface = bend_sides(mesh, section, all, middle_z);
     require_sound_cells(mesh, 1e-3, key_of(place, "h"));
     orient(mesh, all);
 

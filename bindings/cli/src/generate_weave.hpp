@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "error.hpp"
 #include "mesh_data.hpp"
@@ -20,9 +21,12 @@ struct WeaveCell {
     std::string section = "lens";  // two circular arcs; or ellipse, whose tips need small cells
     bool stacked = false;          // periodic along z too
     double h = 0.16;               // edge of a cell
-    std::int32_t cell = 0;         // DELAM_TET4 or TET10
+    std::int32_t cell = 0;         // of weave_shapes()
     Place place;                   // of the table, for messages
 };
+
+// The names of the cells that it can have.
+std::vector<std::string> weave_shapes();
 
 // The cell is [0, 2 spacing]^2 x [-height/2, height/2] ([0, height] if stacked). Warp yarns run along x at y =
 // spacing/2, 3 spacing/2; weft yarns along y. The centre line of a yarn is z = +- A sin(pi s/spacing), and its sections

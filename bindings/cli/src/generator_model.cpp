@@ -9,7 +9,6 @@
 #include <gmsh.h>
 
 #include "cell_jacobian.hpp"
-#include "cell_shape.hpp"
 
 namespace cli {
 
@@ -203,6 +202,12 @@ void require_sound_cells(const MeshData& mesh, double flattest, const Place& pla
                                    jacobian > 0.0 ? "too flat" : "inverted", quality));
         }
     }
+}
+
+const CellShape& required_shape(std::int32_t type, const std::vector<std::string>& allowed, const Place& table) {
+    for (const std::string& name : allowed)
+        if (shape_named(name).type == type) return shape_named(name);
+    throw SceneFailure(key_of(table, "cell"), fmt::format("must be one of {}", fmt::join(allowed, ", ")));
 }
 
 }  // namespace cli

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "cell_shape.hpp"
 #include "error.hpp"
 #include "mesh_data.hpp"
 
@@ -57,5 +59,8 @@ inline Place key_of(const Place& table, const std::string& key) {
 inline void require(bool holds, const Place& table, const std::string& key, const std::string& text) {
     if (!holds) throw SceneFailure(key_of(table, key), text);
 }
+
+// The shape with this number among the named ones; the failure is that of the key `cell`.
+const CellShape& required_shape(std::int32_t type, const std::vector<std::string>& allowed, const Place& table);
 
 }  // namespace cli

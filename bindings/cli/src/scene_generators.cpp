@@ -32,7 +32,7 @@ MeshData fibre_cell(const Table& table) {
     if (table.has("h") && table.has("cells_around")) table.fail("h", "give either h or cells_around");
     if (table.has("h")) cell.h = table.number("h", positive);
     cell.cells_around = table.whole("cells_around", 8, cell.cells_around);
-    cell.cell = shape_named(table.choice("cell", {"tri3", "tri6", "quad4", "quad8"}, "tri6")).type;
+    cell.cell = shape_named(table.choice("cell", fibre_cell_shapes(), "tri6")).type;
     return generate_fibre_cell(cell);
 }
 
@@ -48,7 +48,7 @@ MeshData weave(const Table& table) {
     cell.section = table.choice("section", {"lens", "ellipse"}, cell.section);
     cell.stacked = table.flag("stacked", cell.stacked);
     cell.h = table.number("h", positive);
-    cell.cell = shape_named(table.choice("cell", {"tet4", "tet10"}, "tet10")).type;
+    cell.cell = shape_named(table.choice("cell", weave_shapes(), "tet10")).type;
     return generate_weave(cell);
 }
 

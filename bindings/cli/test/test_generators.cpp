@@ -353,7 +353,7 @@ void refusals() {
     refused("mesh.cells_around: must be in 8..1000", fibre([](auto& c) { c.cells_around = 4; }));
     refused("mesh.arrangement: must be random, square or hexagonal", fibre([](auto& c) { c.arrangement = "lattice"; }));
     refused("mesh: fraction = 0.9: must be in (0,", fibre([](auto& c) { c.fraction = 0.9; }));
-    refused("mesh.cell: must be", fibre([](auto& c) { c.cell = DELAM_TET4; }));
+    refused("mesh.cell: must be one of tri3, quad4, tri6, quad8", fibre([](auto& c) { c.cell = DELAM_TET4; }));
     cli::WeaveCell weaves;
     weaves.cell = DELAM_TET10;
     weaves.place = place;
@@ -369,7 +369,7 @@ void refusals() {
     refused("mesh.height: must be in", yarns([](auto& c) { c.height = 0.2; }));
     refused("mesh.section: must be ellipse or lens", yarns([](auto& c) { c.section = "square"; }));
     refused("mesh.h: must be in", yarns([](auto& c) { c.h = 1; }));
-    refused("mesh.cell: must be tet4 or tet10", yarns([](auto& c) { c.cell = DELAM_HEX8; }));
+    refused("mesh.cell: must be one of tet4, tet10", yarns([](auto& c) { c.cell = DELAM_HEX8; }));
 }
 
 }  // namespace
