@@ -93,6 +93,9 @@ def main():
         "a copy of index()": "std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }\n",
         "a copy of index() under another name": "inline size_t at(Index i) { return static_cast<size_t>(i); }\n",
         "a copy of max_abs()": "double m = 0.0;\nfor (const double v : values) m = std::max(m, std::abs(v));\n",
+        "a test of the mixity rule": 'if (o.mixity_rule == "frozen") return;\n',
+        "a test of the mixity rule, turned": 'if ("converged" != o->mixity_rule) return;\n',
+        "the word of the mixity rule": "const std::string& rule = problem.options.mixity_rule;\n",
     }
     for what, text in planted.items():
         assert list(words.problems("src/a/b.cpp", text, words.RULES)), f"{what} was not refused"

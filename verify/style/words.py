@@ -26,6 +26,12 @@ RULES = [
      [f"evolution/increment/{name}.{kind}" for kind in ("hpp", "cpp")
       for name in ("mixity_rule", "frozen_increment", "converged_increment", "variational_increment")]
      + ["evolution/step/stepper.hpp", "evolution/step/stepper.cpp"]),
+    ("the option mixity_rule compared, besides the table of its rules and the check of a scene",
+     r"\bmixity_rule\s*[!=]=|[!=]=\s*(?:\w+(?:\.|->))*mixity_rule\b",
+     ["evolution/increment/mixity_rule.cpp", "scene/validate.cpp"]),
+    ("the option mixity_rule read, besides where a step is constructed, the plan and the check of a scene",
+     r"\boptions(?:\(\))?(?:\.|->)mixity_rule\b",
+     ["evolution/step/stepper.cpp", "evolution/plan.cpp", "scene/validate.cpp"]),
 ]
 
 

@@ -7,11 +7,17 @@
 #include <cstdlib>
 #include <memory>
 #include <random>
+#include <string>
+#include <typeinfo>
 #include <vector>
 
+#include "base/error.hpp"
+#include "delam/delam.h"
 #include "evolution/increment/converged_increment.hpp"
 #include "evolution/increment/frozen_increment.hpp"
+#include "evolution/increment/mixity_rule.hpp"
 #include "evolution/increment/variational_increment.hpp"
+#include "scene/options.hpp"
 
 #include <check.h>
 
@@ -194,12 +200,41 @@ START_TEST(the_ledger_is_the_sum_over_pairs) {
 }
 END_TEST
 
+// Each word of the option has its increment, where the law depends on the mixity; no other word has one.
+START_TEST(words_of_the_option) {
+    std::mt19937 random(7);
+    const auto c = some_case(random, 2);
+    const auto rows = option_table();
+    const auto option =
+        std::find_if(rows.begin(), rows.end(), [](const Option& row) { return row.key == std::string("mixity_rule"); });
+    ck_assert_uint_eq(option->words.size(), c->rules.size());
+    for (const auto& expected : c->rules) {
+        const auto has_it = [&](const std::string& word) {
+            const auto made = MixityRule(c->pairs, word).increment(c->pairs, c->before, c->before.mixity, 1e-6);
+            return typeid(*made) == typeid(*expected);
+        };
+        ck_assert_int_eq(std::count_if(option->words.begin(), option->words.end(), has_it), 1);
+    }
+    for (const bool mixed : {true, false}) {
+        if (!mixed) c->pairs.law.assign(pair_count, nullptr);
+        std::int32_t status = DELAM_OK;
+        try {
+            MixityRule(c->pairs, "Frozen");
+        } catch (const Error& e) {
+            status = e.status();
+        }
+        ck_assert_int_eq(status, DELAM_ERROR_INTERNAL);
+    }
+}
+END_TEST
+
 int main() {
     Suite* suite = suite_create("increment");
     TCase* tests = tcase_create("increment");
     tcase_add_test(tests, damage_step_minimises_the_energy);
     tcase_add_test(tests, pairs_add_up_to_the_energy);
     tcase_add_test(tests, model_is_the_derivative);
+    tcase_add_test(tests, words_of_the_option);
     tcase_add_test(tests, the_ledger_is_the_sum_over_pairs);
     suite_add_tcase(suite, tests);
     SRunner* runner = srunner_create(suite);

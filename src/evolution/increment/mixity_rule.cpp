@@ -2,8 +2,10 @@
 #include "evolution/increment/mixity_rule.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "base/error.hpp"
+#include "delam/delam.h"
 #include "evolution/increment/converged_increment.hpp"
 #include "evolution/increment/frozen_increment.hpp"
 #include "evolution/increment/variational_increment.hpp"
@@ -14,34 +16,47 @@ namespace {
 
 constexpr double tolerated_error = 0.1;  // of the toughness, relative
 
+template <class Rule>
+std::unique_ptr<Increment> make(const PairLaws& pairs, const State& before, std::span<const double> mixity,
+                                double tolerance) {
+    return std::make_unique<Rule>(pairs, before, mixity, tolerance);
+}
+
 }  // namespace
 
-MixityRule::MixityRule(const PairLaws& pairs, const std::string& word) {
-    const bool mixed = std::any_of(pairs.law.begin(), pairs.law.end(),
-                                   [](const Law* law) { return law != nullptr && law->depends_on_mixity(); });
-    if (!mixed || word == "frozen") return;
-    kind_ = word == "converged" ? Kind::converged : Kind::variational;
+struct MixityRule::Row {
+    const char* word;
+    std::unique_ptr<Increment> (*make)(const PairLaws&, const State&, std::span<const double>, double);
+    bool keeps_broken;     // a broken pair keeps the mixity with which it broke
+    bool before_is_start;  // mixity_before is that of the displacements before the step, else of the step before
+    bool warns;            // of the error of its mixities
+};
+
+// The first stands for all where no law depends on the mixity.
+const MixityRule::Row MixityRule::rows[] = {
+    {"frozen", make<FrozenIncrement>, false, false, true},
+    {"converged", make<ConvergedIncrement>, true, false, false},
+    {"variational", make<VariationalIncrement>, false, true, false},
+};
+
+MixityRule::MixityRule(const PairLaws& pairs, const std::string& word)
+    : row_(std::find_if(std::begin(rows), std::end(rows), [&](const Row& row) { return word == row.word; })) {
+    if (row_ == std::end(rows)) fail(DELAM_ERROR_INTERNAL, "mixity_rule = ", word, ": no increment has this rule");
+    if (std::none_of(pairs.law.begin(), pairs.law.end(),
+                     [](const Law* law) { return law != nullptr && law->depends_on_mixity(); }))
+        row_ = rows;
 }
 
 std::unique_ptr<Increment> MixityRule::increment(const PairLaws& pairs, const State& before,
                                                  std::span<const double> mixity, double tolerance) const {
-    switch (kind_) {
-        case Kind::converged:
-            return std::make_unique<ConvergedIncrement>(pairs, before, mixity, tolerance);
-        case Kind::variational:
-            return std::make_unique<VariationalIncrement>(pairs, before, mixity, tolerance);
-        case Kind::frozen:
-            break;
-    }
-    return std::make_unique<FrozenIncrement>(pairs, before, mixity, tolerance);
+    return row_->make(pairs, before, mixity, tolerance);
 }
 
 void MixityRule::begin(const PairLaws& pairs, const State& before, State& start) const {
     start.mixity = mixities(pairs, before.response.jump, before.mixity);
-    // A broken pair keeps the mixity with which it broke.
-    for (std::size_t p = 0; p < start.mixity.size() && kind_ == Kind::converged; ++p)
+    for (std::size_t p = 0; p < start.mixity.size() && row_->keeps_broken; ++p)
         if (before.adhesion[p] <= 0.0) start.mixity[p] = before.mixity[p];
-    start.mixity_before = kind_ == Kind::variational ? start.mixity : before.mixity;
+    start.mixity_before = row_->before_is_start ? start.mixity : before.mixity;
 }
 
 void MixityRule::begin(const PairLaws& pairs, const State& before, const Response& elastic, State& start) const {
@@ -50,7 +65,7 @@ void MixityRule::begin(const PairLaws& pairs, const State& before, const Respons
 }
 
 bool MixityRule::warn_of_mixity_error(const Monitor& monitor, const State& next) const {
-    if (kind_ != Kind::frozen || !(next.ledger.mixity_error > tolerated_error)) return false;
+    if (!row_->warns || !(next.ledger.mixity_error > tolerated_error)) return false;
     monitor.log(
         1, text("step ", next.step, " at time ", next.time,
                 ": the mode mixity changed within the step, so that the toughness at the frozen mixity is in error by ",

@@ -9,7 +9,6 @@
 // Under every rule the mixities that the iterates show are kept beside those in use; their difference is mixity_error.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -21,7 +20,8 @@ namespace delam {
 
 class MixityRule {
 public:
-    // word: of the option. Without a law that depends on the mixity all rules are the same, and the rule is frozen.
+    // word: of the option; Error(DELAM_ERROR_INTERNAL) where no rule has it. Without a law that depends on the mixity
+    // all rules are the same, and the rule is frozen.
     MixityRule(const PairLaws& pairs, const std::string& word);
 
     // A step from the state `before`, which must outlive it, minimised from these mixities, [pairs]. tolerance: of the
@@ -38,8 +38,9 @@ public:
     bool warn_of_mixity_error(const Monitor& monitor, const State& next) const;
 
 private:
-    enum class Kind : std::uint8_t { frozen, converged, variational };
-    Kind kind_ = Kind::frozen;
+    struct Row;
+    static const Row rows[];
+    const Row* row_;
 };
 
 }  // namespace delam
