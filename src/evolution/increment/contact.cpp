@@ -19,19 +19,19 @@ void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> pre
     const auto dim = static_cast<std::size_t>(scene.dimension);
     const double deepest = -pressed * std::max(max_abs(response.jump), scene.jump_floor(theta));
     for (std::size_t p = 0; p < scene.bonded.size(); ++p)
-        if (prescribed[p * dim] != 0 && scene.bonded[p] == 0 && response.jump[p * dim] < deepest)
+        if (scene.bonded[p] == 0 && !scene.may_close(p, prescribed) && response.jump[p * dim] < deepest)
             fail(DELAM_ERROR_PROBLEM, "prescribed displacements press two faces into each other at pair ", p,
                  " (normal jump ", response.jump[p * dim], " < 0)");
 }
 
-// The normal rows of all pairs that are neither bonded nor prescribed.
+// The normal rows of all pairs that may close.
 ContactRows contact_rows(const ContactScene& scene, std::span<const std::uint8_t> prescribed, bool cold) {
     const auto dim = static_cast<std::size_t>(scene.dimension);
     ContactRows rows;
     rows.least = rows.first = scene.least_level;
     if (cold && !scene.level.empty()) rows.first = *std::max_element(scene.level.begin(), scene.level.end());
     for (std::size_t p = 0; p < scene.bonded.size(); ++p) {
-        if (scene.bonded[p] != 0 || prescribed[p * dim] != 0 || scene.level[p] < rows.least) continue;
+        if (!scene.may_close(p, prescribed) || scene.level[p] < rows.least) continue;
         rows.row.push_back(p * dim);
         rows.level.push_back(scene.level[p]);
     }

@@ -2,6 +2,7 @@
 // Unilateral contact of a whole scene: the active set of active_set.hpp over the jump operator.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -32,6 +33,10 @@ struct ContactScene {
     // are free, jumps and forces are only the rounding of these numbers and say nothing about contact. Empty: no
     // eigenstrains.
     std::vector<double> strain_jump{}, strain_force{};
+    // Of a pair neither bonded nor prescribed in its normal row. prescribed: [rows].
+    bool may_close(std::size_t pair, std::span<const std::uint8_t> prescribed) const {
+        return bonded[pair] == 0 && prescribed[pair * static_cast<std::size_t>(dimension)] == 0;
+    }
     double jump_floor(std::span<const double> theta) const { return floor(strain_jump, theta); }
     double force_floor(std::span<const double> theta) const { return floor(strain_force, theta); }
 

@@ -12,9 +12,8 @@ ZoneSystem::ZoneSystem(Zone& zone, const ContactScene& scene, std::span<const st
     const std::vector<std::int64_t>& rows = zone.jump_rows();
     for (std::size_t z = 0; z < rows.size(); ++z) {
         const std::size_t row = index(rows[z]);
-        const bool driven = prescribed[row] != 0;  // by constraints: neither held nor released
-        held_.push_back(driven ? 0 : held[row]);
-        if (row % dim == 0 && scene.bonded[row / dim] == 0 && !driven) {
+        held_.push_back(prescribed[row] != 0 ? 0 : held[row]);  // by constraints: neither held nor released
+        if (row % dim == 0 && scene.may_close(row / dim, prescribed)) {
             contact_.row.push_back(z);
             entered_.push_back(held_[z]);
         }

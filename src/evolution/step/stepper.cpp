@@ -84,11 +84,9 @@ Stepper::Result Stepper::initial(double time) {
     state.time = time;
     state.theta = problem_.factors(time);
     state.adhesion = initial_adhesion_;
-    const auto dim = static_cast<std::size_t>(problem_.mesh->dimension());
     // A notch starts closed, and stays closed unless something opens it.
     for (std::size_t p = 0; p < state.adhesion.size(); ++p)
-        state.closed.push_back(
-            contact_.bonded[p] == 0 && state.adhesion[p] == 0.0 && operator_->prescribed_rows()[p * dim] == 0 ? 1 : 0);
+        state.closed.push_back(state.adhesion[p] == 0.0 && contact_.may_close(p, operator_->prescribed_rows()) ? 1 : 0);
     state.mixity.assign(state.adhesion.size(), 0.0);
     result.converged = minimiser().displace(state, *increment(state, state.mixity));
     state.mixity = mixities(pairs_, state.response.jump, state.mixity);
