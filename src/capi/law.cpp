@@ -10,6 +10,7 @@
 #include "base/numbers.hpp"
 #include "capi/handles.hpp"
 #include "law/law_parameters.hpp"
+#include "law/respond.hpp"
 
 namespace {
 
@@ -221,12 +222,9 @@ int32_t delam_law_respond(const delam_law* law, int32_t dimension, int64_t count
         std::vector<double> zetas(index(count)), pulls(index(traction != nullptr ? count * dimension : 0));
         for (std::int64_t i = 0; i < count; ++i) {
             const double* u = jump + i * dimension;
-            double driving = 0.5 * p.normal_stiffness * u[0] * u[0];
-            for (std::int32_t d = 1; d < dimension; ++d) driving += 0.5 * p.tangential_stiffness * u[d] * u[d];
-            const double zeta = p.minimiser(p.toughness(mixity[i]), driving, adhesion_old[i]);
-            zetas[index(i)] = zeta;
-            for (std::int32_t d = 0; d < dimension && traction != nullptr; ++d)
-                pulls[index(i * dimension + d)] = zeta * (d == 0 ? p.normal_stiffness : p.tangential_stiffness) * u[d];
+            const PointResponse at = respond(p, {u, index(dimension)}, mixity[i], adhesion_old[i]);
+            zetas[index(i)] = at.adhesion;
+            if (traction != nullptr) std::copy_n(at.traction.begin(), dimension, pulls.begin() + i * dimension);
         }
         // All inputs have been read: an output may lie in their place.
         std::copy(zetas.begin(), zetas.end(), adhesion);

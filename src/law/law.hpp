@@ -13,6 +13,7 @@
 // A value: copies are independent.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <type_traits>
 #include <variant>
@@ -64,6 +65,8 @@ struct Law {
             softening);
     }
     const HostSoftening* host() const { return std::get_if<HostSoftening>(&softening); }
+    // k of a component of a local jump, the normal one first.
+    double stiffness(std::size_t component) const { return component == 0 ? normal_stiffness : tangential_stiffness; }
     // Go and Gc as the criterion needs them; not for laws given by the host.
     Modes onset_modes() const;
     Modes total_modes() const;

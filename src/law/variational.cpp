@@ -44,8 +44,8 @@ std::array<double, 3> VariationalPair::force(std::span<const double> local_jump,
         if (local_jump[0] > 0.0) normal -= m.mixity * pull;
         tangential += (1.0 - m.mixity) * pull;
     }
-    t[0] = normal * law.normal_stiffness * local_jump[0];
-    for (std::size_t c = 1; c < local_jump.size(); ++c) t[c] = tangential * law.tangential_stiffness * local_jump[c];
+    for (std::size_t c = 0; c < local_jump.size(); ++c)
+        t[c] = (c == 0 ? normal : tangential) * law.stiffness(c) * local_jump[c];
     return t;
 }
 
@@ -54,8 +54,8 @@ std::array<double, 9> VariationalPair::tangent(std::span<const double> local_jum
     const double size = std::sqrt(2.0 * driving_energy(law, local_jump).total());
     std::array<double, 9> h{};
     for (std::size_t q = 0; q < dim; ++q) {
-        const double step = 1e-6 * std::max(size, 1e-3 * std::sqrt(2.0 * law.least_onset())) /
-                            std::sqrt(q == 0 ? law.normal_stiffness : law.tangential_stiffness);
+        const double step =
+            1e-6 * std::max(size, 1e-3 * std::sqrt(2.0 * law.least_onset())) / std::sqrt(law.stiffness(q));
         std::array<std::array<double, 3>, 2> side;
         for (int s = 0; s < 2; ++s) {
             std::array<double, 3> j{};

@@ -93,6 +93,7 @@ def main():
         "a copy of index()": "std::size_t index(std::int64_t i) { return static_cast<std::size_t>(i); }\n",
         "a copy of index() under another name": "inline size_t at(Index i) { return static_cast<size_t>(i); }\n",
         "a copy of max_abs()": "double m = 0.0;\nfor (const double v : values) m = std::max(m, std::abs(v));\n",
+        "a choice of the stiffness": "const double k = c == 0 ? p->normal_stiffness : p->tangential_stiffness;\n",
         "a test of the mixity rule": 'if (o.mixity_rule == "frozen") return;\n',
         "a test of the mixity rule, turned": 'if ("converged" != o->mixity_rule) return;\n',
         "the word of the mixity rule": "const std::string& rule = problem.options.mixity_rule;\n",

@@ -32,6 +32,8 @@ RULES = [
     ("the option mixity_rule read, besides where a step is constructed, the plan and the check of a scene",
      r"\boptions(?:\(\))?(?:\.|->)mixity_rule\b",
      ["evolution/step/stepper.cpp", "evolution/plan.cpp", "scene/validate.cpp"]),
+    ("the stiffness of a component chosen by hand, besides Law::stiffness() of law/law.hpp",
+     r"\?\s*[\w.>-]*\bnormal_stiffness\s*:", ["law/law.hpp"]),
 ]
 
 

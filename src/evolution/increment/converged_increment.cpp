@@ -103,8 +103,7 @@ void ConvergedIncrement::add_mixity(PairDirection& direction, const State& state
     const double slope =
         (law.driving(law.toughness(above), zeta) - law.driving(law.toughness(below), zeta)) / (above - below);
     for (std::size_t c = 0; c < jump.size(); ++c) {
-        const double k = c == 0 ? law.normal_stiffness : law.tangential_stiffness;
-        direction.form[c] -= slope * (c == 0 ? -b : 1.0 - b) * k * jump[c] / y.total();
+        direction.form[c] -= slope * (c == 0 ? -b : 1.0 - b) * law.stiffness(c) * jump[c] / y.total();
     }
 }
 

@@ -49,8 +49,7 @@ std::vector<double> spring_stiffness(const PairLaws& pairs, std::span<const doub
         if (pairs.law[p] == nullptr) continue;
         // Never -0: springs that are equal have the same bits.
         const double scale = pairs.weight[p] * adhesion[p] + 0.0;
-        s[p * dim] = scale * pairs.law[p]->normal_stiffness;
-        for (std::size_t c = 1; c < dim; ++c) s[p * dim + c] = scale * pairs.law[p]->tangential_stiffness;
+        for (std::size_t c = 0; c < dim; ++c) s[p * dim + c] = scale * pairs.law[p]->stiffness(c);
     }
     return s;
 }

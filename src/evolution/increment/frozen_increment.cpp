@@ -56,7 +56,7 @@ std::vector<PairDirection> FrozenIncrement::directions(const State& state) const
         PairDirection direction{p, std::vector<double>(jump.size(), 0.0), std::vector<double>(jump.size(), 0.0),
                                 law.driving_slope(pairs_.toughness(p, state.mixity[p]), state.adhesion[p])};
         for (std::size_t c = state.closed[p] != 0 ? 1 : 0; c < jump.size(); ++c) {
-            const double pull = (c == 0 ? law.normal_stiffness : law.tangential_stiffness) * jump[c];
+            const double pull = law.stiffness(c) * jump[c];
             direction.force[c] = pairs_.weight[p] * pull;
             direction.form[c] = pull;
         }

@@ -35,15 +35,15 @@ PairModel Increment::model(std::size_t pair, std::span<const double> local_jump,
     const std::size_t dim = local_jump.size();
     const Law& law = *pairs_.law[pair];
     const double weight = pairs_.weight[pair];
-    double pull[3] = {law.normal_stiffness * std::max(0.0, local_jump[0]), 0.0, 0.0};
-    for (std::size_t c = 1; c < dim; ++c) pull[c] = law.tangential_stiffness * local_jump[c];
+    double pull[3] = {law.stiffness(0) * std::max(0.0, local_jump[0]), 0.0, 0.0};
+    for (std::size_t c = 1; c < dim; ++c) pull[c] = law.stiffness(c) * local_jump[c];
     const double driving = driving_energy(law, local_jump).total();
     const double slope =
         fraction > 0.0 ? fraction * law.slope(now_.toughness[pair], driving, before_.adhesion[pair]) : 0.0;
     PairModel m;
     for (std::size_t r = 0; r < dim; ++r)
         for (std::size_t q = 0; q < dim; ++q) {
-            const double spring = weight * adhesion * (r == 0 ? law.normal_stiffness : law.tangential_stiffness);
+            const double spring = weight * adhesion * law.stiffness(r);
             const double secant = r == q ? spring : 0.0;
             const double full = weight * slope * pull[r] * pull[q] + secant;
             m.tangent[r * dim + q] = full;

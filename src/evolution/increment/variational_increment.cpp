@@ -72,8 +72,7 @@ PairModel VariationalIncrement::model(std::size_t p, std::span<const double> loc
     } else {
         const Law& law = *pairs_.law[p];
         const double scale = adhesion + own.proximal(local_jump, adhesion);
-        for (std::size_t r = 0; r < dim; ++r)
-            c[r * dim + r] = scale * (r == 0 ? law.normal_stiffness : law.tangential_stiffness);
+        for (std::size_t r = 0; r < dim; ++r) c[r * dim + r] = scale * law.stiffness(r);
     }
     const std::array<double, 3> force = own.force(local_jump, adhesion);
     PairModel m;

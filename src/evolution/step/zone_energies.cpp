@@ -45,7 +45,7 @@ std::optional<double> ZoneEnergies::zone_energy(std::span<const double> adhesion
         const std::size_t row = index(rows[z]), p = row / dim;
         if (pairs_.law[p] == nullptr) continue;
         const Law& law = *pairs_.law[p];
-        spring[z] = pairs_.weight[p] * adhesion[p] * (row % dim == 0 ? law.normal_stiffness : law.tangential_stiffness);
+        spring[z] = pairs_.weight[p] * adhesion[p] * law.stiffness(row % dim);
         if (spring[z] > 0.0)
             couplings.push_back({static_cast<std::int64_t>(z), static_cast<std::int64_t>(z), spring[z]});
     }

@@ -28,9 +28,7 @@ Springs base_springs(const Problem& problem, std::span<const double> flexibility
             for (std::size_t c = 0; c < dim; ++c, ++row) {
                 base.held[row] = interface.bonded ? 1 : 0;
                 if (interface.bonded) continue;
-                if (interface.law)
-                    base.stiffness[row] =
-                        weight * (c == 0 ? interface.law->normal_stiffness : interface.law->tangential_stiffness);
+                if (interface.law) base.stiffness[row] = weight * interface.law->stiffness(c);
                 if (!(base.stiffness[row] > 0.0)) base.stiffness[row] = 1.0 / flexibility[row];
             }
     }
