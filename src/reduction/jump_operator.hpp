@@ -7,6 +7,7 @@
 // here knows about damage or contact.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -35,9 +36,10 @@ struct SupportError {
     std::int64_t constraint = -1;  // -1: none misses
     double error = 0.0;            // |B_d u - c|, L
     double size = 0.0;             // of the displacements of which this is a difference, L
-    // Far above what a converged solve leaves (1e-12), far below what anybody would call held.
-    static constexpr double allowed = 1e-6;
-    bool violated() const { return !(error <= allowed * size); }
+    // Of the displacements: far above what a converged solve leaves (1e-12), far below what anybody would call held. A
+    // host that asks for fewer digits of the iterative solve has asked for them at its supports, too.
+    static double allowed(double linear_tolerance) { return std::max(1e-6, linear_tolerance); }
+    bool violated(double linear_tolerance) const { return !(error <= allowed(linear_tolerance) * size); }
 };
 
 struct Response {

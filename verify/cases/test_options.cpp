@@ -21,7 +21,7 @@ Scene pair_of_cells() {
     scene.interface(0, 1);
     scene.begin();
     scene.elastic(-1, 1e12, 0.25);
-    scene.law(0, {125e9, 125e9, 100.0, 100.0, 250.0, 500.0});
+    scene.law(0, {125e9, 125e9, 100.0, 100.0, 250.0, 300.0});
     const auto bottom = scene.find(0, {0.0, 0.0}, {1.0, 0.0});
     scene.hold(bottom, {1.0, 0.0});
     scene.hold(bottom, {0.0, 1.0});

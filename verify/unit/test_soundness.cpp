@@ -145,6 +145,13 @@ START_TEST(names_the_violated_support) {
     expect_named(refusal(problem, state, true), "support 2 ");
     state.response.support = {2, 4e-7, 0.5};
     ck_assert_str_eq(refusal(problem, state, true).c_str(), "");
+    // A host that asks for fewer digits of the solve gets fewer.
+    Problem loose = problem;
+    loose.options.linear_tolerance = 1e-4;
+    state.response.support = {2, 4e-5, 0.5};
+    ck_assert_str_eq(refusal(loose, state, true).c_str(), "");
+    state.response.support.error = 6e-5;
+    expect_named(refusal(loose, state, true), "0.0001");
 }
 END_TEST
 

@@ -58,7 +58,7 @@ void Feti::solve(const Springs& springs, std::span<const double> theta, Response
     scale_by_power(response.multipliers, -size);
     const bool warm = !response.multipliers.empty();
     solve_unit(team, unit, load, response);
-    if (warm && response.balanced && response.support.violated()) {
+    if (warm && response.balanced && response.support.violated(problem_.options.linear_tolerance)) {
         response.multipliers.clear();
         solve_unit(team, unit, load, response);
     }

@@ -224,6 +224,8 @@ def estimate_case(specimen, solution, quick, expected):
                               "steps, of the work): one step breaks many pairs at a mixity that lags; "
                               "b-convergence-mmf-ductile has the bound and the cures")
         for rule, role in zip(RULES, ("first", "second", "third")):
+            if (1e-3, rule) not in series_of:
+                continue
             of = series_of[1e-3, rule]
             curves.append(series(rule, role, of["tau"], of["defect"]))
             bands.append(series(rule, role, of["tau"], of["band"]))
