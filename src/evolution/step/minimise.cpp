@@ -21,7 +21,7 @@ constexpr double rounding = 1e-11;           // of an energy of the whole scene,
 // does not, and the change of the adhesion is within the rounding of the zone, alternations with the bodies go on.
 class ZoneProgress {
 public:
-    explicit ZoneProgress(double rounding) : rounding_(rounding) {}
+    explicit ZoneProgress(double zone_rounding) : rounding_(zone_rounding) {}
     bool use(double change) {
         if (change > rounding_)
             spent_ = false;
