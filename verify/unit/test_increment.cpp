@@ -211,7 +211,8 @@ START_TEST(words_of_the_option) {
     for (const auto& expected : c->rules) {
         const auto has_it = [&](const std::string& word) {
             const auto made = MixityRule(c->pairs, word).increment(c->pairs, c->before, c->before.mixity, 1e-6);
-            return typeid(*made) == typeid(*expected);
+            const Increment &one = *made, &other = *expected;
+            return typeid(one) == typeid(other);
         };
         ck_assert_int_eq(std::count_if(option->words.begin(), option->words.end(), has_it), 1);
     }

@@ -75,7 +75,7 @@ private:
 START_TEST(names_what_is_not_finite) {
     const Problem problem = small("feti");
     const State sound = state_of(problem);
-    ck_assert_str_eq(refusal(problem, sound, true).c_str(), "");
+    ck_assert(refusal(problem, sound, true).empty());
     struct Planted {
         const char* name;
         double& (*of)(State&);
@@ -123,10 +123,10 @@ START_TEST(refuses_every_saved_number_that_is_not_finite) {
         PlantedNumber planted(count);
         walk(planted, state);
         hit = planted.member != nullptr;
-        const bool infinite = planted.member == &state.outcome.search_gap;
+        const bool may = planted.member == &state.outcome.search_gap;
         ck_assert_msg(refusal(problem, state, true).empty() == !hit, "number %zu is planted unnoticed", count);
-        if (infinite) state.outcome.search_gap = std::numeric_limits<double>::infinity();
-        if (infinite) ck_assert_str_eq(refusal(problem, state, true).c_str(), "");
+        if (may) state.outcome.search_gap = std::numeric_limits<double>::infinity();
+        if (may) ck_assert(refusal(problem, state, true).empty());
     }
     ck_assert_uint_ge(count, 25);
 }
@@ -140,16 +140,16 @@ START_TEST(names_the_violated_support) {
     state.response.support = {2, 3e-5, 0.5};
     expect_named(refusal(problem, state, true), "support 2 ");
     expect_named(refusal(problem, state, true), "3e-05");
-    ck_assert_str_eq(refusal(problem, state, false).c_str(), "");
+    ck_assert(refusal(problem, state, false).empty());
     state.response.support.error = std::numeric_limits<double>::quiet_NaN();
     expect_named(refusal(problem, state, true), "support 2 ");
     state.response.support = {2, 4e-7, 0.5};
-    ck_assert_str_eq(refusal(problem, state, true).c_str(), "");
+    ck_assert(refusal(problem, state, true).empty());
     // A host that asks for fewer digits of the solve gets fewer.
     Problem loose = problem;
     loose.options.linear_tolerance = 1e-4;
     state.response.support = {2, 4e-5, 0.5};
-    ck_assert_str_eq(refusal(loose, state, true).c_str(), "");
+    ck_assert(refusal(loose, state, true).empty());
     state.response.support.error = 6e-5;
     expect_named(refusal(loose, state, true), "0.0001");
 }
@@ -159,7 +159,7 @@ START_TEST(condensed_supports_need_no_report) {
     const Problem problem = small("condensed");
     const State state = state_of(problem);
     ck_assert_int_eq(state.response.support.constraint, -1);
-    ck_assert_str_eq(refusal(problem, state, true).c_str(), "");
+    ck_assert(refusal(problem, state, true).empty());
 }
 END_TEST
 
