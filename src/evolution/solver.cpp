@@ -25,6 +25,35 @@ constexpr double resolving_pairs = 3.0;  // in a process zone; with fewer its tr
 constexpr double small_rotation = 0.1;   // rad
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
+// The part of the minimisation that did not come to its end, with its measure and limit.
+std::string what_did_not_converge(const State& state, const Options& options) {
+    const Effort& effort = state.effort;
+    const StepOutcome& outcome = state.outcome;
+    const std::string after = text(" after ", effort.am_iterations, " alternate minimisation ",
+                                   effort.am_iterations == 1 ? "iteration" : "iterations");
+    const std::string change =
+        text("last change of adhesion ", outcome.damage_change, ", tolerance ", options.damage_tolerance);
+    if (outcome.damage_change > options.damage_tolerance)
+        return text("the adhesion still changes", after, " (", change,
+                    "; minimisation_limit = ", options.minimisation_limit, ")");
+    const std::string rest = text("; the adhesion is at rest", after, " (", change, ")");
+    if (outcome.mixity_held > 0)
+        return text("the mixity of ", outcome.mixity_held, " pairs did not converge and was held fixed", rest);
+    const std::string where = "a displacement step at fixed adhesion did not converge";
+    if (effort.linear_residual > options.linear_tolerance)
+        return text(where, ": the iterative linear solve leaves a relative residual of ", effort.linear_residual,
+                    ", tolerance ", options.linear_tolerance, rest);
+    if (effort.contact_iterations_max >= options.contact_limit)
+        return text(where, ": the contact set still changes after ", effort.contact_iterations_max,
+                    " active-set steps (contact_limit = ", options.contact_limit, ")", rest);
+    if (effort.am_iterations >= options.minimisation_limit)
+        return text("the mixity still changes (minimisation_limit = ", options.minimisation_limit, ")", rest);
+    return text(where,
+                ": its linear solves and its contact set did, so that it does not balance the traction that "
+                "mixity_rule = variational adds",
+                rest);
+}
+
 }  // namespace
 
 Solver::Solver(const Problem& problem, Monitor& monitor, double time)
@@ -100,22 +129,9 @@ Outcome Solver::advance(double time) {
     warned_of_mixity_ = warned_of_mixity_ || stepper_.warn(pending.state);
     warn_of_unresolved_front(committed_, pending.state);
     Outcome outcome;
-    if (!result.converged) {
-        const State& next = pending.state;
-        outcome.status = DELAM_NOT_CONVERGED;
-        outcome.text =
-            text("step ", next.step, " at time ", time, ": not converged after ", next.effort.am_iterations,
-                 " iterations of alternate minimisation (last change of adhesion ", next.outcome.damage_change,
-                 ", tolerance ", options.damage_tolerance, "; worst linear residual ", next.effort.linear_residual,
-                 ", tolerance ", options.linear_tolerance, ")");
-        if (next.outcome.mixity_held > 0)
-            outcome.text +=
-                text("; the mixity of ", next.outcome.mixity_held, " pairs did not converge and was held fixed");
-        else if (next.outcome.damage_change <= options.damage_tolerance)
-            outcome.text +=
-                "; a displacement step at fixed adhesion is what did not converge (linear solve, contact "
-                "set, or the traction that mixity_rule = variational adds)";
-    }
+    if (!result.converged)
+        outcome = {DELAM_NOT_CONVERGED, text("step ", pending.state.step, " at time ", time,
+                                             ": not converged: ", what_did_not_converge(pending.state, options))};
     judge_balance(pending.state, outcome);
     forget();
     selected_ = nullptr;
