@@ -71,7 +71,7 @@ class Result:
         self.energy = f"{work}/{units['length']}" if flat else work
 
     def jump_times(self):
-        """Instants of the larger jumps that were located; none where that was not asked for."""
+        """Instants of the larger jumps."""
         path = os.path.join(self.folder, "jumps.csv")
         if not os.path.exists(path):
             return []

@@ -21,6 +21,13 @@ std::string concept_text(const Concept& named) {
     return out;
 }
 
+std::string option_text(const delam_solver* solver, const char* key) {
+    const char* value = delam_solver_option(solver, key);
+    return value != nullptr ? value : "";
+}
+
+double option_number(const delam_solver* solver, const char* key) { return number_in(option_text(solver, key)); }
+
 std::vector<std::pair<std::string, std::variant<double, std::string>>> options_of(const delam_solver* solver) {
     std::vector<std::pair<std::string, std::variant<double, std::string>>> out;
     for (std::int64_t i = 0; i < delam_option_count(); ++i) {

@@ -19,6 +19,9 @@ Concept concept_of(const delam_solver* solver);
 // "solution = local, mixity_rule = frozen, ..."
 std::string concept_text(const Concept& named);
 
+// An option of the library as the solver has it; "" or 0 for a key that the library does not have.
+std::string option_text(const delam_solver* solver, const char* key);
+double option_number(const delam_solver* solver, const char* key);
 // Every option of the library as the solver has it.
 std::vector<std::pair<std::string, std::variant<double, std::string>>> options_of(const delam_solver* solver);
 

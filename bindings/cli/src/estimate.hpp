@@ -4,18 +4,16 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "scene.hpp"
+#include "rows.hpp"
 
 namespace cli {
 
-// Option backtracking_tolerance (eta), set or not.
-double estimate_tolerance(const Scene& scene);
-// Steps in which lower - increment_lower or increment - upper exceeds eta * max(|stored energy|, |work|).
-std::vector<std::int64_t> violated_steps(std::string_view history, double eta);
-// The closing line, with its end of line; "" if the estimate holds in every step.
+// Steps in which lower - increment_lower or increment - upper exceeds eta * max(|stored energy|, |work|), eta being
+// the option backtracking_tolerance.
+std::vector<std::int64_t> violated_steps(const Rows& rows, double eta);
+// The closing line; "" if the estimate holds in every step.
 std::string estimate_line(const std::vector<std::int64_t>& steps, double eta);
 
 }  // namespace cli

@@ -21,7 +21,15 @@ constexpr const char* where_known[] = {"revisions",   "search_candidates", "sear
 // For scenes in which an interface may break.
 constexpr const char* of_cracks[] = {"crack_length", "energy_release_rate", "front_mixity", "process_zone_pairs"};
 
+// Of a value of one pattern.
+std::string title_of(const std::string& value, const Scene& scene, std::size_t pattern) {
+    return scene.patterns.size() == 1 ? value : value + "_" + scene.patterns[pattern].name;
+}
+
 }  // namespace
+
+std::string load_title(const Scene& scene, std::size_t pattern) { return title_of("load", scene, pattern); }
+std::string reaction_title(const Scene& scene, std::size_t pattern) { return title_of("reaction", scene, pattern); }
 
 History::History(const Model& model, const delam_solver* solver, const Scene& scene)
     : model_(model), scene_(scene), context_(model.context.get()) {
@@ -46,14 +54,10 @@ History::History(const Model& model, const delam_solver* solver, const Scene& sc
     if (scene.patterns.empty()) {
         add("load", "", "0");
         add("reaction", "", "0");
-    } else if (scene.patterns.size() == 1) {
-        add("load", first_load_);
-        add("reaction", "reaction:" + scene.patterns.front().name);
-    } else {
-        for (const PatternData& pattern : scene.patterns) {
-            add("load_" + pattern.name, "load:" + pattern.name);
-            add("reaction_" + pattern.name, "reaction:" + pattern.name);
-        }
+    }
+    for (std::size_t p = 0; p < scene.patterns.size(); ++p) {
+        add(load_title(scene, p), "load:" + scene.patterns[p].name);
+        add(reaction_title(scene, p), "reaction:" + scene.patterns[p].name);
     }
     for (const char* key : {"stored_bulk", "stored_interface", "dissipated", "stored_interface_slides",
                             "dissipated_slides", "work", "lower", "increment", "upper", "increment_lower",

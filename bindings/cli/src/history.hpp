@@ -2,6 +2,7 @@
 // The columns of history.csv and its rows.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -10,6 +11,10 @@
 #include "build.hpp"
 
 namespace cli {
+
+// Titles of the columns of a pattern, load and reaction; with several patterns load_NAME and reaction_NAME.
+std::string load_title(const Scene& scene, std::size_t pattern);
+std::string reaction_title(const Scene& scene, std::size_t pattern);
 
 class History {
 public:

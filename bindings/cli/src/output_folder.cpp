@@ -78,14 +78,19 @@ void OutputFolder::publish() {
 
 void OutputFolder::end() { begin(); }
 
-std::string OutputFolder::status(std::string& content_hash, bool& all_converged) const {
+Published OutputFolder::published() const {
+    Published out;
     const std::string file = path_ + "/result.json";
-    if (!fs::exists(file)) return "";
+    if (!fs::exists(file)) return out;
     const auto json = nlohmann::json::parse(read_bytes(file), nullptr, false);
-    if (!json.is_object()) return "";
-    content_hash = json.value("scene_content_hash", "");
-    all_converged = !json.contains("not_converged") || json["not_converged"].empty();
-    return json.value("status", "");
+    if (!json.is_object()) return out;
+    out.status = json.value("status", "");
+    out.content_hash = json.value("scene_content_hash", "");
+    out.converged = !json.contains("not_converged") || json["not_converged"].empty();
+    if (const auto lines = json.find("closing"); lines != json.end() && lines->is_array())
+        for (const auto& line : *lines)
+            if (line.is_string()) out.closing.push_back(line);
+    return out;
 }
 
 }  // namespace cli

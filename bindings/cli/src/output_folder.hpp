@@ -6,8 +6,16 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace cli {
+
+struct Published {
+    std::string status;  // "complete" or "incomplete"
+    std::string content_hash;
+    bool converged = true;  // in every step
+    std::vector<std::string> closing;
+};
 
 class OutputFolder {
 public:
@@ -27,8 +35,8 @@ public:
     void publish();
     // Removes `running`.
     void end();
-    // "complete", "incomplete", or "" if DIR holds no result; content_hash is that of the scene of the result.
-    [[nodiscard]] std::string status(std::string& content_hash, bool& all_converged) const;
+    // What result.json says; its status is "" if DIR holds no result.
+    [[nodiscard]] Published published() const;
 
 private:
     std::string path_;

@@ -2,12 +2,11 @@
 #include "resolution.hpp"
 
 #include <algorithm>
-#include <map>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "call.hpp"
-#include "rows.hpp"
 
 namespace cli {
 
@@ -73,24 +72,20 @@ std::vector<std::string> resolution_warnings(const Model& model, const delam_sol
     return out;
 }
 
-std::vector<std::int64_t> unresolved_steps(std::string_view history, const Model& model, const delam_solver* solver,
+std::vector<std::int64_t> unresolved_steps(const Rows& rows, const Model& model, const delam_solver* solver,
                                            const Scene& scene) {
     std::vector<std::int64_t> out;
     const auto softens = [&scene](const InterfaceData& data) {
         return !data.bonded && !data.contact && has_onset(scene.laws[data.law].kind);
     };
     if (energetic(solver) || std::none_of(model.interfaces.begin(), model.interfaces.end(), softens)) return out;
-    const std::vector<std::map<std::string, double>> rows = rows_of(history);
     for (std::size_t i = 1; i < rows.size(); ++i) {
         const auto best = [&](const char* key) {
-            const auto before = rows[i - 1].find(key);
-            const auto after = rows[i].find(key);
-            if (before == rows[i - 1].end() || after == rows[i].end()) return 0.0;
-            return std::max(before->second, after->second);
+            return std::max(number_of(rows[i - 1], key), number_of(rows[i], key));
         };
-        const bool grew = rows[i].at("debonded_length") > rows[i - 1].at("debonded_length");
+        const bool grew = number_of(rows[i], "debonded_length") > number_of(rows[i - 1], "debonded_length");
         if (grew && best("energy_release_rate") > 0 && best("process_zone_pairs") < resolving_pairs)
-            out.push_back(static_cast<std::int64_t>(rows[i].at("step")));
+            out.push_back(static_cast<std::int64_t>(number_of(rows[i], "step")));
     }
     return out;
 }
@@ -99,13 +94,13 @@ std::string unresolved_line(const std::vector<std::int64_t>& steps) {
     if (steps.empty()) return "";
     return fmt::format(
         "warning: in {} (the first is step {}) a crack grew with fewer than {:g} pairs in its process zone: the load "
-        "and the length of its growth depend on the mesh\n",
+        "and the length of its growth depend on the mesh",
         steps.size() == 1 ? "1 step" : fmt::format("{} steps", steps.size()), steps.front(), resolving_pairs);
 }
 
 std::string rotation_line(double largest) {
     if (!(largest > small_rotation)) return "";
-    return fmt::format("warning: cells rotate by up to {:.3g} rad: the error of the strains is about {:.2g}\n", largest,
+    return fmt::format("warning: cells rotate by up to {:.3g} rad: the error of the strains is about {:.2g}", largest,
                        0.5 * largest * largest);
 }
 

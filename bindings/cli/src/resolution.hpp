@@ -5,10 +5,10 @@
 
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "build.hpp"
+#include "rows.hpp"
 
 namespace cli {
 
@@ -17,8 +17,8 @@ std::vector<std::string> process_zones(const Model& model);
 // Interfaces with fewer than 3 pairs, with the required spacing. None for energetic solutions.
 std::vector<std::string> resolution_warnings(const Model& model, const delam_solver* solver);
 // Steps in which a crack grew with fewer than 3 pairs in its process zone, before and after. None for energetic
-// solutions and for scenes whose laws do not soften. history: history.csv.
-std::vector<std::int64_t> unresolved_steps(std::string_view history, const Model& model, const delam_solver* solver,
+// solutions and for scenes whose laws do not soften.
+std::vector<std::int64_t> unresolved_steps(const Rows& rows, const Model& model, const delam_solver* solver,
                                            const Scene& scene);
 std::string unresolved_line(const std::vector<std::int64_t>& steps);
 // "" below 0.1 rad.

@@ -23,6 +23,68 @@ Json options(const delam_solver* solver) {
     return out;
 }
 
+Json jumps_json(const std::vector<Jump>& jumps, const Scene& scene) {
+    double released = 0.0;
+    double debonded = 0.0;
+    for (const Jump& jump : jumps) {
+        released += jump.released;
+        debonded += jump.debonded;
+    }
+    Json largest = Json::array();
+    for (const Jump& jump : largest_jumps(jumps)) {
+        Json loads = Json::object();
+        for (std::size_t p = 0; p < jump.loads.size(); ++p) loads[scene.patterns[p].name] = jump.loads[p];
+        largest.push_back({{"step", jump.step},
+                           {"time", jump.time},
+                           {"loads", loads},
+                           {"interface", jump.interface},
+                           {"name", jump.name},
+                           {"debonded", jump.debonded},
+                           {"dissipated", jump.dissipated},
+                           {"released", jump.released}});
+    }
+    return {{"count", jumps.size()}, {"released", released}, {"debonded", debonded}, {"largest", largest}};
+}
+
+Json balance_json(const Balance& balance) {
+    return {{"relative", balance.relative()},
+            {"step", balance.step},
+            {"time", balance.time},
+            {"defect", balance.defect},
+            {"last_defect", balance.last_defect},
+            {"work", balance.work}};
+}
+
+Json mixity_error_json(const MixityError& error) {
+    return {{"relative", error.relative}, {"step", error.step}, {"time", error.time}, {"dissipated", error.dissipated}};
+}
+
+Json load_drops_json(const LoadDrops& drops) {
+    if (drops.steps.empty()) return {{"steps", Json::array()}, {"largest", nullptr}};
+    return {{"steps", drops.steps},
+            {"largest",
+             {{"step", drops.step},
+              {"time", drops.time},
+              {"column", drops.column},
+              {"from", drops.from},
+              {"to", drops.to}}}};
+}
+
+// Infinite gaps become null.
+Json search_json(const SearchLimits& limits) {
+    Json gap = nullptr;
+    if (!limits.gap_steps.empty())
+        gap = {
+            {"step", limits.gap_step}, {"time", limits.gap_time}, {"gap", limits.gap}, {"allowed", limits.gap_allowed}};
+    Json margin = nullptr;
+    if (!limits.margin_steps.empty())
+        margin = {{"step", limits.margin_step}, {"time", limits.margin_time}, {"margin", limits.margin}};
+    return {{"gap_steps", limits.gap_steps},
+            {"largest_gap", gap},
+            {"margin_steps", limits.margin_steps},
+            {"largest_margin", margin}};
+}
+
 // For a periodic cell: its volume, and d2 E / d factor2 divided by it at the last state, at fixed adhesion and contact.
 // If each pattern drives one strain with coefficient 1, these are the moduli.
 Json cell_of(const Model& model, delam_solver* solver, const Scene& scene, bool complete) {
@@ -92,9 +154,15 @@ std::string result_text(const Model& model, delam_solver* solver, const Scene& s
         {"steps_done", outcome.steps_done},
         {"steps", scene.step_count()},
         {"not_converged", outcome.not_converged},
-        {"estimate_violated", outcome.estimate_violated},
-        {"front_unresolved", outcome.front_unresolved},
-        {"rotation_max", outcome.rotation_max},
+        {"closing", outcome.closing_lines},
+        {"jumps", jumps_json(outcome.closing.jumps, scene)},
+        {"energy_balance", balance_json(outcome.closing.balance)},
+        {"mixity_error", mixity_error_json(outcome.closing.mixity_error)},
+        {"load_drops", load_drops_json(outcome.closing.load_drops)},
+        {"search", search_json(outcome.closing.search)},
+        {"estimate_violated", outcome.closing.estimate_violated},
+        {"front_unresolved", outcome.closing.front_unresolved},
+        {"rotation_max", outcome.closing.rotation_max},
         {"scene",
          {{"file", scene.file},
           {"title", scene.title},

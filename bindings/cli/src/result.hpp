@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "build.hpp"
+#include "closing.hpp"
 
 namespace cli {
 
@@ -15,9 +16,9 @@ struct Outcome {
     std::string reason;  // why it is incomplete
     std::int64_t steps_done = 0;
     std::vector<std::int64_t> not_converged;
-    std::vector<std::int64_t> estimate_violated;
-    std::vector<std::int64_t> front_unresolved;  // steps in which a crack grew with too few pairs in its process zone
-    double rotation_max = 0;                     // rad, in the steps with fields
+    Closing closing;
+    std::vector<std::string> closing_lines;
+    bool has_jumps = false;  // whether there is a jumps.csv
     std::int64_t resumed = 0;
     std::string started;
     std::string command;

@@ -2,6 +2,7 @@
 #include "rows.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "number.hpp"
 
@@ -21,19 +22,30 @@ std::vector<std::string> parts(std::string_view text, char separator) {
 
 }  // namespace
 
-std::vector<std::map<std::string, double>> rows_of(std::string_view history) {
-    std::vector<std::map<std::string, double>> out;
+Rows rows_of(std::string_view history) {
+    Rows out;
     const std::vector<std::string> rows = parts(history, '\n');
     if (rows.empty()) return out;
     const std::vector<std::string> titles = parts(rows.front(), ',');
     for (std::size_t i = 1; i < rows.size(); ++i) {
         const std::vector<std::string> cells = parts(rows[i], ',');
-        std::map<std::string, double> of;
+        Row of;
         for (std::size_t k = 0; k < std::min(titles.size(), cells.size()); ++k)
             of.emplace(titles[k], number_in(cells[k]));
         out.push_back(std::move(of));
     }
     return out;
+}
+
+double number_of(const Row& row, std::string_view column) {
+    const auto found = row.find(column);
+    return found == row.end() ? 0.0 : found->second;
+}
+
+double energy_scale(const Row& row) {
+    const double stored =
+        number_of(row, "stored_bulk") + number_of(row, "stored_interface") + number_of(row, "load_potential");
+    return std::max(std::abs(stored), std::abs(number_of(row, "work")));
 }
 
 }  // namespace cli

@@ -2,6 +2,7 @@
 // The numbers of history.csv by column.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -9,7 +10,14 @@
 
 namespace cli {
 
+using Row = std::map<std::string, double, std::less<>>;
+using Rows = std::vector<Row>;
+
 // Row 0 is the initial state. Texts count as 0.
-std::vector<std::map<std::string, double>> rows_of(std::string_view history);
+Rows rows_of(std::string_view history);
+// 0 if there is no such column: load_potential exists only with dead loads.
+double number_of(const Row& row, std::string_view column);
+// What differences of energies are compared with: max(|stored energy|, |work|), stored energy with load_potential.
+double energy_scale(const Row& row);
 
 }  // namespace cli

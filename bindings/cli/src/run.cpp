@@ -10,19 +10,17 @@
 #include <fmt/format.h>
 
 #include "call.hpp"
+#include "closing.hpp"
 #include "commands.hpp"
 #include "concept.hpp"
-#include "estimate.hpp"
 #include "fields.hpp"
 #include "file.hpp"
 #include "history.hpp"
-#include "input_file.hpp"
 #include "interrupt.hpp"
 #include "jumps.hpp"
 #include "notes.hpp"
 #include "output_folder.hpp"
 #include "progress.hpp"
-#include "resolution.hpp"
 #include "result.hpp"
 #include "revision.hpp"
 #include "row_file.hpp"
@@ -134,15 +132,19 @@ public:
         outcome.complete = state_.step == static_cast<std::int64_t>(scene_.step_count());
         outcome.steps_done = state_.step;
         outcome.not_converged = state_.not_converged;
-        outcome.estimate_violated = violated_steps(rows_->text(), estimate_tolerance(scene_));
-        outcome.front_unresolved = unresolved_steps(rows_->text(), model_, solver_.get(), scene_);
         outcome.resumed = origin_.resumed;
         outcome.started = origin_.started;
         outcome.problem_hash = state_.problem_hash;
-        outcome.rotation_max = fields_.assemble(model_, scene_, static_cast<std::size_t>(state_.step),
-                                                state_.problem_hash, concept_of(solver_.get()));
-        if (locates_jumps(solver_.get()))
-            write_atomic(folder_.running() + "/jumps.csv", jumps_text(model_, solver_.get()));
+        const double rotation_max = fields_.assemble(model_, scene_, static_cast<std::size_t>(state_.step),
+                                                     state_.problem_hash, concept_of(solver_.get()));
+        outcome.closing = closing_of(model_, solver_.get(), scene_, rows_->text(), rotation_max);
+        outcome.closing_lines = closing_lines(outcome.closing, scene_);
+        outcome.has_jumps = writes_jumps(outcome.closing.jumps, solver_.get());
+        const std::string jumps_file = folder_.running() + "/jumps.csv";
+        if (outcome.has_jumps)
+            write_atomic(jumps_file, jumps_text(outcome.closing.jumps, scene_));
+        else
+            remove_file(jumps_file);  // of an earlier attempt
         write_atomic(folder_.running() + "/result.json", result_text(model_, solver_.get(), scene_, outcome));
         folder_.publish();
         if (outcome.complete) folder_.end();
@@ -261,19 +263,21 @@ std::string way_on(const Run& work, const OutputFolder& folder, const std::strin
                        folder.running(), again);
 }
 
+void say_lines(const std::vector<std::string>& lines) {
+    for (const std::string& line : lines) say("{}\n", line);
+}
+
 int already_complete(const OutputFolder& folder, const Scene& scene) {
-    std::string content;
-    bool converged = true;
-    if (std::filesystem::exists(folder.running() + "/state.bin") || folder.status(content, converged) != "complete")
-        return -1;
-    if (content != scene.content_hash)
+    if (std::filesystem::exists(folder.running() + "/state.bin")) return -1;
+    const Published published = folder.published();
+    if (published.status != "complete") return -1;
+    if (published.content_hash != scene.content_hash)
         throw Failure(exit_scene, fmt::format("{}: the scene, with its --set, is not the one of the result in {}; "
                                               "run again without --resume",
                                               scene.file, folder.path()));
     say("{}: complete already\n", folder.path());
-    const double eta = estimate_tolerance(scene);
-    say("{}", estimate_line(violated_steps(read_bytes(folder.path() + "/history.csv"), eta), eta));
-    return converged ? exit_done : exit_not_converged;
+    say_lines(published.closing);
+    return published.converged ? exit_done : exit_not_converged;
 }
 
 }  // namespace
@@ -320,10 +324,7 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
         throw Failure(exit_output, fmt::format("{}\n{}", failure.what(), way_on(work, folder, again)));
     }
     const auto total = static_cast<std::int64_t>(scene.step_count());
-    const double eta = estimate_tolerance(scene);
-    say("{}", estimate_line(outcome.estimate_violated, eta));
-    say("{}", unresolved_line(outcome.front_unresolved));
-    say("{}", rotation_line(outcome.rotation_max));
+    say_lines(outcome.closing_lines);
     if (code == exit_interrupted || code == exit_numerical) {
         const std::int64_t done = work.state().step;
         const char* how = code == exit_interrupted ? "interrupted" : "stopped";
@@ -343,7 +344,8 @@ int run(const std::string& scene_file, const std::vector<std::string>& settings,
         complain("delam: {} did not converge (of {}), the first is step {}\n",
                  counted(static_cast<std::int64_t>(outcome.not_converged.size()), "step"), total,
                  outcome.not_converged.front());
-    say("wrote {}: history.csv, fields.h5, fields.xdmf, result.json, state.bin\n", folder_path);
+    say("wrote {}: history.csv, {}fields.h5, fields.xdmf, result.json, state.bin\n", folder_path,
+        outcome.has_jumps ? "jumps.csv, " : "");
     return code;
 }
 

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The closing lines of a run and jumps.csv: what people read, what result.json has of it, after interruptions too. The lines
+themselves are tested in test_closing_lines.cpp."""
+import csv
+import io
+import json
+import os
+import re
+import signal
+import subprocess
+
+from support import DELAM, SCENE, brittle, changed, delam, expect, finish, folder, read, write
+
+COLUMNS = "step,before,time,stored,dissipated,released,debonded,interface,first_pair,last_pair"
+
+
+def about_of(out):
+    return json.loads(read(os.path.join(out, "result.json")))
+
+
+def table(out, name):
+    return list(csv.DictReader(io.StringIO(read(os.path.join(out, name)).decode())))
+
+
+def closing(text):
+    """The lines of a run after those of its steps, but for the last, which names the files."""
+    lines = text.splitlines()
+    last = max(i for i, line in enumerate(lines) if re.match(r"step \d+/", line))
+    return lines[last + 1:-1]
+
+
+# A short notch: the crack jumps several times. Two patterns, the second one for the names of the columns.
+jumping = changed("steps = 20", "steps = 20\n[solver]\njump_tolerance = 1e-3\n[output]\nevery = 100\nsnapshots = [2.0]",
+                  brittle())
+scene, out = write(jumping), folder()
+code, text, error = delam("run", scene, "--out", out)
+about, jumps, rows = about_of(out), table(out, "jumps.csv"), table(out, "history.csv")
+expect(code == 0 and len(jumps) > 0, f"a march with {len(jumps)} jumps {error}")
+expect(read(os.path.join(out, "jumps.csv")).decode().splitlines()[0] == COLUMNS + ",load,name", "columns of jumps.csv")
+expect(all(abs(float(j["load"]) - 0.003 * float(j["time"])) < 1e-16 for j in jumps), "load: the factor at the instant")
+expect(all(j["name"] == "lower-upper" for j in jumps), "name of the interface")
+lines = closing(text)
+expect(lines == about["closing"], "result.json has the closing lines")
+told = [line for line in lines if line.startswith("jump at ")]
+wanted = [f'jump at time {float(j["time"]):.6g} (load {float(j["load"]):.6g}): interface "lower-upper" debonded by '
+          f'{float(j["debonded"]):.3g} m, {float(j["released"]):.3g} J/m released' for j in jumps]
+expect(told == wanted if len(jumps) <= 10 else set(told) < set(wanted), f"a line for each jump: {told}")
+found = about["jumps"]
+expect(found["count"] == len(jumps) and len(found["largest"]) == len(told) and
+       abs(found["released"] - sum(float(j["released"]) for j in jumps)) < 1e-12 and
+       found["largest"][0]["loads"] == {"press": float(jumps[0]["load"])}, "jumps in result.json")
+expect("history.csv, jumps.csv, fields.h5" in text, "the last line names the file")
+
+# The ledger, from the rows.
+start, end = rows[0], rows[-1]
+total = [sum(float(r[k]) for k in ("stored_bulk", "stored_interface", "dissipated")) - float(r["work"]) for r in rows]
+released = [sum(float(r["released"]) for r in rows[:i + 1]) for i in range(len(rows))]
+off = max((abs(t - total[0] + r) for t, r in zip(total, released)))
+balance = about["energy_balance"]
+expect(abs(abs(balance["defect"]) - off) < 1e-12 and balance["relative"] == abs(balance["defect"]) / balance["work"] and
+       balance["work"] == max(float(r["work"]) for r in rows), f"the balance in result.json: {balance}")
+expect(sum("energy balance: off by" in line for line in lines) == 1, "one line tells it")
+expect(sum(released) > 0.05 * balance["work"] and balance["relative"] < 0.01 and "warning: energy" not in text,
+       "with what is released it is closed")
+
+# A step that stops early does not close the ledger.
+stopped = write(changed("steps = 20", "steps = 8\n[solver]\nminimisation_limit = 1"))
+bad = folder()
+code, text, _ = delam("run", stopped, "--out", bad)
+expect(code == 1 and sum(line.startswith("warning: energy balance: off by ") for line in closing(text)) == 1 and
+       about_of(bad)["energy_balance"]["relative"] > 0.01, f"a ledger that is off is a warning {closing(text)}")
+
+# A mixed mode in coarse steps: the library warns once, the closing line has the worst step.
+mixed = changed('fix = ["y"]', 'layer = "upper"\nfix = ["y"]', changed("[0.0, 0.0]", "[0.0, 0.003]"))
+code, text, _ = delam("run", write(mixed), "--out", bad, "--set", "time.steps=6")
+worst = max(table(bad, "history.csv"), key=lambda r: float(r["mixity_error"]))
+error = about_of(bad)["mixity_error"]
+expect(code == 0 and text.count("the mode mixity changed within the step") == 1, "a mixity in error is logged once")
+expect(error["relative"] == float(worst["mixity_error"]) > 0.01 and error["step"] == int(worst["step"]) and
+       sum(f'(step {worst["step"]}, time' in line and "mode mixity" in line for line in closing(text)) == 1,
+       f"and closes the run: {error}")
+
+# Where nothing jumps there is no file, or an empty one if jumps are located.
+quiet = write(changed("steps = 20", "steps = 2", changed("values = [0.0, 0.006]", "values = [0.0, 0.0006]")))
+expect(delam("run", quiet, "--out", out)[0] == 0 and "jumps.csv" not in os.listdir(out),
+       "that of an earlier result is removed")
+code, text, _ = delam("run", quiet, "--out", out, "--set", "solver.jump_tolerance=1e-3")
+expect(read(os.path.join(out, "jumps.csv")).decode() == COLUMNS + ",load,name\n" and
+       about_of(out)["jumps"] == {"count": 0, "released": 0, "debonded": 0, "largest": []}, "no jump")
+found = closing(text)
+expect(len(found) == 1 and found[0].startswith("energy balance: off by "), f"a calm run ends with its balance: {found}")
+expect(about_of(out)["load_drops"] == {"steps": [], "largest": None} and about_of(out)["mixity_error"]["relative"] == 0,
+       "nothing to report in result.json")
+
+# Interrupted after its first jump: the file has it already, and after --resume it is that of an uninterrupted run.
+whole, half = folder(), folder()
+many = ("--set", "time.steps=60")
+delam("run", scene, "--out", whole, *many)
+first = int(table(whole, "jumps.csv")[0]["step"])
+with subprocess.Popen([DELAM, "run", scene, "--out", half, *many], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                      text=True) as process:
+    for line in process.stdout:
+        if line.startswith(f"step {first}/"):
+            process.send_signal(signal.SIGINT)
+            break
+    rest, _ = process.communicate()
+part = read(os.path.join(half, "jumps.csv"))
+expect(process.returncode == 130 and read(os.path.join(whole, "jumps.csv")).startswith(part) and
+       about_of(half)["jumps"]["count"] == len(table(half, "jumps.csv")) >= 1, "interrupted: jumps so far are kept")
+expect(about_of(whole)["closing"][0] in rest, "and told")
+code, text, _ = delam("run", scene, "--out", half, *many, "--resume")
+expect(code == 0 and read(os.path.join(half, "jumps.csv")) == read(os.path.join(whole, "jumps.csv")) and
+       closing(text) == about_of(half)["closing"] == about_of(whole)["closing"], "resumed: all jumps, and the same lines")
+again = delam("run", scene, "--out", half, *many, "--resume")[1].splitlines()
+expect(again[0].endswith("complete already") and again[1:] == about_of(whole)["closing"], "complete already: the same lines")
+
+# An energetic search that compares too few states says so.
+code, text, _ = delam("run", scene, "--out", half, "--set", "solver.solution=energetic", "--set", "time.steps=4", "--set",
+                      "solver.search_limit=3")
+rows = [{k: float(v) for k, v in row.items() if k not in ("solution", "mixity_rule")} for row in table(half, "history.csv")]
+open_steps = [int(r["step"]) for r in rows if r["search_gap"] > 1e-2 * max(abs(r["stored_bulk"] + r["stored_interface"]), r["work"])]
+largest = max(rows, key=lambda r: r["search_gap"])
+found = about_of(half)["search"]
+expect(code == 0 and found["gap_steps"] == open_steps and len(open_steps) > 0 and "warning: search: in " in text and
+       found["margin_steps"] == [int(r["step"]) for r in rows if r["search_margin"] < -1e-9 * r["work"]] and
+       found["largest_gap"]["gap"] == largest["search_gap"], f"gaps of a search of 3 states: steps {open_steps}")
+finish()

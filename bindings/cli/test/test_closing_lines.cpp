@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a march ends with, found in made-up rows of history.csv and jumps, and the lines that tell it.
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "closing.hpp"
+#include "estimate.hpp"
+
+namespace {
+
+int failures = 0;
+
+void expect(bool condition, const std::string& what) {
+    std::printf("%s %s\n", condition ? "ok   " : "FAIL ", what.c_str());
+    if (!condition) ++failures;
+}
+
+void expect_line(const std::string& line, const std::string& wanted) {
+    expect(line == wanted, line == wanted ? line : "\"" + line + "\"\n      instead of \"" + wanted + "\"");
+}
+
+cli::Scene scene_of(int dimension, const std::vector<std::string>& patterns) {
+    cli::Scene scene;
+    scene.geometry.dimension = dimension;
+    scene.units = {"m", "N", ""};
+    for (const std::string& name : patterns) {
+        cli::PatternData pattern;
+        pattern.name = name;
+        scene.patterns.push_back(pattern);
+    }
+    return scene;
+}
+
+// The energy that was there before any work, 1, is no part of the ledger; step 2 releases what it does not dissipate.
+void balance() {
+    const char* head =
+        "step,time,stored_bulk,stored_interface,dissipated,work,released,stored_interface_slides,"
+        "dissipated_slides,load_potential\n";
+    const std::string start = "0,0,0.5,0,0,0,0,0,0,0.5\n1,0.5,5,1,0,5,0,1,0,0\n";
+    const cli::Scene flat = scene_of(2, {"press"}), space = scene_of(3, {"press"});
+    const cli::Balance closed = cli::balance_of(cli::rows_of(head + start + "2,1,2,1,3,8,3,2,3,0\n"), false);
+    expect(closed.defect == 0 && closed.relative() == 0 && closed.work == 8, "what is released closes the ledger");
+    expect(cli::balance_of(cli::rows_of(head + start + "2,1,2,1,3,8,3,2,3,0\n"), true).defect == 1,
+           "the ledger of the variational rule has columns of its own");
+    const cli::Balance off =
+        cli::balance_of(cli::rows_of(head + start + "2,1,2,1,3,8,1,2,3,0\n3,2,2,1,3,7,0,2,3,0\n"), false);
+    expect(off.step == 2 && off.time == 1 && off.defect == -2 && off.last_defect == -1 && off.relative() == 0.25,
+           "the step in which it is off most");
+    expect_line(cli::balance_line(off, flat),
+                "warning: energy balance: off by 25 % of the work (stored + dissipated + released - work is -2 J/m in "
+                "step 2, time 1; the work is up to 8 J/m)");
+    const cli::Balance nearly = cli::balance_of(cli::rows_of(head + start + "2,1,2,1,3,8,2.996,2,3,0\n"), false);
+    expect_line(cli::balance_line(nearly, space),
+                "energy balance: off by 0.05 % of the work (stored + dissipated + released - work is -0.004 J in step "
+                "2, time 1; the work is up to 8 J)");
+    expect_line(
+        cli::balance_line(cli::balance_of(cli::rows_of(head + std::string("0,0,0,0,0,0,0,0,0,0\n")), false), flat),
+        "energy balance: no work was done");
+    const cli::Balance lost = cli::balance_of(cli::rows_of(head + start + "2,1,nan,1,3,8,3,2,3,0\n"), false);
+    expect(cli::balance_line(lost, flat).starts_with("warning: "), "what is no number is no balance");
+}
+
+void mixity() {
+    const std::string rows = "step,time,dissipated,mixity_error\n0,0,0,0\n1,0.5,2,0.004\n2,1,2.5,0.12\n3,2,9,0.02\n";
+    const cli::Scene flat = scene_of(2, {"press"});
+    const cli::MixityError error = cli::mixity_error_of(cli::rows_of(rows));
+    expect(error.step == 2 && error.relative == 0.12 && error.dissipated == 0.5,
+           "the worst step and what it dissipates");
+    expect_line(cli::mixity_error_line(error, flat),
+                "warning: mode mixity: an error of up to 12 % of the energy that a step dissipates (step 2, time 1, "
+                "which dissipates 0.5 J/m); smaller steps reduce it");
+    expect_line(cli::mixity_error_line(cli::mixity_error_of(cli::rows_of(rows.substr(0, rows.find("2,1,")))), flat),
+                "");
+}
+
+void search() {
+    const cli::Scene flat = scene_of(2, {"press"});
+    const std::string head = "step,time,stored_bulk,stored_interface,work,search_gap,search_margin\n0,0,0,0,0,0,0\n";
+    const std::string quiet = "1,0.5,10,0,9,0.09,-1e-12\n";
+    const auto lines = [&](const std::string& rows) {
+        return cli::search_lines(cli::search_limits_of(cli::rows_of(head + rows), 0.01), flat);
+    };
+    expect(lines(quiet).empty(), "a gap within search_tolerance, and rounding, are not mentioned");
+    const std::vector<std::string> told = lines(quiet + "2,1,10,0,20,0.5,-0.2\n3,2,10,0,20,0.3,-0.3\n");
+    expect(told.size() == 2, "a gap and a lower state: a line each");
+    expect_line(told.front(),
+                "warning: search: in 2 steps a state that it left out may have less energy than the one "
+                "kept, by up to 0.5 J/m (step 2, time 1; search_tolerance allows 0.2 J/m)");
+    expect_line(told.back(),
+                "warning: search: in 2 steps a state of lower energy was seen and not kept, lower by up to "
+                "0.3 J/m (step 3, time 2)");
+    expect_line(lines("1,0.5,10,0,9,inf,0\n2,1,10,0,20,0.5,0\n").front(),
+                "warning: search: in 2 steps (the first is step 1) it has no bound on the energy of the states that it "
+                "left out (search_gap is infinite)");
+}
+
+void drops() {
+    cli::Scene one = scene_of(2, {"press"});
+    const std::string head = "step,time,load,reaction\n0,0,0,0\n";
+    const auto of = [](const std::string& rows, const std::vector<cli::Jump>& jumps, const cli::Scene& scene) {
+        return cli::load_drops_of(cli::rows_of(rows), jumps, scene);
+    };
+    expect(of(head + "1,1,1,-100\n2,2,2,-98.1\n3,3,1,-50\n4,4,1,-40\n", {}, one).steps.empty(),
+           "a fall by less, or without more load, is none");
+    // The drop of step 4 counts by the peak of step 1; that of step 2 was recorded as a jump.
+    const std::string rows = head + "1,1,1,-100\n2,2,2,-60\n3,3,3,-61\n4,4,4,-58\n5,5,5,-40\n6,6,6,-39\n";
+    cli::Jump jump;
+    jump.step = 2;
+    const cli::LoadDrops drops = of(rows, {jump}, one);
+    expect(drops.steps == std::vector<std::int64_t>{4, 5} && drops.step == 5, "drops without a jump");
+    expect_line(cli::load_drops_line(drops),
+                "load drops without a recorded jump: in 2 steps the reaction falls by more "
+                "than 2 % of its largest value; most in step 5, time 5, from -58 to -40");
+    expect(of(rows, {}, one).step == 2, "without jumps the largest is that of step 2");
+    const cli::LoadDrops second =
+        of("step,time,load_cool,reaction_cool,load_open,reaction_open\n0,0,0,0,0,0\n"
+           "1,1,-150,5,0,0\n2,2,-150,3,1,8\n3,3,-150,2,2,4\n",
+           {}, scene_of(2, {"cool", "open"}));
+    expect(second.steps == std::vector<std::int64_t>{3} && second.column == "reaction_open",
+           "the pattern at rest does not count, the other one does");
+}
+
+void jumps() {
+    cli::Scene space = scene_of(3, {"a", "b"});
+    std::vector<cli::Jump> all;
+    for (int i = 0; i < 12; ++i) {
+        cli::Jump jump;
+        jump.step = i + 1;
+        jump.time = 0.1 * (i + 1);
+        jump.loads = {2.0 * i, 0.0};
+        jump.released = i % 2 == 0 ? 20.0 + i : 1.0 + i;  // the smallest: 2 and 4
+        jump.debonded = 0.5;
+        jump.last = 3;
+        jump.name = "a \"b\", c";
+        all.push_back(jump);
+    }
+    const std::vector<std::string> lines = cli::jump_lines(all, space);
+    expect(lines.size() == 11, fmt::format("ten largest and the rest: {} lines", lines.size()));
+    expect_line(lines.front(),
+                "jump at time 0.1 (load_a 0, load_b 0): interface \"a \"b\", c\" debonded by 0.5 m2, 20 J "
+                "released");
+    expect(lines[1].starts_with("jump at time 0.3 "), "in the order of time, but for the smallest");
+    expect_line(lines.back(), "2 smaller jumps debonded by 1 m2 and released 6 J in all (jumps.csv)");
+    all.resize(10);
+    expect(cli::jump_lines(all, space).size() == 10, "ten jumps are all told");
+    const std::string table = cli::jumps_text({all[1]}, space);
+    expect_line(table,
+                "step,before,time,stored,dissipated,released,debonded,interface,first_pair,last_pair,load_a,"
+                "load_b,name\n2,0,0.20000000000000001,0,0,2,0.5,0,0,3,2,0,\"a \"\"b\"\", c\"\n");
+    expect_line(cli::jumps_text({}, scene_of(2, {"press"})),
+                "step,before,time,stored,dissipated,released,debonded,"
+                "interface,first_pair,last_pair,load,name\n");
+    all[0].first = -1;
+    expect(cli::jump_lines({all[0]}, space).front().ends_with(": no interface changed, 20 J released"),
+           "a jump of contact alone");
+}
+
+}  // namespace
+
+int main() {
+    balance();
+    mixity();
+    search();
+    drops();
+    jumps();
+    return failures == 0 ? 0 : 1;
+}
