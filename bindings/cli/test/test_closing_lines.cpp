@@ -115,7 +115,9 @@ void drops() {
     expect(drops.steps == std::vector<std::int64_t>{4, 5} && drops.step == 5, "drops without a jump");
     expect_line(cli::load_drops_line(drops),
                 "load drops without a recorded jump: in 2 steps the reaction falls by more "
-                "than 2 % of its largest value; most in step 5, time 5, from -58 to -40");
+                "than 2 % of its largest value; most in step 5, time 5, from -58 to -40; smaller steps tell a steady "
+                "fall from a "
+                "jump");
     expect(of(rows, {}, one).step == 2, "without jumps the largest is that of step 2");
     const cli::LoadDrops second =
         of("step,time,load_cool,reaction_cool,load_open,reaction_open\n0,0,0,0,0,0\n"
