@@ -22,6 +22,7 @@ CHAPTERS = {
     "e": "Published coupons and closed forms",
     "f": "Binary interface and language bindings",
     "g": "Growth of cost with size",
+    "h": "Mixed mode, jumps and their ledger, with default options",
 }
 
 REFERENCE_KINDS = ("closed form", "manufactured", "published", "other code", "exhaustive scan", "Richardson", "direct solver",
@@ -259,22 +260,22 @@ LEDGER_VALUES = ("stored_bulk", "stored_interface", "dissipated", "work", "lower
 def ledger_of(marches: dict, unit: str, slack: float = 1e-9) -> dict:
     """The energy ledger of marches, by name: each the values of the public API after every step, lists by their names,
     the initial state first. Sums of the two-sided estimate beside what was booked; beyond: steps outside of it by more
-    than `slack` of the largest energy."""
-    rows = []
+    than `slack` of the largest energy. With "released", what jumps set free in each step, it is a column too."""
+    rows, gone = [], any("released" in at for at in marches.values())
     for name, at in marches.items():
         bulk, interface, spent, work, lower, own, now, upper = ([float(v) for v in at[key]] for key in LEDGER_VALUES)
         slack_here = slack * max(max(abs(v) for v in bulk), max(abs(v) for v in work))
-        gained = bulk[-1] + interface[-1] - bulk[0] - interface[0]
+        gained, released = bulk[-1] + interface[-1] - bulk[0] - interface[0], sum(at.get("released", ()))
         beyond = sum(max(low - a, b - up) > slack_here for low, a, b, up in zip(lower, own, now, upper))
-        rows.append([name, bulk[-1], interface[-1], spent[-1], work[-1], gained + spent[-1] - work[-1], sum(lower),
-                     sum(now), sum(upper), beyond])
-    energies = ("stored, bodies", "stored, interface", "dissipated", "work", "defect", "lower, sum",
-                "increments, sum", "upper, sum")
+        rows.append([name, bulk[-1], interface[-1], spent[-1], *([released] if gone else []), work[-1],
+                     gained + spent[-1] + released - work[-1], sum(lower), sum(now), sum(upper), beyond])
+    energies = ("stored, bodies", "stored, interface", "dissipated", *(["released"] if gone else []), "work", "defect",
+                "lower, sum", "increments, sum", "upper, sum")
     columns = [column("march", "", key=True), *(column(what, unit) for what in energies),
                column("beyond a bound", "steps")]
     return table("At the end of the march", columns, rows,
-                 "A march: all load steps of a scene in turn. As the library books it, by its public values. Defect: growth of what is stored, and dissipated, "
-                 "less the work; bounds and increments are summed over the steps.")
+                 "A march: all load steps of a scene in turn. As the library books it, by its public values. Defect: growth of what is stored, and dissipated"
+                 + (" and released" if gone else "") + ", less the work; bounds and increments are summed over the steps.")
 
 
 def reference(kind: str, source: str, uncertainty: str) -> dict:

@@ -14,6 +14,7 @@ NO_LEDGER = {
     "e": "None here: fields, tractions and loads are compared, and energies among them where there is a reference.",
     "f": "None: interfaces and bindings are compared, no march is evaluated.",
     "g": "None: cost is measured, no march is evaluated.",
+    "h": "None: every case of this chapter books one.",
 }
 
 

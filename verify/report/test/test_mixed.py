@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Marches of mixed-mode bending as theory has them, spoilt one by one: the claims of chapter (h) must see each."""
+import copy
+import sys
+import types
+import unittest
+from unittest import mock
+
+import planted
+
+sys.path.insert(0, str(planted.REPORT / "cases"))
+import bending  # noqa: E402
+import case  # noqa: E402
+import h_mixed  # noqa: E402
+
+ELASTIC = 5.6e-8  # m/(N/m) of the notch, G_II/G = 0.8
+HIGH, LOW = "peak over that of beam theory", "peak below that of beam theory, over what is allowed"
+BOOKED, LEDGER = "dissipated per new crack, off the criterion", "stored + dissipated + released - work, over the work"
+UNNAMED = "falls of the load without a recorded jump"
+
+
+def exact(steps, second=bending.MODE_II):
+    """The local march by beam theory: elastic up to the peak, then the crack whose growth needs this displacement. What
+    the jump neither stores nor dissipates is released, and recorded."""
+    specimen = bending.SPECIMENS["0.8"]
+    with mock.patch.object(bending, "MODE_II", second):
+        down, load, crack = specimen.envelope(ELASTIC, 4000)
+    spent = [0.0]
+    with mock.patch.object(bending, "MODE_II", second):
+        for a, b in zip(crack, crack[1:]):
+            spent.append(spent[-1] + (b - a) * specimen.criterion(0.5 * (a + b)))
+    end = down[-1]
+    out = types.SimpleNamespace(specimen=specimen, h=1e-4, steps=steps, open=0, jumps=[], shear=bending.TURON)
+    at = {name: [0.0] for name in ("load:press", "reaction:press", "stored_bulk", "stored_interface", "dissipated",
+                                   "work", "released", "crack_length", "lower", "increment", "increment_lower",
+                                   "upper")}
+    at["crack_length"] = [bending.NOTCH]
+    i = 0
+    for k in range(1, steps + 1):
+        u, before = k * end / steps, i
+        if u > down[0]:
+            i = next(n for n in range(max(i, down.index(min(down))), len(down)) if down[n] >= u - 1e-12)
+        p = u / ELASTIC if i == 0 else load[i]
+        stored, work = 0.5 * p * u, at["work"][-1] + 0.5 * (p + at["reaction:press"][-1]) * (u - at["load:press"][-1])
+        rest = stored + spent[i] - at["stored_bulk"][-1] - spent[before]
+        jumped = before == 0 and i > 0
+        if jumped:
+            out.jumps.append({"step": k, "released": work - at["work"][-1] - rest})
+        released = out.jumps[-1]["released"] if jumped else 0.0
+        for name, value in (("load:press", u), ("reaction:press", p), ("stored_bulk", stored), ("dissipated", spent[i]),
+                            ("work", at["work"][-1] + rest + released), ("released", released),
+                            ("crack_length", crack[i])):
+            at[name].append(value)
+        for name in ("stored_interface", "lower", "increment", "increment_lower", "upper"):
+            at[name].append(0.0)
+    out.at, out.down, out.load, out.crack = at, at["load:press"], at["reaction:press"], at["crack_length"]
+    return out
+
+
+def failed(checks):
+    return {c["what"] for c in checks
+            if not (c["value"] <= c["limit"] if c["sense"] == "<=" else c["value"] >= c["limit"])}
+
+
+class Judged(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.sound = {f"{n} steps": exact(n) for n in (100, 400)}
+
+    def judged(self, **spoilt):
+        marches = {name: copy.deepcopy(m) for name, m in self.sound.items()}
+        for name, spoil in spoilt.items():
+            spoil(marches[name.strip("_") + " steps"])
+        return failed(h_mixed.judged("0.8", marches, jumps=True))
+
+    def test_sound_marches_pass(self):
+        self.assertEqual(self.judged(), set())
+
+    def test_a_wrong_toughness_in_one_mode(self):
+        for factor, side in ((1.2, HIGH), (0.8, LOW)):
+            wrong = {f"{n} steps": exact(n, factor * bending.MODE_II) for n in (100, 400)}
+            self.assertEqual(failed(h_mixed.judged("0.8", wrong, jumps=True)), {side, BOOKED})
+
+    @staticmethod
+    def cut(of, share=0.2, hidden=False):
+        """The jump books less than its path dissipates; hidden: what is missing is called released."""
+        k = of.jumps[0]["step"]
+        missing = share * (of.at["dissipated"][k] - of.at["dissipated"][k - 1])
+        for i in range(k, len(of.load)):
+            of.at["dissipated"][i] -= missing
+        if hidden:
+            of.at["released"][k] += missing
+
+    def test_a_path_cut_short(self):
+        self.assertEqual(self.judged(_400=self.cut), {BOOKED, LEDGER})
+
+    def test_a_path_cut_short_and_booked_as_released(self):
+        self.assertEqual(self.judged(_100=lambda m: self.cut(m, hidden=True)), {BOOKED})
+
+    def test_a_mixity_held_too_long(self):
+        def later(of):  # the elastic line goes on for three steps
+            k = of.jumps[0]["step"]
+            for i in range(k, k + 3):
+                of.load[i] = of.down[i] / ELASTIC
+        seen = self.judged(_100=later)
+        self.assertIn("loads of marches with different steps, apart", seen)
+        self.assertIn(HIGH, seen)
+
+    def test_a_jump_without_a_record(self):
+        for name in ("_100", "_400"):
+            self.assertEqual(self.judged(**{name: lambda m: m.jumps.clear()}), {UNNAMED})
+
+    def test_an_energy_without_a_place(self):
+        def lost(of):
+            of.at["released"] = [0.0] * len(of.load)
+        self.assertEqual(self.judged(_400=lost), {LEDGER})
+
+    def test_a_jump_that_theory_does_not_have(self):
+        self.assertEqual(failed(h_mixed.judged("0.8", self.sound, jumps=False)),
+                         {"jumps of a mesh in its march of most steps, at most"})
+
+
+class Marches(unittest.TestCase):
+    def test_smooth_falls_of_long_steps_are_no_jumps(self):
+        coarse, fine = exact(20), exact(400)
+        self.assertGreater(len(bending.drops(coarse.load)), 1)
+        self.assertEqual(len(bending.drops(fine.load)), 1)
+        self.assertEqual(bending.jumps_due(coarse, fine), [coarse.jumps[0]["step"]])
+
+    def test_published_loads(self):
+        for name, load in h_mixed.PUBLISHED.items():
+            specimen = bending.SPECIMENS[name]
+            self.assertAlmostEqual(h_mixed.newtons(specimen.critical(bending.NOTCH)) / load, 1.0, delta=5e-4)
+            self.assertAlmostEqual(specimen.mixity(bending.NOTCH), float(name), delta=0.01)
+
+    def test_the_ledger_counts_what_is_released(self):
+        ledger = case.ledger_of({"march": exact(100).at}, "J/m")
+        of = dict(zip([c["name"] for c in ledger["columns"]], ledger["rows"][0]))
+        self.assertGreater(of["released"], 0.01 * of["work"])
+        self.assertLess(abs(of["defect"]), 1e-9 * of["work"])
+
+
+if __name__ == "__main__":
+    unittest.main()
