@@ -18,6 +18,6 @@ CLAIMS = [
                              "parsed and its signatures are compared with the header; it runs where it is installed, and Debian 12 has none."},
     {"chapter": "g", "text": "Time and memory grow with the size of the scene as stated, in the plane and in space."},
     {"chapter": "h", "text": "Where toughness depends on the mode, default options give the loads of corrected beam theory whatever the number "
-                             "of steps, dissipate what the criterion asks for, also inside a jump, and close the ledger: work is stored, "
+                             "of steps, dissipate what the law asks for, also inside a jump, and close the ledger: work is stored, "
                              "dissipated, or released by a jump that is recorded. No option has to be known for it."},
 ]

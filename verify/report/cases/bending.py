@@ -137,19 +137,61 @@ def scene(delam, specimen, h, path, shear=TURON, second=MODE_II, **options):
     return problem, interface
 
 
+def zone(places, adhesion, jump):
+    """The softening zone of a state: adhesions and mixities of the pairs between the last broken and the first intact
+    one; with equal stiffnesses of opening and shear. Empty before a pair has broken."""
+    order = np.argsort(places)
+    places, adhesion, jump = places[order], adhesion[order], jump[order]
+    broken = np.flatnonzero(adhesion <= 0.0)
+    if broken.size == 0 or places[broken[-1]] < NOTCH:
+        return []
+    found = []
+    for k in range(broken[-1] + 1, len(adhesion)):
+        if adhesion[k] >= 1.0:
+            break
+        normal, slip = max(float(jump[k, 0]), 0.0) ** 2, float(jump[k, 1]) ** 2
+        found.append((float(adhesion[k]), slip / (normal + slip)))
+    return found
+
+
+def asked(points, shear):
+    """What the law dissipates in a pair that passes through softening zones, J/m2: the integral of its threshold over
+    the adhesion, from 1 to 0, at the mixity that pairs have there. points: (adhesion, mixity) in the zones of a front
+    that advances, whose states lie at all distances between pairs; in the frame of the front they are the way of each
+    pair in time. The law is evaluated here: g(B, zeta) = Gc (1 - zeta) Go/(Go + (Gc - Go) zeta)."""
+    if not points:
+        return math.nan
+
+    def dissipated(mixity, zeta):
+        onset = 0.5 * (NORMAL ** 2 + (shear ** 2 - NORMAL ** 2) * mixity ** EXPONENT) / STIFFNESS
+        total = toughness(mixity)
+        return total * (1.0 - zeta) * onset / (onset + (total - onset) * zeta)
+
+    way = sorted(points, reverse=True)
+    way = [(1.0, way[0][1]), *way, (0.0, way[-1][1])]
+    return sum(0.5 * (dissipated(b, z) - dissipated(b, y) + dissipated(c, z) - dissipated(c, y))
+               for (y, b), (z, c) in zip(way, way[1:]))
+
+
 def march(delam, specimen, h, steps, path=None, **more):
-    """A march of equal steps to the specimen's end, or along `path`, legs of (displacement, steps)."""
+    """A march of equal steps to the specimen's end, or along `path`, legs of (displacement, steps). `zones`: the
+    softening zone of each state."""
     legs = path or [(specimen.end, steps)]
-    problem, _ = scene(delam, specimen, h, [0.0, *(d for d, _ in legs)], **more)
-    out = run(delam, problem, legs)
-    out.specimen, out.h, out.shear = specimen, h, more.get("shear", TURON)
+    problem, interface = scene(delam, specimen, h, [0.0, *(d for d, _ in legs)], **more)
+    places, found = np.array(interface.places[:, 0]), [[]]
+
+    def look(solver):
+        found.append(zone(places, np.array(solver.field("adhesion")), np.array(solver.field("jump"))))
+
+    out = run(delam, problem, legs, look=look)
+    out.specimen, out.h, out.shear, out.zones = specimen, h, more.get("shear", TURON), found
     return out
 
 
-def run(delam, problem, legs, keys=()):
+def run(delam, problem, legs, keys=(), look=None):
     """A march of a problem with one pattern, a leg in each unit of time. `at`: lists of the values after every step,
     the initial state first; `load`, `down` (displacement), `crack`; `jumps` as the library recorded them; `open`: steps
-    that met an iteration limit."""
+    that met an iteration limit. look(solver) is called after every step."""
     out = types.SimpleNamespace(steps=sum(n for _, n in legs), open=0)
     with delam.Solver(problem) as solver:
         solver.not_converged = "raise"
@@ -162,6 +204,8 @@ def run(delam, problem, legs, keys=()):
                     out.open += 1
                 solver.commit()
                 history.record()
+                if look:
+                    look(solver)
         out.jumps = [jump._asdict() for jump in solver.jumps]
     out.at = {name: [float(v) for v in history[name]] for name in (*VALUES, *keys)}
     out.down, out.load, out.crack = (out.at[name] for name in ("load:press", "reaction:press", "crack_length"))
@@ -183,23 +227,44 @@ def defects(at):
     return out
 
 
+def work_of(of, due):
+    """Integral of the load over the displacement, and what it leaves open: where the load falls at once within a step
+    is not known."""
+    steps = list(zip(of.down, of.down[1:], of.load, of.load[1:]))
+    return (sum(0.5 * (p + q) * (v - u) for u, v, p, q in steps),
+            sum(0.5 * (of.load[k - 1] - of.load[k]) * (of.down[k] - of.down[k - 1]) for k in due))
+
+
 def drops(load, least=0.02):
     """Steps in which the load falls by more than this part of it."""
     return [k for k in range(1, len(load)) if load[k] < (1.0 - least) * load[k - 1]]
 
 
-def jumps_due(of, fine):
-    """Steps of a march that a jump must be recorded for. In the march of most steps, `fine`: all in which the load
-    falls by more than 2 %. In one of fewer steps, where a smooth fall may be as large: the largest such fall about
-    each of the instants at which the fine march has one."""
-    steps = drops(of.load)
-    if of.steps >= fine.steps:
-        return steps
-    length, due = of.down[-1] / of.steps, set()
+def fall(of, k):
+    return 1.0 - of.load[k] / of.load[k - 1]
+
+
+def at_once(marches):
+    """Steps in which the load falls at once, a list for each march of one scene with different steps. In the march of
+    most steps: by more than 2 %, and by half or more of the fall that the march of fewer steps has there; a smooth
+    fall shrinks with the step. In the others: the largest fall by more than 2 % about each of these instants."""
+    ordered = sorted(marches, key=lambda m: -m.steps)
+    fine, found = ordered[0], {id(m): set() for m in marches}
+
+    def near(of, k):
+        """Steps of another march about a step of the finest, one more at each side."""
+        length = of.down[-1] / of.steps
+        return [i for i in range(1, len(of.load)) if of.down[i] - 2.0 * length < fine.down[k] < of.down[i] + length]
+
     for k in drops(fine.load):
-        near = [i for i in steps if of.down[i] - 2.0 * length < fine.down[k] < of.down[i] + length]
-        due.update(sorted(near, key=lambda i: of.load[i] / of.load[i - 1])[:1])
-    return sorted(due)
+        longer = [fall(ordered[1], i) for i in near(ordered[1], k)] if len(ordered) > 1 else []
+        if longer and fall(fine, k) < 0.5 * max(longer):
+            continue
+        found[id(fine)].add(k)
+        for of in ordered[1:]:
+            steps = [i for i in near(of, k) if i in drops(of.load)]
+            found[id(of)].update(sorted(steps, key=lambda i: -fall(of, i))[:1])
+    return [sorted(found[id(m)]) for m in marches]
 
 
 def unnamed(of, steps):
@@ -224,17 +289,28 @@ def apart(coarse, fine):
 
 
 def growth(of):
-    """Dissipated per new crack, over the criterion at the mixities of beam theory on the way: from the peak, where the
-    softening zone is whole, to the last crack that beam theory describes."""
+    """The steps between which what a new crack dissipates is judged: from the peak, where the softening zone is whole,
+    to the last crack whose mixity beam theory gives; or None if it hardly grows."""
     first = max(range(len(of.load)), key=lambda k: of.load[k])
-    within = [k for k in range(first, len(of.load)) if of.crack[k] <= of.specimen.same]
-    last = within[-1]
-    return booked(of, first, last), first, last
+    last = max(k for k in range(first, len(of.load)) if k == first or of.crack[k] <= of.specimen.same)
+    return (first, last) if of.crack[last] - of.crack[first] > 1e-3 else None
 
 
-def booked(of, first, last):
+def pairs(of):
+    """Mean number of pairs in the softening zone while the crack grows, 0 without growth."""
+    first, last = growth(of) or (0, 0)
+    counts = [len(points) for points in of.zones[first:last + 1] if points]
+    return sum(counts) / len(counts) if counts else 0.0
+
+
+def booked(of):
+    """Dissipated per new crack over what the softening zones on the way ask for, and over the criterion at the
+    mixities of beam theory; NaN without growth."""
+    steps = growth(of)
+    if steps is None:
+        return math.nan, math.nan
+    first, last = steps
     a, b = of.crack[first], of.crack[last]
-    if not b - a > 1e-3:
-        return math.nan
-    spent = of.at["dissipated"][last] - of.at["dissipated"][first]
-    return spent / (b - a) / of.specimen.mean_criterion(a, b)
+    spent = (of.at["dissipated"][last] - of.at["dissipated"][first]) / (b - a)
+    points = [point for zone in of.zones[first:last + 1] for point in zone]
+    return spent / asked(points, of.shear), spent / of.specimen.mean_criterion(a, b)

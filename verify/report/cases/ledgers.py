@@ -18,14 +18,34 @@ def balance(marches):
                  f"({name}), over the work at the end")
 
 
-def named(marches, finest):
-    """Every fall of the load that is no smooth one has its jump. finest: the march of most steps beside each."""
-    missing = {name: bending.unnamed(m, bending.jumps_due(m, finest(m))) for name, m in marches.items()}
+def work(marches, due):
+    """Of the marches of most steps: the ledger's work is that of the load."""
+    off = {}
+    for name, of in marches.items():
+        by_load, left_open = bending.work_of(of, due[name])
+        off[name] = max(abs(of.at["work"][-1] - by_load) - left_open, 0.0) / of.at["work"][-1]
+    return check("work off the integral of the load", max(off.values()), LEDGER, "trapezia of marches of most steps; "
+                 "half of a fall at once times its step is not known and allowed")
+
+
+def falls_at_once(marches, scene):
+    """Steps of each march, by its name, in which the load falls at once. scene: of a march, what distinguishes it from
+    others besides the steps."""
+    found = {}
+    for key in {scene(m) for m in marches.values()}:
+        names = [n for n, m in marches.items() if scene(m) == key]
+        found.update(zip(names, bending.at_once([marches[n] for n in names])))
+    return found
+
+
+def named(marches, due):
+    """Every fall at once has its jump."""
+    missing = {name: bending.unnamed(m, due[name]) for name, m in marches.items()}
     where = "; ".join(f"{name}: steps {', '.join(str(k) for k in steps[:4])}"
                       for name, steps in missing.items() if steps)
     return check("falls of the load without a recorded jump", sum(len(s) for s in missing.values()), 0,
-                 f"more than {100 * DROP:g} % in a step, in the march of most steps of a mesh; of the others the fall "
-                 "at that instant" + (f". {where}" if where else ""))
+                 f"more than {100 * DROP:g} % in a step, and not less in shorter steps"
+                 + (f". {where}" if where else ""))
 
 
 def picture(marches, scale, label, unit):
