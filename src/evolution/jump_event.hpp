@@ -4,6 +4,10 @@
 
 #include <cstdint>
 
+#include "evolution/increment/damage_step.hpp"
+#include "evolution/increment/state.hpp"
+#include "evolution/step/fronts.hpp"
+
 namespace delam {
 
 struct JumpEvent {
@@ -11,10 +15,15 @@ struct JumpEvent {
     double before, time;  // the jump lies between these two
     double stored;        // change of stored energy and load potential, F L
     double dissipated;
-    double released;                     // neither stored nor dissipated: E(t, q_before) - E(t, q_after) - D >= 0
+    double released;                     // neither stored nor dissipated, >= 0
     double debonded;                     // change of sum w (1 - zeta), L or L2
     std::int64_t interface;              // the one that changed most
     std::int64_t first_pair, last_pair;  // of that interface, with changed adhesion
 };
+
+// What happened between two states.
+JumpEvent describe_jump(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after);
+// Does a step jump: does it release energy worth mentioning, or lose load, as a front moves by more than one pair?
+bool jumps(const PairLaws& pairs, const State& before, const State& after);
 
 }  // namespace delam

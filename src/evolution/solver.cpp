@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "base/error.hpp"
@@ -106,6 +107,12 @@ bool Solver::keeps_past() const {
     return options.backtracking == "on" || (options.backtracking == "auto" && options.solution == "energetic");
 }
 
+void Solver::note_jump(const State& before, State& after, std::vector<JumpEvent>& jumps) const {
+    if (!delam::jumps(stepper_.pairs(), before, after)) return;
+    jumps.push_back(describe_jump(stepper_.pairs(), graph_, before, after));
+    after.outcome.jumps = 1;
+}
+
 Outcome Solver::advance(double time) {
     require_nothing_pending(time);
     if (time <= committed_.time)
@@ -115,11 +122,14 @@ Outcome Solver::advance(double time) {
     Stepper::Result result = keeps_past() ? backtracked_step(stepper_, chain, committed_.step, time, options)
                                           : stepper_.step(committed_, time);
     Pending pending;
+    for (auto& [step, state] : chain.revised()) note_jump(chain.at(step - 1), state, pending.jumps);
     if (controls_steps(options)) {
         ControlledStep controlled =
             controlled_step(stepper_, graph_, chain.at(committed_.step), std::move(result), options);
         result = std::move(controlled.result);
-        pending.jumps = std::move(controlled.jumps);
+        std::ranges::move(controlled.jumps, std::back_inserter(pending.jumps));
+    } else {
+        note_jump(chain.at(committed_.step), result.state, pending.jumps);
     }
     pending.state = std::move(result.state);
     pending.searched = std::move(result.searched);

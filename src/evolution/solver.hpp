@@ -119,6 +119,8 @@ private:
     void forget();
     void warn_of_unresolved_front(const State& before, const State& after);
     Outcome unconverged_displacement(const State& state) const;
+    // Appends what happened in a step that jumps.
+    void note_jump(const State& before, State& after, std::vector<JumpEvent>& jumps) const;
     void judge_balance(const State& state, Outcome& outcome);
 
     Problem problem_;

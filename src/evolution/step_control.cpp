@@ -26,37 +26,6 @@ double change_in_pairs(const PairLaws& pairs, const State& before, const State& 
     return weight > 0.0 ? change * count / weight : 0.0;
 }
 
-JumpEvent describe(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after) {
-    const Ledger &a = before.ledger, &b = after.ledger;
-    JumpEvent jump{after.step,
-                   before.time,
-                   after.time,
-                   b.energy() - a.energy(),
-                   b.dissipated - a.dissipated,
-                   b.upper - b.increment,
-                   0.0,
-                   0,
-                   -1,
-                   -1};
-    std::vector<double> changed;
-    for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
-        const auto interface = static_cast<std::size_t>(graph.interface_of(p));
-        if (changed.size() <= interface) changed.resize(interface + 1, 0.0);
-        const double c = pairs.weight[p] * (before.adhesion[p] - after.adhesion[p]);
-        changed[interface] += c;
-        jump.debonded += c;
-    }
-    jump.interface = std::max_element(changed.begin(), changed.end()) - changed.begin();
-    for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
-        if (graph.interface_of(p) != jump.interface || before.adhesion[p] - after.adhesion[p] <= debonded_below)
-            continue;
-        const std::int64_t local = static_cast<std::int64_t>(p) - graph.first_pair(jump.interface);
-        if (jump.first_pair < 0) jump.first_pair = local;
-        jump.last_pair = local;
-    }
-    return jump;
-}
-
 // An instant to be reached, and its state once computed.
 struct Goal {
     double time;
@@ -119,6 +88,7 @@ private:
     void accept_parent();
     void accept_goal();
     void accept(Goal goal);
+    void book_jump(State& next) const;
     ControlledStep close();
 };
 
@@ -178,15 +148,28 @@ void Parts::accept_goal() {
     Goal done = std::move(goals_.back());
     goals_.pop_back();
     if (jumps(done)) {
-        jumps_.push_back(describe(stepper_.pairs(), graph_, at_, done.reached->state));
+        book_jump(done.reached->state);
+        jumps_.push_back(describe_jump(stepper_.pairs(), graph_, at_, done.reached->state));
         jumps_.back().step = step_;
     }
     accept(std::move(done));
 }
 
+// The jump has been located: the load moves first, at the state before, and then the state jumps.
+void Parts::book_jump(State& next) const {
+    Ledger& ledger = next.ledger;
+    next.outcome.released = std::max(0.0, ledger.upper - ledger.increment);
+    ledger.work = at_.ledger.work + ledger.increment + next.outcome.released;
+    ledger.released = at_.ledger.released + next.outcome.released;
+}
+
 // Adds a part to the step.
 void Parts::accept(Goal goal) {
     State& next = goal.reached->state;
+    if (!(options_.jump_tolerance > 0.0) && delam::jumps(stepper_.pairs(), at_, next)) {
+        jumps_.push_back(describe_jump(stepper_.pairs(), graph_, at_, next));
+        jumps_.back().step = step_;
+    }
     sum_.lower += next.ledger.lower;
     sum_.increment += next.ledger.increment;
     sum_.upper += next.ledger.upper;
@@ -198,6 +181,7 @@ void Parts::accept(Goal goal) {
     converged_ = converged_ && goal.reached->converged;
     ++parts_;
     searched_ += goal.reached->searched;
+    outcome_.released += next.outcome.released;
     at_ = std::move(next);
     --at_.step;  // the parts of a step share its number
     // What was computed from the start of this part is invalid from its end.
@@ -220,7 +204,6 @@ ControlledStep Parts::close() {
     state.ledger.mixity_error = sum_.mixity_error;
     outcome_.damage_change = state.outcome.damage_change;
     outcome_.jumps = static_cast<std::int64_t>(out.jumps.size());
-    for (const JumpEvent& jump : out.jumps) outcome_.released += jump.released;
     history_.substeps = parts_;
     history_.refused_steps = refused_;
     state.effort = effort_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "law/adhesion_after.hpp"
 #include "law/mixity.hpp"
 
 namespace delam {
@@ -19,11 +20,14 @@ constexpr double mixity_difference = 1e-6;  // of the derivative by B
 }  // namespace
 
 ConvergedIncrement::ConvergedIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity,
-                                       double tolerance)
-    : FrozenIncrement(pairs, before, mixity, tolerance), swing_(mixity.size()) {}
+                                       StepLimits limits)
+    : FrozenIncrement(pairs, before, mixity, limits),
+      swing_(mixity.size()),
+      mixity_begun_(mixity.begin(), mixity.end()),
+      least_(mixity.size(), -1.0) {}
 
 std::unique_ptr<Increment> ConvergedIncrement::starting_at(std::span<const double> mixity) const {
-    return std::make_unique<ConvergedIncrement>(pairs_, before_, mixity, tolerance_);
+    return std::make_unique<ConvergedIncrement>(pairs_, before_, mixity, limits_);
 }
 
 // The mixity kept by a broken pair is final.
@@ -40,7 +44,7 @@ bool ConvergedIncrement::observe(std::size_t pair, const Driving& y) {
     const double onset = from.onset > 0.0 ? to.onset / from.onset - 1.0 : 0.0, total = to.total / from.total - 1.0;
     const double change = std::abs(onset) > std::abs(total) ? onset : total;
     Swing& swing = swing_[pair];
-    if (change * swing.last < 0.0 && std::abs(change) > tolerance_) {
+    if (change * swing.last < 0.0 && std::abs(change) > limits_.tolerance) {
         ++swing.turns;
         if (std::abs(change) > 0.5 * std::abs(swing.last)) swing.share *= 0.5;
         if (swing.share < least_share || swing.turns > most_turns) swing.share = 0.0;
@@ -69,19 +73,33 @@ bool ConvergedIncrement::settled(const State& state) {
         if (swing_[p].share > 0.0) open = std::max(open, swing_[p].open);
     }
     const std::vector<double> next = damage_step(state.adhesion, state.response.jump);
-    bool rests = true;
-    for (std::size_t p = 0; p < next.size(); ++p) rests = rests && std::abs(next[p] - state.adhesion[p]) <= tolerance_;
-    if (rests) {
+    if (change(state.adhesion, next, state.response.jump) <= limits_.tolerance) {
         begin_observation();
         return true;
     }
     restore(before);
-    return open <= tolerance_;
+    return open <= limits_.tolerance;
 }
 
 std::int64_t ConvergedIncrement::held() const {
     return std::count_if(swing_.begin(), swing_.end(),
-                         [&](const Swing& s) { return s.share <= 0.0 && s.open > tolerance_; });
+                         [&](const Swing& s) { return s.share <= 0.0 && s.open > limits_.tolerance; });
+}
+
+double ConvergedIncrement::least(std::size_t pair) const {
+    double& least = least_[pair];
+    if (least < 0.0)
+        least = limits_.stride < 1.0 && pairs_.mixed(pair)
+                    ? adhesion_after(*pairs_.law[pair], pairs_.toughness(pair, mixity_begun_[pair]),
+                                     before_.adhesion[pair], limits_.stride)
+                    : 0.0;
+    return least;
+}
+
+bool ConvergedIncrement::stopped(std::span<const double> adhesion) const {
+    for (std::size_t p = 0; p < adhesion.size(); ++p)
+        if (adhesion[p] > 0.0 && adhesion[p] < before_.adhesion[p] && adhesion[p] <= least(p)) return true;
+    return false;
 }
 
 void ConvergedIncrement::adopt(std::span<const double> mixity, State& start) const {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// mixity_rule = converged: the mixities follow the iterates to a fixed point, the step's own solution. A pair that
-// breaks keeps the mixity of the iterate in which it broke, the last one whose displacements it still took part in. B
-// adds no traction of its own; energies are compared at equal B.
+// mixity_rule = converged: the step is followed in parts (step/inner_path.hpp), none of which takes more than a share
+// of its toughness from a pair. Within a part the mixities follow the iterates to a fixed point, the solution of the
+// part. A pair that breaks keeps the mixity of the last iterate whose displacements it still took part in. B adds no
+// traction of its own; energies are compared at equal B.
 #pragma once
 
 #include "evolution/increment/frozen_increment.hpp"
@@ -10,13 +11,17 @@ namespace delam {
 
 class ConvergedIncrement final : public FrozenIncrement {
 public:
-    ConvergedIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity, double tolerance);
+    ConvergedIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits);
     std::unique_ptr<Increment> starting_at(std::span<const double> mixity) const override;
 
     using Increment::observe;
     bool observe(std::size_t pair, const Driving& y) override;
     bool settled(const State& state) override;
     std::int64_t held() const override;
+    // At the toughness with which the part began, so that the bound stays while the mixities move.
+    double least(std::size_t pair) const override;
+    bool in_parts() const override { return true; }
+    bool stopped(std::span<const double> adhesion) const override;
     bool follows_iterates() const override { return true; }
     void adopt(std::span<const double> mixity, State& start) const override;
 
@@ -33,6 +38,8 @@ private:
         std::int64_t turns = 0;
     };
     std::vector<Swing> swing_;
+    std::vector<double> mixity_begun_;
+    mutable std::vector<double> least_;  // computed when asked for; before that: -1
 };
 
 }  // namespace delam

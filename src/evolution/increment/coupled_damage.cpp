@@ -25,8 +25,14 @@ constexpr double tiny = 1e-12;   // of a diagonal entry: keeps the matrix defini
 class BoundedProblem {
 public:
     BoundedProblem(const GradientTerm& term, const Law& law, std::span<const Toughness> toughness,
-                   std::span<const double> driving, std::span<const double> upper)
-        : term_(term), law_(law), toughness_(toughness), driving_(driving), upper_(upper), free_(upper.size(), 0) {
+                   std::span<const double> driving, std::span<const double> lower, std::span<const double> upper)
+        : term_(term),
+          law_(law),
+          toughness_(toughness),
+          driving_(driving),
+          lower_(lower),
+          upper_(upper),
+          free_(upper.size(), 0) {
         for (std::size_t i = 0; i < upper.size(); ++i) free_[i] = term.coupled(i) && upper[i] > 0.0 ? 1 : 0;
         for (std::size_t i = 0; i < upper.size(); ++i)
             if (free_[i] != 0) scale_ += term.weight()[i] * (toughness[i].total + upper[i] * driving[i]);
@@ -37,7 +43,7 @@ public:
 private:
     using Values = std::vector<double>;
 
-    double clamped(std::size_t i, double z) const { return std::clamp(z, 0.0, upper_[i]); }
+    double clamped(std::size_t i, double z) const { return std::clamp(z, lower_[i], upper_[i]); }
     // Y(z), finite even where no driving energy suffices to debond completely.
     double resistance(std::size_t i, double z) const {
         const double y = law_.driving(toughness_[i], z);
@@ -57,7 +63,7 @@ private:
     const Law& law_;
     std::span<const Toughness> toughness_;
     std::span<const double> driving_;
-    std::span<const double> upper_;
+    std::span<const double> lower_, upper_;
     std::vector<std::uint8_t> free_;  // takes part at all
     double scale_ = 0.0;
 };
@@ -160,7 +166,10 @@ CoupledDamage BoundedProblem::solve(std::span<const double> pointwise, std::span
 
         for (std::size_t i = 0; i < n; ++i) {
             const double edge = std::min(near_bound * upper_[i], result.residual);
-            held[i] = free_[i] == 0 || (z[i] <= edge && d[i] > 0.0) || (z[i] >= upper_[i] - edge && d[i] < 0.0) ? 1 : 0;
+            held[i] =
+                free_[i] == 0 || (z[i] <= lower_[i] + edge && d[i] > 0.0) || (z[i] >= upper_[i] - edge && d[i] < 0.0)
+                    ? 1
+                    : 0;
             diag[i] = free_[i] != 0 ? curved[i] + tiny * term_.diagonal(i) : term_.diagonal(i) > 0.0 ? 0.0 : 1.0;
             right[i] = -d[i];
         }
@@ -185,7 +194,7 @@ CoupledDamage BoundedProblem::solve(std::span<const double> pointwise, std::span
     const Values d = slope(z);
     for (std::size_t i = 0; i < n; ++i) {
         if (free_[i] == 0) continue;
-        if (d[i] > 0.0 && z[i] <= small_step * upper_[i]) z[i] = 0.0;
+        if (d[i] > 0.0 && z[i] - lower_[i] <= small_step * upper_[i]) z[i] = lower_[i];
         if (d[i] < 0.0 && upper_[i] - z[i] <= small_step * upper_[i]) z[i] = upper_[i];
     }
     result.adhesion = std::move(z);
@@ -195,9 +204,10 @@ CoupledDamage BoundedProblem::solve(std::span<const double> pointwise, std::span
 }  // namespace
 
 CoupledDamage coupled_damage(const GradientTerm& term, const Law& law, std::span<const Toughness> toughness,
-                             std::span<const double> driving, std::span<const double> adhesion_old,
-                             std::span<const double> pointwise, std::span<const double> start) {
-    return BoundedProblem(term, law, toughness, driving, adhesion_old).solve(pointwise, start);
+                             std::span<const double> driving, std::span<const double> least,
+                             std::span<const double> adhesion_old, std::span<const double> pointwise,
+                             std::span<const double> start) {
+    return BoundedProblem(term, law, toughness, driving, least, adhesion_old).solve(pointwise, start);
 }
 
 }  // namespace delam

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The damage step of an interface with a gradient term: pairs are coupled, and
 //
-//   F(z) = sum w (z Y + g(z)) + kappa/2 z^T A z    over    0 <= z <= z_old
+//   F(z) = sum w (z Y + g(z)) + kappa/2 z^T A z    over    z_least <= z <= z_old
 //
 // is minimised as one convex problem. Projected Newton (Bertsekas, SIAM J. Control Optim. 20, 1982): pairs that the
 // gradient presses against a bound keep to it, the others take a Newton step by a sparse Cholesky factor, and the step
@@ -33,10 +33,11 @@ struct CoupledDamage {
     bool converged = false;
 };
 
-// All arrays over the interface's pairs. driving: Y. adhesion_old: upper bounds. pointwise: the minimiser without the
-// gradient term, which uncoupled pairs keep. start: an earlier solution nearby.
+// All arrays over the interface's pairs. driving: Y. least, adhesion_old: the bounds. pointwise: the minimiser without
+// the gradient term, which uncoupled pairs keep. start: an earlier solution nearby.
 CoupledDamage coupled_damage(const GradientTerm& term, const Law& law, std::span<const Toughness> toughness,
-                             std::span<const double> driving, std::span<const double> adhesion_old,
-                             std::span<const double> pointwise, std::span<const double> start);
+                             std::span<const double> driving, std::span<const double> least,
+                             std::span<const double> adhesion_old, std::span<const double> pointwise,
+                             std::span<const double> start);
 
 }  // namespace delam

@@ -63,26 +63,30 @@ std::vector<Toughness> toughnesses(const PairLaws& pairs, std::span<const double
 
 std::vector<double> damage_step(const PairLaws& pairs, std::span<const Toughness> toughness,
                                 std::span<const double> adhesion_old, std::span<const double> adhesion,
-                                std::span<const double> jump) {
+                                std::span<const double> jump, const LeastAdhesion& least) {
     std::vector<double> driving(adhesion.size(), 0.0);
     for (std::size_t p = 0; p < driving.size(); ++p)
         if (pairs.law[p] != nullptr) driving[p] = driving_energy(pairs, p, jump).total();
-    return damage_at(pairs, toughness, driving, adhesion_old, adhesion);
+    return damage_at(pairs, toughness, driving, adhesion_old, adhesion, least);
 }
 
 std::vector<double> damage_at(const PairLaws& pairs, std::span<const Toughness> toughness,
                               std::span<const double> driving, std::span<const double> adhesion_old,
-                              std::span<const double> adhesion) {
+                              std::span<const double> adhesion, const LeastAdhesion& least) {
     std::vector<double> zeta(adhesion_old.begin(), adhesion_old.end());
     for (std::size_t p = 0; p < zeta.size(); ++p)
-        if (pairs.law[p] != nullptr && zeta[p] > 0.0)
+        if (pairs.law[p] != nullptr && zeta[p] > 0.0) {
             zeta[p] = pairs.law[p]->minimiser(toughness[p], driving[p], zeta[p]);
+            if (least && zeta[p] < adhesion_old[p]) zeta[p] = std::max(zeta[p], least(p));
+        }
     for (const auto& term : pairs.gradient) {
         const std::size_t first = term->first(), count = term->pairs();
         const std::span<double> own = std::span(zeta).subspan(first, count);
+        std::vector<double> lower(count, 0.0);
+        for (std::size_t i = 0; least && i < count; ++i) lower[i] = least(first + i);
         const CoupledDamage coupled =
             coupled_damage(*term, *pairs.law[first], toughness.subspan(first, count), driving.subspan(first, count),
-                           adhesion_old.subspan(first, count), own, adhesion.subspan(first, count));
+                           lower, adhesion_old.subspan(first, count), own, adhesion.subspan(first, count));
         std::copy(coupled.adhesion.begin(), coupled.adhesion.end(), own.begin());
     }
     return zeta;

@@ -3,6 +3,7 @@
 // gradient term), and interface energies.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -43,16 +44,18 @@ bool any_jump(const PairLaws& pairs, std::span<const double> jump);
 std::vector<double> spring_stiffness(const PairLaws& pairs, std::span<const double> adhesion);
 // Go and Gc at the mixities, [pairs]; zero where there is no law.
 std::vector<Toughness> toughnesses(const PairLaws& pairs, std::span<const double> mixity);
-// zeta = argmin over 0 <= zeta <= adhesion_old at the frozen mixity of `toughness`; returns [pairs]. adhesion: [pairs]
-// where coupled interfaces start their iteration (coupled_damage.hpp); the problem is convex, so it only affects the
-// last digits.
+// A lower bound of the adhesion of a pair.
+using LeastAdhesion = std::function<double(std::size_t pair)>;
+// zeta = argmin over least <= zeta <= adhesion_old at the frozen mixity of `toughness`; returns [pairs]. adhesion:
+// [pairs] where coupled interfaces start their iteration (coupled_damage.hpp); the problem is convex, so it only
+// affects the last digits. least: asked of pairs that damage, and of coupled ones; none: 0.
 std::vector<double> damage_step(const PairLaws& pairs, std::span<const Toughness> toughness,
                                 std::span<const double> adhesion_old, std::span<const double> adhesion,
-                                std::span<const double> jump);
+                                std::span<const double> jump, const LeastAdhesion& least = {});
 // The same at given driving energies, [pairs].
 std::vector<double> damage_at(const PairLaws& pairs, std::span<const Toughness> toughness,
                               std::span<const double> driving, std::span<const double> adhesion_old,
-                              std::span<const double> adhesion);
+                              std::span<const double> adhesion, const LeastAdhesion& least = {});
 
 double stored_energy(const PairLaws& pairs, std::span<const double> adhesion,
                      std::span<const double> jump);                               // sum w zeta Y + gradient

@@ -6,7 +6,7 @@
 namespace delam {
 
 std::unique_ptr<Increment> FrozenIncrement::starting_at(std::span<const double> mixity) const {
-    return std::make_unique<FrozenIncrement>(pairs_, before_, mixity, tolerance_);
+    return std::make_unique<FrozenIncrement>(pairs_, before_, mixity, limits_);
 }
 
 double FrozenIncrement::energy(std::span<const double> adhesion, std::span<const double> jump) const {
@@ -14,7 +14,8 @@ double FrozenIncrement::energy(std::span<const double> adhesion, std::span<const
 }
 
 std::vector<double> FrozenIncrement::damage_step(std::span<const double> adhesion, std::span<const double> jump) const {
-    return delam::damage_step(pairs_, now_.toughness, before_.adhesion, adhesion, jump);
+    return delam::damage_step(pairs_, now_.toughness, before_.adhesion, adhesion, jump,
+                              [this](std::size_t pair) { return least(pair); });
 }
 
 bool FrozenIncrement::displace(const DisplacementSolve& solve, State& state) const {
@@ -40,7 +41,7 @@ bool FrozenIncrement::damaging(const State& state, std::size_t pair, bool couple
     const double y = driving_energy(*law, local(state.response.jump, pair)).total();
     // A pair that was damaged earlier in the step may be at rest at its end.
     return law->slope(toughness, y, before) < 0.0 &&
-           std::abs(law->minimiser(toughness, y, before) - zeta) <= 10.0 * tolerance_;
+           change(pair, zeta, law->minimiser(toughness, y, before), y) <= 10.0 * limits_.tolerance;
 }
 
 // v = w k j,   omega = k j (less what the mixity adds),   own = -g''.

@@ -9,8 +9,8 @@ namespace delam {
 
 class FrozenIncrement : public Increment {
 public:
-    FrozenIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity, double tolerance)
-        : Increment(pairs, before, mixity, tolerance) {}
+    FrozenIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits)
+        : Increment(pairs, before, mixity, limits) {}
     std::unique_ptr<Increment> starting_at(std::span<const double> mixity) const override;
 
     double energy(std::span<const double> adhesion, std::span<const double> jump) const override;

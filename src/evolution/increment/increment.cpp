@@ -8,8 +8,8 @@
 
 namespace delam {
 
-Increment::Increment(const PairLaws& pairs, const State& before, std::span<const double> mixity, double tolerance)
-    : pairs_(pairs), before_(before), tolerance_(tolerance) {
+Increment::Increment(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits)
+    : pairs_(pairs), before_(before), limits_(limits) {
     now_.used.assign(mixity.begin(), mixity.end());
     now_.own = now_.used;
     now_.toughness = toughnesses(pairs, mixity);
@@ -25,7 +25,7 @@ bool Increment::damages(std::size_t pair, double adhesion, std::span<const doubl
 PairMinimum Increment::minimum(std::size_t pair, std::span<const double> local_jump) const {
     const Law& law = *pairs_.law[pair];
     const double driving = driving_energy(law, local_jump).total();
-    const double zeta = law.minimiser(now_.toughness[pair], driving, before_.adhesion[pair]);
+    const double zeta = bounded(pair, law.minimiser(now_.toughness[pair], driving, before_.adhesion[pair]));
     return {zeta, zeta * driving + law.dissipated(now_.toughness[pair], zeta)};
 }
 
@@ -38,8 +38,9 @@ PairModel Increment::model(std::size_t pair, std::span<const double> local_jump,
     double pull[3] = {law.stiffness(0) * std::max(0.0, local_jump[0]), 0.0, 0.0};
     for (std::size_t c = 1; c < dim; ++c) pull[c] = law.stiffness(c) * local_jump[c];
     const double driving = driving_energy(law, local_jump).total();
-    const double slope =
-        fraction > 0.0 ? fraction * law.slope(now_.toughness[pair], driving, before_.adhesion[pair]) : 0.0;
+    const bool follows =
+        fraction > 0.0 && law.minimiser(now_.toughness[pair], driving, before_.adhesion[pair]) > least(pair);
+    const double slope = follows ? fraction * law.slope(now_.toughness[pair], driving, before_.adhesion[pair]) : 0.0;
     PairModel m;
     for (std::size_t r = 0; r < dim; ++r)
         for (std::size_t q = 0; q < dim; ++q) {
@@ -56,6 +57,24 @@ double Increment::dissipated(std::size_t pair, double adhesion) const {
     const Law& law = *pairs_.law[pair];
     const Toughness& t = now_.toughness[pair];
     return law.dissipated(t, adhesion) - law.dissipated(t, before_.adhesion[pair]);
+}
+
+double Increment::left(std::size_t pair, double adhesion) const {
+    const Toughness& t = now_.toughness[pair];
+    return 1.0 - pairs_.law[pair]->dissipated(t, adhesion) / t.total;
+}
+
+double Increment::change(std::size_t pair, double from, double to, double driving) const {
+    const double onset = now_.toughness[pair].onset;
+    return std::abs(to - from) * (driving > onset ? std::sqrt(driving / onset) : 1.0);
+}
+
+double Increment::change(std::span<const double> from, std::span<const double> to, std::span<const double> jump) const {
+    double largest = 0.0;
+    for (std::size_t p = 0; p < to.size(); ++p)
+        if (from[p] != to[p])
+            largest = std::max(largest, change(p, from[p], to[p], driving_energy(pairs_, p, jump).total()));
+    return largest;
 }
 
 bool Increment::observe(std::span<const double> adhesion, std::span<const double> jump) {
@@ -102,13 +121,20 @@ void book_energies(const PairLaws& pairs, State& state) {
     ledger.stored_interface_linear = ledger.stored_interface + stored_linear(pairs, state.mixity, state.adhesion);
 }
 
-void Increment::book(State& next) const {
+void Increment::book(State& next, const Dissipation* along) const {
     book_energies(pairs_, next);
     Ledger& ledger = next.ledger;
-    const double dissipated = dissipation(pairs_, next.mixity, before_.adhesion, next.adhesion);
+    const double dissipated =
+        along != nullptr ? along->booked : dissipation(pairs_, next.mixity, before_.adhesion, next.adhesion);
     ledger.dissipated = before_.ledger.dissipated + dissipated;
     const double change = ledger.energy() - before_.ledger.energy();
     ledger.increment = change + dissipated;
+    if (along != nullptr) {
+        ledger.increment_lower = ledger.increment;
+        ledger.dissipated_linear = before_.ledger.dissipated_linear + along->linear;
+        ledger.mixity_error = dissipated > 0.0 ? along->error / dissipated : 0.0;
+        return;
+    }
     ledger.increment_lower = change + dissipation(pairs_, next.mixity_before, before_.adhesion, next.adhesion);
     book_rule(next, ledger.energy_linear() - before_.ledger.energy_linear());
 }

@@ -10,6 +10,7 @@
 // minimisation: the iterates show it their mixities (observe), and it says whether the toughness in use has settled.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -46,6 +47,20 @@ struct PairDirection {
     double own;
 };
 
+// What bounds a minimisation.
+struct StepLimits {
+    StepLimits(double tolerance_, double stride_ = 1.0) : tolerance(tolerance_), stride(stride_) {}
+    double tolerance;  // of the tractions (Increment::change), and relative of a toughness
+    double stride;     // share of its toughness that a pair may dissipate, where the rule bounds it
+};
+
+// What a step dissipates, F L.
+struct Dissipation {
+    double booked = 0.0;
+    double linear = 0.0;  // in the split of PANM 15 (2010)
+    double error = 0.0;   // estimate for what is booked
+};
+
 class Increment {
 public:
     virtual ~Increment() = default;
@@ -61,6 +76,8 @@ public:
     virtual double energy(std::span<const double> adhesion, std::span<const double> jump) const = 0;
     // argmin of I over the adhesion at these displacements, [pairs]; adhesion: where coupled interfaces start.
     virtual std::vector<double> damage_step(std::span<const double> adhesion, std::span<const double> jump) const = 0;
+    // The largest change of a pair (below) between two damages at these displacements.
+    double change(std::span<const double> from, std::span<const double> to, std::span<const double> jump) const;
     // argmin of I over the displacements at the adhesion of the state; its closed pairs and response are the start.
     virtual bool displace(const DisplacementSolve& solve, State& state) const = 0;
 
@@ -71,8 +88,14 @@ public:
     // fraction: of the tangent that the damage adds; 1: Newton's method, 0: the adhesion held (secant).
     virtual PairModel model(std::size_t pair, std::span<const double> local_jump, double adhesion,
                             double fraction) const;
+    // The part of its toughness that the pair has not yet dissipated.
+    double left(std::size_t pair, double adhesion) const;
     // What the pair has dissipated since the state before, at the toughness in use, per unit area.
     double dissipated(std::size_t pair, double adhesion) const;
+    // Change of the pair's traction at a jump as its adhesion goes from one value to another, relative to its peak
+    // traction: |to - from| sqrt(Y/Go), or |to - from| below the onset. A softening pair of a stiff interface has
+    // adhesions of the order of Go/Gc, which may be 1e-5 or less, and its traction tells them apart.
+    double change(std::size_t pair, double from, double to, double driving) const;
 
     // ---- the mixities of a minimisation --------------------------------------------------------------------------
     // An iterate: displacements that were computed with this adhesion. True: a toughness in use has changed.
@@ -94,6 +117,15 @@ public:
     const Memory& memory() const { return now_; }
     void restore(const Memory& memory);
 
+    // The least adhesion that the pair may reach.
+    virtual double least(std::size_t /*pair*/) const { return 0.0; }
+    // Is the energy at fixed adhesion quadratic in the displacements?
+    virtual bool quadratic() const { return true; }
+    // Is the step followed in parts, each an increment of its own (step/inner_path.hpp)?
+    virtual bool in_parts() const { return false; }
+    // Has the bound of the part stopped the damage of a pair?
+    virtual bool stopped(std::span<const double> /*adhesion*/) const { return false; }
+
     // ---- candidates of a search (search.hpp) ---------------------------------------------------------------------
     // D, with what else the rule minimises besides bodies and springs, from the state before to this adhesion.
     virtual double cost(std::span<const double> mixity, std::span<const double> adhesion) const = 0;
@@ -111,16 +143,18 @@ public:
     }
 
     // ---- the ledger and the tangent ------------------------------------------------------------------------------
-    // Energies, dissipated energies and increments of the step into next.ledger, at the mixities of the state.
-    void book(State& next) const;
+    // Energies, dissipated energies and increments of the step into next.ledger. along: what was dissipated on the way;
+    // none: at the mixities of the state.
+    void book(State& next, const Dissipation* along = nullptr) const;
     // How the pairs that damage at the end of the step respond to their jumps.
     virtual std::vector<PairDirection> directions(const State& state) const = 0;
 
 protected:
-    // mixity: [pairs]. tolerance: of the adhesion, and relative of a toughness.
-    Increment(const PairLaws& pairs, const State& before, std::span<const double> mixity, double tolerance);
+    // mixity: [pairs].
+    Increment(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits);
     virtual const std::vector<double>& recorded() const { return now_.used; }
     virtual void begin_observation() {}
+    // In the split of PANM 15 (2010), at the mixities of the state.
     virtual void book_rule(State& next, double energy_change_linear) const = 0;
     std::size_t dimension() const { return static_cast<std::size_t>(pairs_.dimension); }
     // The part of the jumps that belongs to a pair.
@@ -130,7 +164,11 @@ protected:
 
     const PairLaws& pairs_;
     const State& before_;
-    double tolerance_;
+    double bounded(std::size_t pair, double adhesion) const {
+        return adhesion < before_.adhesion[pair] ? std::max(adhesion, least(pair)) : adhesion;
+    }
+
+    StepLimits limits_;
     double largest_ = 0.0;  // driving energy of the last iterate
     Memory now_;
 };

@@ -18,15 +18,15 @@ constexpr double tolerated_error = 0.1;  // of the toughness, relative
 
 template <class Rule>
 std::unique_ptr<Increment> make(const PairLaws& pairs, const State& before, std::span<const double> mixity,
-                                double tolerance) {
-    return std::make_unique<Rule>(pairs, before, mixity, tolerance);
+                                StepLimits limits) {
+    return std::make_unique<Rule>(pairs, before, mixity, limits);
 }
 
 }  // namespace
 
 struct MixityRule::Row {
     const char* word;
-    std::unique_ptr<Increment> (*make)(const PairLaws&, const State&, std::span<const double>, double);
+    std::unique_ptr<Increment> (*make)(const PairLaws&, const State&, std::span<const double>, StepLimits);
     bool keeps_broken;     // a broken pair keeps the mixity with which it broke
     bool before_is_start;  // mixity_before is that of the displacements before the step, else of the step before
     bool warns;            // of the error of its mixities
@@ -48,8 +48,8 @@ MixityRule::MixityRule(const PairLaws& pairs, const std::string& word)
 }
 
 std::unique_ptr<Increment> MixityRule::increment(const PairLaws& pairs, const State& before,
-                                                 std::span<const double> mixity, double tolerance) const {
-    return row_->make(pairs, before, mixity, tolerance);
+                                                 std::span<const double> mixity, StepLimits limits) const {
+    return row_->make(pairs, before, mixity, limits);
 }
 
 void MixityRule::begin(const PairLaws& pairs, const State& before, State& start) const {

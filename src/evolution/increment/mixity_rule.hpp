@@ -24,10 +24,9 @@ public:
     // all rules are the same, and the rule is frozen.
     MixityRule(const PairLaws& pairs, const std::string& word);
 
-    // A step from the state `before`, which must outlive it, minimised from these mixities, [pairs]. tolerance: of the
-    // adhesion, and relative of a toughness.
+    // A step from the state `before`, which must outlive it, minimised from these mixities, [pairs].
     std::unique_ptr<Increment> increment(const PairLaws& pairs, const State& before, std::span<const double> mixity,
-                                         double tolerance) const;
+                                         StepLimits limits) const;
     // Sets mixity and mixity_before of a state with which a step from `before` starts: from the committed
     // displacements, or, where nothing was loaded before, from the elastic ones of the step itself.
     void begin(const PairLaws& pairs, const State& before, State& start) const;

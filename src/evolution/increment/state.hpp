@@ -21,25 +21,26 @@ struct Ledger {
     // cumulative
     double dissipated = 0.0;         // sum w (g(B, zeta) - g(B, zeta_old)) over the steps
     double dissipated_linear = 0.0;  // sum w Gc(B) (zeta_old - zeta)
-    double work = 0.0;               // sum (lower + upper)/2
+    double work = 0.0;               // of the reactions
+    double released = 0.0;           // in jumps: neither stored nor dissipated
     // of the step: lower <= increment <= upper
     double lower = 0.0;
     double increment = 0.0;  // E_k - E_{k-1} + D_k
     double upper = 0.0;
-    // Increment with the mixity of the step before (the one the lower bound is provable with).
+    // Increment with the mixity of the step before (mixity_rule = frozen, variational).
     double increment_lower = 0.0;
 
     // Energies of the state from which the cumulative columns count; setting a state, instead of reaching it by load
     // steps, shifts them.
     double initial = 0.0;
     double initial_linear = 0.0;
-    // Of the step: by how much the toughness in use misses that of the iterates' own mixities.
+    // Of the step: estimated error of what it has dissipated, relative to it.
     double mixity_error = 0.0;
 
     double energy_linear() const { return stored_bulk + stored_interface_linear + load_potential; }
     // What does not close, in either split.
-    double defect() const { return energy() - initial + dissipated - work; }
-    double defect_linear() const { return energy_linear() - initial_linear + dissipated_linear - work; }
+    double defect() const { return energy() - initial + dissipated + released - work; }
+    double defect_linear() const { return energy_linear() - initial_linear + dissipated_linear + released - work; }
     double energy() const { return stored_bulk + stored_interface + load_potential; }
     // Of what differences of energies are small.
     double scale() const { return std::max(std::abs(energy()), std::abs(work)); }
@@ -79,6 +80,15 @@ struct Effort {
     }
 };
 
+// The largest jump that the path of a step has shown (step/within_step.hpp); none: debonded = 0.
+struct JumpWithin {
+    std::int64_t known = 0;  // 1: the step was followed in parts, which tell about jumps
+    double load = 0.0;       // over that of the end of the step
+    double released = 0.0;   // F L
+    double debonded = 0.0;   // L or L2
+    double drop = 0.0;       // of the load, relative
+};
+
 // How the step ended.
 struct StepOutcome {
     double damage_change = 0.0;    // what a further damage step would change of an adhesion
@@ -87,7 +97,7 @@ struct StepOutcome {
     // State kept minus what bounds the candidates left out, F L; 0: nothing left out can be lower.
     double search_gap = 0.0;
     std::int64_t jumps = 0;  // instants of this step at which the state jumps
-    double released = 0.0;   // energy that these set free and nothing stores or dissipates, F L
+    double released = 0.0;   // energy that the step sets free and nothing stores or dissipates, F L
 };
 
 // How the step came about.
@@ -115,6 +125,7 @@ struct State {
     Effort effort;
     StepOutcome outcome;
     StepHistory history;
+    JumpWithin jump_within;
 };
 
 }  // namespace delam

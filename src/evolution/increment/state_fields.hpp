@@ -19,6 +19,10 @@ inline constexpr auto saved_fields<SupportError> =
     saved_since(unsaved, &SupportError::constraint, &SupportError::error, &SupportError::size);
 
 template <>
+inline constexpr auto saved_fields<JumpWithin> = saved_since(unsaved,
+    &JumpWithin::known, &JumpWithin::load, &JumpWithin::released, &JumpWithin::debonded, &JumpWithin::drop);
+
+template <>
 inline constexpr auto saved_fields<Response> = std::tuple_cat(
     saved_since(5,
         &Response::jump,
@@ -36,58 +40,64 @@ inline constexpr auto saved_fields<Response> = std::tuple_cat(
         &Response::converged));
 
 template <>
-inline constexpr auto saved_fields<Ledger> = saved_since(5,
-    &Ledger::stored_bulk,
-    &Ledger::stored_interface,
-    &Ledger::load_potential,
-    &Ledger::stored_interface_linear,
-    &Ledger::dissipated,
-    &Ledger::dissipated_linear,
-    &Ledger::work,
-    &Ledger::lower,
-    &Ledger::increment,
-    &Ledger::upper,
-    &Ledger::increment_lower,
-    &Ledger::initial,
-    &Ledger::initial_linear,
-    &Ledger::mixity_error);
+inline constexpr auto saved_fields<Ledger> = std::tuple_cat(
+    saved_since(5,
+        &Ledger::stored_bulk,
+        &Ledger::stored_interface,
+        &Ledger::load_potential,
+        &Ledger::stored_interface_linear,
+        &Ledger::dissipated,
+        &Ledger::dissipated_linear,
+        &Ledger::work,
+        &Ledger::lower,
+        &Ledger::increment,
+        &Ledger::upper,
+        &Ledger::increment_lower,
+        &Ledger::initial,
+        &Ledger::initial_linear,
+        &Ledger::mixity_error),
+    saved_since(8,
+        &Ledger::released));
 
 template <>
-inline constexpr auto saved_fields<State> = saved_since(5,
-    &State::step,
-    &State::time,
-    &State::theta,
-    &State::adhesion,
-    &State::mixity,
-    &State::mixity_before,
-    &State::closed,
-    &State::loaded,
-    &State::response,
-    any_size(&State::memory),         // that the operator has: JumpOperator::require_memory
-    any_size(&State::search_memory),
-    &State::ledger,
-    member_of(&State::effort, &Effort::am_iterations),
-    member_of(&State::effort, &Effort::displacement_solves),
-    member_of(&State::effort, &Effort::contact_iterations),
-    member_of(&State::effort, &Effort::contact_iterations_first),
-    member_of(&State::effort, &Effort::contact_iterations_max),
-    member_of(&State::effort, &Effort::contact_fallbacks),
-    member_of(&State::effort, &Effort::linear_iterations),
-    member_of(&State::effort, &Effort::newton_solves),
-    member_of(&State::effort, &Effort::debond_moves),
-    member_of(&State::outcome, &StepOutcome::mixity_held),
-    member_of(&State::history, &StepHistory::backtracks),
-    member_of(&State::history, &StepHistory::revisions),
-    member_of(&State::history, &StepHistory::revised_from),
-    member_of(&State::effort, &Effort::search_candidates),
-    member_of(&State::outcome, &StepOutcome::search_margin),
-    may_be_infinite(member_of(&State::outcome, &StepOutcome::search_gap)),
-    member_of(&State::history, &StepHistory::substeps),
-    member_of(&State::history, &StepHistory::refused_steps),
-    member_of(&State::outcome, &StepOutcome::jumps),
-    member_of(&State::outcome, &StepOutcome::released),
-    member_of(&State::outcome, &StepOutcome::damage_change),
-    member_of(&State::effort, &Effort::linear_residual));
+inline constexpr auto saved_fields<State> = std::tuple_cat(
+    saved_since(5,
+        &State::step,
+        &State::time,
+        &State::theta,
+        &State::adhesion,
+        &State::mixity,
+        &State::mixity_before,
+        &State::closed,
+        &State::loaded,
+        &State::response,
+        any_size(&State::memory),         // that the operator has: JumpOperator::require_memory
+        any_size(&State::search_memory),
+        &State::ledger,
+        member_of(&State::effort, &Effort::am_iterations),
+        member_of(&State::effort, &Effort::displacement_solves),
+        member_of(&State::effort, &Effort::contact_iterations),
+        member_of(&State::effort, &Effort::contact_iterations_first),
+        member_of(&State::effort, &Effort::contact_iterations_max),
+        member_of(&State::effort, &Effort::contact_fallbacks),
+        member_of(&State::effort, &Effort::linear_iterations),
+        member_of(&State::effort, &Effort::newton_solves),
+        member_of(&State::effort, &Effort::debond_moves),
+        member_of(&State::outcome, &StepOutcome::mixity_held),
+        member_of(&State::history, &StepHistory::backtracks),
+        member_of(&State::history, &StepHistory::revisions),
+        member_of(&State::history, &StepHistory::revised_from),
+        member_of(&State::effort, &Effort::search_candidates),
+        member_of(&State::outcome, &StepOutcome::search_margin),
+        may_be_infinite(member_of(&State::outcome, &StepOutcome::search_gap)),
+        member_of(&State::history, &StepHistory::substeps),
+        member_of(&State::history, &StepHistory::refused_steps),
+        member_of(&State::outcome, &StepOutcome::jumps),
+        member_of(&State::outcome, &StepOutcome::released),
+        member_of(&State::outcome, &StepOutcome::damage_change),
+        member_of(&State::effort, &Effort::linear_residual)),
+    saved_since(unsaved,  // told when the step ends
+        &State::jump_within));
 // clang-format on
 
 static_assert(complete<Response>(saved_fields<Response>) && complete<Ledger>(saved_fields<Ledger>) &&

@@ -11,8 +11,8 @@ namespace delam {
 
 class VariationalIncrement final : public Increment {
 public:
-    VariationalIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity, double tolerance)
-        : Increment(pairs, before, mixity, tolerance) {}
+    VariationalIncrement(const PairLaws& pairs, const State& before, std::span<const double> mixity, StepLimits limits)
+        : Increment(pairs, before, mixity, limits) {}
     std::unique_ptr<Increment> starting_at(std::span<const double> mixity) const override;
 
     double energy(std::span<const double> adhesion, std::span<const double> jump) const override;
@@ -24,6 +24,7 @@ public:
                     double fraction) const override;
     double cost(std::span<const double> mixity, std::span<const double> adhesion) const override;
     double energy_before() const override { return before_.ledger.energy_linear(); }
+    bool quadratic() const override { return false; }
     bool bounds_candidates() const override { return false; }
     std::vector<double> shown(std::span<const double> jump, std::vector<double> mixity) const override;
     std::vector<PairDirection> directions(const State& state) const override;

@@ -9,6 +9,29 @@
 
 namespace delam {
 
+namespace {
+
+constexpr double proportional = 1e-12;  // of the load factors
+
+}  // namespace
+
+std::optional<double> load_ratio(std::span<const double> before, std::span<const double> next) {
+    const double size = dot(next, next), a = size > 0.0 ? dot(before, next) / size : 0.0;
+    if (!(a > 0.0)) return std::nullopt;
+    for (std::size_t p = 0; p < next.size(); ++p)
+        if (std::abs(before[p] - a * next[p]) > proportional * std::abs(before[p])) return std::nullopt;
+    return a;
+}
+
+std::optional<EnergyBounds> reduced_bounds(const PairLaws& pairs, const State& before, const State& next) {
+    const double change = next.ledger.energy() - before.ledger.energy();
+    if (next.adhesion == before.adhesion) return EnergyBounds{change, change};
+    const std::optional<double> a = load_ratio(before.theta, next.theta);
+    if (!a) return std::nullopt;
+    return EnergyBounds{(1.0 - *a * *a) * (next.ledger.energy() - gradient_energy(pairs, next.adhesion)),
+                        (1.0 / (*a * *a) - 1.0) * (before.ledger.energy() - gradient_energy(pairs, before.adhesion))};
+}
+
 Lift::Lift(JumpOperator& op, std::span<const std::uint8_t> bonded_rows, std::span<const BoundRow> bound,
            std::size_t patterns)
     : a_(static_cast<std::int64_t>(patterns), static_cast<std::int64_t>(patterns)) {

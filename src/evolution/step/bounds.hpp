@@ -14,14 +14,32 @@
 // s_i add s_i J_i J_i^T to A.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "evolution/increment/damage_step.hpp"
 #include "evolution/increment/state.hpp"
 #include "linalg/dense.hpp"
 #include "reduction/bound_rows.hpp"
 
 namespace delam {
+
+// lower <= increment <= upper of a step.
+struct EnergyBounds {
+    double lower, upper;
+};
+
+// The same bounds for q = zeta alone, with E(theta, zeta) minimised over all displacements: narrower, since nothing is
+// held, and exact where no load pattern changes its share of the whole. Bodies, springs and frictionless contact
+// without a gap answer an a-fold load with a-fold displacements, so that with theta_{k-1} = a theta_k, a > 0,
+//   lower = (1 - a^2) E(theta_k, zeta_k),   upper = (1/a^2 - 1) E(theta_{k-1}, zeta_{k-1})
+// where E leaves out the gradient energy, which stays. A step that damages nothing has lower = upper = its increment
+// under any loads. None: the loads change their shares.
+std::optional<EnergyBounds> reduced_bounds(const PairLaws& pairs, const State& before, const State& next);
+
+// a of theta_{k-1} = a theta_k, a > 0; none: the loads change their shares, or one is zero.
+std::optional<double> load_ratio(std::span<const double> before, std::span<const double> next);
 
 class Lift {
 public:

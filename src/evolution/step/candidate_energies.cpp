@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "delam/delam.h"
-#include "law/mixity.hpp"
+#include "evolution/increment/path_dissipation.hpp"
 
 namespace delam {
 
@@ -28,11 +28,13 @@ std::uint64_t key_of(std::span<const double> adhesion) {
 }  // namespace
 
 CandidateEnergies::CandidateEnergies(JumpOperator& op, const ContactScene& contact, Monitor& monitor,
-                                     ZoneEnergies* zone, const Increment& increment, const State& from)
+                                     ZoneEnergies* zone, const PairGraph& graph, const Increment& increment,
+                                     const State& from)
     : op_(op),
       contact_(contact),
       monitor_(monitor),
       zone_(zone),
+      graph_(graph),
       increment_(increment),
       from_(from),
       follow_mixity_(increment.follows_iterates()),
@@ -51,6 +53,22 @@ void CandidateEnergies::focus(std::span<const std::uint8_t> wanted) {
     focused_ = zone_->focus(from_, pairs);
 }
 
+double CandidateEnergies::breaking_mixity(std::size_t pair, std::span<const double> adhesion, double known,
+                                          const std::function<std::span<const double>(std::size_t)>& jump) const {
+    const PairLaws& pairs = increment_.pairs();
+    const std::span<const double> own = jump(pair);
+    std::span<const double> opened = own;
+    double most = 0.0;
+    for (const std::int64_t q : graph_.neighbours(pair)) {
+        if (pairs.law[index(q)] == nullptr || adhesion[index(q)] > 0.0) continue;
+        const std::span<const double> there = jump(index(q));
+        const double driving = there.empty() ? 0.0 : driving_energy(*pairs.law[index(q)], there).total();
+        if (driving > most) opened = there;
+        most = std::max(most, driving);
+    }
+    return path_mixity(pairs, pair, own, opened, known);
+}
+
 bool CandidateEnergies::within_zone(std::span<const double> adhesion, std::span<const std::int64_t> next) const {
     bool within = focused_;
     for (std::size_t p = 0; within && p < adhesion.size(); ++p)
@@ -65,8 +83,9 @@ void CandidateEnergies::from_zone(std::span<const double> adhesion, std::span<co
     e.value = *value / (size_ * size_);
     for (std::size_t i = 0; follow_mixity_ && i < e.next.size(); ++i) {
         const std::size_t p = index(e.next[i]);
-        const Driving y = driving_energy(*increment_.pairs().law[p], zone_->jump(p));
-        e.next_mixity.push_back(y.total() > 0.0 ? mode_mixity(y.normal, y.tangential) : known[p]);
+        e.next_mixity.push_back(breaking_mixity(p, adhesion, known[p], [&](std::size_t q) {
+            return zone_->inside(q) ? zone_->jump(q) : std::span<const double>();
+        }));
     }
 }
 
@@ -81,8 +100,11 @@ void CandidateEnergies::from_operator(std::span<const double> adhesion, std::spa
         e.value = response_.stored_bulk + response_.load_potential + stored_energy(pairs, adhesion, response_.jump) -
                   gradient_energy(pairs, adhesion);  // which does not grow with the load
         if (!follow_mixity_) return;
-        const std::vector<double> own = mixities(pairs, response_.jump, known);
-        for (const std::int64_t p : e.next) e.next_mixity.push_back(own[index(p)]);
+        const auto dim = static_cast<std::size_t>(pairs.dimension);
+        for (const std::int64_t p : e.next)
+            e.next_mixity.push_back(breaking_mixity(index(p), adhesion, known[index(p)], [&](std::size_t q) {
+                return std::span<const double>(response_.jump).subspan(q * dim, dim);
+            }));
     } catch (const Error& error) {
         if (error.status() != DELAM_LIMIT) throw;
     }

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
 #include "base/monitor.hpp"
 #include "evolution/increment/increment.hpp"
+#include "evolution/step/fronts.hpp"
 #include "evolution/step/zone_energies.hpp"
 
 namespace delam {
@@ -19,14 +21,14 @@ inline constexpr std::size_t largest_zone = 1500;
 struct CandidateEnergy {
     double value;                     // at the unit load; infinite: no equilibrium
     std::vector<std::int64_t> next;   // pairs that may break next
-    std::vector<double> next_mixity;  // the mixities that they show; empty if the mixity does not follow the iterates
+    std::vector<double> next_mixity;  // with which they would break; empty if the mixity does not follow the iterates
 };
 
 class CandidateEnergies {
 public:
     // The load of `from`: a direction whose largest entry has size 1, and its size.
     CandidateEnergies(JumpOperator& op, const ContactScene& contact, Monitor& monitor, ZoneEnergies* zone,
-                      const Increment& increment, const State& from);
+                      const PairGraph& graph, const Increment& increment, const State& from);
 
     double size() const { return size_; }
     const std::vector<double>& direction() const { return direction_; }
@@ -39,6 +41,10 @@ public:
                               std::span<const double> known, std::int64_t candidates);
 
 private:
+    // Of a pair that would break next, whose jump is then that of a broken neighbour. jump: of a pair, empty where it
+    // is not known.
+    double breaking_mixity(std::size_t pair, std::span<const double> adhesion, double known,
+                           const std::function<std::span<const double>(std::size_t)>& jump) const;
     bool within_zone(std::span<const double> adhesion, std::span<const std::int64_t> next) const;
     void from_zone(std::span<const double> adhesion, std::span<const double> known, CandidateEnergy& e);
     void from_operator(std::span<const double> adhesion, std::span<const double> known, CandidateEnergy& e);
@@ -47,6 +53,7 @@ private:
     const ContactScene& contact_;
     Monitor& monitor_;
     ZoneEnergies* zone_;
+    const PairGraph& graph_;
     const Increment& increment_;
     const State& from_;
     bool follow_mixity_;

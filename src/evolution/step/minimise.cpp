@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "base/error.hpp"
 #include "delam/delam.h"
@@ -37,12 +38,6 @@ private:
     bool spent_ = false;
 };
 
-double largest_change(std::span<const double> from, std::span<const double> to) {
-    double change = 0.0;
-    for (std::size_t p = 0; p < to.size(); ++p) change = std::max(change, std::abs(to[p] - from[p]));
-    return change;
-}
-
 }  // namespace
 
 bool Minimiser::displace(State& state, const Increment& increment, bool cold) const {
@@ -67,18 +62,19 @@ bool Minimiser::end(State& state, const Increment& increment, bool converged) co
     return converged && increment.held() == 0;
 }
 
-bool Minimiser::alternate(State& state, Increment& increment) const {
+bool Minimiser::alternate(State& state, Increment& increment, bool displaced) const {
+    const std::int64_t last = state.effort.am_iterations + limit;
     while (true) {
         monitor.progress("minimise", state.effort.am_iterations, 0);
-        const bool converged = displace(state, increment);
+        const bool converged = std::exchange(displaced, false) || displace(state, increment);
         increment.observe(state.adhesion, state.response.jump);
         std::vector<double> next = increment.damage_step(state.adhesion, state.response.jump);
-        state.outcome.damage_change = largest_change(state.adhesion, next);
+        state.outcome.damage_change = increment.change(state.adhesion, next, state.response.jump);
         ++state.effort.am_iterations;
         if (state.outcome.damage_change <= tolerance && increment.settled(state))
             return end(state, increment, converged);
         state.adhesion = std::move(next);
-        if (state.effort.am_iterations < limit) continue;
+        if (state.effort.am_iterations < last) continue;
         displace(state, increment);
         return end(state, increment, false);
     }
@@ -95,7 +91,7 @@ void Minimiser::extrapolate(State& state, const Increment& increment, std::span<
     state.adhesion = extrapolation.next(from, plain);
     double along = 0.0;
     for (std::size_t p = 0; p < plain.size(); ++p) {
-        state.adhesion[p] = std::clamp(state.adhesion[p], 0.0, increment.adhesion_before()[p]);
+        state.adhesion[p] = std::clamp(state.adhesion[p], increment.least(p), increment.adhesion_before()[p]);
         along += (state.adhesion[p] - from[p]) * (plain[p] - from[p]);
     }
     if (along > 0.0) return;
@@ -107,7 +103,8 @@ void Minimiser::extrapolate(State& state, const Increment& increment, std::span<
 // Each round is one alternation, which is also the stopping test; between rounds the adhesion moves ahead. A move that
 // raised the energy of the whole is taken back, and the plain step is made instead. Where the mixity follows the
 // iterates, energies are compared at equal B: what a new B alone adds goes onto the level of comparison.
-bool Minimiser::accelerate(State& state, Increment& increment) const {
+bool Minimiser::accelerate(State& state, Increment& increment, bool displaced) const {
+    const std::int64_t last = state.effort.am_iterations + limit;
     // Newton's method eliminates the damage pair by pair, which a gradient term forbids.
     const bool by_newton = increment.pairs().gradient.empty() && op.offers_zone();
     const ZoneNewton newton{op, contact, monitor, tolerance, std::min(newton_steps, limit)};
@@ -120,7 +117,7 @@ bool Minimiser::accelerate(State& state, Increment& increment) const {
     double level = 0.0;
     while (true) {
         monitor.progress("minimise", state.effort.am_iterations, 0);
-        const bool converged = displace(state, increment);
+        const bool converged = std::exchange(displaced, false) || displace(state, increment);
         const double reached = energy(state, increment);
         if (!std::isfinite(reached)) fail(DELAM_ERROR_NUMERICAL, "the energy of a displacement step is not finite");
         if (ahead && reached > level + rounding * std::abs(level)) {
@@ -135,11 +132,11 @@ bool Minimiser::accelerate(State& state, Increment& increment) const {
         }
         level = increment.observe(state.adhesion, state.response.jump) ? energy(state, increment) : reached;
         plain = increment.damage_step(state.adhesion, state.response.jump);
-        state.outcome.damage_change = largest_change(state.adhesion, plain);
+        state.outcome.damage_change = increment.change(state.adhesion, plain, state.response.jump);
         ++state.effort.am_iterations;
         if (state.outcome.damage_change <= tolerance && increment.settled(state))
             return end(state, increment, converged);
-        if (state.effort.am_iterations >= limit) {
+        if (state.effort.am_iterations >= last) {
             state.adhesion = plain;
             displace(state, increment);
             return end(state, increment, false);

@@ -19,18 +19,19 @@ struct Minimiser {
     JumpOperator& op;
     const ContactScene& contact;
     Monitor& monitor;
-    double tolerance;    // of the adhesion
+    double tolerance;    // of the tractions (Increment::change)
     std::int64_t limit;  // of alternations
 
     // Displacements and contact at the state's adhesion and theta; effort is added up. cold: the contact set at hand
     // says nothing. False: a limit of the linear or contact iteration was met.
     bool displace(State& state, const Increment& increment, bool cold = false) const;
     // Both unknowns, by plain alternation. The adhesion starts at the state's, the mixity at the increment's. False: a
-    // limit was met, or the mixity of some pairs does not settle.
-    bool alternate(State& state, Increment& increment) const;
+    // limit was met, or the mixity of some pairs does not settle. displaced: the displacements of the state belong to
+    // its adhesion.
+    bool alternate(State& state, Increment& increment, bool displaced = false) const;
     // The same to the same stopping test, sped up and safeguarded by the energy: between two alternations Newton's
     // method moves ahead in a zone of the operator (zone_newton.hpp), or plain steps are extrapolated.
-    bool accelerate(State& state, Increment& increment) const;
+    bool accelerate(State& state, Increment& increment, bool displaced = false) const;
 
 private:
     // E + D of a state whose displacements belong to its adhesion, up to a constant of the step.

@@ -198,7 +198,7 @@ double Search::debonded_energy(const State& from, std::span<const double> direct
 
 SearchResult Search::run(const Increment& increment, const State& from, std::span<const double> mixity) {
     SearchResult result;
-    CandidateEnergies energies(op_, contact_, monitor_, zone_ ? &*zone_ : nullptr, increment, from);
+    CandidateEnergies energies(op_, contact_, monitor_, zone_ ? &*zone_ : nullptr, graph_, increment, from);
     if (energies.direction() != floor_direction_) {
         floor_direction_.clear();
         unit_floor_ = energies.size() > 0.0 ? debonded_energy(from, energies.direction()) : 0.0;

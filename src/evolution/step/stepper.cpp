@@ -18,6 +18,40 @@ namespace {
 constexpr std::size_t most_starts = 2;  // candidates of a search from which a step is minimised
 // Of its dissipation: by how much a candidate may lie above the step and still be relaxed.
 constexpr double promising = 0.5;
+// The same for following the way to it, whose dissipated energy the candidate only estimates.
+constexpr double promising_way = 0.05;
+// Of the toughness: what a pair may lose in a step that damages gradually, and what it loses where it is damaged at
+// once.
+constexpr double gradual = 0.1, at_once = 0.5;
+// Squares of the larger loads at which fronts are followed ahead (scout).
+constexpr double least_overload = 1.02, overload_growth = 1.04, most_overload = 4.0;
+// Of what is dissipated down to a candidate: how much farther fronts are followed.
+constexpr double beyond = 1.2;
+// The way is given up where it lies higher than this above the step, of what is dissipated on it, after a part of it.
+constexpr double too_high = 0.25, first_part = 0.1;
+constexpr double same = 1e-3;  // spread of toughnesses, relative
+
+// Do all pairs that a candidate debonds have the same toughness?
+bool same_toughness(const PairLaws& pairs, const Candidate& candidate, std::span<const double> from) {
+    double least = std::numeric_limits<double>::infinity(), most = 0.0;
+    for (std::size_t p = 0; p < from.size(); ++p) {
+        if (pairs.law[p] == nullptr || !(candidate.adhesion[p] <= 0.0) || !(from[p] > 0.0)) continue;
+        const double total = pairs.toughness(p, candidate.mixity[p]).total;
+        least = std::min(least, total);
+        most = std::max(most, total);
+    }
+    return most <= (1.0 + same) * least;
+}
+
+// Does a candidate debond no more pairs than soften already? The step itself has compared such states.
+bool within_zone(std::span<const double> candidate, std::span<const double> from) {
+    std::int64_t debonded = 0, softening = 0;
+    for (std::size_t p = 0; p < from.size(); ++p) {
+        debonded += candidate[p] <= 0.0 && from[p] > 0.0 ? 1 : 0;
+        softening += from[p] > 0.0 && from[p] < 1.0 ? 1 : 0;
+    }
+    return debonded <= softening;
+}
 
 }  // namespace
 
@@ -46,6 +80,7 @@ Stepper::Stepper(const Problem& problem, Monitor& monitor) : problem_(problem), 
         }
         initial_adhesion_.insert(initial_adhesion_.end(), properties.adhesion.begin(), properties.adhesion.end());
     }
+    graph_ = PairGraph(mesh.interfaces());
     contact_.level = contact_levels(mesh.interfaces());
     if (!problem_.eigenstrains.empty()) {
         StrainSizes sizes = strain_sizes(problem_);
@@ -109,33 +144,85 @@ void Stepper::begin(State& next, const State& before, double time) {
     operator_->recall(before.memory);
 }
 
-void Stepper::book_step(State& next, const Increment& step) const {
-    step.book(next);
+double Stepper::largest_loss(const Increment& step, const State& next) const {
+    const std::vector<double>& before = step.before().adhesion;
+    double largest = 0.0;
+    for (std::size_t p = 0; p < before.size(); ++p)
+        if (pairs_.law[p] != nullptr && next.adhesion[p] < before[p])
+            largest = std::max(largest, step.left(p, before[p]) - step.left(p, next.adhesion[p]));
+    return largest;
+}
+
+// The work of the reactions by the trapezoidal rule, which is exact where nothing is damaged. What is neither stored
+// nor dissipated of it in a step that damages a pair abruptly is released, into a motion that a quasi-static model does
+// not have. Where a pair is damaged at once, the reactions change at an instant that is not known, and the work may be
+// anything between the bounds of the estimate: where the trapezoidal rule leaves too little, the change came later. A
+// step that was followed in parts knows better (within_step.hpp).
+void Stepper::book_step(State& next, const Increment& step, const InnerPath* path) const {
+    step.book(next, path != nullptr ? &path->dissipated() : nullptr);
     const State& before = step.before();
     Ledger& ledger = next.ledger;
     std::vector<double> d(next.theta.size());
     for (std::size_t p = 0; p < d.size(); ++p) d[p] = next.theta[p] - before.theta[p];
-    ledger.lower = dot(d, next.response.conjugate) - lift_.half_quadratic(d, spring_stiffness(pairs_, next.adhesion));
-    ledger.upper =
-        dot(d, before.response.conjugate) + lift_.half_quadratic(d, spring_stiffness(pairs_, before.adhesion));
-    ledger.work = before.ledger.work + 0.5 * (ledger.lower + ledger.upper);
+    EnergyBounds bounds{
+        dot(d, next.response.conjugate) - lift_.half_quadratic(d, spring_stiffness(pairs_, next.adhesion)),
+        dot(d, before.response.conjugate) + lift_.half_quadratic(d, spring_stiffness(pairs_, before.adhesion))};
+    double work = 0.5 * (bounds.lower + bounds.upper);
+    if (const auto reduced = step.quadratic() ? reduced_bounds(pairs_, before, next) : std::nullopt) {
+        bounds = *reduced;
+        if (next.adhesion == before.adhesion) work = ledger.increment;
+    }
+    ledger.lower = bounds.lower;
+    ledger.upper = bounds.upper;
+    next.jump_within = {};
+    const std::optional<double> begin = load_ratio(before.theta, next.theta);
+    if (path != nullptr && path->points().size() > 1 && begin && *begin <= 1.0) {
+        std::vector<PathPoint> points{path_point(pairs_, before, 0.0)};
+        points.front().energy =
+            (points.front().energy - points.front().gradient) / (*begin * *begin) + points.front().gradient;
+        points.insert(points.end(), path->points().begin(), path->points().end());
+        const WithinStep within = within_step(points, *begin);
+        next.jump_within = within.jump;
+        next.jump_within.known = 1;
+        next.outcome.released = within.released;
+        ledger.work = before.ledger.work + within.work;
+        ledger.released = before.ledger.released + within.released;
+        return;
+    }
+    const double loss = largest_loss(step, next);
+    next.outcome.released = loss > gradual ? std::max(0.0, work - ledger.increment) : 0.0;
+    if (loss > at_once) work = std::clamp(ledger.increment, work, std::max(work, bounds.upper));
+    ledger.work = before.ledger.work + work;
+    ledger.released = before.ledger.released + next.outcome.released;
+}
+
+InnerPath Stepper::inner_path() {
+    return {pairs_, graph_, problem_.options.path_step,
+            [this](const State& before, std::span<const double> mixity, double stride) {
+                return rule_->increment(pairs_, before, mixity, {problem_.options.damage_tolerance, stride});
+            },
+            [this](State& state, Increment& increment, bool displaced) {
+                return problem_.options.minimisation == "alternate"
+                           ? minimiser().alternate(state, increment, displaced)
+                           : minimiser().accelerate(state, increment, displaced);
+            }};
 }
 
 // Starts from the adhesion and the mixity of `next`.
-bool Stepper::minimise(State& next, const Increment& step) {
-    const std::unique_ptr<Increment> own = step.starting_at(next.mixity);
-    const bool converged = problem_.options.minimisation == "alternate" ? minimiser().alternate(next, *own)
-                                                                        : minimiser().accelerate(next, *own);
+bool Stepper::minimise(State& next, const Increment& step, const Dissipation* begun) {
+    InnerPath path = inner_path();
+    const bool converged =
+        step.in_parts() ? path.follow(next, step, begun) : path.minimise(next, *step.starting_at(next.mixity));
     refuse_runaway(next, step);
     next.loaded = step.before().loaded != 0 || any_jump(pairs_, next.response.jump) ? 1 : 0;
-    book_step(next, step);
+    book_step(next, step, step.in_parts() ? &path : nullptr);
     next.memory = operator_->memory();
     return converged;
 }
 
 // Beyond the limit of a dead load, alternation takes adhesion to zero by ever smaller steps and displacements to
-// infinity: adhesion below the tolerance does not hold a part. Without that adhesion the displacement step finds no
-// equilibrium (DELAM_LIMIT).
+// infinity: pairs with less than the tolerance left of their toughness do not hold a part. Without them the
+// displacement step finds no equilibrium (DELAM_LIMIT).
 void Stepper::refuse_runaway(const State& state, const Increment& step) {
     bool dead = false, faint = false;
     for (std::size_t p = 0; p < state.theta.size(); ++p)
@@ -143,7 +230,7 @@ void Stepper::refuse_runaway(const State& state, const Increment& step) {
     State without;
     for (std::size_t p = 0; dead && p < state.adhesion.size(); ++p) {
         if (pairs_.law[p] == nullptr || !(state.adhesion[p] > 0.0) ||
-            state.adhesion[p] > problem_.options.damage_tolerance)
+            step.left(p, state.adhesion[p]) > problem_.options.damage_tolerance)
             continue;
         if (!faint) without = state;
         faint = true;
@@ -157,7 +244,7 @@ void Stepper::refuse_runaway(const State& state, const Increment& step) {
 
 double Stepper::lower_excess(const State& state) const {
     const double scale = state.ledger.scale();
-    return scale > 0.0 ? (state.ledger.lower - state.ledger.increment_lower) / scale : 0.0;
+    return scale > 0.0 ? (state.ledger.lower - state.ledger.increment) / scale : 0.0;
 }
 
 // Before the first load there is no jump that gives a mixity; the elastic solution of the step itself gives it.
@@ -188,21 +275,63 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
     for (const Start& from : also) {
         State other = first;
         other.effort = best.state.effort;
-        for (std::size_t p = 0; p < other.adhesion.size(); ++p)
+        bool later = true;  // than the state before, so that the difference was dissipated in between
+        for (std::size_t p = 0; p < other.adhesion.size(); ++p) {
+            later = later && !(from.adhesion[p] > before.adhesion[p]);
             other.adhesion[p] = std::min(from.adhesion[p], before.adhesion[p]);
+        }
         step->adopt(from.mixity, other);
-        keep_lower(best, std::move(other), *step);
+        const Dissipation begun{from.dissipated - before.ledger.dissipated,
+                                from.dissipated_linear - before.ledger.dissipated_linear, 0.0};
+        keep_lower(best, std::move(other), *step, later ? &begun : nullptr);
     }
     if (problem_.options.solution == "energetic") search(best, *step);
     return best;
 }
 
 // Minimises from another start and keeps the lower state. All effort is counted.
-void Stepper::keep_lower(Result& best, State other, const Increment& step) {
-    const bool converged = minimise(other, step);
+void Stepper::keep_lower(Result& best, State other, const Increment& step, const Dissipation* begun) {
+    const bool converged = minimise(other, step, begun);
     const Effort effort = other.effort;
     if (best.state.ledger.undercut_by(other.ledger.increment)) best = {std::move(other), converged};
     best.state.effort = effort;
+}
+
+// The load grows until fronts have run so far that `extent` is dissipated beyond the step's own state. E of a state at
+// the load of the step is that at the larger one over the square of their ratio, but for the gradient energy.
+Stepper::Scouted Stepper::scout(Result& best, const Increment& step, double extent) {
+    const State& from = best.state;
+    const Ledger &now = from.ledger, &then = step.before().ledger;
+    const Dissipation own{now.dissipated - then.dissipated, now.dissipated_linear - then.dissipated_linear,
+                          now.mixity_error * (now.dissipated - then.dissipated)};
+    Scouted found;
+    State at = from;
+    Dissipation reached = own;
+    for (double square = least_overload; square < most_overload && found.farthest < extent && !found.given_up;
+         square *= overload_growth) {
+        const State begin = at;
+        for (std::size_t p = 0; p < at.theta.size(); ++p) at.theta[p] = from.theta[p] * std::sqrt(square);
+        InnerPath path = inner_path();
+        path.follow(at, *increment(begin, begin.mixity), &reached,
+                    [&](const State& state, const Dissipation& dissipated) {
+                        const double gradient = gradient_energy(pairs_, state.adhesion);
+                        const double energy = state.response.stored_bulk + state.response.load_potential +
+                                              stored_energy(pairs_, state.adhesion, state.response.jump) - gradient;
+                        const double incremental = energy / square + gradient - then.energy() + dissipated.booked;
+                        ++found.compared;
+                        if (incremental < found.incremental) {
+                            found.incremental = incremental;
+                            found.state = state;
+                            found.dissipated = dissipated;
+                        }
+                        found.farthest = dissipated.booked - own.booked;
+                        return found.farthest < extent;
+                    });
+        reached = path.dissipated();
+    }
+    best.state.effort = at.effort;
+    best.state.effort.search_candidates += found.compared;
+    return found;
 }
 
 // A zone's energy keeps the contact outside as it was and may be too low, so candidates that seem lower than the kept
@@ -239,18 +368,40 @@ void Stepper::search(Result& best, const Increment& step) {
     if (twin_) twin_->recall(before.search_memory);
     SearchResult found = search_->run(step, from, step.memory().used);
     if (!twin_) operator_->recall(from.memory);
+    const bool one_mode = step.in_parts() && inner_path().one_mode(from, from.mixity, nullptr);
     std::size_t minimised = 0;
+    bool followed = false;
+    double lowest = std::numeric_limits<double>::infinity();
     for (const Candidate& candidate : found.starts) {
         const double dissipated = dissipation(pairs_, candidate.mixity, before.adhesion, candidate.adhesion);
-        if (minimised == most_starts) break;
+        if (minimised == most_starts || followed) break;
         if (candidate.incremental > level + promising * dissipated) continue;
         ++minimised;
         State other = best.state;
+        if (step.in_parts() && !(one_mode && same_toughness(pairs_, candidate, from.adhesion))) {
+            const double own = from.ledger.dissipated - before.ledger.dissipated;
+            if (candidate.incremental > level + promising_way * (dissipated - own) ||
+                within_zone(candidate.adhesion, from.adhesion))
+                continue;
+            const double extent = beyond * (dissipated - own);
+            Scouted scouted = scout(best, step, extent);
+            followed = scouted.given_up || !(scouted.farthest < extent);
+            if (followed) {
+                lowest = scouted.incremental;
+                other.effort = best.state.effort;
+                other.adhesion = std::move(scouted.state.adhesion);
+                other.mixity = std::move(scouted.state.mixity);
+                if (lowest < level + promising_way * scouted.farthest)
+                    keep_lower(best, std::move(other), step, &scouted.dissipated);
+                break;
+            }
+            other.effort = best.state.effort;
+        }
         other.adhesion = candidate.adhesion;
         other.mixity = candidate.mixity;
         keep_lower(best, std::move(other), step);
     }
-    const double lowest = hold_against(best, found, step);
+    if (!followed) lowest = hold_against(best, found, step);
     if (twin_) best.state.search_memory = twin_->memory();
     StepOutcome& outcome = best.state.outcome;
     const double kept = best.state.ledger.increment;

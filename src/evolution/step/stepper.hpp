@@ -5,6 +5,7 @@
 // the lowest; `local` starts from z_before, `energetic` also from the best states of a search (search.hpp).
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -14,6 +15,7 @@
 #include "base/monitor.hpp"
 #include "evolution/increment/mixity_rule.hpp"
 #include "evolution/step/bounds.hpp"
+#include "evolution/step/inner_path.hpp"
 #include "evolution/step/minimise.hpp"
 #include "evolution/step/search.hpp"
 #include "reduction/choose.hpp"
@@ -35,10 +37,16 @@ public:
     };
     // The initial state: displacements at the initial adhesion.
     Result initial(double time);
-    // Another state of the same scene as a start: its adhesion, clipped to `before`, and for broken pairs the mixity
-    // with which they broke.
+    // Another state of the same scene as a start: its adhesion, clipped to `before`, for broken pairs the mixity with
+    // which they broke, and what has been dissipated since the beginning of the analysis, F L.
     struct Start {
+        explicit Start(const State& state)
+            : adhesion(state.adhesion),
+              mixity(state.mixity),
+              dissipated(state.ledger.dissipated),
+              dissipated_linear(state.ledger.dissipated_linear) {}
         std::vector<double> adhesion, mixity;  // [pairs]
+        double dissipated, dissipated_linear;
     };
     Result step(const State& before, double time, std::span<const Start> also = {});
     // Displacements alone, at the state's adhesion and a time.
@@ -52,6 +60,7 @@ public:
     double lower_excess(const State& state) const;
 
     const PairLaws& pairs() const { return pairs_; }
+    const PairGraph& graph() const { return graph_; }
     const ContactScene& contact() const { return contact_; }
     const JumpOperator& op() const { return *operator_; }
     // Gives the operator the memory that it had at a state.
@@ -67,10 +76,25 @@ private:
     std::unique_ptr<Increment> increment(const State& before, std::span<const double> mixity) const;
     // The state from which the minimisations of a step begin; false: its elastic displacements reached a limit.
     bool start(State& next, const State& before, double time);
-    bool minimise(State& next, const Increment& step);
+    InnerPath inner_path();
+    // begun: what is dissipated down to the adhesion of `next`, where the step is followed in parts.
+    bool minimise(State& next, const Increment& step, const Dissipation* begun = nullptr);
     void refuse_runaway(const State& state, const Increment& step);
-    void book_step(State& next, const Increment& step) const;
-    void keep_lower(Result& best, State other, const Increment& step);
+    // The largest part of its toughness that a pair loses in a step.
+    double largest_loss(const Increment& step, const State& next) const;
+    void book_step(State& next, const Increment& step, const InnerPath* path = nullptr) const;
+    void keep_lower(Result& best, State other, const Increment& step, const Dissipation* begun = nullptr);
+    // Where the dissipated energy depends on the way: how far fronts run at a larger load, and the state on this way
+    // that is lowest at the load of the step.
+    struct Scouted {
+        State state;  // adhesion and mixity
+        Dissipation dissipated;
+        double incremental = std::numeric_limits<double>::infinity();  // I, F L
+        double farthest = 0.0;                                         // dissipated at the end of the way, F L
+        bool given_up = false;                                         // it lies far above the step
+        std::int64_t compared = 0;                                     // states on it
+    };
+    Scouted scout(Result& best, const Increment& step, double extent);
     double hold_against(Result& best, const SearchResult& found, const Increment& step);
     void search(Result& best, const Increment& step);
 
@@ -79,6 +103,7 @@ private:
     PairLaws pairs_;
     ContactScene contact_;
     std::optional<MixityRule> rule_;  // set together with the pairs
+    PairGraph graph_;
     std::vector<double> initial_adhesion_;
     std::unique_ptr<JumpOperator> operator_;
     ReductionChoice reduction_;

@@ -286,7 +286,10 @@ double Descent::run() {
         const bool renewed = observe(move.to, move.carried);
         double change = 0.0;
         for (std::size_t i = 0; i < members_.size(); ++i)
-            change = std::max(change, std::abs(move.to.adhesion[i] - at.adhesion[i]));
+            change = std::max(
+                change, increment_.change(
+                            members_[i].pair, at.adhesion[i], move.to.adhesion[i],
+                            driving_energy(*increment_.pairs().law[members_[i].pair], local(move.to, i)).total()));
         at = std::move(move.to);
         // Newton's method squares the error: the next one would be far below the tolerance.
         if (move.newton && !renewed ? change * change <= 0.01 * newton_.tolerance : change <= newton_.tolerance) break;

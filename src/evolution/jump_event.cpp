@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/jump_event.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "evolution/step/bounds.hpp"
+
+namespace delam {
+
+namespace {
+
+constexpr double released_share = 1e-3;  // of the larger of energy and work
+constexpr double load_drop = 0.02;       // of the load
+constexpr double single_pair = 1.5;      // mean weights of a pair: a front that moves on by one of them does not jump
+
+double mean_weight(const PairLaws& pairs) {
+    double sum = 0.0, count = 0.0;
+    for (std::size_t p = 0; p < pairs.law.size(); ++p) {
+        if (pairs.law[p] == nullptr) continue;
+        sum += pairs.weight[p];
+        count += 1.0;
+    }
+    return count > 0.0 ? sum / count : 0.0;
+}
+
+// Force along the loads.
+double load(const State& state) {
+    double along = 0.0, size = 0.0;
+    for (std::size_t p = 0; p < state.theta.size(); ++p) {
+        along += state.theta[p] * state.response.conjugate[p];
+        size = std::hypot(size, state.theta[p]);
+    }
+    return size > 0.0 ? along / size : 0.0;
+}
+
+}  // namespace
+
+JumpEvent describe_jump(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after) {
+    const Ledger &a = before.ledger, &b = after.ledger;
+    JumpEvent jump{after.step,
+                   before.time,
+                   after.time,
+                   b.energy() - a.energy(),
+                   b.dissipated - a.dissipated,
+                   b.released - a.released,
+                   0.0,
+                   0,
+                   -1,
+                   -1};
+    if (after.jump_within.known != 0 && after.jump_within.debonded > 0.0) {
+        const double begin = load_ratio(before.theta, after.theta).value_or(0.0);
+        const double instant = begin < 1.0 ? (after.jump_within.load - begin) / (1.0 - begin) : 1.0;
+        jump.before = jump.time = before.time + instant * (after.time - before.time);
+    }
+    std::vector<double> changed;
+    for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
+        const auto interface = static_cast<std::size_t>(graph.interface_of(p));
+        if (changed.size() <= interface) changed.resize(interface + 1, 0.0);
+        const double c = pairs.weight[p] * (before.adhesion[p] - after.adhesion[p]);
+        changed[interface] += c;
+        jump.debonded += c;
+    }
+    jump.interface = std::max_element(changed.begin(), changed.end()) - changed.begin();
+    for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
+        if (graph.interface_of(p) != jump.interface || before.adhesion[p] - after.adhesion[p] <= debonded_below)
+            continue;
+        const std::int64_t local = static_cast<std::int64_t>(p) - graph.first_pair(jump.interface);
+        if (jump.first_pair < 0) jump.first_pair = local;
+        jump.last_pair = local;
+    }
+    return jump;
+}
+
+bool jumps(const PairLaws& pairs, const State& before, const State& after) {
+    const double pair = mean_weight(pairs);
+    const auto worth = [&](double released) { return released > released_share * after.ledger.scale(); };
+    if (const JumpWithin& jump = after.jump_within; jump.known != 0)
+        return jump.debonded > single_pair * pair && (jump.drop > load_drop || worth(jump.released));
+    if (!(after.outcome.released > 0.0)) return false;
+    double debonded = 0.0;
+    for (std::size_t p = 0; p < before.adhesion.size(); ++p)
+        if (pairs.law[p] != nullptr) debonded += pairs.weight[p] * (before.adhesion[p] - after.adhesion[p]);
+    const bool drops = std::abs(load(after)) < (1.0 - load_drop) * std::abs(load(before));
+    return debonded > single_pair * pair && (drops || worth(after.outcome.released));
+}
+
+}  // namespace delam

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evolution/step/within_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace delam {
+
+namespace {
+
+// Energy per square of the load.
+double quadratic(const PathPoint& p) { return p.energy - p.gradient; }
+
+// a_c of the part between two states; 0: it needs no load, 1: the load of the end does not drive it.
+double critical(const PathPoint& from, const PathPoint& to) {
+    const double need = to.dissipated - from.dissipated + to.gradient - from.gradient;
+    const double gives = quadratic(from) - quadratic(to);
+    if (!(need > 0.0)) return 0.0;
+    return gives > need ? std::sqrt(need / gives) : 1.0;
+}
+
+}  // namespace
+
+WithinStep within_step(std::span<const PathPoint> points, double begin) {
+    WithinStep within;
+    JumpWithin now;
+    double load = begin;
+    std::size_t first = 0;  // state from which the present jump starts
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const PathPoint &from = points[i - 1], &to = points[i];
+        const double needed = critical(from, to);
+        if (needed > load) {
+            within.work += quadratic(from) * (needed * needed - load * load);
+            load = needed;
+            now = {};
+            first = i - 1;
+        }
+        const double released = load * load * (quadratic(from) - quadratic(to)) + from.gradient - to.gradient -
+                                (to.dissipated - from.dissipated);
+        within.released += std::max(0.0, released);
+        within.work -= std::min(0.0, released);  // less than rounding below the load of the end
+        now.load = load;
+        now.released += std::max(0.0, released);
+        now.debonded = to.debonded - points[first].debonded;
+        now.drop = quadratic(points[first]) > 0.0 ? 1.0 - quadratic(to) / quadratic(points[first]) : 0.0;
+        if (now.drop > within.jump.drop) within.jump = now;
+    }
+    within.work += quadratic(points.back()) * (1.0 - load * load);
+    return within;
+}
+
+}  // namespace delam

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The evolution within a load step that was followed in parts at the load of its end. Bodies, springs and contact
+// answer an a-fold load with a-fold displacements, so that the energy of each state on the path is known at every load
+// of the step, E(a) = a^2 e + g with the gradient energy g. The part from one state to the next is driven from the load
+// on at which its drop of energy pays for what it dissipates,
+//
+//   a_c^2 (e_{i-1} - e_i) + g_{i-1} - g_i = D_i,
+//
+// and since the load does not fall, it happens at a_i = max(a_{i-1}, a_c). Where a_c falls along the path, the load
+// stands still and the state jumps: the drop beyond D_i is released. Between the parts the load works at the state
+// reached.
+#pragma once
+
+#include <span>
+
+#include "evolution/increment/state.hpp"
+
+namespace delam {
+
+// A state of the path: its energy at the load of the end of the step, F L; the gradient energy in it; what has been
+// dissipated until then; sum w (1 - zeta), L or L2.
+struct PathPoint {
+    double energy = 0.0, gradient = 0.0, dissipated = 0.0, debonded = 0.0;
+};
+
+struct WithinStep {
+    double work = 0.0;      // of the step, F L
+    double released = 0.0;  // F L, >= 0
+    JumpWithin jump;        // with the largest drop of the load
+};
+
+// points: the state before the step first. begin: the load before the step over that of its end, 0 <= begin <= 1.
+WithinStep within_step(std::span<const PathPoint> points, double begin);
+
+}  // namespace delam
