@@ -854,28 +854,40 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *   stored_bulk, stored_interface, dissipated, stored_interface_slides, dissipated_slides, load_potential, work, lower,
  *   increment, upper, increment_lower   F L: energies. The stored energies and `load_potential` belong to the state;
  *                          `dissipated`, `dissipated_slides` and `work` accumulate from the start; `lower`,
- *                          `increment`, `upper` and `increment_lower` belong to the step. `stored_interface` is the sum
- *                          of w zeta Y, plus the energy of the gradient term if there is one; a step adds the sum of w
- *                          (g(B, zeta) - g(B, zeta_old)) to `dissipated`. The keys that end in _slides split stored
- *                          from dissipated energy as in Zeman, Kruzik and Gruber (PANM 15, 2010): the sum of w f(B,
- *                          zeta), f = g - Gc (1 - zeta), belongs to the stored energy, and a step dissipates the sum of
- *                          w Gc(B) (zeta_old - zeta). `increment` is the sum of what the step adds to stored energy,
+ *                          `increment`, `upper` and `increment_lower` belong to the step. `stored_interface` is the
+ *                          sum of w zeta Y, plus the energy of the gradient term if there is one; a step adds the sum
+ *                          of w (g(B, zeta) - g(B, zeta_old)) to `dissipated`, with `mixity_rule = converged` as an
+ *                          integral along the jumps of each pair. The keys that end in _slides split stored from
+ *                          dissipated energy as in Zeman, Kruzik and Gruber (PANM 15, 2010): the sum of w f(B, zeta),
+ *                          f = g - Gc (1 - zeta), belongs to the stored energy, and a step dissipates the sum of w
+ *                          Gc(B) (zeta_old - zeta). `increment` is the sum of what the step adds to stored energy,
  *                          `load_potential` and dissipated energy; `lower` and `upper` are its bounds in the two-sided
- *                          estimate (PANM 15, eq. (3)). The proof of the lower bound assumes the mixity of the step
- *                          before; `increment_lower` is the increment computed with that mixity. The estimate is
- *                          therefore tested as lower <= increment_lower and increment <= upper, with a tolerance of
- *                          `backtracking_tolerance` times the larger of |stored energy + load_potential| and |work|.
- *                          Backtracking tests the lower bound only. `work` grows by (lower + upper)/2. With
- *                          `mixity_rule = variational`, `increment` and `increment_lower` use the _slides split
+ *                          estimate (PANM 15, eq. (3)): lower <= increment <= upper, up to `backtracking_tolerance`
+ *                          times the larger of |stored energy + load_potential| and |work|. Backtracking tests the
+ *                          lower bound only. Let E be stored energy + load_potential without the gradient term. If the
+ *                          factors of all patterns before the step are a > 0 times those after it, lower = (1 - a^2)
+ *                          E(after) and upper = (1/a^2 - 1) E(before). In a step that damages nothing, all three are
+ *                          equal. Otherwise, and always with `mixity_rule = variational`, the bounds follow from a
+ *                          displacement field that carries the change of the loads, and are wider. `increment_lower`
+ *                          is the increment at the mixities of the step before; with `converged` it equals
+ *                          `increment`. With `variational`, both use the _slides split. `work` is the work of the
+ *                          reactions: each step adds the mean of the reactions before and after it, times the changes
+ *                          of the factors. Two kinds of steps add another amount: a located jump adds `upper`; and
+ *                          where a pair loses more than half of its toughness and the mean gives less than
+ *                          `increment`, the step adds `increment`, but at most `upper`. With `mixity_rule = converged`
+ *                          and loads in proportion, a step instead adds the work along its parts, each of which
+ *                          happens at the load within the step that first drives it
  *   defect, defect_slides  F L: error of the energy balance since the start: stored energies + load_potential +
- *                          dissipated - work - energy of the initial state. `defect_slides` uses the _slides split for
- *                          all of these. delam_solver_equilibrate changes neither, because it changes the last term by
- *                          as much as the energy of the state
- *   mixity_error           sum w |dzeta| |Gc(B shown) - Gc(B used)| / sum w |dzeta| Gc(B used) of the step, where B
- *                          used determined the toughness of a pair, and B shown is the mixity of that pair's own jump
- *                          in the last iterate in which the pair still adhered; 0 if no pair was damaged. With
- *                          `mixity_rule = frozen`, a value above 0.1 means that damage grew abruptly within the step,
- *                          and the solver warns (log level 1)
+ *                          dissipated + released (sum over all steps) - work - energy of the initial state.
+ *                          `defect_slides` uses the _slides split for all of these. delam_solver_equilibrate changes
+ *                          neither, because it changes the last term by as much as the energy of the state
+ *   mixity_error           estimated error of what the step dissipates, relative to it, because the mode mixity
+ *                          changes; 0 if no pair was damaged. With `mixity_rule = converged`, the difference from an
+ *                          integral of the next lower order along the jumps of the pairs. Otherwise sum w |dzeta|
+ *                          |Gc(B shown) - Gc(B used)| / sum w |dzeta| Gc(B used), where B used determined the
+ *                          toughness of a pair, and B shown is the mixity of that pair's own jump in the last iterate
+ *                          in which the pair still adhered. With `frozen`, a value above 0.1 means that damage grew
+ *                          abruptly within the step, and the solver warns (log level 1)
  *   am_iterations, displacement_solves, contact_iterations, linear_iterations   of the step: alternate minimisation
  *                          steps, displacement solves, and, summed over these solves, active-set steps and Krylov
  *                          iterations
@@ -903,9 +915,12 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *                          damaged states. Infinite: no bound exists (dead loads on parts that nothing holds,
  *                          `mixity_rule = variational`)
  *   substeps, refused_steps  number of accepted substeps of the step, and of substeps that were computed and rejected
- *   jumps                  number of jumps of the state (instabilities) located within the step (option
- *                          `jump_tolerance`)
- *   released               F L: energy that these jumps release and that is neither stored nor dissipated
+ *   jumps                  number of jumps of the state (instabilities) within the step (see delam_solver_jump_count)
+ *   released               F L: energy that the step releases, i.e. that is neither stored nor dissipated. With
+ *                          `mixity_rule = converged` and loads in proportion, what the parts of the step release while
+ *                          the load stands still. Otherwise, in a step in which a pair loses more than 0.1 of its
+ *                          toughness, the work of the step less `increment` where that is positive; in a located jump,
+ *                          upper - increment; else 0
  *   bulk_factorisations    number of sparse factorisations of the bodies since the solver was created: 1 with the
  *                          condensed operator, one per subdomain with FETI
  *   field_recoveries       number of recoveries of the displacements from the interfaces since the solver was created.
@@ -914,8 +929,8 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *                          other field or value needs one; a step needs one only where rounding may spoil its balance
  *                          of forces. bulk_factorisations and field_recoveries are part neither of the state nor of
  *                          saved bytes
- *   damage_change          largest change of adhesion in one further damage step at this state; <= `damage_tolerance`
- *                          when converged
+ *   damage_change          largest change of a pair's traction in one further damage step at this state, relative to
+ *                          its peak traction, as `damage_tolerance` bounds it; <= `damage_tolerance` when converged
  *   linear_residual        worst relative residual of the iterative linear solves of the step; 0 if they are direct
  *   rotation_max           rad: largest rotation of a cell, from the skew part of the displacement gradient at its
  *                          centre (recovers the displacements). The theory of small strains has a relative error of
@@ -998,8 +1013,8 @@ DELAM_API int32_t delam_solver_recorded(const delam_solver *solver, const char *
  *   adhesion, mixity, contact  [pairs][1]   -; contact: 1 if the pair is closed. mixity: the B = Y_t/Y that the last
  *                          step used; 0 where the law does not depend on it, unless the option `mixity` is `always`.
  *                          With `mixity_rule = frozen`, it is that of the state before the step (in the first loaded
- *                          step, of the elastic solution). With `converged`, it is that of the step's own solution; a
- *                          pair that broke keeps the B of the last iterate in which it still adhered. With
+ *                          step, of the elastic solution). With `converged`, it is that of the end of the step; a pair
+ *                          that broke keeps the B of the last iterate in which it still adhered. With
  *                          `variational`, it is that of the step's own displacements
  *   reaction      [constraints][1]      F: force that the testing machine exerts, positive along the constraint
  * `part`: an interface index for pair fields, or -1 for all interfaces one after another; -1 for the other fields.
@@ -1148,16 +1163,23 @@ DELAM_API const char *delam_solver_searched(const delam_solver *solver);
  * [status argument; since 0.1] */
 DELAM_API int32_t delam_solver_look(delam_solver *solver, int64_t step);
 
-/* Returns in *count the number of jumps of the state, i.e. instants at which it changes abruptly, that were located
- * (option `jump_tolerance`) up to the pending state, or up to the committed state if no step is pending;
- * delam_solver_look does not change it. They are ordered by time.
+/* Returns in *count the number of jumps of the state, i.e. abrupt changes, up to the pending state, or up to the
+ * committed state if no step is pending; delam_solver_look does not change it. They are ordered by time. With the
+ * option `jump_tolerance`, jumps are the located ones. Without it, a step is a jump if it releases energy (value
+ * `released`), debonds more than 1.5 pairs (in mean weights), and either loses more than 2 % of the load, i.e. of the
+ * sum of factor times reaction over the norm of the factors, or releases more than 1e-3 of the larger of |stored
+ * energy + load_potential| and |work|. Where the parts of a step are known (`mixity_rule = converged`, loads in
+ * proportion), this is asked of the largest jump among them.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_jump_count(const delam_solver *solver, int64_t *count);
-/* Returns one jump of the state. It lies within (*before, *time], in step *step. Energies: *stored, change of stored
- * energy and load potential; *dissipated; *released = E(time, state before) - E(time, state after) - dissipated, the
- * energy that is neither stored nor dissipated (in reality, waves would carry it away; for energetic jumps it is 0 up
- * to the tolerance). *debonded: change of the sum of weight (1 - zeta). *interface_index: the interface that changed
- * most; *first_pair, *last_pair: the first and last of its pairs whose adhesion changed (-1: none).
+/* Returns one jump of the state. It lies between *before and *time, in step *step: in the interval that bisection has
+ * found (option `jump_tolerance`), or else in the whole step or substep; where its instant follows from the parts of
+ * the step (`mixity_rule = converged`, loads in proportion), *before and *time are both this instant. Energies:
+ * *stored, change of stored energy and load potential; *dissipated; *released, the energy that is neither stored nor
+ * dissipated (in reality, waves would carry it away; for energetic jumps it is 0 up to the tolerance). For a located
+ * jump, *released is E(time, state before) - E(time, state after) - dissipated; else, see the value `released`.
+ * *debonded: change of the sum of weight (1 - zeta). *interface_index: the interface that changed most; *first_pair,
+ * *last_pair: the first and last of its pairs whose adhesion changed (-1: none).
  * [unit before t, time t, stored F L, dissipated F L, released F L, debonded L or L2; null step, before, time, stored,
  * dissipated, released, debonded, interface_index, first_pair, last_pair; status argument; source none; since 0.1] */
 DELAM_API int32_t delam_solver_jump(const delam_solver *solver, int64_t index, int64_t *step, double *before,

@@ -156,6 +156,21 @@ void Baseline::damage_step(const std::vector<double>& old, std::vector<double>& 
         "delam_law_respond");
 }
 
+// Largest change of a pair's traction relative to its peak traction, |next - zeta| max(1, sqrt(Y/Go)).
+double Baseline::traction_change(const std::vector<double>& next) const {
+    std::vector<double> onset(next.size());
+    std::vector<double> total(next.size());
+    scene_->require(delam_law_toughness(law_.get(), static_cast<std::int64_t>(next.size()), mixity_.data(),
+                                        onset.data(), total.data()),
+                    "delam_law_toughness");
+    double change = 0.0;
+    for (std::size_t p = 0; p < next.size(); ++p) {
+        const double energy = driving(p, 0) + driving(p, 1);
+        change = std::max(change, std::abs(next[p] - adhesion_[p]) * std::sqrt(std::max(1.0, energy / onset[p])));
+    }
+    return change;
+}
+
 double Baseline::stored_interface() const {
     double sum = 0.0;
     for (std::size_t p = 0; p < adhesion_.size(); ++p)
@@ -206,8 +221,7 @@ std::optional<StepRecord> Baseline::advance(double time, const std::function<boo
         while (true) {
             converged = displace(theta, record, stop) && converged;
             damage_step(old, next);
-            double change = 0.0;
-            for (std::size_t p = 0; p < next.size(); ++p) change = std::max(change, std::abs(next[p] - adhesion_[p]));
+            const double change = traction_change(next);
             record.damage_change = change;
             ++record.am_iterations;
             if (change <= options_.delta) break;

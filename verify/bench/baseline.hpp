@@ -49,6 +49,7 @@ private:
     bool displace(const std::vector<double>& theta, StepRecord& record, const std::function<bool()>& stop);
     void solve_linear(const std::vector<double>& theta);
     void damage_step(const std::vector<double>& old, std::vector<double>& next) const;
+    double traction_change(const std::vector<double>& next) const;
     void update_mixity();
     double driving(std::size_t pair, std::size_t component) const;  // Y_n (0) or Y_t (1)
     double stored_bulk(const std::vector<double>& theta) const;

@@ -207,6 +207,8 @@ bool declare(Stage& stage, const Choice& choice, std::string* refusal) {
     for (const auto& [key, word] : texts) {
         if (word != nullptr && !accepted(delam_problem_set_text(scene.problem(), key, word), key)) return false;
     }
+    // The baseline's rule; the oldest versions have no other and do not know the key.
+    delam_problem_set_text(scene.problem(), "mixity_rule", "frozen");
     scene.number("damage_tolerance", choice.delta);
     scene.number("minimisation_limit", 100000.0);
     return true;

@@ -85,6 +85,7 @@ CASE_TEST(same_scene) {
         number("subdomains", 2.0);
         number("linear_limit", 2000.0);
         number("minimisation_limit", 5000.0);
+        scene->require(delam_problem_set_text(scene->problem(), "mixity_rule", "frozen"), "mixity_rule");
     }
     char ours[17];
     char theirs[17];

@@ -29,7 +29,9 @@ constexpr Way ways[] = {{"condensed"},
                         {"feti"},
                         {"feti", "none", "orthonormal", "alternate"},
                         {"feti", "lumped", "redundant"},
-                        {"feti", "dirichlet", "redundant", "auto", "converged"}};
+                        {"feti", "dirichlet", "redundant", "auto", "converged"},
+                        {"condensed", "series", "orthonormal", "auto", "converged"},
+                        {"feti", "lumped", "redundant", "alternate", "converged"}};
 constexpr int way_count = sizeof ways / sizeof ways[0];
 
 // The flexure, pressed by `size` at time 1 and by size * fraction at time 2. in_pattern: the size is in the drive's
@@ -114,10 +116,12 @@ CASE_TEST(small_loads_are_proportional) {
         }
 }
 
-// Energies, about 1e6 J/m2 times the square of the load, overflow at some 1e151 m.
+// Energies, about 1e6 J/m2 times the square of the load, overflow at some 1e151 m; that of a pair on the way to its
+// debonding, which has softened and opened but holds, at some 1e150 m.
 CASE_TEST(large_loads_are_finite_or_refused) {
     const Way& way = ways[loop];
-    for (const double size : {1e100, 1e150, 1e200, 1e300})
+    const double largest = std::string(way.rule) == "converged" ? 1e149 : 1e150;
+    for (const double size : {1e100, largest, 1e200, 1e300})
         for (const bool in_pattern : {false, true}) {
             const Scene scene = flexure(way, size, in_pattern);
             delam_solver* handle = nullptr;
@@ -133,7 +137,7 @@ CASE_TEST(large_loads_are_finite_or_refused) {
                 cases::expect(pending == (status >= 0 ? 1 : 0), where(way, size) + ": a failed step is pending");
             }
             const std::string message = delam_context_message(scene.context());
-            if (size <= 1e150)
+            if (size <= largest)
                 cases::expect(status == DELAM_OK, where(way, size) + ": " + message);
             else
                 cases::expect(status == DELAM_ERROR_NUMERICAL && (message.find("not finite") != std::string::npos ||

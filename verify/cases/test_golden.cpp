@@ -34,6 +34,7 @@ Scene bar(const char* name) {
     const bool energetic = std::string(name) == "energetic";
     scene.text("reduction", std::string(name) == "feti" ? "feti" : "condensed");
     scene.text("solution", energetic ? "energetic" : "local");
+    scene.text("mixity_rule", "frozen");  // the default of the versions that wrote the first states
     if (energetic) scene.text("backtracking", "on");
     return scene;
 }

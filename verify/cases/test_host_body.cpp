@@ -264,6 +264,7 @@ void march_is_the_same(int loop) {
     const auto options = [&](Scene& scene) {
         scene.text("reduction", feti ? "feti" : "condensed");
         scene.text("minimisation", feti ? "auto" : "accelerated");
+        scene.number("damage_tolerance", 1e-10);
     };
     Scene own = example.make();
     example.dress(own);
@@ -451,10 +452,12 @@ void emptied_rows(int loop) {
     Scene own = example.make();
     example.dress(own);
     own.text("reduction", feti ? "feti" : "condensed");
+    own.number("damage_tolerance", 1e-10);
     const Marched expected = march_of(own, example.end, steps);
     for (const double diagonal : {1.0, 1e-3, 1e25}) {
         Scene scene = emptied_scene(example, own, diagonal);
         scene.text("reduction", feti ? "feti" : "condensed");
+        scene.number("damage_tolerance", 1e-10);
         expect_same(expected, march_of(scene, example.end, steps), feti ? 1e-6 : 1e-9,
                     std::string(feti ? "FETI" : "condensed") + ", diagonal " + std::to_string(diagonal));
     }
@@ -597,6 +600,7 @@ CASE_TEST(two_pieces_of_one_body) {
     for (const char* reduction : {"condensed", "feti"}) {
         own.text("reduction", reduction);
         scene.text("reduction", reduction);
+        for (Scene* s : {&own, &scene}) s->number("damage_tolerance", 1e-10);
         Solver mine(own, 0.0), theirs(scene, 0.0);
         for (int k = 1; k <= 4; ++k) {
             mine.step(k / 4.0);

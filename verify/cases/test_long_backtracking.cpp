@@ -20,6 +20,9 @@ CASE_TEST(returns_end) {
     reference::Scene scene = cases::make_mmf(1e-3, law, rules[loop % 3]);
     scene.text("backtracking", "on");
     scene.number("backtracking_tolerance", loop == 0 ? 1e-6 : 1e-3);
+    // A brittle front that jumps late returns to where the bound is first missed, over a hundred steps.
+    const double limit = 300.0;
+    scene.number("backtracking_limit", limit);
     Solver solver(scene, 0.0);
     double returns = 0.0, most = 0.0;
     for (int k = 1; k <= steps; ++k) {
@@ -33,11 +36,11 @@ CASE_TEST(returns_end) {
     for (int k = 1; k <= steps; ++k) {
         scene.require(delam_solver_look(solver.get(), k), "delam_solver_look");
         const double size = std::max(std::abs(solver.value("stored_bulk")), solver.value("work"));
-        violated += solver.value("lower") - solver.value("increment_lower") > 1e-3 * size ? 1 : 0;
+        violated += solver.value("lower") - solver.value("increment") > 1e-3 * size ? 1 : 0;
     }
     std::printf("MMF, %s, %s: %g returns, at most %g in a step, %d bounds missed, %.5g J/m\n",
                 brittle ? "brittle" : "ductile", rules[loop % 3], returns, most, violated, solver.value("dissipated"));
-    cases::expect_below(most, 99.0, "returns in a step: the limit ended them");
+    cases::expect_below(most, limit - 1.0, "returns in a step: the limit ended them");
     if (!brittle) cases::expect(violated == 0, "bounds missed: " + std::to_string(violated));
     cases::expect(solver.value("dissipated") > 0.0, "something breaks");
 }

@@ -7,10 +7,10 @@
 
 namespace {
 
-// The lower bound with the mixity of the step before last is the provable one; with 320 steps the frozen analysis
-// really jumps too early once.
+// The lower bound with the mixity of the step before last is the provable one; with 160 and 320 steps the frozen
+// analysis really jumps too early once, and dissipates three percent less than with 640.
 CASE_TEST(provable_bounds) {
-    const int steps[] = {160, 320, 640}, below[] = {0, 1, 0};
+    const int steps[] = {160, 320, 640}, below[] = {1, 1, 0};
     const cases::MmfMarch m = cases::march_mmf(1e-3, cases::mmf_ductile, "frozen", steps[loop]);
     cases::expect(m.below == below[loop] && m.above == 0,
                   std::to_string(m.below) + " lower and " + std::to_string(m.above) + " upper bounds missed");
@@ -26,9 +26,13 @@ CASE_TEST(defects_side_by_side) {
         for (const int n : steps) m.push_back(cases::march_mmf(1e-3, cases::mmf_ductile, rule, n));
         for (const cases::MmfMarch& march : m)
             cases::expect(march.unfinished == 0, std::string(rule) + ": unfinished steps");
-        if (std::string(rule) == "converged")
-            for (std::size_t i = 1; i < m.size(); ++i)
-                cases::expect_below(std::abs(m[i].defect), 0.6 * std::abs(m[i - 1].defect), "converged: booked defect");
+        if (std::string(rule) != "converged") continue;
+        // The work errs by the softening of a step; what is dissipated is that of fine steps from the first.
+        cases::expect_below(std::abs(m[2].defect), 0.4 * std::abs(m[0].defect), "converged: booked defect");
+        for (const cases::MmfMarch& march : m) {
+            cases::expect_below(std::abs(march.defect), 1e-3 * march.dissipated, "converged: booked defect");
+            cases::expect_near(march.dissipated, m[2].dissipated, 2e-3, m[2].dissipated, "converged: dissipated");
+        }
     }
 }
 

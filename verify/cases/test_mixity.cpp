@@ -33,8 +33,10 @@ CASE_TEST(brittle_mmf) {
     cases::expect_below(25.0, frozen.dissipated / frozen.front, "frozen: J/m2, least");
     cases::expect(!frozen.warnings.empty() && frozen.worst_error > 0.2,
                   "a frozen front that runs past many pairs does not warn");
-    cases::expect(converged.warnings.empty() && converged.worst_error < 1e-3, "converged: mixity error");
-    cases::expect_below(converged.solves, 2.0 * frozen.solves, "converged: solves");
+    // A pair of this zone, shorter than a cell, softens in two parts of a step, along a parabola of jumps.
+    cases::expect(converged.warnings.empty() && converged.worst_error < 5e-3 && converged.worst_error > 0.0,
+                  "converged: mixity error");
+    cases::expect_below(converged.solves, 250.0 * converged.front / h, "converged: solves for a pair that debonds");
 }
 
 // ---- snaps ---------------------------------------------------------------------------------------------------------
@@ -78,16 +80,19 @@ CASE_TEST(mode_changes_while_it_softens) {
 CASE_TEST(defects_by_definition) {
     const Scene scene = cases::make_mmf(1e-3, cases::mmf_ductile, rules[loop]);
     Solver solver(scene, 0.0);
+    double released = 0.0;
     for (int k = 1; k <= 12; ++k) {
         solver.step(0.05 * k);
         solver.commit();
+        released += solver.value("released");
         const double bulk = solver.value("stored_bulk") + solver.value("load_potential"), work = solver.value("work");
         cases::expect_near(solver.value("defect"),
-                           bulk + solver.value("stored_interface") + solver.value("dissipated") - work, 1e-12, work,
-                           "defect");
-        cases::expect_near(solver.value("defect_slides"),
-                           bulk + solver.value("stored_interface_slides") + solver.value("dissipated_slides") - work,
-                           1e-12, work, "defect by PANM 15");
+                           bulk + solver.value("stored_interface") + solver.value("dissipated") + released - work,
+                           1e-12, work, "defect");
+        cases::expect_near(
+            solver.value("defect_slides"),
+            bulk + solver.value("stored_interface_slides") + solver.value("dissipated_slides") + released - work, 1e-12,
+            work, "defect by PANM 15");
         cases::expect(solver.value("mixity_error") >= 0.0, "mixity error");
     }
     // Setting a state does not change the accumulated defects.

@@ -20,19 +20,34 @@ using reference::Solver;
 
 double size_of(const Solver& s) { return std::max(cases::scale(s), 1e-12); }
 
-// Steps of an analysis in parts: their sums are those of the whole.
-void expect_books_close(const Solver& s, double energy_before, double dissipated_before, double work_before,
-                        const std::string& where) {
-    const double change = cases::stored(s) - energy_before + s.value("dissipated") - dissipated_before;
+// What the ledger of an analysis in parts had before a step.
+struct Before {
+    double energy, dissipated, work, defect;
+    explicit Before(const Solver& s)
+        : energy(cases::stored(s)),
+          dissipated(s.value("dissipated")),
+          work(s.value("work")),
+          defect(s.value("defect")) {}
+};
+
+// The sums over the parts are those of the whole: what the loads do is stored, dissipated or released, but for the
+// error of the trapezoidal rule, which is the defect; their work is within the bounds, which add up too.
+void expect_books_close(const Solver& s, const Before& before, const std::string& where) {
+    const double change = cases::stored(s) - before.energy + s.value("dissipated") - before.dissipated;
+    const double work = s.value("work") - before.work;
     cases::expect_near(s.value("increment"), change, 1e-9, size_of(s), where + "increment");
-    cases::expect_near(s.value("work") - work_before, 0.5 * (s.value("lower") + s.value("upper")), 1e-9, size_of(s),
-                       where + "work");
+    cases::expect_near(s.value("defect") - before.defect, change + s.value("released") - work, 1e-9, size_of(s),
+                       where + "defect");
+    cases::expect_below(work - s.value("upper"), 1e-8 * size_of(s), where + "work above its bound");
+    cases::expect_below(s.value("lower") - work, 1e-8 * size_of(s), where + "work below its bound");
     cases::expect_below(s.value("increment") - s.value("upper"), 1e-8 * size_of(s), where + "upper bound");
+    cases::expect(s.value("released") >= 0.0, where + "released");
     cases::expect(s.value("substeps") >= 1.0, where + "parts");
 }
 
-// Jumps of the pending step, in order, inside it, with their own energies.
-void expect_jumps(const Solver& s, double from, const std::string& where) {
+// Jumps of the pending step, in order, inside it, with their own energies. alone: nothing else in the step damages a
+// pair abruptly, so that only the jumps release energy.
+void expect_jumps(const Solver& s, double from, const std::string& where, bool alone = false) {
     const double to = s.value("time");
     double released = 0.0, n = 0.0, last = from;
     for (const Jump& j : jumps(s)) {
@@ -47,7 +62,8 @@ void expect_jumps(const Solver& s, double from, const std::string& where) {
         cases::expect_below(-j.released, 1e-8 * size_of(s), where + "a jump creates energy");
     }
     cases::expect(n == s.value("jumps"), where + "count of jumps");
-    cases::expect_near(s.value("released"), released, 1e-12, size_of(s), where + "released");
+    cases::expect_below(released - s.value("released"), 1e-12 * size_of(s), where + "released by the jumps");
+    if (alone) cases::expect_near(s.value("released"), released, 1e-12, size_of(s), where + "released");
 }
 
 // A block that separates: at its two closed-form loads, to the tolerance, whatever the steps.
@@ -66,11 +82,11 @@ CASE_TEST(block_jumps_where_it_should) {
     scene.number("jump_tolerance", tolerance);
     Solver solver(scene, 0.0);
     for (int k = 1; k <= steps; ++k) {
-        const double e = cases::stored(solver), d = solver.value("dissipated"), w = solver.value("work");
+        const Before before(solver);
         solver.step(static_cast<double>(k) / steps);
         const std::string where = "step " + std::to_string(k) + ": ";
-        expect_books_close(solver, e, d, w, where);
-        expect_jumps(solver, static_cast<double>(k - 1) / steps, where);
+        expect_books_close(solver, before, where);
+        expect_jumps(solver, static_cast<double>(k - 1) / steps, where, true);
         solver.commit();
     }
     const auto all = jumps(solver);
@@ -99,17 +115,19 @@ CASE_TEST(smooth_march_has_no_jump) {
     f.scene.number("jump_tolerance", tolerance[loop]);
     f.scene.number("jump_size", 0.5);
     Solver solver(f.scene, 0.0);
-    double spent = 0.0;
+    double spent = 0.0, released = 0.0;
     for (int k = 1; k <= 20; ++k) {
-        const double e = cases::stored(solver), d = solver.value("dissipated"), w = solver.value("work");
+        const Before before(solver);
         solver.step(2.0 * k / 20);
-        expect_books_close(solver, e, d, w, "step " + std::to_string(k) + ": ");
+        expect_books_close(solver, before, "step " + std::to_string(k) + ": ");
         expect_jumps(solver, 2.0 * (k - 1) / 20, "step " + std::to_string(k) + ": ");
         solver.commit();
         spent = solver.value("dissipated");
+        released += solver.value("released");
         if (spent == 0.0) cases::expect(jumps(solver).empty(), "a jump before any damage");
     }
     cases::expect(spent > 0.0, "something is damaged");
+    cases::expect_below(released, 1e-3 * solver.value("work"), "released by a ductile front");
     cases::expect(jumps(solver).empty(), "jumps of a ductile front: " + std::to_string(jumps(solver).size()));
     // Nor is that of a stiff spring.
     Block b;
@@ -124,9 +142,9 @@ CASE_TEST(smooth_march_has_no_jump) {
     scene.number("damage_tolerance", 1e-10);
     Solver spring(scene, 0.0);
     for (int k = 1; k <= 5; ++k) {
-        const double e = cases::stored(spring), d = spring.value("dissipated"), w = spring.value("work");
+        const Before before(spring);
         spring.step(k / 5.0);
-        expect_books_close(spring, e, d, w, "spring, step " + std::to_string(k) + ": ");
+        expect_books_close(spring, before, "spring, step " + std::to_string(k) + ": ");
         spring.commit();
     }
     cases::expect_near(spring.value("dissipated"), gc * b.width, 1e-6, gc * b.width, "the spring's bond is spent");
@@ -141,15 +159,16 @@ CASE_TEST(jumps_of_a_flexure) {
     reference::FlexureScene f = reference::make_flexure(data);
     if (energetic) f.scene.text("solution", "energetic");
     f.scene.text("backtracking", "off");
+    f.scene.text("mixity_rule", "frozen");
     f.scene.number("jump_tolerance", 1e-3);
     Solver solver(f.scene, 0.0);
     double released = 0.0, parts = 0.0;
     const int steps = energetic ? 12 : 20;
     for (int k = 1; k <= steps; ++k) {
-        const double e = cases::stored(solver), d = solver.value("dissipated"), w = solver.value("work");
+        const Before before(solver);
         solver.step(2.0 * k / steps);
         const std::string where = "step " + std::to_string(k) + ": ";
-        expect_books_close(solver, e, d, w, where);
+        expect_books_close(solver, before, where);
         expect_jumps(solver, 2.0 * (k - 1) / steps, where);
         released += solver.value("released");
         parts += solver.value("substeps");
@@ -180,26 +199,31 @@ CASE_TEST(jumps_of_a_flexure) {
     cases::expect(jumps(again).size() == before.size(), "jumps of the march after a set state is committed");
 }
 
-// Known open problems (DELAM_OPEN_TESTS=1 runs them): the released energy should account for the whole defect. It does
-// not if a step was replaced after a return, because its jumps are not located (loop 0), nor if a local front jumps by
-// cells so regularly that the jumps count as growth (loop 1).
-CASE_TEST(open_all_that_is_missing_was_released) {
+// What is missing in the ledger was released, also where a step was replaced after a return, whose jumps are not
+// located (loop 0), and where a local front jumps by cells so regularly that the jumps count as growth (loop 1).
+CASE_TEST(all_that_is_missing_was_released) {
     reference::FlexureScene f = reference::make_flexure(reference::find_flexure("enf-brittle"));
     f.scene.text("backtracking", loop == 0 ? "on" : "off");
+    f.scene.text("mixity_rule", "frozen");
     f.scene.number("jump_tolerance", 1e-3);
     Solver solver(f.scene, 0.0);
-    double released = 0.0, dissipated = 0.0;
-    for (int k = 1; k <= 40; ++k) {
-        solver.step(2.0 * k / 40);
+    double released = 0.0;
+    const int steps = 20;
+    for (int k = 1; k <= steps; ++k) {
+        solver.step(2.0 * k / steps);
         solver.commit();
+        if (loop == 1) released += solver.value("released");
     }
-    for (const Jump& j : jumps(solver)) {
-        released += j.released;
-        dissipated += j.dissipated;
+    for (int k = 1; loop == 0 && k <= steps; ++k) {
+        f.scene.require(delam_solver_look(solver.get(), k), "delam_solver_look");
+        released += solver.value("released");
     }
-    cases::expect_near(released, -solver.value("defect"), 0.05, -solver.value("defect"),
-                       "released, of what is missing");
-    cases::expect_near(dissipated, solver.value("dissipated"), 0.05, solver.value("dissipated"), "dissipated by jumps");
+    f.scene.require(delam_solver_look(solver.get(), -1), "delam_solver_look");
+    const double missing = solver.value("work") - cases::stored(solver) - solver.value("dissipated");
+    std::printf("brittle ENF, backtracking %s: released %.5g, missing %.5g, work %.5g\n", loop == 0 ? "on" : "off",
+                released, missing, solver.value("work"));
+    cases::expect_near(solver.value("defect"), released - missing, 1e-9, solver.value("work"), "defect");
+    cases::expect_near(released, missing, 0.02, missing, "released, of what is missing");
 }
 
 // ---- refusals -----------------------------------------------------------------------------------------------------
@@ -221,9 +245,9 @@ CASE_TEST(steps_that_do_not_converge_are_cut) {
     for (int k = 1; k <= 8; ++k) {
         const double time = cases::enf_time(k, 16);
         failed += a.advance(time) == DELAM_NOT_CONVERGED ? 1 : 0;
-        const double e = cases::stored(b), d = b.value("dissipated"), w = b.value("work");
+        const Before before(b);
         failed_adaptive += b.advance(time) == DELAM_NOT_CONVERGED ? 1 : 0;
-        expect_books_close(b, e, d, w, "adaptive, step " + std::to_string(k) + ": ");
+        expect_books_close(b, before, "adaptive, step " + std::to_string(k) + ": ");
         refused += b.value("refused_steps");
         const std::int32_t status = c.advance(time);
         stubborn.require(status < 0 ? status : 0, "delam_solver_advance");
@@ -246,9 +270,9 @@ CASE_TEST(wide_estimates_are_cut) {
     scene.number("smallest_step", 1.0 / 64.0);
     Solver solver(scene, 0.0);
     for (int k = 1; k <= 3; ++k) {
-        const double e = cases::stored(solver), d = solver.value("dissipated"), w = solver.value("work");
+        const Before before(solver);
         solver.step(k / 3.0);
-        expect_books_close(solver, e, d, w, "step " + std::to_string(k) + ": ");
+        expect_books_close(solver, before, "step " + std::to_string(k) + ": ");
         cases::expect_below(solver.value("substeps"), 64.0, "parts that are shorter than smallest_step");
         solver.commit();
     }
@@ -263,9 +287,9 @@ CASE_TEST(snapping_steps_are_cut) {
     double worst = 0.0, parts = 0.0;
     const int steps = 40;
     for (int k = 1; k <= steps; ++k) {
-        const double e = cases::stored(solver), d = solver.value("dissipated"), w = solver.value("work");
+        const Before before(solver);
         solver.step(2.0 * k / steps);
-        expect_books_close(solver, e, d, w, "step " + std::to_string(k) + ": ");
+        expect_books_close(solver, before, "step " + std::to_string(k) + ": ");
         cases::expect(solver.value("mixity_error") <= tolerance || solver.value("substeps") > 8.0,
                       "a step that snaps is cut as far as allowed");
         cases::expect_below(solver.value("substeps"), 1.0 / smallest, "parts that are shorter than smallest_step");
@@ -347,10 +371,7 @@ int main() {
     tcase_add_test(tests, wide_estimates_are_cut);
     tcase_add_test(tests, snapping_steps_are_cut);
     tcase_add_loop_test(tests, cancelled_anywhere, 0, 4);
-    if (std::getenv("DELAM_OPEN_TESTS") != nullptr)
-        tcase_add_loop_test(tests, open_all_that_is_missing_was_released, 0, 2);
-    else
-        std::printf("open, left out: open_all_that_is_missing_was_released (2)\n");
+    tcase_add_loop_test(tests, all_that_is_missing_was_released, 0, 2);
     suite_add_tcase(suite, tests);
     return cases::run_suite(suite);
 }

@@ -293,21 +293,25 @@ namespace {
 struct Step {
     GradientTerm term;
     std::vector<Toughness> toughness;
-    Numbers driving, old;
+    Numbers driving, old, least;
 
     Step(const Mesh& mesh, double kappa, const Toughness& t)
         : term(kappa, stiffness_of(mesh), interface_of(mesh).weight, 0),
           toughness(term.pairs(), t),
           driving(term.pairs(), 0.0),
-          old(term.pairs(), 1.0) {}
+          old(term.pairs(), 1.0),
+          least(term.pairs(), 0.0) {}
 
     std::size_t size() const { return old.size(); }
     Numbers pointwise() const {
         Numbers z;
-        for (std::size_t i = 0; i < size(); ++i) z.push_back(Law{}.minimiser(toughness[i], driving[i], old[i]));
+        for (std::size_t i = 0; i < size(); ++i)
+            z.push_back(std::max(least[i], Law{}.minimiser(toughness[i], driving[i], old[i])));
         return z;
     }
-    CoupledDamage solve() const { return coupled_damage(term, Law{}, toughness, driving, old, pointwise(), old); }
+    CoupledDamage solve() const {
+        return coupled_damage(term, Law{}, toughness, driving, least, old, pointwise(), old);
+    }
     double energy(const Numbers& z) const {
         double sum = term.energy(z);
         for (std::size_t i = 0; i < size(); ++i)
@@ -331,11 +335,13 @@ struct Step {
     void ck_optimal(const Numbers& z, double tolerance, const std::string& where) const {
         const Numbers d = gradient(z), s = size_of_gradient(z);
         for (std::size_t i = 0; i < size(); ++i) {
-            ck_assert_msg(z[i] >= 0.0 && z[i] <= old[i], "%s: pair %zu at %.17g of %g", where.c_str(), i, z[i], old[i]);
-            const double down = z[i] < old[i] ? std::max(0.0, -d[i]) : 0.0, up = z[i] > 0.0 ? std::max(0.0, d[i]) : 0.0;
+            ck_assert_msg(z[i] >= least[i] && z[i] <= old[i], "%s: pair %zu at %.17g of %g to %g", where.c_str(), i,
+                          z[i], least[i], old[i]);
+            const double down = z[i] < old[i] ? std::max(0.0, -d[i]) : 0.0,
+                         up = z[i] > least[i] ? std::max(0.0, d[i]) : 0.0;
             // The remaining gradient, also measured by how far the pair's own curvature lets it move.
             const double stiff = term.diagonal(i) - term.weight()[i] * Law{}.driving_slope(toughness[i], z[i]);
-            const double move = std::min(std::max(down, up) / stiff, down > 0.0 ? old[i] - z[i] : z[i]);
+            const double move = std::min(std::max(down, up) / stiff, down > 0.0 ? old[i] - z[i] : z[i] - least[i]);
             ck_assert_msg(std::max(down, up) <= tolerance * s[i] || move <= tolerance,
                           "%s: pair %zu of %zu, z = %.6g of %g, gradient %.3e of %.3e, move %.2e", where.c_str(), i,
                           size(), z[i], old[i], d[i], s[i], move);
@@ -370,14 +376,16 @@ START_TEST(three_pairs_by_exhaustion) {
             s.driving[i] = s.toughness[i].total * std::exp(3.0 * (unit(random) - 0.5));
             s.old[i] = unit(random) < 0.6 ? 1.0 : unit(random);
         }
+        if (k % 2 == 1)  // and a lower bound
+            for (std::size_t i = 0; i < 3; ++i) s.least[i] = 0.9 * s.old[i] * unit(random);
+        const auto place = [&s](std::size_t i, int a) { return s.least[i] + (s.old[i] - s.least[i]) * a / n; };
         const CoupledDamage found = s.solve();
         ck_assert(found.converged);
         const double least = s.energy(found.adhesion);
         double grid = 1e300;
         for (int a = 0; a <= n; ++a)
             for (int b = 0; b <= n; ++b)
-                for (int c = 0; c <= n; ++c)
-                    grid = std::min(grid, s.energy({s.old[0] * a / n, s.old[1] * b / n, s.old[2] * c / n}));
+                for (int c = 0; c <= n; ++c) grid = std::min(grid, s.energy({place(0, a), place(1, b), place(2, c)}));
         ck_assert_msg(least <= grid + 1e-12, "case %d: %.17g, grid %.17g", k, least, grid);
         // Second derivatives are below 2 Gc^2 + 4 kappa here.
         const double curved = 2.0 * s.toughness[0].total * s.toughness[0].total + 4.0 * s.term.kappa();
@@ -401,6 +409,9 @@ START_TEST(random_steps_are_optimal) {
             for (int k = 0; k < 4; ++k) {
                 Step s(mesh, std::pow(10.0, decade), {1.0 / ratio, 1.0});
                 randomise(s, random, k % 2 == 0);
+                if (k >= 2)  // a part of a step: no pair may go further
+                    for (std::size_t i = 0; i < s.size(); ++i)
+                        s.least[i] = s.old[i] * std::uniform_real_distribution<double>(0.0, 1.0)(random);
                 const CoupledDamage found = s.solve();
                 const std::string where = "type " + std::to_string(_i) + ", Gc/Go " + std::to_string(ratio) +
                                           ", kappa 1e" + std::to_string(decade) + ", case " + std::to_string(k) + ", " +
@@ -580,15 +591,17 @@ START_TEST(any_start) {
     for (const double ratio : {1.0, 2.5, 1e4}) {
         Step s(mesh, 1e-2, {1.0 / ratio, 1.0});
         randomise(s, random, true);
+        for (std::size_t i = 0; i < s.size(); i += 3) s.least[i] = 0.4 * s.old[i];
         const Numbers base = s.solve().adhesion;
         for (int k = 0; k < 10; ++k) {
             Numbers start = s.old;
             for (double& z : start) z *= k == 0 ? 0.0 : unit(random);
             const Numbers z =
-                coupled_damage(s.term, Law{}, s.toughness, s.driving, s.old, s.pointwise(), start).adhesion;
+                coupled_damage(s.term, Law{}, s.toughness, s.driving, s.least, s.old, s.pointwise(), start).adhesion;
             for (std::size_t i = 0; i < z.size(); ++i) ck_near(z[i], base[i], 1e-9, "start");
         }
-        const CoupledDamage again = coupled_damage(s.term, Law{}, s.toughness, s.driving, s.old, s.pointwise(), base);
+        const CoupledDamage again =
+            coupled_damage(s.term, Law{}, s.toughness, s.driving, s.least, s.old, s.pointwise(), base);
         ck_assert_int_le(again.iterations, 2);
         for (std::size_t i = 0; i < base.size(); ++i) ck_near(again.adhesion[i], base[i], 1e-12, "fixed point");
     }

@@ -19,7 +19,7 @@ using namespace delam;
 
 namespace {
 
-constexpr std::uint32_t version = 7;
+constexpr std::uint32_t version = 8;
 // Magic, version, hash of the scene and the number of changed histories, which is zero.
 constexpr std::size_t head = 8 + 4 + 8 + 8;
 

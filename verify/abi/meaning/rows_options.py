@@ -17,9 +17,9 @@ DEFAULTS = {
     "search_limit": 100000, "search_tolerance": 1e-2, "step_control": "fixed", "step_tolerance": 1e-2,
     "mixity_step_tolerance": 0, "smallest_step": 1e-4, "jump_tolerance": 0, "jump_size": 0.5, "damage_tolerance": 1e-5,
     "minimisation_limit": 5000, "backtracking_tolerance": 1e-3, "minimisation": "auto", "reduction": "auto",
-    "contact": "auto", "mixity": "auto", "mixity_rule": "frozen", "contact_limit": 200, "subdomains": 0,
-    "gluing": "orthonormal", "preconditioner": "series", "scaling": "stiffness", "linear_tolerance": 1e-13,
-    "linear_limit": 2000, "threads": 1,
+    "contact": "auto", "mixity": "auto", "mixity_rule": "converged", "path_step": 0.1, "contact_limit": 200,
+    "subdomains": 0, "gluing": "orthonormal", "preconditioner": "series", "scaling": "stiffness",
+    "linear_tolerance": 1e-13, "linear_limit": 2000, "threads": 1,
 }
 OUTSIDE_THE_HASH = ("threads",)
 
@@ -56,7 +56,7 @@ def hash_of_defaults(host, see):
         if not known(host, key):
             continue
         see.that(f"{key} = {default} is another scene than {key} left alone", hashed([(key, default)]) == fresh)
-        other = {"local": "energetic", "fixed": "adaptive", "frozen": "converged", "orthonormal": "redundant",
+        other = {"local": "energetic", "fixed": "adaptive", "converged": "frozen", "orthonormal": "redundant",
                  "series": "none", "stiffness": "multiplicity"}.get(default, "always")
         if default == "auto" and key in ("backtracking", "minimisation", "reduction"):
             other = {"backtracking": "on", "minimisation": "alternate", "reduction": "feti"}[key]
@@ -76,8 +76,10 @@ def alternation(bulk, stiffness, onset, toughness, opening, tolerance, limit):
     zeta = 1.0
     for count in range(1, limit + 1):
         jump = opening * bulk / (bulk + zeta * stiffness)
-        new = min(1.0, forms.bilinear(onset, toughness, 0.5 * stiffness * jump * jump))
-        change, zeta = abs(new - zeta), new
+        driving = 0.5 * stiffness * jump * jump
+        new = min(1.0, forms.bilinear(onset, toughness, driving))
+        # Of the traction, relative to its peak.
+        change, zeta = abs(new - zeta) * math.sqrt(max(1.0, driving / onset)), new
         if change <= tolerance:
             return count, change, zeta
     return limit, change, zeta
@@ -94,9 +96,10 @@ def soft_bar(host, bulk, opening, options):
 
 @row("damage_tolerance", options=["damage_tolerance"])
 def damage_tolerance(host, see):
-    """The number of alternations, each of which reduces the change by 2 %, against the same iteration by hand."""
+    """The number of alternations, each of which reduces the change by 2 %, against the same iteration by hand; the step
+    is not followed in parts."""
     def run(options):
-        bar, status = soft_bar(host, 26.0, 0.0985, [("minimisation", "alternate"), *options])
+        bar, status = soft_bar(host, 26.0, 0.0985, [("minimisation", "alternate"), ("mixity_rule", "frozen"), *options])
         return [status, int(bar.value("am_iterations"))]
 
     observe(see, "damage_tolerance", run, [0.9e-5, 1.1e-5], [0, alternation(26.0, opening=0.0985, tolerance=1e-5,
@@ -283,21 +286,56 @@ def turning(host, options, toughness=(0.1, 0.6)):
 
 @row("mixity_rule", options=["mixity_rule"], tells=["solver_field values mixity"])
 def mixity_rule(host, see):
-    """The same scene: the frozen mixity of the step is that of mode I before it, and so is the toughness."""
-    def run(options, **law):
+    """The same scene: the mixity is that of the step's own jumps, and so is the toughness. The frozen mixity is that of
+    mode I before the step."""
+    def run(options, time=2.0, **law):
         _, solver = turning(host, options, **law)
-        host("solver_advance", solver, 2.0)
+        host("solver_advance", solver, time)
         return [field(host, solver, "mixity")[0][0], field(host, solver, "adhesion")[0][0]]
 
     driving = 0.5 * 100.0 * (0.018 ** 2 + 0.05 ** 2)
-    weak = {"toughness": (0.05, 0.06)}  # the variational rule refuses more
+    tangential = 0.05 ** 2 / (0.018 ** 2 + 0.05 ** 2)
+    weak = {"time": 1.3, "toughness": (0.05, 0.06)}  # the variational rule refuses more
     see.differ("mixity_rule left alone and mixity_rule = variational", run([], **weak),
                run([("mixity_rule", "variational")], **weak))
-    observe(see, "mixity_rule", run, ["converged"], [0.0, forms.bilinear(0.02, 0.1, driving)], "1")
-    tangential = 0.05 ** 2 / (0.018 ** 2 + 0.05 ** 2)
-    see.near("mixity_rule = converged", run([("mixity_rule", "converged")]),
-             [tangential, forms.bilinear(forms.toughness(0.02, 0.05, tangential),
-                                         forms.toughness(0.1, 0.6, tangential), driving)], rel=1e-5)
+    observe(see, "mixity_rule", run, ["frozen"],
+            [tangential, forms.bilinear(forms.toughness(0.02, 0.05, tangential),
+                                        forms.toughness(0.1, 0.6, tangential), driving)], "1", rel=1e-5)
+    see.near("mixity_rule = frozen", run([("mixity_rule", "frozen")]), [0.0, forms.bilinear(0.02, 0.1, driving)])
+
+
+@row("path_step", options=["path_step"])
+def path_step(host, see):
+    """Eight pairs, in turn in mode I and II, with every node prescribed: at onset + s (end - onset) of its jump, a pair
+    has dissipated the share s of its toughness. Steps from 0.3 to a share just below and just above 0.4: one part, and
+    more, each with alternations of its own."""
+    columns, ratio = 7, 2.0  # of the jumps in mode II and I
+    onset, end = 0.02, 0.1   # jumps of mode I, for the onset 0.02 and the toughness 0.1
+
+    def run(options):
+        law = scenes.bilinear(host, (100.0, 100.0), (0.02, 0.02 * ratio ** 2), (0.1, 0.1 * ratio ** 2))
+        found = []
+        for share in (0.0995, 0.1005):
+            mesh = host("mesh_create_layers", host.context, 2, [float(columns)], [columns], 2, [1.0, 1.0], [1, 1],
+                        TYPES["quad4"], Out())
+            host("mesh_add_interface", mesh, 0, 1, 0.0, Out())
+            problem = host("problem_create", host.context, mesh, Out())
+            host("problem_set_elastic", problem, -1, 1e3, 0.25)
+            host("problem_set_law", problem, 0, law)
+            row_of = columns + 1
+            scenes.fill(host, problem, list(range(4 * row_of)),
+                        lambda n: [0.0, 0.0] if n < 2 * row_of else [[0.0, 1.0], [ratio, 0.0]][n % row_of % 2],
+                        scenes.ramp(host, problem))
+            for key, setting in options:
+                scenes.give(host, problem, key, setting)
+            solver = host("solver_create", problem, 0.0, Out())
+            for total in (0.3, 0.3 + share):
+                host("solver_advance", solver, onset + total * (end - onset))
+                host("solver_commit", solver)
+            found.append(value(host, solver, "am_iterations"))
+        return [int(found[1] > found[0])]
+
+    observe(see, "path_step", run, [0.099, 0.101], [1])
 
 
 @row("mixity", options=["mixity"])
@@ -395,7 +433,7 @@ def backtracking_tolerance(host, see):
     def excess(stiffness):
         bar = broken(stiffness, [("backtracking", "off")])
         energy = sum(bar.value(key) for key in ("stored_bulk", "stored_interface", "load_potential"))
-        return (bar.value("lower") - bar.value("increment_lower")) / max(abs(energy), abs(bar.value("work")))
+        return (bar.value("lower") - bar.value("increment")) / max(abs(energy), abs(bar.value("work")))
 
     def broken(stiffness, options):
         whole = stiffness / (1.0 + stiffness)

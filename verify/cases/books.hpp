@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a step books, by its definition: the work of the reactions by the trapezoidal rule, and what is neither stored
+// nor dissipated of it where a pair is damaged abruptly. For one load pattern and a law of which Go/Gc is the same in
+// all modes.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "api.hpp"
+#include "support.hpp"
+
+namespace cases {
+
+struct Books {
+    double factor = 0.0, reaction = 0.0;  // of the load
+    double energy = 0.0, dissipated = 0.0, work = 0.0, lower = 0.0, increment = 0.0, upper = 0.0, released = 0.0,
+           defect = 0.0;
+    std::vector<double> adhesion;
+
+    double size() const { return std::max(std::abs(energy), std::abs(work)); }
+};
+
+// factor: of the pattern `load` at the time of the state.
+inline Books read_books(const reference::Solver& s, const std::string& load, double factor) {
+    return {factor,
+            s.value("reaction:" + load),
+            s.value("stored_bulk") + s.value("stored_interface") + s.value("load_potential"),
+            s.value("dissipated"),
+            s.value("work"),
+            s.value("lower"),
+            s.value("increment"),
+            s.value("upper"),
+            s.value("released"),
+            s.value("defect"),
+            s.field("adhesion")};
+}
+
+// The largest part of its toughness that a pair loses: g(zeta)/Gc = (1 - zeta) / (1 + (Gc/Go - 1) zeta).
+inline double largest_loss(const reference::LawData& law, const std::vector<double>& from,
+                           const std::vector<double>& to) {
+    const double ratio = law.normal_toughness / law.normal_onset;
+    const auto spent = [&](double zeta) { return (1.0 - zeta) / (1.0 + (ratio - 1.0) * zeta); };
+    double loss = 0.0;
+    for (std::size_t p = 0; p < from.size(); ++p) loss = std::max(loss, spent(to[p]) - spent(from[p]));
+    return loss;
+}
+
+// Of two states with one step between them. What comes from a pair that loses more than a tenth of its toughness is
+// released; where one loses more than half, the reactions change at an instant that is not known, and the work is
+// raised to what was stored and dissipated, up to the upper bound. in_parts: a step that takes more than a part of its
+// toughness from a pair (path_step) knows its work from the states on its way, between the bounds.
+inline void expect_work(const reference::LawData& law, const Books& a, const Books& b, double tolerance, double size,
+                        const std::string& where, bool in_parts = false) {
+    const double trapezoid = 0.5 * (b.factor - a.factor) * (a.reaction + b.reaction);
+    const double loss = largest_loss(law, a.adhesion, b.adhesion);
+    double work = trapezoid;
+    if (loss > 0.5) work = std::max(work, std::min(b.increment, b.upper));
+    if (in_parts && loss > 0.09) {
+        expect_below(b.lower - (b.work - a.work), tolerance * size, where + "work below its bound");
+        expect_below(b.work - a.work - b.upper, tolerance * size, where + "work above its bound");
+        expect_below(-b.released, 0.0, where + "released");
+        expect_below(b.released - std::max(0.0, b.upper - b.increment), tolerance * size, where + "released, at most");
+    } else {
+        expect_near(b.work - a.work, work, tolerance, size, where + "work");
+        expect_near(b.released, loss > 0.1 ? std::max(0.0, trapezoid - b.increment) : 0.0, tolerance, size,
+                    where + "released");
+    }
+    expect_near(b.defect - a.defect, b.energy - a.energy + b.dissipated - a.dissipated + b.released - (b.work - a.work),
+                tolerance, size, where + "defect");
+}
+
+}  // namespace cases

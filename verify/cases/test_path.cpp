@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a front dissipates, releases and needs as load does not depend on the way in which it is computed: stiff
+// interfaces with the default tolerance; mixed mode in parts by every method; the ledger of coarse and fine steps.
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "condensed_scenes.hpp"
+#include "flexure.hpp"
+#include "support.hpp"
+
+namespace {
+
+using reference::LawData;
+using reference::Scene;
+using reference::Solver;
+
+// ---- stiff interfaces ----------------------------------------------------------------------------------------------
+
+// A double cantilever in the plane, or three cells wide. Strength 20 MPa, Gc = 200 J/m2: with k = 1e18 N/m3 a pair
+// that softens has an adhesion below 1e-6.
+Scene cantilever(int d, double stiffness, const char* reduction, double tolerance) {
+    constexpr double length = 0.03, width = 0.006, arm = 0.002, notch = 0.01, strength = 20e6;
+    Scene scene(d, d == 2 ? std::vector<double>{length} : std::vector<double>{length, width},
+                d == 2 ? std::vector<std::int64_t>{30} : std::vector<std::int64_t>{15, 3}, {arm, arm}, {1, 1},
+                d == 2 ? DELAM_QUAD4 : DELAM_HEX8);
+    scene.interface(0, 1);
+    scene.begin();
+    scene.elastic(-1, 70e9, 0.3);
+    scene.require(delam_problem_set_formulation(scene.problem(), -1, "incompatible"), "formulation");
+    const double onset = 0.5 * strength * strength / stiffness;
+    scene.law(0, {stiffness, stiffness, onset, onset, 200.0, 200.0, 1.0});
+    const auto pairs = scene.pairs(0);
+    std::vector<std::int64_t> open;
+    for (std::size_t p = 0; p < pairs.count(); ++p)
+        if (scene.coordinate(pairs.node_a[p], 0) < notch - 1e-6) open.push_back(static_cast<std::int64_t>(p));
+    scene.adhesion(0, open, std::vector<double>(open.size(), 0.0));
+    const auto end = cases::nodes_where(scene, -1, [](const double* x) { return x[0] > length - 1e-6; });
+    for (int k = 0; k < d; ++k) scene.hold(end, cases::unit(d, k));
+    const auto load = scene.pattern("open", {0.0, 1.0}, {0.0, 1.6e-4});
+    for (const int body : {0, 1}) {
+        const auto tip = cases::nodes_where(scene, body, [&](const double* x) {
+            return x[0] < 1e-6 && (body == 0 ? x[d - 1] < 1e-6 : x[d - 1] > 2 * arm - 1e-6);
+        });
+        scene.drive(tip, cases::unit(d, d - 1), load, std::vector<double>(tip.size(), body == 0 ? -1.0 : 1.0));
+    }
+    scene.text("reduction", reduction);
+    if (std::string(reduction) == "feti") scene.number("subdomains", 3);
+    if (tolerance > 0.0) scene.number("damage_tolerance", tolerance);
+    return scene;
+}
+
+struct Peak {
+    double load = 0.0, dissipated = 0.0;
+};
+Peak peak_of(const Scene& scene) {
+    Solver solver(scene, 0.0);
+    Peak peak;
+    for (int k = 1; k <= 10; ++k) {
+        solver.step(0.1 * k);
+        peak.load = std::max(peak.load, std::abs(solver.value("reaction:open")));
+        solver.commit();
+    }
+    peak.dissipated = solver.value("dissipated");
+    return peak;
+}
+
+// loop: dimension, then stiffness, then reduction.
+CASE_TEST(stiff_interfaces_stop_at_rest) {
+    const int d = 2 + loop % 2;
+    const double stiffness = loop / 2 % 2 == 0 ? 1e17 : 1e18;
+    const char* reduction = loop / 4 == 0 ? "condensed" : "feti";
+    const Peak exact = peak_of(cantilever(d, stiffness, reduction, 1e-9)),
+               usual = peak_of(cantilever(d, stiffness, reduction, 0.0));
+    std::printf("%dD, k %g, %s: peak %.8g N, with the default tolerance %.8g; dissipated %.8g, %.8g J\n", d, stiffness,
+                reduction, exact.load, usual.load, exact.dissipated, usual.dissipated);
+    cases::expect(exact.dissipated > 0.0, "the front moves");
+    cases::expect_near(usual.load, exact.load, 1e-4, exact.load, "peak");
+    cases::expect_near(usual.dissipated, exact.dissipated, 1e-4, exact.dissipated, "dissipated");
+}
+
+// ---- mixed mode ----------------------------------------------------------------------------------------------------
+
+// The mixed-mode flexure with a short notch, whose front jumps; sliding dissipates 3.65 times as much as opening.
+reference::Flexure jumping(double h, double stiffness) {
+    reference::Flexure data = reference::find_flexure("mmf-ductile");
+    data.law = {stiffness, stiffness, 5.0, 18.25, 200.0, 730.0, 1.0};
+    data.h = h;
+    data.notch = stiffness > 5e12 ? 0.015 : 0.012;
+    data.final_load = 4e-3;
+    return data;
+}
+
+struct March {
+    std::vector<double> load, error, balance;  // balance: stored, dissipated and released less the work
+    double dissipated, released, work, jumps;
+    std::vector<double> adhesion;
+};
+
+March march(const reference::Flexure& data, int steps, const char* reduction = "condensed",
+            const char* minimisation = "auto", double path_step = 0.1) {
+    reference::FlexureScene f = reference::make_flexure(data);
+    f.scene.text("reduction", reduction);
+    f.scene.text("minimisation", minimisation);
+    f.scene.number("path_step", path_step);
+    f.scene.number("damage_tolerance", 1e-7);
+    if (std::string(reduction) == "feti") f.scene.number("subdomains", 3);
+    Solver solver(f.scene, 0.0);
+    March m{};
+    for (int k = 1; k <= steps; ++k) {
+        solver.step(data.end_time * k / steps);
+        solver.commit();
+        m.released += solver.value("released");
+        m.load.push_back(std::abs(solver.value("reaction:press")));
+        m.error.push_back(solver.value("mixity_error"));
+        m.balance.push_back(solver.value("stored_bulk") + solver.value("stored_interface") +
+                            solver.value("dissipated") + m.released - solver.value("work"));
+        cases::expect_near(m.balance.back(), solver.value("defect"), 1e-9, solver.value("work"), "defect");
+    }
+    m.dissipated = solver.value("dissipated");
+    m.work = solver.value("work");
+    m.adhesion = solver.field("adhesion");
+    std::int64_t jumps = 0;
+    f.scene.require(delam_solver_jump_count(solver.get(), &jumps), "delam_solver_jump_count");
+    m.jumps = static_cast<double>(jumps);
+    std::printf(
+        "MMF, h %g mm, %d steps, %s, %s, path_step %g: dissipated %.7g, released %.4g, balance %.1e J/m, jumps %g\n",
+        1e3 * data.h, steps, reduction, minimisation, path_step, m.dissipated, m.released, m.balance.back(), m.jumps);
+    return m;
+}
+
+CASE_TEST(one_path_by_all_methods) {
+    const reference::Flexure data = jumping(1.5e-3, 1e12);
+    constexpr int steps = 20;
+    const March own = march(data, steps, "condensed", "accelerated");
+    const double largest = *std::max_element(own.load.begin(), own.load.end());
+    cases::expect(own.load[5] < 0.75 * largest && own.load.back() > 0.75 * largest, "the load falls and rises again");
+    const auto same = [&](const March& other, double dissipated, const std::string& what) {
+        cases::expect_near(other.dissipated, own.dissipated, dissipated, own.dissipated, what + ": dissipated");
+        for (std::size_t k = 0; k < own.load.size(); ++k)
+            cases::expect_near(other.load[k], own.load[k], 1e-4, largest,
+                               what + ": load of step " + std::to_string(k + 1));
+        for (std::size_t p = 0; p < own.adhesion.size(); ++p)
+            cases::expect_near(other.adhesion[p], own.adhesion[p], 1e-4, 1.0, what + ": adhesion");
+    };
+    same(march(data, steps, "condensed", "alternate"), 1e-4, "alternate");
+    same(march(data, steps, "feti", "accelerated"), 1e-4, "feti");
+    same(march(data, steps, "condensed", "accelerated", 0.05), 2e-3, "parts half as long");
+    if (!cases::whole()) return;
+    same(march(data, steps, "feti", "alternate"), 1e-4, "feti, alternate");
+    same(march(data, steps, "condensed", "accelerated", 0.02), 3e-3, "parts a fifth as long");
+}
+
+// What the loads do is stored, dissipated or released, and the jump is one, in coarse steps as in fine ones, wherever
+// in a step it comes.
+CASE_TEST(ledger_of_a_jump) {
+    const reference::Flexure data = jumping(loop == 0 ? 3e-3 : 1.5e-3, 1e13);
+    double fine = 0.0;
+    for (const int steps : {80, 20}) {
+        const March m = march(data, steps);
+        for (std::size_t k = 0; k < m.balance.size(); ++k)
+            cases::expect_near(m.balance[k], 0.0, 1e-3, m.work, "ledger of step " + std::to_string(k + 1));
+        cases::expect(m.jumps == 1.0, std::to_string(m.jumps) + " jumps of " + std::to_string(steps) + " steps");
+        cases::expect(m.released > 0.05 * m.dissipated, "released");
+        if (steps == 80) fine = m.released;
+        cases::expect_near(m.released, fine, 0.25, fine, "released in coarse steps");
+    }
+}
+
+// Steps sixteen times as long: the same front, and what it dissipates as well as their own estimate says.
+CASE_TEST(coarse_and_fine_steps) {
+    const reference::Flexure data = jumping(1.5e-3, 1e12);
+    const March coarse = march(data, 20), fine = march(data, 320);
+    const double estimate = *std::max_element(coarse.error.begin(), coarse.error.end());
+    cases::expect_near(coarse.load.back(), fine.load.back(), 1e-4, fine.load.back(), "load in the end");
+    cases::expect_near(coarse.dissipated, fine.dissipated, estimate, fine.dissipated, "dissipated");
+    cases::expect_below(estimate, 0.05, "estimate of its error");
+}
+
+}  // namespace
+
+int main() {
+    Suite* suite = suite_create("path");
+    TCase* tests = tcase_create("path");
+    tcase_add_loop_test(tests, stiff_interfaces_stop_at_rest, 0, 8);
+    tcase_add_test(tests, one_path_by_all_methods);
+    tcase_add_loop_test(tests, ledger_of_a_jump, 0, 2);
+    tcase_add_test(tests, coarse_and_fine_steps);
+    suite_add_tcase(suite, tests);
+    return cases::run_suite(suite);
+}
