@@ -16,7 +16,7 @@ scene = write(SCENE)
 out = os.path.join(folder(), "a", "b")
 code, text, _ = delam("run", scene, "--out", out)
 expect(code == 0 and "step 20/20" in text, "a run, with plain lines")
-files = ["fields.h5", "fields.xdmf", "history.csv", "result.json", "state.bin"]
+files = ["fields.h5", "fields.xdmf", "history.csv", "jumps.csv", "result.json", "state.bin"]
 expect(sorted(os.listdir(out)) == files, "its files and no other")
 rows = read(os.path.join(out, "history.csv")).decode().splitlines()
 titles = rows[0].split(",")
@@ -33,10 +33,10 @@ expect(all(about[k] for k in provenance), "provenance")
 
 # The concept is in every file of a result, in the words of the library's options.
 concept = about["concept"]
-expect(concept["solution"] == "local" and concept["mixity_rule"] == "frozen", "the concept in result.json")
+expect(concept["solution"] == "local" and concept["mixity_rule"] == "converged", "the concept in result.json")
 expect(all(str(about["options"][k]) == v or float(about["options"][k]) == float(v) for k, v in concept.items()),
        "it is that of the options")
-expect(titles[-2:] == ["solution", "mixity_rule"] and all(r.endswith(",local,frozen") for r in rows[1:]),
+expect(titles[-2:] == ["solution", "mixity_rule"] and all(r.endswith(",local,converged") for r in rows[1:]),
        "the concept in each row of history.csv")
 with h5py.File(os.path.join(out, "fields.h5")) as file:
     words = {k: v.decode() if isinstance(v, bytes) else v for k, v in file.attrs.items()}

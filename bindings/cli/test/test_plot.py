@@ -92,7 +92,7 @@ from plot_family import Curves  # noqa: E402
 from result import Result  # noqa: E402
 curves = Curves([Result(path) for path in results])
 expect(curves.labels == ["h = 3 mm", "h = 1.5 mm"], f"the legend: {curves.labels}")
-expect("20 steps" in curves.title("x") and "local solution, frozen mixity" in curves.title("x") and
+expect("20 steps" in curves.title("x") and "local solution, converged mixity" in curves.title("x") and
        "h =" not in curves.title("x"), f"the title: {curves.title('x')!r}")
 curves = Curves([Result(path) for path in (*results, other)])
 expect(len(set(curves.labels)) == 3 and "other, 10 steps, h = 1.5 mm" in curves.labels, f"the legend: {curves.labels}")
