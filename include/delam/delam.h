@@ -886,8 +886,8 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *                          integral of the next lower order along the jumps of the pairs. Otherwise sum w |dzeta|
  *                          |Gc(B shown) - Gc(B used)| / sum w |dzeta| Gc(B used), where B used determined the
  *                          toughness of a pair, and B shown is the mixity of that pair's own jump in the last iterate
- *                          in which the pair still adhered. With `frozen`, a value above 0.1 means that damage grew
- *                          abruptly within the step, and the solver warns (log level 1)
+ *                          in which the pair still adhered. Except with `variational`, the solver warns (log level 1)
+ *                          once of a value above 0.1
  *   am_iterations, displacement_solves, contact_iterations, linear_iterations   of the step: alternate minimisation
  *                          steps, displacement solves, and, summed over these solves, active-set steps and Krylov
  *                          iterations

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/numbers.hpp"
 #include "evolution/step/bounds.hpp"
 
 namespace delam {
@@ -13,7 +14,7 @@ namespace {
 
 constexpr double released_share = 1e-3;  // of the larger of energy and work
 constexpr double load_drop = 0.02;       // of the load
-constexpr double single_pair = 1.5;      // mean weights of a pair: a front that moves on by one of them does not jump
+constexpr double single_row = 1.5;       // a front that moves on by one row of pairs does not jump
 
 double mean_weight(const PairLaws& pairs) {
     double sum = 0.0, count = 0.0;
@@ -23,6 +24,20 @@ double mean_weight(const PairLaws& pairs) {
         count += 1.0;
     }
     return count > 0.0 ? sum / count : 0.0;
+}
+
+// Pairs next to a debonded region that a step has damaged: one for each front in the plane, a row along it in space.
+double first_row(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after) {
+    double row = 0.0;
+    for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
+        if (!(before.adhesion[p] - after.adhesion[p] > debonded_below)) continue;
+        const auto neighbours = graph.neighbours(p);
+        if (std::any_of(neighbours.begin(), neighbours.end(), [&](std::int64_t q) {
+                return pairs.law[index(q)] != nullptr && before.adhesion[index(q)] <= debonded_below;
+            }))
+            row += 1.0;
+    }
+    return std::max(row, 1.0);
 }
 
 // Force along the loads.
@@ -73,17 +88,17 @@ JumpEvent describe_jump(const PairLaws& pairs, const PairGraph& graph, const Sta
     return jump;
 }
 
-bool jumps(const PairLaws& pairs, const State& before, const State& after) {
-    const double pair = mean_weight(pairs);
+bool jumps(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after) {
+    const double least = single_row * mean_weight(pairs) * first_row(pairs, graph, before, after);
     const auto worth = [&](double released) { return released > released_share * after.ledger.scale(); };
     if (const JumpWithin& jump = after.jump_within; jump.known != 0)
-        return jump.debonded > single_pair * pair && (jump.drop > load_drop || worth(jump.released));
+        return jump.debonded > least && (jump.drop > load_drop || worth(jump.released));
     if (!(after.outcome.released > 0.0)) return false;
     double debonded = 0.0;
     for (std::size_t p = 0; p < before.adhesion.size(); ++p)
         if (pairs.law[p] != nullptr) debonded += pairs.weight[p] * (before.adhesion[p] - after.adhesion[p]);
     const bool drops = std::abs(load(after)) < (1.0 - load_drop) * std::abs(load(before));
-    return debonded > single_pair * pair && (drops || worth(after.outcome.released));
+    return debonded > least && (drops || worth(after.outcome.released));
 }
 
 }  // namespace delam

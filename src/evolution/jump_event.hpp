@@ -23,7 +23,8 @@ struct JumpEvent {
 
 // What happened between two states.
 JumpEvent describe_jump(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after);
-// Does a step jump: does it release energy worth mentioning, or lose load, as a front moves by more than one pair?
-bool jumps(const PairLaws& pairs, const State& before, const State& after);
+// Does a step jump: does it release energy worth mentioning, or lose load, as a front moves by more than one row of
+// pairs?
+bool jumps(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after);
 
 }  // namespace delam

@@ -108,7 +108,7 @@ bool Solver::keeps_past() const {
 }
 
 void Solver::note_jump(const State& before, State& after, std::vector<JumpEvent>& jumps) const {
-    if (!delam::jumps(stepper_.pairs(), before, after)) return;
+    if (!delam::jumps(stepper_.pairs(), graph_, before, after)) return;
     jumps.push_back(describe_jump(stepper_.pairs(), graph_, before, after));
     after.outcome.jumps = 1;
 }

@@ -166,7 +166,7 @@ void Parts::book_jump(State& next) const {
 // Adds a part to the step.
 void Parts::accept(Goal goal) {
     State& next = goal.reached->state;
-    if (!(options_.jump_tolerance > 0.0) && delam::jumps(stepper_.pairs(), at_, next)) {
+    if (!(options_.jump_tolerance > 0.0) && delam::jumps(stepper_.pairs(), graph_, at_, next)) {
         jumps_.push_back(describe_jump(stepper_.pairs(), graph_, at_, next));
         jumps_.back().step = step_;
     }

@@ -13,7 +13,7 @@ std::vector<std::int64_t> violated_steps(const Rows& rows, double eta) {
         const auto of = [&row = rows[i]](const char* column) { return number_of(row, column); };
         const double slack = eta * energy_scale(rows[i]);
         // Negated, so that NaN counts as violated.
-        if (!(of("lower") - of("increment_lower") <= slack && of("increment") - of("upper") <= slack))
+        if (!(of("lower") - of("increment") <= slack && of("increment") - of("upper") <= slack))
             out.push_back(static_cast<std::int64_t>(of("step")));
     }
     return out;

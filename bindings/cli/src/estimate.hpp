@@ -10,7 +10,7 @@
 
 namespace cli {
 
-// Steps in which lower - increment_lower or increment - upper exceeds eta * max(|stored energy|, |work|), eta being
+// Steps in which lower - increment or increment - upper exceeds eta * max(|stored energy|, |work|), eta being
 // the option backtracking_tolerance.
 std::vector<std::int64_t> violated_steps(const Rows& rows, double eta);
 // The closing line; "" if the estimate holds in every step.

@@ -14,7 +14,7 @@ namespace delam {
 
 namespace {
 
-constexpr double tolerated_error = 0.1;  // of the toughness, relative
+constexpr double tolerated_error = 0.1;  // of the dissipated energy, relative
 
 template <class Rule>
 std::unique_ptr<Increment> make(const PairLaws& pairs, const State& before, std::span<const double> mixity,
@@ -29,14 +29,14 @@ struct MixityRule::Row {
     std::unique_ptr<Increment> (*make)(const PairLaws&, const State&, std::span<const double>, StepLimits);
     bool keeps_broken;     // a broken pair keeps the mixity with which it broke
     bool before_is_start;  // mixity_before is that of the displacements before the step, else of the step before
-    bool warns;            // of the error of its mixities
+    const char* cure;      // of an error of its mixities, besides smaller steps; null: no warning
 };
 
 // The first stands for all where no law depends on the mixity.
 const MixityRule::Row MixityRule::rows[] = {
-    {"frozen", make<FrozenIncrement>, false, false, true},
-    {"converged", make<ConvergedIncrement>, true, false, false},
-    {"variational", make<VariationalIncrement>, false, true, false},
+    {"frozen", make<FrozenIncrement>, false, false, "mixity_rule = converged"},
+    {"converged", make<ConvergedIncrement>, true, false, "a smaller path_step"},
+    {"variational", make<VariationalIncrement>, false, true, nullptr},
 };
 
 MixityRule::MixityRule(const PairLaws& pairs, const std::string& word)
@@ -65,12 +65,11 @@ void MixityRule::begin(const PairLaws& pairs, const State& before, const Respons
 }
 
 bool MixityRule::warn_of_mixity_error(const Monitor& monitor, const State& next) const {
-    if (!row_->warns || !(next.ledger.mixity_error > tolerated_error)) return false;
-    monitor.log(
-        1, text("step ", next.step, " at time ", next.time,
-                ": the mode mixity changed within the step, so that the toughness at the frozen mixity is in error by ",
-                100.0 * next.ledger.mixity_error,
-                " %: use smaller steps or mixity_rule = converged (later steps are not reported; value mixity_error)"));
+    if (row_->cure == nullptr || !(next.ledger.mixity_error > tolerated_error)) return false;
+    monitor.log(1, text("step ", next.step, " at time ", next.time,
+                        ": the energy that it dissipates is in error by about ", 100.0 * next.ledger.mixity_error,
+                        " %, because the mode mixity changes on the way: use smaller steps or ", row_->cure,
+                        " (later steps are not reported; value mixity_error)"));
     return true;
 }
 
