@@ -208,7 +208,8 @@ CASE_TEST(warned_once) {
     element.scene.require(delam_context_set_log(
                               element.scene.context(),
                               [](std::int32_t, const char* line, void*) {
-                                  if (std::string(line).find("the mode mixity changes on the way") != std::string::npos) ++warnings;
+                                  if (std::string(line).find("the mode mixity changes on the way") != std::string::npos)
+                                      ++warnings;
                               },
                               nullptr),
                           "delam_context_set_log");
