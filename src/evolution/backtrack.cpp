@@ -23,7 +23,7 @@ Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t la
     while (true) {
         std::vector<Stepper::Start> starts;
         if (carried) starts.push_back(*carried);
-        if (i < k) starts.emplace_back(chain.at(i));
+        if (i < k) starts.emplace_back(chain.at(i), same_before);
         Stepper::Result found = stepper.step(chain.at(i - 1), i < k ? chain.at(i).time : time, starts);
         if (i < k && same_before && !chain.at(i).ledger.undercut_by(found.state.ledger.increment)) {
             // Nothing lower: step i stays, and so do the later steps computed from it.
@@ -47,7 +47,7 @@ Stepper::Result backtracked_step(Stepper& stepper, Chain& chain, std::int64_t la
         }
         if (returning && violated && i - 1 > chain.first() && returns < options.backtracking_limit) {
             ++returns;
-            carried = Stepper::Start(found.state);
+            carried = Stepper::Start(found.state, true);
             --i;
             same_before = true;
             continue;

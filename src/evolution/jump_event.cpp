@@ -68,6 +68,7 @@ JumpEvent describe_jump(const PairLaws& pairs, const PairGraph& graph, const Sta
         const double begin = load_ratio(before.theta, after.theta).value_or(0.0);
         const double instant = begin < 1.0 ? (after.jump_within.load - begin) / (1.0 - begin) : 1.0;
         jump.before = jump.time = before.time + instant * (after.time - before.time);
+        jump.released = after.jump_within.released;
     }
     std::vector<double> changed;
     for (std::size_t p = 0; p < before.adhesion.size(); ++p) {

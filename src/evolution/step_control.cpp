@@ -158,6 +158,7 @@ void Parts::accept_goal() {
 // The jump has been located: the load moves first, at the state before, and then the state jumps.
 void Parts::book_jump(State& next) const {
     Ledger& ledger = next.ledger;
+    next.jump_within = {};  // bisection tells the instant
     next.outcome.released = std::max(0.0, ledger.upper - ledger.increment);
     ledger.work = at_.ledger.work + ledger.increment + next.outcome.released;
     ledger.released = at_.ledger.released + next.outcome.released;

@@ -15,6 +15,8 @@ namespace {
 // fraction has fallen to `least_share`, or after so many reversals, so that a step terminates.
 constexpr double least_share = 1.0 / 64.0;
 constexpr std::int64_t most_turns = 100;
+// Of the share that a part may take: the state that is kept may lie above the bound by what the stopping test allows.
+constexpr double at_the_bound = 1e-3;
 constexpr double mixity_difference = 1e-6;  // of the derivative by B
 
 }  // namespace
@@ -98,7 +100,9 @@ double ConvergedIncrement::least(std::size_t pair) const {
 
 bool ConvergedIncrement::stopped(std::span<const double> adhesion) const {
     for (std::size_t p = 0; p < adhesion.size(); ++p)
-        if (adhesion[p] > 0.0 && adhesion[p] < before_.adhesion[p] && adhesion[p] <= least(p)) return true;
+        if (adhesion[p] > 0.0 && adhesion[p] < before_.adhesion[p] && least(p) > 0.0 &&
+            left(p, adhesion[p]) - left(p, least(p)) <= at_the_bound * limits_.stride)
+            return true;
     return false;
 }
 

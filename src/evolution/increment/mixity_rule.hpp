@@ -2,11 +2,12 @@
 // Whose mode mixity the toughness of a step has (option mixity_rule). Each rule is an implementation of Increment:
 //
 //   frozen       B of the state before, throughout the step                         (frozen_increment.hpp)
-//   converged    B of the step's own solution, found as a fixed point               (converged_increment.hpp)
+//   converged    B that each pair meets on the way, in parts of the step            (converged_increment.hpp)
 //   variational  f(B(u), zeta) in the stored energy, Gc of the state before in the dissipated one
 //                                                                                   (variational_increment.hpp)
 //
-// Under every rule the mixities that the iterates show are kept beside those in use; their difference is mixity_error.
+// Under every rule the mixities that the iterates show are kept beside those in use; under frozen and variational their
+// difference is mixity_error.
 #pragma once
 
 #include <memory>

@@ -51,7 +51,7 @@ private:
 PathEnergy integrate(const PairLaws& pairs, std::size_t pair, const PairPath& path, Curve curve, double mixity) {
     const Law& law = *pairs.law[pair];
     const auto toughness_at = [&](const Driving& y) {
-        return pairs.toughness(pair, y.total() > 0.0 ? mode_mixity(y.normal, y.tangential) : mixity);
+        return pairs.toughness(pair, tells_mixity(law, y, 0.0) ? mode_mixity(y.normal, y.tangential) : mixity);
     };
     PathEnergy sum;
     Toughness before = toughness_at(driving_energy(law, curve.at(0.0)));
@@ -59,8 +59,11 @@ PathEnergy integrate(const PairLaws& pairs, std::size_t pair, const PairPath& pa
     for (int i = 1; i <= parts; ++i) {
         const Driving y = driving_energy(law, curve.at(static_cast<double>(i) / parts));
         const Toughness t = toughness_at(y);
-        const double next =
-            i == parts ? path.adhesion_to : std::clamp(law.minimiser(t, y.total(), zeta), path.adhesion_to, zeta);
+        // A pair that a gradient term couples to others does not follow its own law: its adhesion falls evenly.
+        const double even =
+            path.adhesion_from + static_cast<double>(i) / parts * (path.adhesion_to - path.adhesion_from);
+        const double follows = law.gradient > 0.0 ? even : law.minimiser(t, y.total(), zeta);
+        const double next = i == parts ? path.adhesion_to : std::clamp(follows, path.adhesion_to, zeta);
         if (next < zeta) {
             sum.dissipated += 0.5 * (law.dissipated(before, next) - law.dissipated(before, zeta) +
                                      law.dissipated(t, next) - law.dissipated(t, zeta));
@@ -78,7 +81,8 @@ double of_the_ends(const PairLaws& pairs, std::size_t pair, const PairPath& path
     double sum = 0.0;
     for (const std::span<const double> jump : {path.from, path.to}) {
         const Driving y = driving_energy(law, jump);
-        const Toughness t = pairs.toughness(pair, y.total() > 0.0 ? mode_mixity(y.normal, y.tangential) : mixity);
+        const Toughness t =
+            pairs.toughness(pair, tells_mixity(law, y, 0.0) ? mode_mixity(y.normal, y.tangential) : mixity);
         sum += 0.5 * (law.dissipated(t, path.adhesion_to) - law.dissipated(t, path.adhesion_from));
     }
     return sum;
@@ -112,7 +116,7 @@ double path_mixity(const PairLaws& pairs, std::size_t pair, std::span<const doub
     const Law& law = *pairs.law[pair];
     const auto shown = [&](std::span<const double> jump) {
         const Driving y = driving_energy(law, jump);
-        return y.total() > 0.0 ? mode_mixity(y.normal, y.tangential) : mixity;
+        return tells_mixity(law, y, 0.0) ? mode_mixity(y.normal, y.tangential) : mixity;
     };
     double low = shown(from), high = shown(to);
     if (!pairs.mixed(pair) || low == high) return high;

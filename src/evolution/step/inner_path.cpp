@@ -23,7 +23,7 @@ constexpr double same_mode = 1e-3;           // spread of onset and toughness, r
 bool InnerPath::one_mode(const State& at, std::span<const double> mixity, const State* before) const {
     double least[2] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     double most[2] = {0.0, 0.0};
-    const Law* law = nullptr;
+    bool any = false;
     const auto add = [&](const Toughness& t) {
         least[0] = std::min(least[0], t.onset), most[0] = std::max(most[0], t.onset);
         least[1] = std::min(least[1], t.total), most[1] = std::max(most[1], t.total);
@@ -36,12 +36,12 @@ bool InnerPath::one_mode(const State& at, std::span<const double> mixity, const 
         const bool partly = at.adhesion[p] > 0.0 && at.adhesion[p] < 1.0;
         const bool nearly = at.adhesion[p] > 0.0 && y.total() > nearly_loaded_share * t.onset;
         if (!damaged && !partly && !nearly) continue;
-        if (law != nullptr && law != pairs_.law[p]) return false;
-        law = pairs_.law[p];
+        any = true;
         add(t);
-        if (damaged && y.total() > 0.0) add(pairs_.toughness(p, mode_mixity(y.normal, y.tangential)));
+        if (damaged && tells_mixity(*pairs_.law[p], y, 0.0))
+            add(pairs_.toughness(p, mode_mixity(y.normal, y.tangential)));
     }
-    return law == nullptr || (most[0] <= (1.0 + same_mode) * least[0] && most[1] <= (1.0 + same_mode) * least[1]);
+    return !any || (most[0] <= (1.0 + same_mode) * least[0] && most[1] <= (1.0 + same_mode) * least[1]);
 }
 
 PathPoint path_point(const PairLaws& pairs, const State& state, double dissipated) {
@@ -136,6 +136,7 @@ bool InnerPath::follow(State& next, const Increment& step, const Dissipation* be
     last_.clear();
     bounded_ = false;
     points_.clear();
+    started_elsewhere_ = next.adhesion != step.before().adhesion;
     std::int64_t held = 0;
     bool converged = part(at, next, false);
     while (true) {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // One load step, followed in parts at the fixed load of its end. Where the toughness depends on the mode, what a pair
-// dissipates depends on the way that it takes, and in a jump of the state, or in a step that moves a front by more than
-// its process zone, the iterates of a minimisation are no way. Here each part is an incremental minimisation from the
-// state that the part before has reached, in which no pair dissipates more than a share of its toughness (option
-// path_step); the path ends where no pair reaches this bound (M. Efendiev, A. Mielke, J. Convex Anal. 13, 2006; D.
-// Knees, M. Negri, M3AS 27, 2017). The dissipated energy is that of every pair along the jumps that it meets
-// (increment/path_dissipation.hpp).
+// dissipates depends on the way that it takes. In a jump of the state, or in a step that moves a front by more than its
+// process zone, the iterates of a minimisation say nothing about this way. Here each part is an incremental
+// minimisation from the state that the part before has reached, and bounds the share of its toughness that a pair may
+// dissipate (option path_step; more where few pairs soften at once). The path ends where no pair reaches this bound (M.
+// Efendiev, A. Mielke, J. Convex Anal. 13, 2006; D. Knees, M. Negri, M3AS 27, 2017). The dissipated energy is that of
+// every pair along the jumps that it meets (increment/path_dissipation.hpp).
 //
-// A smooth step is a path of one part. Where all pairs that are loaded have the same toughness (one mode), the way does
-// not matter, and the step is not bounded; if that turns out to be wrong at its end, it is followed in parts.
+// A step in which no pair reaches the bound is a path of one part. Where all pairs that are loaded have the same
+// toughness (one mode), the way does not matter, and the step is not bounded; if they turn out not to have it at the
+// end of the step, the step is followed in parts. A law that debonds at once (Griffith's) is not bounded either.
 #pragma once
 
 #include <functional>
@@ -49,6 +50,8 @@ public:
     bool minimise(State& next, Increment& increment) const { return minimise_(next, increment, false); }
     // What the step has dissipated in all parts, with that of its start, F L.
     const Dissipation& dissipated() const { return dissipated_; }
+    // Did the path begin at a state that is not the one before the step?
+    bool started_elsewhere() const { return started_elsewhere_; }
     // The states reached by the parts, without the state before the step.
     const std::vector<PathPoint>& points() const { return points_; }
 
@@ -62,6 +65,7 @@ private:
     double stride_;
     Make make_;
     Minimise minimise_;
+    bool started_elsewhere_ = false;
     bool bounded_ = false;      // a part of this path has needed its bound: so do those that follow
     bool stopped_ = false;      // the last part, by its bound
     std::vector<double> last_;  // jumps at the state before the last part

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
+#include "delam/delam.h"
 #include "evolution/increment/contact_levels.hpp"
 #include "evolution/step/step_tangent.hpp"
 #include "scene/strain_loads.hpp"
@@ -176,7 +177,7 @@ void Stepper::book_step(State& next, const Increment& step, const InnerPath* pat
     ledger.upper = bounds.upper;
     next.jump_within = {};
     const std::optional<double> begin = load_ratio(before.theta, next.theta);
-    if (path != nullptr && path->points().size() > 1 && begin && *begin <= 1.0) {
+    if (path != nullptr && (path->points().size() > 1 || path->started_elsewhere()) && begin && *begin <= 1.0) {
         std::vector<PathPoint> points{path_point(pairs_, before, 0.0)};
         points.front().energy =
             (points.front().energy - points.front().gradient) / (*begin * *begin) + points.front().gradient;
@@ -184,10 +185,12 @@ void Stepper::book_step(State& next, const Increment& step, const InnerPath* pat
         const WithinStep within = within_step(points, *begin);
         next.jump_within = within.jump;
         next.jump_within.known = 1;
-        next.outcome.released = within.released;
-        ledger.work = before.ledger.work + within.work;
-        ledger.released = before.ledger.released + within.released;
-        return;
+        if (path->points().size() > 1) {
+            next.outcome.released = within.released;
+            ledger.work = before.ledger.work + within.work;
+            ledger.released = before.ledger.released + within.released;
+            return;
+        }
     }
     const double loss = largest_loss(step, next);
     next.outcome.released = loss > gradual ? std::max(0.0, work - ledger.increment) : 0.0;
@@ -283,7 +286,7 @@ Stepper::Result Stepper::step(const State& before, double time, std::span<const 
         step->adopt(from.mixity, other);
         const Dissipation begun{from.dissipated - before.ledger.dissipated,
                                 from.dissipated_linear - before.ledger.dissipated_linear, 0.0};
-        keep_lower(best, std::move(other), *step, later ? &begun : nullptr);
+        keep_lower(best, std::move(other), *step, from.descends && later ? &begun : nullptr);
     }
     if (problem_.options.solution == "energetic") search(best, *step);
     return best;
@@ -312,21 +315,29 @@ Stepper::Scouted Stepper::scout(Result& best, const Increment& step, double exte
         const State begin = at;
         for (std::size_t p = 0; p < at.theta.size(); ++p) at.theta[p] = from.theta[p] * std::sqrt(square);
         InnerPath path = inner_path();
-        path.follow(at, *increment(begin, begin.mixity), &reached,
-                    [&](const State& state, const Dissipation& dissipated) {
-                        const double gradient = gradient_energy(pairs_, state.adhesion);
-                        const double energy = state.response.stored_bulk + state.response.load_potential +
-                                              stored_energy(pairs_, state.adhesion, state.response.jump) - gradient;
-                        const double incremental = energy / square + gradient - then.energy() + dissipated.booked;
-                        ++found.compared;
-                        if (incremental < found.incremental) {
-                            found.incremental = incremental;
-                            found.state = state;
-                            found.dissipated = dissipated;
-                        }
-                        found.farthest = dissipated.booked - own.booked;
-                        return found.farthest < extent;
-                    });
+        try {
+            path.follow(
+                at, *increment(begin, begin.mixity), &reached, [&](const State& state, const Dissipation& dissipated) {
+                    const double gradient = gradient_energy(pairs_, state.adhesion);
+                    const double energy = state.response.stored_bulk + state.response.load_potential +
+                                          stored_energy(pairs_, state.adhesion, state.response.jump) - gradient;
+                    const double incremental = energy / square + gradient - then.energy() + dissipated.booked;
+                    ++found.compared;
+                    if (incremental < found.incremental) {
+                        found.incremental = incremental;
+                        found.state = state;
+                        found.dissipated = dissipated;
+                    }
+                    found.farthest = dissipated.booked - own.booked;
+                    found.given_up =
+                        found.farthest > first_part * extent && incremental > now.increment + too_high * found.farthest;
+                    return found.farthest < extent && !found.given_up;
+                });
+        } catch (const Error& error) {
+            // A larger load than the parts can carry.
+            if (error.status() != DELAM_LIMIT && error.status() != DELAM_ERROR_NUMERICAL) throw;
+            break;
+        }
         reached = path.dissipated();
     }
     best.state.effort = at.effort;
@@ -376,13 +387,13 @@ void Stepper::search(Result& best, const Increment& step) {
         const double dissipated = dissipation(pairs_, candidate.mixity, before.adhesion, candidate.adhesion);
         if (minimised == most_starts || followed) break;
         if (candidate.incremental > level + promising * dissipated) continue;
-        ++minimised;
         State other = best.state;
         if (step.in_parts() && !(one_mode && same_toughness(pairs_, candidate, from.adhesion))) {
             const double own = from.ledger.dissipated - before.ledger.dissipated;
             if (candidate.incremental > level + promising_way * (dissipated - own) ||
                 within_zone(candidate.adhesion, from.adhesion))
                 continue;
+            ++minimised;
             const double extent = beyond * (dissipated - own);
             Scouted scouted = scout(best, step, extent);
             followed = scouted.given_up || !(scouted.farthest < extent);
@@ -396,6 +407,8 @@ void Stepper::search(Result& best, const Increment& step) {
                 break;
             }
             other.effort = best.state.effort;
+        } else {
+            ++minimised;
         }
         other.adhesion = candidate.adhesion;
         other.mixity = candidate.mixity;

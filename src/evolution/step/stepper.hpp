@@ -38,13 +38,16 @@ public:
     // The initial state: displacements at the initial adhesion.
     Result initial(double time);
     // Another state of the same scene as a start: its adhesion, clipped to `before`, for broken pairs the mixity with
-    // which they broke, and what has been dissipated since the beginning of the analysis, F L.
+    // which they broke, and what has been dissipated since the beginning of the analysis, F L. descends: it was reached
+    // from `before`, so that the difference was dissipated in between.
     struct Start {
-        explicit Start(const State& state)
-            : adhesion(state.adhesion),
+        Start(const State& state, bool descends_)
+            : descends(descends_),
+              adhesion(state.adhesion),
               mixity(state.mixity),
               dissipated(state.ledger.dissipated),
               dissipated_linear(state.ledger.dissipated_linear) {}
+        bool descends;
         std::vector<double> adhesion, mixity;  // [pairs]
         double dissipated, dissipated_linear;
     };
@@ -60,7 +63,6 @@ public:
     double lower_excess(const State& state) const;
 
     const PairLaws& pairs() const { return pairs_; }
-    const PairGraph& graph() const { return graph_; }
     const ContactScene& contact() const { return contact_; }
     const JumpOperator& op() const { return *operator_; }
     // Gives the operator the memory that it had at a state.

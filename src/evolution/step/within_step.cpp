@@ -39,12 +39,11 @@ WithinStep within_step(std::span<const PathPoint> points, double begin) {
         const double released = load * load * (quadratic(from) - quadratic(to)) + from.gradient - to.gradient -
                                 (to.dissipated - from.dissipated);
         within.released += std::max(0.0, released);
-        within.work -= std::min(0.0, released);  // less than rounding below the load of the end
         now.load = load;
         now.released += std::max(0.0, released);
         now.debonded = to.debonded - points[first].debonded;
         now.drop = quadratic(points[first]) > 0.0 ? 1.0 - quadratic(to) / quadratic(points[first]) : 0.0;
-        if (now.drop > within.jump.drop) within.jump = now;
+        if (now.debonded > within.jump.debonded) within.jump = now;
     }
     within.work += quadratic(points.back()) * (1.0 - load * load);
     return within;

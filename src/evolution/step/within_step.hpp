@@ -26,7 +26,7 @@ struct PathPoint {
 struct WithinStep {
     double work = 0.0;      // of the step, F L
     double released = 0.0;  // F L, >= 0
-    JumpWithin jump;        // with the largest drop of the load
+    JumpWithin jump;        // of the longest advance
 };
 
 // points: the state before the step first. begin: the load before the step over that of its end, 0 <= begin <= 1.
