@@ -182,7 +182,7 @@ void Stepper::book_step(State& next, const Increment& step, const InnerPath* pat
         points.front().energy =
             (points.front().energy - points.front().gradient) / (*begin * *begin) + points.front().gradient;
         points.insert(points.end(), path->points().begin(), path->points().end());
-        const WithinStep within = within_step(points, *begin);
+        const WithinStep within = within_step(points, *begin, path->started_elsewhere());
         next.jump_within = within.jump;
         next.jump_within.known = 1;
         if (path->points().size() > 1) {

@@ -9,6 +9,9 @@ namespace delam {
 
 namespace {
 
+// Of what is dissipated: a part of the path that releases less may be steady growth.
+constexpr double unstable = 1e-3;
+
 // Energy per square of the load.
 double quadratic(const PathPoint& p) { return p.energy - p.gradient; }
 
@@ -22,7 +25,7 @@ double critical(const PathPoint& from, const PathPoint& to) {
 
 }  // namespace
 
-WithinStep within_step(std::span<const PathPoint> points, double begin) {
+WithinStep within_step(std::span<const PathPoint> points, double begin, bool elsewhere) {
     WithinStep within;
     JumpWithin now;
     double load = begin;
@@ -43,7 +46,9 @@ WithinStep within_step(std::span<const PathPoint> points, double begin) {
         now.released += std::max(0.0, released);
         now.debonded = to.debonded - points[first].debonded;
         now.drop = quadratic(points[first]) > 0.0 ? 1.0 - quadratic(to) / quadratic(points[first]) : 0.0;
-        if (now.debonded > within.jump.debonded) within.jump = now;
+        const bool jumps =
+            now.released > unstable * (to.dissipated - points[first].dissipated) || (elsewhere && first == 0);
+        if (jumps && now.debonded > within.jump.debonded) within.jump = now;
     }
     within.work += quadratic(points.back()) * (1.0 - load * load);
     return within;

@@ -30,6 +30,7 @@ struct WithinStep {
 };
 
 // points: the state before the step first. begin: the load before the step over that of its end, 0 <= begin <= 1.
-WithinStep within_step(std::span<const PathPoint> points, double begin);
+// elsewhere: the path began at a state that is not that before the step, so that its first part is a jump.
+WithinStep within_step(std::span<const PathPoint> points, double begin, bool elsewhere);
 
 }  // namespace delam
