@@ -16,4 +16,9 @@ std::vector<std::int64_t> violated_steps(const Rows& rows, double eta);
 // The closing line; "" if the estimate holds in every step.
 std::string estimate_line(const std::vector<std::int64_t>& steps, double eta);
 
+// Steps whose bounds lie farther apart than the work of the step: the estimate holds there whatever happens.
+std::vector<std::int64_t> hollow_steps(const Rows& rows);
+// The closing line; "" if there is none.
+std::string hollow_line(const std::vector<std::int64_t>& steps);
+
 }  // namespace cli

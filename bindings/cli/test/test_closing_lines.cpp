@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a march ends with, found in made-up rows of history.csv and jumps, and the lines that tell it.
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <string>
@@ -162,10 +163,24 @@ void jumps() {
            "a jump of contact alone");
 }
 
+// A step whose bounds lie farther apart than its work is named; one that stands still is not.
+void estimate() {
+    const cli::Rows rows = cli::rows_of(
+        "step,stored_bulk,stored_interface,load_potential,work,lower,increment,upper\n0,0,0,0,0,0,0,0\n"
+        "1,1,0,0,1,1,1,1\n2,2,0,0,2,-20,1,21\n3,2,0,0,2,0,0,1e-12\n");
+    expect(cli::hollow_steps(rows) == std::vector<std::int64_t>{2}, "a hollow estimate");
+    expect_line(
+        cli::hollow_line({2}),
+        "two-sided estimate says nothing in 1 step (the first is step 2): its bounds lie farther apart than the "
+        "work of the step");
+    expect(cli::hollow_line({}).empty() && cli::violated_steps(rows, 1e-3).empty(), "and holds");
+}
+
 }  // namespace
 
 int main() {
     balance();
+    estimate();
     mixity();
     search();
     drops();
