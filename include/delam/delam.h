@@ -872,11 +872,9 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *                          is the increment at the mixities of the step before; with `converged` it equals
  *                          `increment`. With `variational`, both use the _slides split. `work` is the work of the
  *                          reactions: each step adds the mean of the reactions before and after it, times the changes
- *                          of the factors. Two kinds of steps add another amount: a located jump adds `upper`; and
- *                          where a pair loses more than half of its toughness and the mean gives less than
- *                          `increment`, the step adds `increment`, but at most `upper`. With `mixity_rule = converged`
- *                          and loads in proportion, a step instead adds the work along its parts, each of which
- *                          happens at the load within the step that first drives it
+ *                          of the factors. A jump that bisection has located adds `upper` instead. With `mixity_rule =
+ *                          converged` and loads in proportion, a step that was followed in parts adds the work along
+ *                          them, each of which happens at the load within the step that first drives it
  *   defect, defect_slides  F L: error of the energy balance since the start: stored energies + load_potential +
  *                          dissipated + released (sum over all steps) - work - energy of the initial state.
  *                          `defect_slides` uses the _slides split for all of these. delam_solver_equilibrate changes

@@ -144,7 +144,7 @@ Table convergence(const Options& options) {
                     data.patch = 2e-3;
                     data.element = element;
                     Choice choice;
-                    if (rule[0] != 'f') choice.texts.emplace_back("mixity_rule", rule);
+                    choice.texts.emplace_back("mixity_rule", rule);
                     Level level{h, steps, run(data, steps, choice, true), reference::make_flexure(data).position};
                     refused = level.march.refused;
                     levels.push_back(std::move(level));

@@ -36,7 +36,7 @@ Choice choose(const std::string& method, reference::MixityRule rule) {
     if (method != "local") choice.texts.emplace_back("solution", method == "backtracking" ? "local" : "energetic");
     if (method == "energetic-located") choice.numbers.emplace_back("jump_tolerance", 1e-4);
     if (method == "backtracking") choice.texts.emplace_back("backtracking", "on");
-    if (rule == reference::MixityRule::converged) choice.texts.emplace_back("mixity_rule", "converged");
+    choice.texts.emplace_back("mixity_rule", rule == reference::MixityRule::converged ? "converged" : "frozen");
     return choice;
 }
 

@@ -17,7 +17,7 @@ Choice choose(const std::string& solution, const std::string& rule) {
     Choice choice;
     // Defaults are not set, so that a library without these options runs too.
     if (solution != "local") choice.texts.emplace_back("solution", solution);
-    if (rule != "frozen") choice.texts.emplace_back("mixity_rule", rule);
+    choice.texts.emplace_back("mixity_rule", rule);
     return choice;
 }
 

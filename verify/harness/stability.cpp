@@ -207,6 +207,7 @@ TrialMarch march(const Trial& trial, Realisation realisation) {
     try {
         kept.emplace(trial.scene());
         Scene& scene = *kept;
+        scene.text("mixity_rule", "frozen");  // its dissipated energy is a function of the states
         scene.text("reduction", realisation == Realisation::feti ? "feti" : "condensed");
         if (realisation == Realisation::feti) scene.number("subdomains", trial.subdomains);
         const Exported exported(scene);

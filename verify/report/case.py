@@ -265,7 +265,7 @@ def ledger_of(marches: dict, unit: str, slack: float = 1e-9) -> dict:
     for name, at in marches.items():
         bulk, interface, spent, work, lower, own, now, upper = ([float(v) for v in at[key]] for key in LEDGER_VALUES)
         slack_here = slack * max(max(abs(v) for v in bulk), max(abs(v) for v in work))
-        gained, released = bulk[-1] + interface[-1] - bulk[0] - interface[0], sum(at.get("released", ()))
+        gained, released = bulk[-1] + interface[-1] - bulk[0] - interface[0], sum(at["released"] if "released" in at else ())
         beyond = sum(max(low - a, b - up) > slack_here for low, a, b, up in zip(lower, own, now, upper))
         rows.append([name, bulk[-1], interface[-1], spent[-1], *([released] if gone else []), work[-1],
                      gained + spent[-1] + released - work[-1], sum(lower), sum(now), sum(upper), beyond])

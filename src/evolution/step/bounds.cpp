@@ -12,12 +12,13 @@ namespace delam {
 namespace {
 
 constexpr double proportional = 1e-12;  // of the load factors
+constexpr double least_ratio = 1e-100;  // of two loads; the square of a smaller one may underflow
 
 }  // namespace
 
 std::optional<double> load_ratio(std::span<const double> before, std::span<const double> next) {
     const double size = dot(next, next), a = size > 0.0 ? dot(before, next) / size : 0.0;
-    if (!(a > 0.0)) return std::nullopt;
+    if (!(a > least_ratio)) return std::nullopt;
     for (std::size_t p = 0; p < next.size(); ++p)
         if (std::abs(before[p] - a * next[p]) > proportional * std::abs(before[p])) return std::nullopt;
     return a;

@@ -21,9 +21,8 @@ constexpr std::size_t most_starts = 2;  // candidates of a search from which a s
 constexpr double promising = 0.5;
 // The same for following the way to it, whose dissipated energy the candidate only estimates.
 constexpr double promising_way = 0.05;
-// Of the toughness: what a pair may lose in a step that damages gradually, and what it loses where it is damaged at
-// once.
-constexpr double gradual = 0.1, at_once = 0.5;
+// Of the toughness: what a pair may lose in a step that damages gradually.
+constexpr double gradual = 0.1;
 // Squares of the larger loads at which fronts are followed ahead (scout).
 constexpr double least_overload = 1.02, overload_growth = 1.04, most_overload = 4.0;
 // Of what is dissipated down to a candidate: how much farther fronts are followed.
@@ -156,9 +155,8 @@ double Stepper::largest_loss(const Increment& step, const State& next) const {
 
 // The work of the reactions by the trapezoidal rule, which is exact where nothing is damaged. What is neither stored
 // nor dissipated of it in a step that damages a pair abruptly is released, into a motion that a quasi-static model does
-// not have. Where a pair is damaged at once, the reactions change at an instant that is not known, and the work may be
-// anything between the bounds of the estimate: where the trapezoidal rule leaves too little, the change came later. A
-// step that was followed in parts knows better (within_step.hpp).
+// not have. A step that was followed in parts knows when they happen, and books what the load does between them
+// (within_step.hpp).
 void Stepper::book_step(State& next, const Increment& step, const InnerPath* path) const {
     step.book(next, path != nullptr ? &path->dissipated() : nullptr);
     const State& before = step.before();
@@ -171,7 +169,6 @@ void Stepper::book_step(State& next, const Increment& step, const InnerPath* pat
     double work = 0.5 * (bounds.lower + bounds.upper);
     if (const auto reduced = step.quadratic() ? reduced_bounds(pairs_, before, next) : std::nullopt) {
         bounds = *reduced;
-        if (next.adhesion == before.adhesion) work = ledger.increment;
     }
     ledger.lower = bounds.lower;
     ledger.upper = bounds.upper;
@@ -194,7 +191,6 @@ void Stepper::book_step(State& next, const Increment& step, const InnerPath* pat
     }
     const double loss = largest_loss(step, next);
     next.outcome.released = loss > gradual ? std::max(0.0, work - ledger.increment) : 0.0;
-    if (loss > at_once) work = std::clamp(ledger.increment, work, std::max(work, bounds.upper));
     ledger.work = before.ledger.work + work;
     ledger.released = before.ledger.released + next.outcome.released;
 }

@@ -55,7 +55,7 @@ def march(delam, law, steps, **options):
     logger.addHandler(heard)
     out = types.SimpleNamespace(adhesion=[], status="converged", ledger=None, values={})
     try:
-        with delam.Solver(scene(delam, law, **options), not_converged="raise") as solver:
+        with delam.Solver(scene(delam, law, **{"mixity_rule": "frozen", **options}), not_converged="raise") as solver:
             out.ledger = delam.History(solver, LEDGER_VALUES)
             for k in range(1, steps + 1):
                 try:
