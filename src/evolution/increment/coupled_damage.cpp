@@ -204,10 +204,10 @@ CoupledDamage BoundedProblem::solve(std::span<const double> pointwise, std::span
 }  // namespace
 
 CoupledDamage coupled_damage(const GradientTerm& term, const Law& law, std::span<const Toughness> toughness,
-                             std::span<const double> driving, std::span<const double> least,
+                             std::span<const double> driving, std::span<const double> lower,
                              std::span<const double> adhesion_old, std::span<const double> pointwise,
                              std::span<const double> start) {
-    return BoundedProblem(term, law, toughness, driving, least, adhesion_old).solve(pointwise, start);
+    return BoundedProblem(term, law, toughness, driving, lower, adhesion_old).solve(pointwise, start);
 }
 
 }  // namespace delam

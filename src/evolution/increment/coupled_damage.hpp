@@ -33,10 +33,10 @@ struct CoupledDamage {
     bool converged = false;
 };
 
-// All arrays over the interface's pairs. driving: Y. least, adhesion_old: the bounds. pointwise: the minimiser without
+// All arrays over the interface's pairs. driving: Y. lower, adhesion_old: the bounds. pointwise: the minimiser without
 // the gradient term, which uncoupled pairs keep. start: an earlier solution nearby.
 CoupledDamage coupled_damage(const GradientTerm& term, const Law& law, std::span<const Toughness> toughness,
-                             std::span<const double> driving, std::span<const double> least,
+                             std::span<const double> driving, std::span<const double> lower,
                              std::span<const double> adhesion_old, std::span<const double> pointwise,
                              std::span<const double> start);
 
