@@ -1164,10 +1164,12 @@ DELAM_API int32_t delam_solver_look(delam_solver *solver, int64_t step);
 /* Returns in *count the number of jumps of the state, i.e. abrupt changes, up to the pending state, or up to the
  * committed state if no step is pending; delam_solver_look does not change it. They are ordered by time. With the
  * option `jump_tolerance`, jumps are the located ones. Without it, a step is a jump if it releases energy (value
- * `released`), debonds more than 1.5 pairs (in mean weights), and either loses more than 2 % of the load, i.e. of the
- * sum of factor times reaction over the norm of the factors, or releases more than 1e-3 of the larger of |stored
+ * `released`), debonds more than 1.5 pairs for each pair next to the debonded region that it damages (in mean weights;
+ * a front in the plane has one such pair, in space a row of them), and either loses more than 2 % of the load, i.e. of
+ * the sum of factor times reaction over the norm of the factors, or releases more than 1e-3 of the larger of |stored
  * energy + load_potential| and |work|. Where the parts of a step are known (`mixity_rule = converged`, loads in
- * proportion), this is asked of the largest jump among them.
+ * proportion), the parts that happen at one load and release more than 1e-3 of what they dissipate count together, and
+ * these conditions apply to the longest advance among them; an energetic step to another state counts without release.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_jump_count(const delam_solver *solver, int64_t *count);
 /* Returns one jump of the state. It lies between *before and *time, in step *step: in the interval that bisection has
@@ -1175,7 +1177,9 @@ DELAM_API int32_t delam_solver_jump_count(const delam_solver *solver, int64_t *c
  * the step (`mixity_rule = converged`, loads in proportion), *before and *time are both this instant. Energies:
  * *stored, change of stored energy and load potential; *dissipated; *released, the energy that is neither stored nor
  * dissipated (in reality, waves would carry it away; for energetic jumps it is 0 up to the tolerance). For a located
- * jump, *released is E(time, state before) - E(time, state after) - dissipated; else, see the value `released`.
+ * jump, *released is E(time, state before) - E(time, state after) - dissipated; where the instant follows from the
+ * parts, what this jump releases, while the other energies and *debonded are those of the whole step; else, see the
+ * value `released`.
  * *debonded: change of the sum of weight (1 - zeta). *interface_index: the interface that changed most; *first_pair,
  * *last_pair: the first and last of its pairs whose adhesion changed (-1: none).
  * [unit before t, time t, stored F L, dissipated F L, released F L, debonded L or L2; null step, before, time, stored,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// mixity_rule = converged: the step is followed in parts (step/inner_path.hpp), none of which takes more than a share
-// of its toughness from a pair. Within a part the mixities follow the iterates to a fixed point, the solution of the
+// mixity_rule = converged: the step is followed in parts (step/inner_path.hpp), which bound the share of its toughness
+// that a pair may dissipate. Within a part the mixities follow the iterates to a fixed point, the solution of the
 // part. A pair that breaks keeps the mixity of the last iterate whose displacements it still took part in. B adds no
 // traction of its own; energies are compared at equal B.
 #pragma once

@@ -32,6 +32,12 @@ class Marched(unittest.TestCase):
             with self.subTest(factor=factor):
                 self.assertEqual(self.judged(second=factor * bending.MODE_II), {side, BOOKED})
 
+    def test_a_mixity_held_through_each_step(self):
+        self.assertLessEqual({HIGH, BOOKED}, self.judged(mixity_rule="frozen"))
+
+    def test_a_path_that_is_not_resolved(self):
+        self.assertEqual(self.judged(path_step=1.0), {BOOKED})
+
 
 if __name__ == "__main__":
     unittest.main()
