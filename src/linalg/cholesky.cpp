@@ -13,9 +13,11 @@
 #include "base/error.hpp"
 #include "base/room.hpp"
 #include "delam/delam.h"
+#include "linalg/dissection.hpp"
 
-// This file calls only LGPL modules by name (Core, Cholesky, Partition/CAMD). The supernodal (GPL) kernels are reached
-// through cholmod_l_factorize if the installed CHOLMOD has them, and never if DELAM_CHOLMOD_SIMPLICIAL is defined.
+// This file calls only LGPL modules by name (Core, Cholesky, Partition/CAMD; METIS is called by itself, metis.hpp). The
+// supernodal (GPL) kernels are reached through cholmod_l_factorize if the installed CHOLMOD has them, and never if
+// DELAM_CHOLMOD_SIMPLICIAL is defined.
 
 // CHOLMOD 3 requests four OpenMP threads on any machine; on fewer cores they wait for each other at every supernode
 // (measured: twice the time of one thread). The "dynamic" setting of the calling thread lets the runtime provide fewer:
@@ -94,6 +96,41 @@ struct SparseCholesky::Impl {
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
+    using Order = std::vector<SuiteSparse_long>;
+
+    // Minimum degree of the leading variables, with the trailing ones last in their given order.
+    Order minimum_degree(cholmod_sparse& a) {
+        Order group(a.nrow, 0), order(a.nrow);
+        const auto interior = static_cast<std::ptrdiff_t>(size - trailing);
+        std::fill(group.begin() + interior, group.end(), 1);
+        if (cholmod_l_camd(&a, nullptr, 0, group.data(), order.data(), &common) == 0) check("ordering");
+        std::iota(order.begin() + interior, order.end(), size - trailing);
+        return order;
+    }
+
+    // What a factor in this order costs. The leading variables come back in postorder, which changes no fill and makes
+    // columns with the same rows neighbours.
+    FactorSize count(cholmod_sparse& a, Order& order) {
+        Order parent(a.nrow), post(a.nrow), columns(a.nrow), first(a.nrow), level(a.nrow), before = order;
+        cholmod_l_analyze_ordering(&a, CHOLMOD_GIVEN, before.data(), nullptr, 0, parent.data(), post.data(),
+                                   columns.data(), first.data(), level.data(), &common);
+        check("ordering");
+        std::size_t next = 0;
+        for (const SuiteSparse_long j : post)
+            if (j < size - trailing) order[next++] = before[static_cast<std::size_t>(j)];
+        return {common.lnz, common.fl};
+    }
+
+    void analyse(cholmod_sparse& a, Order& order) {
+        cholmod_l_free_factor(&factor, &common);
+        common.nmethods = 1;
+        common.method[0].ordering = CHOLMOD_GIVEN;
+        common.postorder = trailing == 0 ? 1 : 0;  // a postorder may move trailing variables that are not connected
+        factor = cholmod_l_analyze_p(&a, order.data(), nullptr, 0, &common);
+        check("analysis");
+        size_of_factor = {common.lnz, common.fl};
+    }
+
     // One solve. The buffers are allocated here, in the sizes that CHOLMOD needs, because CHOLMOD 3 does not check its
     // own allocations.
     const double* solve(int system, cholmod_dense& rhs) const {
@@ -169,6 +206,15 @@ std::vector<SuiteSparse_long> shortest_first(const SparseMatrix& m) {
     return order;
 }
 
+// Nested dissection is tried where minimum degree costs more operations per stored entry of the matrix; README.md has
+// the data. The triangle of the trailing variables costs the same in every order.
+constexpr double worth_dissecting = 5e3;
+
+bool may_gain(const FactorSize& size, const SparseMatrix& m, std::int64_t trailing) {
+    const auto t = static_cast<double>(trailing);
+    return size.flops - t * t * t / 3.0 > worth_dissecting * static_cast<double>(m.entries());
+}
+
 }  // namespace
 
 SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing, const Poll& poll)
@@ -178,25 +224,25 @@ SparseCholesky::SparseCholesky(const SparseMatrix& matrix, std::int64_t trailing
     impl.trailing = trailing;
     if (matrix.rows == 0) return;
     cholmod_sparse a = view(matrix);
-    std::vector<SuiteSparse_long> order(static_cast<std::size_t>(matrix.rows));
-    const auto interior = static_cast<std::size_t>(matrix.rows - trailing);
     const double all = static_cast<double>(matrix.rows) * static_cast<double>(matrix.rows);
     if (trailing == 0 && matrix.rows > few_rows && static_cast<double>(matrix.entries()) > well_filled * all) {
-        order = shortest_first(matrix);
-    } else {
-        std::vector<SuiteSparse_long> group(static_cast<std::size_t>(matrix.rows), 0);
-        std::fill(group.begin() + static_cast<std::ptrdiff_t>(interior), group.end(), 1);
-        if (cholmod_l_camd(&a, nullptr, 0, group.data(), order.data(), &impl.common) == 0) impl.check("ordering");
-        std::iota(order.begin() + static_cast<std::ptrdiff_t>(interior), order.end(),
-                  static_cast<SuiteSparse_long>(interior));
+        Impl::Order order = shortest_first(matrix);
+        call_if_set(poll);
+        impl.analyse(a, order);
+        return;
     }
+    Impl::Order order = impl.minimum_degree(a);
     call_if_set(poll);
-    impl.common.nmethods = 1;
-    impl.common.method[0].ordering = CHOLMOD_GIVEN;
-    impl.common.postorder = trailing == 0 ? 1 : 0;  // a postorder may move trailing variables that are not connected
-    impl.factor = cholmod_l_analyze_p(&a, order.data(), nullptr, 0, &impl.common);
-    impl.check("analysis");
-    impl.size_of_factor = {impl.common.lnz, impl.common.fl};
+    impl.analyse(a, order);
+    if (!may_gain(impl.size_of_factor, matrix, trailing)) return;
+    call_if_set(poll);
+    const std::vector<std::int64_t> dissected = dissection_order(matrix, matrix.rows - trailing);
+    if (dissected.empty()) return;
+    call_if_set(poll);
+    std::copy(dissected.begin(), dissected.end(), order.begin());  // the trailing variables stay where they are
+    if (impl.count(a, order).flops >= impl.size_of_factor.flops) return;
+    call_if_set(poll);
+    impl.analyse(a, order);
 }
 
 SparseCholesky::~SparseCholesky() = default;

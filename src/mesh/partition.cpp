@@ -5,19 +5,13 @@
 // requested.
 #include "mesh/partition.hpp"
 
-#include <metis.h>
-
 #include <algorithm>
 #include <array>
-#include <csignal>
-#include <cstdlib>
 #include <limits>
-#include <mutex>
-#include <new>
 
 #include "base/cancel_scope.hpp"
 #include "base/error.hpp"
-#include "base/room.hpp"
+#include "base/metis.hpp"
 #include "delam/delam.h"
 #include "mesh/faces.hpp"
 
@@ -25,78 +19,7 @@ namespace delam {
 
 namespace {
 
-// Compressed adjacency of some cells, numbered from 0.
-struct Graph {
-    std::vector<idx_t> start{0};
-    std::vector<idx_t> neighbour;
-
-    std::size_t size() const { return start.size() - 1; }
-    std::span<const idx_t> around(std::size_t i) const {
-        return std::span(neighbour).subspan(index(start[i]), index(start[i + 1] - start[i]));
-    }
-};
-
 using Parts = std::vector<std::int32_t>;  // part of each vertex
-
-// METIS 5 reseeds rand() and installs handlers for SIGABRT and SIGTERM while it runs. Both belong to the host: its
-// random sequence continues where it was, and its handlers are restored. This is process-wide state, hence one call at
-// a time.
-class Visit {
-public:
-    Visit() : lock_(mutex()) {
-        sequence_ = initstate(1, buffer_.data(), buffer_.size());
-        for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], nullptr, &handlers_[i]);
-    }
-    ~Visit() {
-        for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &handlers_[i], nullptr);
-        setstate(sequence_);
-    }
-    Visit(const Visit&) = delete;
-    Visit& operator=(const Visit&) = delete;
-
-private:
-    static constexpr std::array<int, 2> signals{SIGABRT, SIGTERM};
-    static std::mutex& mutex() {
-        static std::mutex one;
-        return one;
-    }
-    std::lock_guard<std::mutex> lock_;
-    std::array<char, 128> buffer_{};
-    char* sequence_ = nullptr;
-    std::array<struct sigaction, 2> handlers_{};
-};
-
-// METIS prints a message if an allocation fails. Its maximal memory was measured on grids: up to 43 bytes per vertex or
-// neighbour, in small parts, and at least 100 KiB.
-constexpr std::size_t metis_part = 49152;  // bytes of its first large allocation
-
-void require_room_for_metis(const Graph& graph) {
-    const std::size_t bytes = (std::size_t{1} << 17) + 48 * (graph.size() + graph.neighbour.size());
-    require_room(bytes);
-    require_room(bytes, metis_part);
-}
-
-Parts cut_with_metis(Graph& graph, idx_t parts) {
-    require_room_for_metis(graph);
-    auto vertices = static_cast<idx_t>(graph.size());
-    idx_t constraints = 1;
-    idx_t cut = 0;
-    std::array<idx_t, METIS_NOPTIONS> options{};
-    METIS_SetDefaultOptions(options.data());
-    options[METIS_OPTION_SEED] = 1;
-    options[METIS_OPTION_CONTIG] = 1;
-    std::vector<idx_t> part(graph.size(), 0);
-    int status = METIS_OK;
-    {
-        const Visit visit;
-        status = METIS_PartGraphKway(&vertices, &constraints, graph.start.data(), graph.neighbour.data(), nullptr,
-                                     nullptr, nullptr, &parts, nullptr, nullptr, options.data(), &cut, part.data());
-    }
-    // Without memory in its innermost stage METIS reports a general error, which nothing else here causes.
-    if (status == METIS_ERROR_MEMORY || status == METIS_ERROR) throw std::bad_alloc();
-    if (status != METIS_OK) fail(DELAM_ERROR_INTERNAL, "METIS_PartGraphKway: status ", status);
-    return {part.begin(), part.end()};
-}
 
 // Connected pieces of each part: the piece of each vertex, numbered by their first vertices.
 std::int32_t pieces(const Graph& graph, const Parts& part, std::vector<std::int32_t>& piece) {
@@ -201,7 +124,8 @@ Parts cut(Graph& graph, std::int32_t parts) {
     constexpr std::size_t enough = 12;
     Parts part(graph.size(), 0);
     if (parts > 1 && graph.size() >= enough * index(parts)) {
-        part = cut_with_metis(graph, parts);
+        const std::vector<idx_t> found = cut_with_metis(graph, parts);
+        part.assign(found.begin(), found.end());
         mend(graph, part, parts);
     }
     for (;;) {

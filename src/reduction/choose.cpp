@@ -25,8 +25,9 @@ double cube(double x) { return x * x * x; }
 constexpr double dense_copies = 4.0;
 constexpr double condensed_start = 0.7;  // of m^3 operations until the first zone exists
 constexpr double condensed_step = 0.2;   // of m^3 operations per load step (0.06 to 0.4)
-// entries with a free ordering, relative to those left of the trailing triangle (0.53 to 0.69)
-constexpr double free_order = 0.65;
+// entries with a free ordering, relative to those left of the trailing triangle (0.38 to 0.84): the less, the larger
+// the share of this triangle
+constexpr double free_order = 0.85, free_order_share = 0.6;
 constexpr double supernodes = 1.25;    // numbers stored per entry of a factor
 constexpr double series_bytes = 32.0;  // per square of a subdomain's jumps: the series preconditioner while it is built
 constexpr double feti_solves = 16.0;   // displacement solves per load step
@@ -80,7 +81,8 @@ ReductionCost predict_condensed(const Bulk& bulk) {
 
 double predict_monolithic_entries(const Bulk& bulk) {
     const double m = number(bulk.trailing());
-    return free_order * (bulk.size().entries - 0.5 * m * (m + 1.0));
+    const double triangle = 0.5 * m * (m + 1.0), all = std::max(bulk.size().entries, 1.0);
+    return (free_order - free_order_share * triangle / all) * (all - triangle);
 }
 
 double predict_monolithic_bytes(const Bulk& bulk) {

@@ -22,7 +22,8 @@ using namespace delam;
 
 namespace {
 
-// A slender laminate in the plane, six thin layers with much interface, a plate in space.
+// A slender laminate in the plane, six thin layers with much interface, three plates in space, of which nested
+// dissection orders the last two.
 unit::Flexure scene(int which) {
     unit::Flexure f;
     if (which == 0) {
@@ -39,6 +40,13 @@ unit::Flexure scene(int which) {
         f.along = 40;
         f.across = 4;
         f.through = 2;
+        if (which == 3) {
+            f.along = 60;
+            f.across = 20;
+        } else if (which == 4) {
+            f.along = f.across = 40;
+            f.through = 1;
+        }
     }
     return f;
 }
@@ -110,7 +118,7 @@ START_TEST(monolithic_factor_is_what_was_predicted) {
     const SparseCholesky free_order(bulk.transformed());
     expect_within(predict_monolithic_entries(bulk), free_order.size().entries, 1.5,
                   "entries of the monolithic factor, scene " + std::to_string(_i));
-    if (!unit::counting) return;
+    if (!unit::counting || _i > 2) return;
     SparseMatrix matrix = bulk.transformed();
     for (std::int64_t r = 0; r < matrix.rows; ++r)
         for (std::int64_t e = matrix.start[static_cast<std::size_t>(r)];
@@ -180,7 +188,7 @@ int main() {
     TCase* figures = tcase_create("predictions");
     tcase_add_loop_test(figures, memory_is_what_was_predicted, 0, 6);
     tcase_add_test(figures, operations_of_the_sparse_factor_are_exact);
-    tcase_add_loop_test(figures, monolithic_factor_is_what_was_predicted, 0, 3);
+    tcase_add_loop_test(figures, monolithic_factor_is_what_was_predicted, 0, 5);
     suite_add_tcase(suite, figures);
     TCase* choice = tcase_create("choice");
     tcase_add_test(choice, options_force_and_say_so);

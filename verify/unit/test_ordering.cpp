@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The order of a sparse factor: nested dissection where it needs fewer operations than minimum degree, the trailing
+// variables last, the same bits whatever the host did before, and the host's signal handlers and random numbers left
+// alone.
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <numeric>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "linalg/cholesky.hpp"
+#include "linalg/dissection.hpp"
+#include "quiet_check.hpp"
+
+// Last: its macro fail() would break delam::fail().
+#include <check.h>
+
+using namespace delam;
+
+namespace {
+
+// Nodes of a grid with three variables each that are coupled to those of the 26 around it, as by hex8; with `trailing`
+// the variables of the lowest plane come last.
+SparseMatrix box(std::int64_t along, std::int64_t across, std::int64_t up, bool trailing = false) {
+    const std::int64_t plane = along * across, nodes = plane * up;
+    const auto number = [&](std::int64_t x, std::int64_t y, std::int64_t z) {
+        const std::int64_t n = (z * across + y) * along + x;
+        return trailing ? (n + nodes - plane) % nodes : n;
+    };
+    std::vector<Triplet> t;
+    for (std::int64_t z = 0; z < up; ++z)
+        for (std::int64_t y = 0; y < across; ++y)
+            for (std::int64_t x = 0; x < along; ++x)
+                for (std::int64_t k = 0; k < 27; ++k) {
+                    const std::int64_t a = x + k % 3 - 1, b = y + k / 3 % 3 - 1, c = z + k / 9 - 1;
+                    if (a < 0 || b < 0 || c < 0 || a >= along || b >= across || c >= up) continue;
+                    const std::int64_t i = number(x, y, z), j = number(a, b, c);
+                    for (std::int64_t v = 0; v < 9; ++v) {
+                        const double value =
+                            i == j ? (v % 4 == 0 ? 90.0 : 1.0) : -1.0 - 0.1 * static_cast<double>(v % 4 == 0);
+                        t.push_back({3 * i + v / 3, 3 * j + v % 3, value});
+                    }
+                }
+    return from_triplets(3 * nodes, 3 * nodes, std::move(t));
+}
+
+// The matrix with its variables in another order.
+SparseMatrix reordered(const SparseMatrix& m, const std::vector<std::int64_t>& order) {
+    std::vector<std::int64_t> place(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        place[static_cast<std::size_t>(order[i])] = static_cast<std::int64_t>(i);
+    std::vector<Triplet> t;
+    for (std::size_t r = 0; r < order.size(); ++r)
+        for (std::int64_t e = m.start[r]; e < m.start[r + 1]; ++e)
+            t.push_back({place[r], place[static_cast<std::size_t>(m.column[static_cast<std::size_t>(e)])],
+                         m.value[static_cast<std::size_t>(e)]});
+    return from_triplets(m.rows, m.columns, std::move(t));
+}
+
+std::vector<double> wave(std::int64_t n) {
+    std::vector<double> b(static_cast<std::size_t>(n));
+    for (std::size_t i = 0; i < b.size(); ++i)
+        b[i] = 1.0 + static_cast<double>(i % 17) - 0.01 * static_cast<double>(i % 101);
+    return b;
+}
+
+std::vector<double> solution(const SparseMatrix& m) {
+    SparseCholesky factor(m);
+    ck_assert(factor.factorise(m));
+    std::vector<double> b = wave(m.rows), x(b.size());
+    factor.solve(b, x);
+    return x;
+}
+
+void own_handler(int) {}
+
+}  // namespace
+
+// The count of a cube's factor is that of the order that nested dissection gives, and half of what minimum degree
+// needs; a plate, where dissection costs operations, has the other order.
+START_TEST(dissection_is_taken_where_it_orders_better) {
+    const SparseMatrix cube = box(17, 17, 17);
+    const std::vector<std::int64_t> order = dissection_order(cube, cube.rows);
+    std::vector<std::int64_t> sorted = order;
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<std::int64_t> all(sorted.size());
+    std::iota(all.begin(), all.end(), 0);
+    ck_assert(sorted == all && static_cast<std::int64_t>(all.size()) == cube.rows);
+    const FactorSize chosen = SparseCholesky(cube).size();
+    const FactorSize given = SparseCholesky(reordered(cube, order), cube.rows).size();
+    ck_assert(chosen.flops == given.flops && chosen.entries == given.entries);
+    ck_assert_double_lt(chosen.flops, 0.5 * 9.22e9);  // of cholmod_l_camd's count; 0.42, and 0.70 of the entries
+    ck_assert_double_lt(chosen.entries, 0.8 * 8.47e6);
+
+    const SparseMatrix plate = box(60, 6, 2);
+    const FactorSize small = SparseCholesky(plate).size();
+    const FactorSize dissected =
+        SparseCholesky(reordered(plate, dissection_order(plate, plate.rows)), plate.rows).size();
+    ck_assert_double_lt(small.flops, dissected.flops);
+}
+END_TEST
+
+// With trailing variables: the Schur complement onto them, in their given order, against products with the matrix; and
+// a solve of the whole.
+START_TEST(trailing_variables_stay_last) {
+    const std::int64_t trailing = 3 * 17 * 17;
+    const SparseMatrix m = box(17, 17, 12, true);
+    const std::int64_t leading = m.rows - trailing;
+    SparseCholesky factor(m, trailing);
+    std::vector<std::int64_t> order = dissection_order(m, leading);
+    for (std::int64_t i = leading; i < m.rows; ++i) order.push_back(i);
+    ck_assert(factor.size().flops == SparseCholesky(reordered(m, order), m.rows).size().flops);
+    ck_assert_double_lt(factor.size().flops, 0.6 * 6.77e9);  // of cholmod_l_camd's count; 0.50
+    ck_assert(factor.factorise(m));
+    const DenseMatrix lower = factor.trailing_factor();
+    for (const std::int64_t column : {std::int64_t{0}, trailing / 2 + 1, trailing - 1}) {
+        // u = (-A_ll^-1 A_lt e, e): A u = (0, S e)
+        std::vector<double> u(static_cast<std::size_t>(m.rows), 0.0), au(u.size());
+        u[static_cast<std::size_t>(leading + column)] = 1.0;
+        multiply(m, u, au);
+        std::vector<double> inside(au.begin(), au.begin() + leading), x(inside.size());
+        factor.solve_leading(inside, x);
+        for (std::size_t i = 0; i < x.size(); ++i) u[i] = -x[i];
+        multiply(m, u, au);
+        for (std::int64_t i = 0; i < leading; ++i)
+            ck_assert_double_lt(std::abs(au[static_cast<std::size_t>(i)]), 1e-10);
+        for (std::int64_t i = 0; i < trailing; ++i) {
+            double s = 0.0;
+            for (std::int64_t k = 0; k <= std::min(i, column); ++k) s += lower(i, k) * lower(column, k);
+            ck_assert_double_lt(std::abs(s - au[static_cast<std::size_t>(leading + i)]), 1e-10);
+        }
+    }
+    const std::vector<double> b = wave(m.rows);
+    std::vector<double> x(b.size()), back(b.size());
+    factor.solve(b, x);
+    multiply(m, x, back);
+    for (std::size_t i = 0; i < b.size(); ++i) ck_assert_double_lt(std::abs(back[i] - b[i]), 1e-9);
+}
+END_TEST
+
+// Equal bits after other calls of METIS and rand(), and in other threads; the host's sequence goes on and its handlers
+// are there.
+START_TEST(the_host_notices_nothing) {
+    const SparseMatrix m = box(13, 13, 13), other = box(9, 30, 8);
+    std::signal(SIGTERM, own_handler);
+    std::srand(7);
+    std::array<int, 4> expected{}, seen{};
+    for (int& r : expected) r = std::rand();
+    std::srand(7);
+    seen[0] = std::rand();
+    const std::vector<std::int64_t> order = dissection_order(m, m.rows);
+    seen[1] = std::rand();
+    ck_assert(!dissection_order(other, other.rows).empty());
+    seen[2] = std::rand();
+    ck_assert(dissection_order(m, m.rows) == order);
+    seen[3] = std::rand();
+    ck_assert(seen == expected);
+    ck_assert(std::signal(SIGTERM, SIG_DFL) == own_handler);
+    std::array<std::vector<std::int64_t>, 3> parallel;
+    std::vector<std::thread> threads;
+    for (auto& result : parallel) threads.emplace_back([&] { result = dissection_order(m, m.rows); });
+    for (std::thread& thread : threads) thread.join();
+    for (const auto& result : parallel) ck_assert(result == order);
+}
+END_TEST
+
+START_TEST(solutions_have_equal_bits) {
+    const SparseMatrix m = box(16, 16, 16);
+    const std::vector<double> first = solution(m);
+    std::srand(12345);
+    ck_assert(!dissection_order(box(8, 8, 8), 1000).empty());
+    ck_assert(solution(m) == first);
+}
+END_TEST
+
+// Blocks without coupling, variables without any, and a dense block.
+START_TEST(graphs_in_pieces) {
+    std::vector<Triplet> t;
+    const SparseMatrix cube = box(13, 13, 13);
+    for (int copy = 0; copy < 2; ++copy)
+        for (std::int64_t r = 0; r < cube.rows; ++r)
+            for (std::int64_t e = cube.start[static_cast<std::size_t>(r)];
+                 e < cube.start[static_cast<std::size_t>(r) + 1]; ++e)
+                t.push_back({copy * cube.rows + r, copy * cube.rows + cube.column[static_cast<std::size_t>(e)],
+                             cube.value[static_cast<std::size_t>(e)]});
+    const std::int64_t n = 2 * cube.rows + 500;
+    for (std::int64_t r = 2 * cube.rows; r < n; ++r) t.push_back({r, r, 2.0});
+    const SparseMatrix m = from_triplets(n, n, std::move(t));
+    std::vector<std::int64_t> order = dissection_order(m, n);
+    ck_assert_int_eq(static_cast<std::int64_t>(order.size()), n);
+    std::sort(order.begin(), order.end());
+    for (std::int64_t i = 0; i < n; ++i) ck_assert_int_eq(order[static_cast<std::size_t>(i)], i);
+    const std::vector<double> x = solution(m), b = wave(n);
+    std::vector<double> back(b.size());
+    multiply(m, x, back);
+    for (std::size_t i = 0; i < b.size(); ++i) ck_assert_double_lt(std::abs(back[i] - b[i]), 1e-9);
+
+    std::vector<Triplet> alone, dense;
+    for (std::int64_t r = 0; r < 400; ++r) alone.push_back({r, r, 1.0});
+    for (std::int64_t r = 0; r < 300; ++r)
+        for (std::int64_t c = 0; c < 300; ++c) dense.push_back({r, c, r == c ? 301.0 : 1.0});
+    ck_assert_int_eq(static_cast<int>(dissection_order(from_triplets(400, 400, std::move(alone)), 400).size()), 400);
+    ck_assert(dissection_order(from_triplets(300, 300, std::move(dense)), 300).empty());  // one vertex
+}
+END_TEST
+
+int main() {
+    Suite* suite = suite_create("ordering");
+    TCase* tests = tcase_create("ordering");
+    tcase_add_test(tests, dissection_is_taken_where_it_orders_better);
+    tcase_add_test(tests, trailing_variables_stay_last);
+    tcase_add_test(tests, the_host_notices_nothing);
+    tcase_add_test(tests, solutions_have_equal_bits);
+    tcase_add_test(tests, graphs_in_pieces);
+    suite_add_tcase(suite, tests);
+    SRunner* runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? 0 : 1;
+}
