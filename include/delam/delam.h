@@ -1188,6 +1188,13 @@ DELAM_API int32_t delam_solver_jump(const delam_solver *solver, int64_t index, i
                                     double *time, double *stored, double *dissipated, double *released,
                                     double *debonded, int64_t *interface_index, int64_t *first_pair,
                                     int64_t *last_pair);
+/* Returns the reactions at a jump (values `reaction:NAME`): before, after: [pattern_count], NULL for those not wanted.
+ * Where the instant follows from the parts of the step, both belong to this instant, so that `before` is the load that
+ * the structure carries at most, however long the step; else, to the states before and after the jump. NaN for jumps
+ * in states that an earlier version saved.
+ * [unit before F L, after F L; null before, after; status argument; source none; since 0.1] */
+DELAM_API int32_t delam_solver_jump_reactions(const delam_solver *solver, int64_t index, int64_t capacity,
+                                              double *before, double *after);
 
 /* Saves the committed state as bytes: [*needed]. *needed receives the size; with capacity 0 the function returns only
  * the size. A solver of the same scene and options that loads these bytes continues with bitwise identical results.

@@ -2,6 +2,7 @@
 // delam_solver_*: the façade of the analysis.
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -348,6 +349,25 @@ int32_t delam_solver_jump(const delam_solver* solver, int64_t index, int64_t* st
         give(interface_index, jump.interface);
         give(first_pair, jump.first_pair);
         give(last_pair, jump.last_pair);
+    });
+}
+
+int32_t delam_solver_jump_reactions(const delam_solver* solver, int64_t index, int64_t capacity, double* before,
+                                    double* after) {
+    return guard(solver, [&] {
+        const std::vector<JumpEvent> jumps = solver->core->jumps(true);
+        const auto at =
+            static_cast<std::size_t>(require_index(index, static_cast<std::int64_t>(jumps.size()), 0, "index"));
+        const std::size_t patterns = solver->core->problem().patterns.size();
+        if (before != nullptr || after != nullptr)
+            require_capacity(capacity, static_cast<std::int64_t>(patterns), before != nullptr ? "before" : "after");
+        const auto give = [&](double* out, std::vector<double> reactions) {
+            if (out == nullptr) return;
+            reactions.resize(patterns, std::numeric_limits<double>::quiet_NaN());
+            std::copy(reactions.begin(), reactions.end(), out);
+        };
+        give(before, jumps[at].conjugate_before);
+        give(after, jumps[at].conjugate_after);
     });
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "base/numbers.hpp"
@@ -16,20 +17,15 @@ constexpr double released_share = 1e-3;  // of the larger of energy and work
 constexpr double load_drop = 0.02;       // of the load
 constexpr double single_row = 1.5;       // a front that moves on by one row of pairs does not jump
 
-double mean_weight(const PairLaws& pairs) {
-    double sum = 0.0, count = 0.0;
-    for (std::size_t p = 0; p < pairs.law.size(); ++p) {
-        if (pairs.law[p] == nullptr) continue;
+// Longest advance that is no jump: of a step that moves each front of an interface by one row of pairs. Its fronts are
+// the pairs next to a debonded region that the step has damaged: one for each front in the plane, a row in space.
+double regular_advance(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after,
+                       std::int64_t interface) {
+    double row = 0.0, sum = 0.0, count = 0.0;
+    for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
+        if (graph.interface_of(p) != interface || pairs.law[p] == nullptr) continue;
         sum += pairs.weight[p];
         count += 1.0;
-    }
-    return count > 0.0 ? sum / count : 0.0;
-}
-
-// Pairs next to a debonded region that a step has damaged: one for each front in the plane, a row along it in space.
-double first_row(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after) {
-    double row = 0.0;
-    for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
         if (!(before.adhesion[p] - after.adhesion[p] > debonded_below)) continue;
         const auto neighbours = graph.neighbours(p);
         if (std::any_of(neighbours.begin(), neighbours.end(), [&](std::int64_t q) {
@@ -37,7 +33,18 @@ double first_row(const PairLaws& pairs, const PairGraph& graph, const State& bef
             }))
             row += 1.0;
     }
-    return std::max(row, 1.0);
+    return count > 0.0 ? single_row * sum / count * std::max(row, 1.0) : 0.0;
+}
+
+// sum w (zeta before - zeta after) of each interface.
+std::vector<double> advances(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after) {
+    std::vector<double> found;
+    for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
+        const std::size_t interface = index(graph.interface_of(p));
+        if (found.size() <= interface) found.resize(interface + 1, 0.0);
+        if (pairs.law[p] != nullptr) found[interface] += pairs.weight[p] * (before.adhesion[p] - after.adhesion[p]);
+    }
+    return found;
 }
 
 // Force along the loads.
@@ -63,21 +70,19 @@ JumpEvent describe_jump(const PairLaws& pairs, const PairGraph& graph, const Sta
                    0.0,
                    0,
                    -1,
-                   -1};
+                   -1,
+                   before.response.conjugate,
+                   after.response.conjugate};
     if (after.jump_within.known != 0 && after.jump_within.debonded > 0.0) {
         const double begin = load_ratio(before.theta, after.theta).value_or(0.0);
         const double instant = begin < 1.0 ? (after.jump_within.load - begin) / (1.0 - begin) : 1.0;
         jump.before = jump.time = before.time + instant * (after.time - before.time);
         jump.released = after.jump_within.released;
+        jump.conjugate_before = after.jump_within.conjugate_before;
+        jump.conjugate_after = after.jump_within.conjugate_after;
     }
-    std::vector<double> changed;
-    for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
-        const auto interface = static_cast<std::size_t>(graph.interface_of(p));
-        if (changed.size() <= interface) changed.resize(interface + 1, 0.0);
-        const double c = pairs.weight[p] * (before.adhesion[p] - after.adhesion[p]);
-        changed[interface] += c;
-        jump.debonded += c;
-    }
+    const std::vector<double> changed = advances(pairs, graph, before, after);
+    jump.debonded = std::accumulate(changed.begin(), changed.end(), 0.0);
     jump.interface = std::max_element(changed.begin(), changed.end()) - changed.begin();
     for (std::size_t p = 0; p < before.adhesion.size(); ++p) {
         if (graph.interface_of(p) != jump.interface || before.adhesion[p] - after.adhesion[p] <= debonded_below)
@@ -90,16 +95,19 @@ JumpEvent describe_jump(const PairLaws& pairs, const PairGraph& graph, const Sta
 }
 
 bool jumps(const PairLaws& pairs, const PairGraph& graph, const State& before, const State& after) {
-    const double least = single_row * mean_weight(pairs) * first_row(pairs, graph, before, after);
     const auto worth = [&](double released) { return released > released_share * after.ledger.scale(); };
+    const auto far = [&](std::int64_t interface, double advance) {
+        return advance > 0.0 && advance > regular_advance(pairs, graph, before, after, interface);
+    };
     if (const JumpWithin& jump = after.jump_within; jump.known != 0)
-        return jump.debonded > least && (jump.drop > load_drop || worth(jump.released));
+        return (jump.drop > load_drop || worth(jump.released)) && far(jump.interface, jump.advance);
     if (!(after.outcome.released > 0.0)) return false;
-    double debonded = 0.0;
-    for (std::size_t p = 0; p < before.adhesion.size(); ++p)
-        if (pairs.law[p] != nullptr) debonded += pairs.weight[p] * (before.adhesion[p] - after.adhesion[p]);
-    const bool drops = std::abs(load(after)) < (1.0 - load_drop) * std::abs(load(before));
-    return debonded > least && (drops || worth(after.outcome.released));
+    if (!(std::abs(load(after)) < (1.0 - load_drop) * std::abs(load(before))) && !worth(after.outcome.released))
+        return false;
+    const std::vector<double> advance = advances(pairs, graph, before, after);
+    for (std::size_t i = 0; i < advance.size(); ++i)
+        if (far(static_cast<std::int64_t>(i), advance[i])) return true;
+    return false;
 }
 
 }  // namespace delam

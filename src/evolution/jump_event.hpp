@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "evolution/increment/damage_step.hpp"
 #include "evolution/increment/state.hpp"
@@ -15,10 +16,11 @@ struct JumpEvent {
     double before, time;  // the jump lies between these two
     double stored;        // change of stored energy and load potential, F L
     double dissipated;
-    double released;                     // neither stored nor dissipated, >= 0
-    double debonded;                     // change of sum w (1 - zeta), L or L2
-    std::int64_t interface;              // the one that changed most
-    std::int64_t first_pair, last_pair;  // of that interface, with changed adhesion
+    double released;                                        // neither stored nor dissipated, >= 0
+    double debonded;                                        // change of sum w (1 - zeta), L or L2
+    std::int64_t interface;                                 // the one that changed most
+    std::int64_t first_pair, last_pair;                     // of that interface, with changed adhesion
+    std::vector<double> conjugate_before, conjugate_after;  // [patterns] dE/dtheta
 };
 
 // What happened between two states.

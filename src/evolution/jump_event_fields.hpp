@@ -2,6 +2,8 @@
 // The saved members of a jump event (increment/state_fields.hpp).
 #pragma once
 
+#include <tuple>
+
 #include "base/archive.hpp"
 #include "evolution/jump_event.hpp"
 
@@ -10,7 +12,7 @@ namespace delam {
 // One row per line.
 // clang-format off
 template <>
-inline constexpr auto saved_fields<JumpEvent> = saved_since(5,
+inline constexpr auto saved_fields<JumpEvent> = std::tuple_cat(saved_since(5,
     &JumpEvent::step,
     &JumpEvent::before,
     &JumpEvent::time,
@@ -20,7 +22,10 @@ inline constexpr auto saved_fields<JumpEvent> = saved_since(5,
     &JumpEvent::debonded,
     &JumpEvent::interface,
     &JumpEvent::first_pair,
-    &JumpEvent::last_pair);
+    &JumpEvent::last_pair),
+    saved_since(9,
+    &JumpEvent::conjugate_before,
+    &JumpEvent::conjugate_after));
 // clang-format on
 
 static_assert(complete<JumpEvent>(saved_fields<JumpEvent>), "a member of a jump event has no row");

@@ -22,7 +22,7 @@ namespace {
 constexpr std::uint64_t magic = 0x31305453'4d4c4544;  // "DELMST01" in memory on a little-endian machine
 // 5: the first that was ever published. 6: histories of patterns that the host has changed. 7: recorded values. 8:
 // released energy in the ledger.
-constexpr std::uint32_t version = 8, oldest = 5;
+constexpr std::uint32_t version = 9, oldest = 5;
 constexpr std::int64_t most_steps = std::int64_t{1} << 53;
 // Of a larger file, hash and checksum are compared piece by piece, before there is memory for all of it.
 constexpr std::uint64_t largest_unchecked = std::uint64_t{1} << 20;
@@ -51,12 +51,16 @@ void check(const State& state, const Solver& solver, std::uint32_t found_version
     solver.jump_operator().require_memory(state.search_memory);  // of its twin
 }
 
-void check(const JumpEvent& jump, const Solver& solver) {
+void check(const JumpEvent& jump, const Solver& solver, std::uint32_t found_version) {
     const auto& interfaces = solver.problem().mesh->interfaces();
     const bool named = jump.interface >= 0 && jump.interface < static_cast<std::int64_t>(interfaces.size());
     const std::int64_t pairs = named ? interfaces[static_cast<std::size_t>(jump.interface)].pair_count() : 0;
     const bool sound = named && jump.first_pair >= -1 && jump.first_pair < pairs && jump.last_pair >= -1 &&
                        jump.last_pair < pairs && jump.step >= 0 && jump.before <= jump.time;
+    const std::size_t patterns = found_version >= 9 ? solver.problem().patterns.size() : 0;
+    if (jump.conjugate_before.size() != patterns || jump.conjugate_after.size() != patterns)
+        fail(DELAM_ERROR_SNAPSHOT, "snapshot holds a jump with the reactions of ", jump.conjugate_before.size(),
+             " and ", jump.conjugate_after.size(), " patterns, this scene has ", solver.problem().patterns.size());
     Sound finite(version);
     finite.compare(jump, jump);
     if (!sound || !finite.numbers)
@@ -234,7 +238,7 @@ void load(Solver& solver, std::span<const std::uint8_t> bytes) {
         if (const double next = i + 1 < past.size() ? past[i + 1].time : state.time; !(past[i].time < next))
             fail(DELAM_ERROR_SNAPSHOT, "snapshot holds step ", past[i].step, " at time ", past[i].time,
                  ", the step after it at ", next);
-    for (const JumpEvent& jump : jumps) check(jump, solver);
+    for (const JumpEvent& jump : jumps) check(jump, solver, found_version);
     check(record, state);
     solver.restore(std::move(state), std::move(past), std::move(jumps), std::move(patterns), std::move(record));
 }

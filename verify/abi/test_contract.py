@@ -357,6 +357,8 @@ CALLS = {
     "solver_jump_count": (full, lambda s: [s.solver, whole(0)]),
     "solver_jump": (lambda: Scene(brittle=True).committed(),
                     lambda s: [s.solver, 0, whole(0)] + [real(0) for _ in range(6)] + [whole(0) for _ in range(3)]),
+    "solver_jump_reactions": (lambda: Scene(brittle=True).committed(),
+                              lambda s: [s.solver, 0, 9, room(c_double, 9), room(c_double, 9)]),
     "solver_save": (full, lambda s: [s.solver, len(s.saved()), s.saved(), whole(0)]),
     "solver_load": (lambda: full().committed(), lambda s: [s.solver, len(s.saved()), s.saved()]),
     "solver_save_file": (full, lambda s: [s.solver, words(STATE_FILE)]),

@@ -667,11 +667,15 @@ std::int32_t read_all_values(delam_solver* solver) {
     return DELAM_OK;
 }
 
-std::int32_t read_jumps(Input& in, delam_solver* solver) {
+std::int32_t read_jumps(Input& in, delam_solver* solver, std::int64_t patterns) {
     std::int64_t count = 0;
     delam_solver_jump_count(solver, &count);
     double released = 0.0;
     std::int64_t step = 0, first = 0;
+    Room<double> before(in, patterns), after(in, patterns);
+    const std::int32_t status = delam_solver_jump_reactions(
+        solver, in.index(count), std::min(before.capacity, after.capacity), before.data(), after.data());
+    if (status != DELAM_OK) return status;
     return delam_solver_jump(solver, in.index(count), &step, nullptr, nullptr, nullptr, nullptr, &released, nullptr,
                              nullptr, &first, nullptr);
 }
@@ -1124,7 +1128,8 @@ const Call calls[] = {
      [](const Asked& a) {
          return watched(a.world, a.in, [&] { return delam_solver_load_file(a.solver, some_path(a.in)); });
      }},
-    {"delam_solver_jump", Subject::solver, may::argument, [](const Asked& a) { return read_jumps(a.in, a.solver); }},
+    {"delam_solver_jump", Subject::solver, may::argument,
+     [](const Asked& a) { return read_jumps(a.in, a.solver, patterns_of(a.solver)); }},
     {"delam_solver_plan_item", Subject::solver, may::argument,
      [](const Asked& a) { return read_plan(a.in, a.solver); }},
     {"delam_solver_option", Subject::solver, may::argument,

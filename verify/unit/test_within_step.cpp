@@ -26,7 +26,11 @@ std::vector<PathPoint> path(double a, double end) {
     std::vector<PathPoint> found;
     for (int i = 0; i <= points; ++i) {
         const double now = a + (last - a) * i / points;
-        found.push_back({0.5 * (whole - removed(now)) * end * end, 0.0, toughness * (now - a), now});
+        found.push_back({0.5 * (whole - removed(now)) * end * end,
+                         0.0,
+                         toughness * (now - a),
+                         {0.0, now},
+                         {end * (whole - removed(now))}});
     }
     return found;
 }
@@ -43,6 +47,10 @@ START_TEST(jump_within_the_step) {
     ck_assert_double_eq_tol(within.jump.released, released, 2e-3 * released);
     ck_assert_double_eq_tol(within.released, released, 2e-3 * released);
     ck_assert_double_eq_tol(within.jump.debonded, 2.0 - 2.0 * a, 5e-3);
+    ck_assert_int_eq(within.jump.interface, 1);
+    ck_assert_double_eq(within.jump.advance, within.jump.debonded);
+    ck_assert_double_eq_tol(within.jump.conjugate_before[0], jump * (whole - removed(a)), 1e-2);
+    ck_assert_double_eq_tol(within.jump.conjugate_after[0], jump * (whole - removed(2.0 - a)), 2e-2);
     const double drop = 1.0 - (whole - removed(2.0 - a)) / (whole - removed(a));
     ck_assert_double_eq_tol(within.jump.drop, drop, 5e-3);
     // Before the jump the load works at the initial crack.
@@ -60,8 +68,8 @@ START_TEST(steady_growth) {
     const WithinStep within = within_step(states, begin / end, false);
     double work = 0.0, before = begin;
     for (int i = 1; i <= points; ++i) {
-        const double at = a + (states.back().debonded - a) * (i - 0.5) / points,
-                     now = critical(at + 0.5 * (states.back().debonded - a) / points);
+        const double at = a + (states.back().debonded[1] - a) * (i - 0.5) / points,
+                     now = critical(at + 0.5 * (states.back().debonded[1] - a) / points);
         work += (whole - removed(at)) * 0.5 * (now * now - before * before);
         before = now;
     }

@@ -21,12 +21,11 @@ constexpr const char* where_known[] = {"revisions",   "search_candidates", "sear
 // For scenes in which an interface may break.
 constexpr const char* of_cracks[] = {"crack_length", "energy_release_rate", "front_mixity", "process_zone_pairs"};
 
-// Of a value of one pattern.
+}  // namespace
+
 std::string title_of(const std::string& value, const Scene& scene, std::size_t pattern) {
     return scene.patterns.size() == 1 ? value : value + "_" + scene.patterns[pattern].name;
 }
-
-}  // namespace
 
 std::string load_title(const Scene& scene, std::size_t pattern) { return title_of("load", scene, pattern); }
 std::string reaction_title(const Scene& scene, std::size_t pattern) { return title_of("reaction", scene, pattern); }

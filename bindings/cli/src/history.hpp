@@ -12,7 +12,8 @@
 
 namespace cli {
 
-// Titles of the columns of a pattern, load and reaction; with several patterns load_NAME and reaction_NAME.
+// Title of the column of a value of a pattern: the value, with several patterns VALUE_NAME.
+std::string title_of(const std::string& value, const Scene& scene, std::size_t pattern);
 std::string load_title(const Scene& scene, std::size_t pattern);
 std::string reaction_title(const Scene& scene, std::size_t pattern);
 

@@ -2,6 +2,7 @@
 #include "jumps.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -45,6 +46,19 @@ std::string loads_text(const Jump& jump, const Scene& scene) {
     return out.empty() ? out : out + ")";
 }
 
+constexpr double worth_telling = 0.02;  // relative change of a reaction
+
+// ", reaction 27.6 to 16.5".
+std::string reactions_text(const Jump& jump, const Scene& scene) {
+    std::string out;
+    for (std::size_t p = 0; p < jump.loads.size(); ++p) {
+        const double before = jump.reaction_before[p], after = jump.reaction_after[p];
+        if (std::abs(after - before) > worth_telling * std::abs(before))
+            out += fmt::format(", {} {:.6g} to {:.6g}", reaction_title(scene, p), before, after);
+    }
+    return out;
+}
+
 }  // namespace
 
 std::vector<Jump> jumps_of(const Model& model, const delam_solver* solver, const Scene& scene) {
@@ -59,6 +73,12 @@ std::vector<Jump> jumps_of(const Model& model, const delam_solver* solver, const
              fmt::format("jump {}", i));
         for (const PatternData& pattern : scene.patterns)
             jump.loads.push_back(factor_at(pattern, jump.time) + 0.0);  // turns -0 into 0
+        jump.reaction_before.resize(jump.loads.size());
+        jump.reaction_after.resize(jump.loads.size());
+        call(model.context.get(),
+             delam_solver_jump_reactions(solver, i, static_cast<std::int64_t>(jump.loads.size()),
+                                         jump.reaction_before.data(), jump.reaction_after.data()),
+             fmt::format("reactions of jump {}", i));
         const auto interface = static_cast<std::size_t>(jump.interface);
         if (jump.interface >= 0 && interface < model.interfaces.size()) jump.name = model.interfaces[interface].name;
         out.push_back(std::move(jump));
@@ -73,14 +93,16 @@ bool writes_jumps(const std::vector<Jump>& jumps, const delam_solver* solver) {
 std::string jumps_text(const std::vector<Jump>& jumps, const Scene& scene) {
     std::string out = "step,before,time,stored,dissipated,released,debonded,interface,first_pair,last_pair";
     if (scene.patterns.empty()) out += ",load";
-    for (std::size_t p = 0; p < scene.patterns.size(); ++p) out += "," + load_title(scene, p);
+    for (const char* value : {"load", "reaction_before", "reaction_after"})
+        for (std::size_t p = 0; p < scene.patterns.size(); ++p) out += "," + title_of(value, scene, p);
     out += ",name\n";
     for (const Jump& jump : jumps) {
         out += fmt::format("{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{},{},{}", jump.step, jump.before,
                            jump.time, jump.stored, jump.dissipated, jump.released, jump.debonded, jump.interface,
                            jump.first, jump.last);
         if (jump.loads.empty()) out += ",0";
-        for (const double load : jump.loads) out += fmt::format(",{:.17g}", load);
+        for (const auto* values : {&jump.loads, &jump.reaction_before, &jump.reaction_after})
+            for (const double value : *values) out += fmt::format(",{:.17g}", value);
         out += "," + csv_cell(jump.name) + "\n";
     }
     return out;
@@ -108,8 +130,8 @@ std::vector<std::string> jump_lines(const std::vector<Jump>& jumps, const Scene&
         const std::string grown = jump.first < 0 ? "no interface changed"
                                                  : fmt::format("interface \"{}\" debonded by {}", jump.name,
                                                                extent_text(jump.debonded, scene));
-        out.push_back(fmt::format("jump at time {:.6g}{}: {}, {} released", jump.time, loads_text(jump, scene), grown,
-                                  energy_text(jump.released, scene)));
+        out.push_back(fmt::format("jump at time {:.6g}{}: {}, {} released{}", jump.time, loads_text(jump, scene), grown,
+                                  energy_text(jump.released, scene), reactions_text(jump, scene)));
     }
     if (shown.size() < jumps.size())
         out.push_back(fmt::format("{} debonded by {} and released {} in all (jumps.csv)",

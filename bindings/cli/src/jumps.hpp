@@ -15,6 +15,7 @@ struct Jump {
     double before = 0;
     double time = 0;
     std::vector<double> loads;  // factor of each pattern at `time`
+    std::vector<double> reaction_before, reaction_after;
     double stored = 0;
     double dissipated = 0;
     double released = 0;

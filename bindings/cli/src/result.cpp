@@ -33,10 +33,16 @@ Json jumps_json(const std::vector<Jump>& jumps, const Scene& scene) {
     Json largest = Json::array();
     for (const Jump& jump : largest_jumps(jumps)) {
         Json loads = Json::object();
-        for (std::size_t p = 0; p < jump.loads.size(); ++p) loads[scene.patterns[p].name] = jump.loads[p];
+        Json reactions = Json::object();
+        for (std::size_t p = 0; p < jump.loads.size(); ++p) {
+            loads[scene.patterns[p].name] = jump.loads[p];
+            reactions[scene.patterns[p].name] = {{"before", jump.reaction_before[p]},
+                                                 {"after", jump.reaction_after[p]}};
+        }
         largest.push_back({{"step", jump.step},
                            {"time", jump.time},
                            {"loads", loads},
+                           {"reactions", reactions},
                            {"interface", jump.interface},
                            {"name", jump.name},
                            {"debonded", jump.debonded},

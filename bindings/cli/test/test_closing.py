@@ -12,6 +12,7 @@ import subprocess
 from support import DELAM, SCENE, brittle, changed, delam, expect, finish, folder, read, write
 
 COLUMNS = "step,before,time,stored,dissipated,released,debonded,interface,first_pair,last_pair"
+LOADS = ",load,reaction_before,reaction_after"
 
 
 def about_of(out):
@@ -36,14 +37,23 @@ scene, out = write(jumping), folder()
 code, text, error = delam("run", scene, "--out", out)
 about, jumps, rows = about_of(out), table(out, "jumps.csv"), table(out, "history.csv")
 expect(code == 0 and len(jumps) > 0, f"a march with {len(jumps)} jumps {error}")
-expect(read(os.path.join(out, "jumps.csv")).decode().splitlines()[0] == COLUMNS + ",load,name", "columns of jumps.csv")
+expect(read(os.path.join(out, "jumps.csv")).decode().splitlines()[0] == COLUMNS + LOADS + ",name", "columns of jumps.csv")
 expect(all(abs(float(j["load"]) - 0.003 * float(j["time"])) < 1e-16 for j in jumps), "load: the factor at the instant")
 expect(all(j["name"] == "lower-upper" for j in jumps), "name of the interface")
 lines = closing(text)
 expect(lines == about["closing"], "result.json has the closing lines")
 told = [line for line in lines if line.startswith("jump at ")]
+
+
+def fall_of(jump):
+    before, after = float(jump["reaction_before"]), float(jump["reaction_after"])
+    return f", reaction {before:.6g} to {after:.6g}" if abs(after - before) > 0.02 * abs(before) else ""
+
+
 wanted = [f'jump at time {float(j["time"]):.6g} (load {float(j["load"]):.6g}): interface "lower-upper" debonded by '
-          f'{float(j["debonded"]):.3g} m, {float(j["released"]):.3g} J/m released' for j in jumps]
+          f'{float(j["debonded"]):.3g} m, {float(j["released"]):.3g} J/m released{fall_of(j)}' for j in jumps]
+expect(fall_of(jumps[0]) and float(jumps[0]["reaction_after"]) < float(rows[int(jumps[0]["step"]) - 1]["reaction"]) <=
+       float(jumps[0]["reaction_before"]), "reactions of the first jump: the load grows until then")
 expect(told == wanted if len(jumps) <= 10 else set(told) < set(wanted), f"a line for each jump: {told}")
 found = about["jumps"]
 expect(found["count"] == len(jumps) and len(found["largest"]) == len(told) and
@@ -86,7 +96,7 @@ quiet = write(changed("steps = 20", "steps = 2", changed("values = [0.0, 0.006]"
 expect(delam("run", quiet, "--out", out)[0] == 0 and "jumps.csv" not in os.listdir(out),
        "that of an earlier result is removed")
 code, text, _ = delam("run", quiet, "--out", out, "--set", "solver.jump_tolerance=1e-3")
-expect(read(os.path.join(out, "jumps.csv")).decode() == COLUMNS + ",load,name\n" and
+expect(read(os.path.join(out, "jumps.csv")).decode() == COLUMNS + LOADS + ",name\n" and
        about_of(out)["jumps"] == {"count": 0, "released": 0, "debonded": 0, "largest": []}, "no jump")
 found = closing(text)
 expect(len(found) == 1 and found[0].startswith("energy balance: off by "), f"a calm run ends with its balance: {found}")

@@ -1085,6 +1085,16 @@ module delam_raw
       integer(c_int64_t), intent(inout), optional :: last_pair
       integer(c_int32_t) :: status
     end function delam_solver_jump
+    function delam_solver_jump_reactions(solver, index, capacity, before, after) bind(c, &
+        name="delam_solver_jump_reactions") result(status)
+      import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
+      type(c_ptr), value :: solver
+      integer(c_int64_t), value :: index
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout), optional :: before(*)
+      real(c_double), intent(inout), optional :: after(*)
+      integer(c_int32_t) :: status
+    end function delam_solver_jump_reactions
     function delam_solver_save(solver, capacity, bytes, needed) bind(c, name="delam_solver_save") result(status)
       import :: c_ptr, c_funptr, c_char, c_int8_t, c_int32_t, c_int64_t, c_double
       type(c_ptr), value :: solver

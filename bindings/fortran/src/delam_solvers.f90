@@ -45,6 +45,7 @@ module delam_solvers
     procedure :: look => solver_look
     procedure :: jump_count => solver_jump_count
     procedure :: jump => solver_jump
+    procedure :: jump_reactions => solver_jump_reactions
     procedure :: save => solver_save
     procedure :: load => solver_load
     procedure :: save_file => solver_save_file
@@ -528,6 +529,21 @@ contains
     if (present(last_pair)) last_pair = last_pair + 1
     call settle(code, self, status, message)
   end subroutine solver_jump
+
+  ! Reactions of all patterns before and after a jump.
+  subroutine solver_jump_reactions(self, index, before, after, status, message)
+    class(delam_solver), intent(in) :: self
+    integer, intent(in) :: index
+    real(delam_real), allocatable, intent(out) :: before(:), after(:)
+    integer, intent(out), optional :: status
+    character(*), intent(out), optional :: message
+    integer(c_int64_t) :: patterns
+    integer(c_int32_t) :: code
+    patterns = patterns_of(self)
+    allocate(before(patterns), after(patterns))
+    code = delam_solver_jump_reactions(self%handle(), index - 1_c_int64_t, patterns, before, after)
+    call settle(code, self, status, message)
+  end subroutine solver_jump_reactions
 
   ! The committed state; load of a solver of the same scene continues from it.
   function solver_save(self, status, message) result(bytes)

@@ -366,6 +366,7 @@ contains
     type(delam_solver) :: solver
     integer(delam_index) :: pull, step, interface, first, last
     real(dp) :: before, time
+    real(dp), allocatable :: reaction_before(:), reaction_after(:)
     call context%create()
     call make_squares(mesh, context)
     call law%create(context, 'griffith')
@@ -386,6 +387,8 @@ contains
     call expect(solver%jump_count() >= 1, 'a jump')
     if (solver%jump_count() < 1) return
     call solver%jump(1, step, before, time, interface=interface, first_pair=first, last_pair=last)
+    call solver%jump_reactions(1, reaction_before, reaction_after)
+    call expect(size(reaction_before) == 1 .and. reaction_before(1) > reaction_after(1), 'a jump loses load')
     call expect(step == 1 .and. before < time .and. time < 1, 'in the first step')
     call expect(interface == 1 .and. first == 1 .and. last == 2, 'of both pairs')
   end subroutine test_jump

@@ -612,6 +612,11 @@ function delam_solver_jump(solver, index, step, before, time, stored, dissipated
         last_pair::Ptr{Int64})::Int32
 end
 
+function delam_solver_jump_reactions(solver, index, capacity, before, after)
+    @ccall libdelam.delam_solver_jump_reactions(solver::Ptr{delam_solver}, index::Int64, capacity::Int64,
+        before::Ptr{Cdouble}, after::Ptr{Cdouble})::Int32
+end
+
 function delam_solver_save(solver, capacity, bytes, needed)
     @ccall libdelam.delam_solver_save(solver::Ptr{delam_solver}, capacity::Int64, bytes::Ptr{UInt8},
         needed::Ptr{Int64})::Int32
@@ -658,7 +663,8 @@ const FUNCTIONS = (
     :delam_solver_front, :delam_solver_tangent, :delam_solver_step_tangent, :delam_solver_condensed_size,
     :delam_solver_condensed, :delam_solver_plan, :delam_solver_plan_count, :delam_solver_plan_item,
     :delam_solver_option, :delam_solver_searched, :delam_solver_look, :delam_solver_jump_count, :delam_solver_jump,
-    :delam_solver_save, :delam_solver_load, :delam_solver_save_file, :delam_solver_load_file,
+    :delam_solver_jump_reactions, :delam_solver_save, :delam_solver_load, :delam_solver_save_file,
+    :delam_solver_load_file,
 )
 
 end

@@ -32,7 +32,7 @@ end
 "What the energetic search of the last step compared."
 searched(solver::Solver) = ask_text(handle -> Raw.delam_solver_searched(handle), solver)
 
-"Located jumps (option jump_tolerance), in the order of time. `first_pair`, `last_pair`: 0 for none."
+"Jumps of the state, in the order of time. `first_pair`, `last_pair`: 0 for none; reactions: one for each pattern."
 function jumps(solver::Solver)
     count = Ref(Int64(0))
     ask(handle -> Raw.delam_solver_jump_count(handle, count), solver)
@@ -46,6 +46,11 @@ function jump(solver, index)
         Raw.delam_solver_jump(handle, index, step, before, time, stored, dissipated, released, debonded, number,
             first_pair, last_pair)
     end
+    reaction_before, reaction_after = (zeros(length(patterns(solver.problem))) for _ in 1:2)
+    ask(solver) do handle
+        Raw.delam_solver_jump_reactions(handle, index, length(reaction_before), reaction_before, reaction_after)
+    end
     return (step=step[], before=before[], time=time[], stored=stored[], dissipated=dissipated[], released=released[],
-        debonded=debonded[], interface=number[] + 1, first_pair=first_pair[] + 1, last_pair=last_pair[] + 1)
+        debonded=debonded[], interface=number[] + 1, first_pair=first_pair[] + 1, last_pair=last_pair[] + 1,
+        reaction_before, reaction_after)
 end

@@ -206,6 +206,7 @@ class Reading(unittest.TestCase):
         for jump in solver.jumps:
             self.assertLess(jump.before, jump.time)
             self.assertEqual(jump.interface, 0)
+            self.assertGreater(jump.reaction_before[0], jump.reaction_after[0])
 
 
 class Bytes(unittest.TestCase):

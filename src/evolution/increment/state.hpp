@@ -82,11 +82,14 @@ struct Effort {
 
 // The largest jump that the path of a step has shown (step/within_step.hpp); none: debonded = 0.
 struct JumpWithin {
-    std::int64_t known = 0;  // 1: the step was followed in parts, which tell about jumps
-    double load = 0.0;       // over that of the end of the step
-    double released = 0.0;   // F L
-    double debonded = 0.0;   // L or L2
-    double drop = 0.0;       // of the load, relative
+    std::int64_t known = 0;                                 // 1: the step was followed in parts, which tell about jumps
+    double load = 0.0;                                      // over that of the end of the step
+    double released = 0.0;                                  // F L
+    double debonded = 0.0;                                  // of all interfaces, L or L2
+    double drop = 0.0;                                      // of the load, relative
+    std::int64_t interface = -1;                            // the one that debonds most
+    double advance = 0.0;                                   // of this interface, L or L2
+    std::vector<double> conjugate_before, conjugate_after;  // [patterns] dE/dtheta at this load
 };
 
 // How the step ended.

@@ -20,7 +20,8 @@ inline constexpr auto saved_fields<SupportError> =
 
 template <>
 inline constexpr auto saved_fields<JumpWithin> = saved_since(unsaved,
-    &JumpWithin::known, &JumpWithin::load, &JumpWithin::released, &JumpWithin::debonded, &JumpWithin::drop);
+    &JumpWithin::known, &JumpWithin::load, &JumpWithin::released, &JumpWithin::debonded, &JumpWithin::drop,
+    &JumpWithin::interface, &JumpWithin::advance, &JumpWithin::conjugate_before, &JumpWithin::conjugate_after);
 
 template <>
 inline constexpr auto saved_fields<Response> = std::tuple_cat(

@@ -44,14 +44,18 @@ bool InnerPath::one_mode(const State& at, std::span<const double> mixity, const 
     return !any || (most[0] <= (1.0 + same_mode) * least[0] && most[1] <= (1.0 + same_mode) * least[1]);
 }
 
-PathPoint path_point(const PairLaws& pairs, const State& state, double dissipated) {
+PathPoint path_point(const PairLaws& pairs, const PairGraph& graph, const State& state, double dissipated) {
     PathPoint point;
     point.energy = state.response.stored_bulk + state.response.load_potential +
                    stored_energy(pairs, state.adhesion, state.response.jump);
     point.gradient = gradient_energy(pairs, state.adhesion);
     point.dissipated = dissipated;
-    for (std::size_t p = 0; p < state.adhesion.size(); ++p)
-        if (pairs.law[p] != nullptr) point.debonded += pairs.weight[p] * (1.0 - state.adhesion[p]);
+    for (std::size_t p = 0; p < state.adhesion.size(); ++p) {
+        const std::size_t interface = index(graph.interface_of(p));
+        if (point.debonded.size() <= interface) point.debonded.resize(interface + 1, 0.0);
+        if (pairs.law[p] != nullptr) point.debonded[interface] += pairs.weight[p] * (1.0 - state.adhesion[p]);
+    }
+    point.conjugate = state.response.conjugate;
     return point;
 }
 
@@ -141,7 +145,7 @@ bool InnerPath::follow(State& next, const Increment& step, const Dissipation* be
     bool converged = part(at, next, false);
     while (true) {
         book(at, next);
-        points_.push_back(path_point(pairs_, next, dissipated_.booked));
+        points_.push_back(path_point(pairs_, graph_, next, dissipated_.booked));
         held = std::max(held, next.outcome.mixity_held);
         if ((watch && !watch(next, dissipated_)) || !stopped_) break;
         last_ = std::move(at.response.jump);

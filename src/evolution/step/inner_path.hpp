@@ -23,7 +23,7 @@
 
 namespace delam {
 
-PathPoint path_point(const PairLaws& pairs, const State& state, double dissipated);
+PathPoint path_point(const PairLaws& pairs, const PairGraph& graph, const State& state, double dissipated);
 
 class InnerPath {
 public:

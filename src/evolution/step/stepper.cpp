@@ -175,9 +175,10 @@ void Stepper::book_step(State& next, const Increment& step, const InnerPath* pat
     next.jump_within = {};
     const std::optional<double> begin = load_ratio(before.theta, next.theta);
     if (path != nullptr && (path->points().size() > 1 || path->started_elsewhere()) && begin && *begin <= 1.0) {
-        std::vector<PathPoint> points{path_point(pairs_, before, 0.0)};
+        std::vector<PathPoint> points{path_point(pairs_, graph_, before, 0.0)};
         points.front().energy =
             (points.front().energy - points.front().gradient) / (*begin * *begin) + points.front().gradient;
+        for (double& q : points.front().conjugate) q /= *begin;
         points.insert(points.end(), path->points().begin(), path->points().end());
         const WithinStep within = within_step(points, *begin, path->started_elsewhere());
         next.jump_within = within.jump;

@@ -23,6 +23,26 @@ double critical(const PathPoint& from, const PathPoint& to) {
     return gives > need ? std::sqrt(need / gives) : 1.0;
 }
 
+std::vector<double> at_load(double load, std::vector<double> conjugate) {
+    for (double& q : conjugate) q *= load;
+    return conjugate;
+}
+
+// What interfaces have debonded between two states.
+void compare(JumpWithin& jump, const PathPoint& from, const PathPoint& to) {
+    jump.debonded = jump.advance = 0.0;
+    for (std::size_t i = 0; i < to.debonded.size(); ++i) {
+        const double advance = to.debonded[i] - from.debonded[i];
+        jump.debonded += advance;
+        if (jump.interface >= 0 && !(advance > jump.advance)) continue;
+        jump.advance = advance;
+        jump.interface = static_cast<std::int64_t>(i);
+    }
+    jump.drop = quadratic(from) > 0.0 ? 1.0 - quadratic(to) / quadratic(from) : 0.0;
+    jump.conjugate_before = at_load(jump.load, from.conjugate);
+    jump.conjugate_after = at_load(jump.load, to.conjugate);
+}
+
 }  // namespace
 
 WithinStep within_step(std::span<const PathPoint> points, double begin, bool elsewhere) {
@@ -44,8 +64,8 @@ WithinStep within_step(std::span<const PathPoint> points, double begin, bool els
         within.released += std::max(0.0, released);
         now.load = load;
         now.released += std::max(0.0, released);
-        now.debonded = to.debonded - points[first].debonded;
-        now.drop = quadratic(points[first]) > 0.0 ? 1.0 - quadratic(to) / quadratic(points[first]) : 0.0;
+        now.interface = -1;
+        compare(now, points[first], to);
         const bool jumps =
             now.released > unstable * (to.dissipated - points[first].dissipated) || (elsewhere && first == 0);
         if (jumps && now.debonded > within.jump.debonded) within.jump = now;

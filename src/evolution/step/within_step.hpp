@@ -12,15 +12,17 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "evolution/increment/state.hpp"
 
 namespace delam {
 
 // A state of the path: its energy at the load of the end of the step, F L; the gradient energy in it; what has been
-// dissipated until then; sum w (1 - zeta), L or L2.
+// dissipated until then; sum w (1 - zeta) of each interface, L or L2; dE/dtheta of each pattern at the load of the end.
 struct PathPoint {
-    double energy = 0.0, gradient = 0.0, dissipated = 0.0, debonded = 0.0;
+    double energy = 0.0, gradient = 0.0, dissipated = 0.0;
+    std::vector<double> debonded, conjugate;
 };
 
 struct WithinStep {

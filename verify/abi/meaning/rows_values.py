@@ -86,6 +86,20 @@ def snap(host, see):
     see.near("step, instants and energies of the jump", jump[:6], [2, *openings, -stored, toughness, released])
 
 
+@row("reactions of a jump", tells=["solver_jump_reactions before", "solver_jump_reactions after"])
+def reactions_of_a_jump(host, see):
+    """A bar whose bottom moves by a quarter of the factor of a second pattern has two reactions, the second a quarter
+    of the first, and no load is left when it has snapped."""
+    bulk, k, openings = 8.0, 100.0, (0.2, 0.25)
+    bar = scenes.Bar(host, scenes.bilinear(host, (k, k), (0.02, 0.02), (0.1, 0.1)), bulk=bulk, base=0.25)
+    for opening in openings:
+        bar.step(opening)
+    pull = 1.25 * openings[0] / (1 / bulk + 1 / k)
+    before, after = host("solver_jump_reactions", bar.solver, 0, 2, Out(2), Out(2))
+    see.near("before", before, [pull, 0.25 * pull], "F L")
+    see.near("after", after, [0.0, 0.0], "F L", scale=pull)
+
+
 @row("values and fields of a march")
 def march(host, see):
     """For the baseline alone: values and fields of two beams that are peeled apart, in the plane and in space."""

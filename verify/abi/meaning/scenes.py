@@ -85,10 +85,11 @@ def strong(host, normal, tangential):
 
 class Bar:
     """Two layers of one quad4 each on top of each other, without lateral contraction, pulled apart at the top: per unit
-    of width the bodies are a spring of `bulk`, in series with the law. The top moves by the factor of `pull`. Both
-    pairs of the interface open alike."""
+    of width the bodies are a spring of `bulk`, in series with the law. The top moves by the factor of `pull`, the
+    bottom down by `base` times that of a further pattern, unless base is 0. Both pairs of the interface open alike."""
 
-    def __init__(self, host, law, bulk=1.0, width=1.0, options=(), times=(0.0, 1.0), values=(0.0, 1.0), time=0.0):
+    def __init__(self, host, law, bulk=1.0, width=1.0, options=(), times=(0.0, 1.0), values=(0.0, 1.0), time=0.0,
+                 base=0.0):
         self.host, self.bulk, self.width = host, bulk, width
         mesh = host("mesh_create_layers", host.context, 2, [width], [1], 2, [0.5, 0.5], [1, 1], TYPES["quad4"], Out())
         host("mesh_add_interface", mesh, 0, 1, 0.0, Out())
@@ -98,8 +99,11 @@ class Bar:
         host("problem_set_law", problem, 0, law)
         pull = ramp(host, problem, "pull", times, values)
         hold(host, problem, list(range(8)), [[1.0, 0.0]])
-        hold(host, problem, [0, 1], [[0.0, 1.0]])
         drive(host, problem, [6, 7], [0.0, 1.0], pull, [1.0, 1.0])
+        if base == 0.0:
+            hold(host, problem, [0, 1], [[0.0, 1.0]])
+        else:
+            drive(host, problem, [0, 1], [0.0, -1.0], ramp(host, problem, "base", times, values), [base, base])
         for left in (2, 4):  # both faces stay level
             host("problem_add_equation", problem, 2, [left, left + 1], [0.0, 1.0, 0.0, -1.0], 0, None, None, 0)
         for key, setting in options:

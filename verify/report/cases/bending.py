@@ -190,9 +190,10 @@ def march(delam, specimen, h, steps, path=None, **more):
 
 def run(delam, problem, legs, keys=(), look=None):
     """A march of a problem with one pattern, a leg in each unit of time. `at`: lists of the values after every step,
-    the initial state first; `load`, `down` (displacement), `crack`; `jumps` as the library recorded them; `open`: steps
-    that met an iteration limit. look(solver) is called after every step."""
+    the initial state first; `load`, `down` (displacement), `crack`; `jumps`: recorded() ones; `open`: steps that met an
+    iteration limit. look(solver) is called after every step."""
     out = types.SimpleNamespace(steps=sum(n for _, n in legs), open=0)
+    times = [0.0, *(leg + k / count for leg, (_, count) in enumerate(legs) for k in range(1, count + 1))]
     with delam.Solver(problem) as solver:
         solver.not_converged = "raise"
         history = delam.History(solver, (*VALUES, *keys))
@@ -206,10 +207,31 @@ def run(delam, problem, legs, keys=(), look=None):
                 history.record()
                 if look:
                     look(solver)
-        out.jumps = [jump._asdict() for jump in solver.jumps]
+        jumps = [(j.step, j.before, j.time, j.released, *j.reaction_before, *j.reaction_after) for j in solver.jumps]
     out.at = {name: [float(v) for v in history[name]] for name in (*VALUES, *keys)}
     out.down, out.load, out.crack = (out.at[name] for name in ("load:press", "reaction:press", "crack_length"))
+    out.jumps = [recorded(times, out.down, *jump) for jump in jumps]
     return out
+
+
+def recorded(times, down, step, begin, end, released, before, after):
+    """A jump that the library recorded; `at`: its displacement, with the loads `before` and `after` it there; None: its
+    instant is not known."""
+    known = begin == end
+    return {"step": step, "released": released, "at": float(np.interp(end, times, down)) if known else None,
+            "before": before, "after": after}
+
+
+def curve(of):
+    """Displacements and loads; where a jump is at a known displacement, twice, with the loads before and after it."""
+    down, load = [of.down[0]], [of.load[0]]
+    for k in range(1, len(of.load)):
+        for jump in (j for j in of.jumps if j["step"] == k and j["at"] is not None):
+            down += [jump["at"], jump["at"]]
+            load += [jump["before"], jump["after"]]
+        down.append(of.down[k])
+        load.append(of.load[k])
+    return down, load
 
 
 # ---- what a march shows
@@ -228,11 +250,20 @@ def defects(at):
 
 
 def work_of(of, due):
-    """Integral of the load over the displacement, and what it leaves open: where the load falls at once within a step
-    is not known."""
-    steps = list(zip(of.down, of.down[1:], of.load, of.load[1:]))
-    return (sum(0.5 * (p + q) * (v - u) for u, v, p, q in steps),
-            sum(0.5 * (of.load[k - 1] - of.load[k]) * (of.down[k] - of.down[k - 1]) for k in due))
+    """Integral of the load over the displacement by trapezia, and what it leaves open: where the load falls at once at
+    an unknown instant of a step, and what trapezia of twice the length differ by (where the softening zone has few
+    pairs, the load rises and falls with each of them, also within a step)."""
+    down, load = curve(of)
+
+    def trapezia(of_every):
+        jumped = [i for i in range(len(down)) if 0 < i and down[i] == down[i - 1] or
+                  i + 1 < len(down) and down[i] == down[i + 1]]
+        kept = sorted({*range(0, len(down), of_every), *jumped, len(down) - 1})
+        return sum(0.5 * (load[i] + load[j]) * (down[j] - down[i]) for i, j in zip(kept, kept[1:]))
+
+    known = {j["step"] for j in of.jumps if j["at"] is not None}
+    fallen = sum(0.5 * (of.load[k - 1] - of.load[k]) * (of.down[k] - of.down[k - 1]) for k in due if k not in known)
+    return trapezia(1), fallen + abs(trapezia(2) - trapezia(1))
 
 
 def drops(load, least=0.02):

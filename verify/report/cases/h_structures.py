@@ -33,7 +33,9 @@ def by_default(context, name, title, *settings, **added):
     words = ("solution", "mixity_rule")
     rows = read(out / "history.csv")
     at = {key: [float(row[key]) for row in rows] for key in rows[0] if key not in words}
-    jumps = [{"step": int(row["step"]), "released": float(row["released"])} for row in read(out / "jumps.csv")]
+    keys = ("before", "time", "released", "reaction_before", "reaction_after")
+    jumps = [bending.recorded(at["time"], at["load"], int(row["step"]), *(float(row[key]) for key in keys))
+             for row in read(out / "jumps.csv")]
     return types.SimpleNamespace(at=at, down=at["load"], load=at["reaction"], jumps=jumps, steps=len(rows) - 1, open=0,
                                  options=tuple(added.items()))
 
@@ -64,7 +66,7 @@ def structure(marches, what, unit, scale, least, extra=(), figures=()):
         checks.append(check("falls of the load at once", min(len(steps) for steps in due.values()), least,
                             "fewer would test nothing", ">="))
     falls = [row for n, m in marches.items() for row in falls_of(n, m, due[n], scale)]
-    ends = [[n, m.steps, max(m.load), m.at["dissipated"][-1], sum(m.at["released"]), ledgers.defect_of(m), len(m.jumps),
+    ends = [[n, m.steps, max(bending.curve(m)[1]), m.at["dissipated"][-1], sum(m.at["released"]), ledgers.defect_of(m), len(m.jumps),
              m.open] for n, m in marches.items()]
     tables = [table("Marches", [column("march", key=True), column("steps"), column("peak", "N/m", past=PAST),
                                 column("dissipated", "J/m", past=1e-3), column("released", "J/m", past=1e-2),

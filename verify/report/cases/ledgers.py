@@ -24,8 +24,9 @@ def work(marches, due):
     for name, of in marches.items():
         by_load, left_open = bending.work_of(of, due[name])
         off[name] = max(abs(of.at["work"][-1] - by_load) - left_open, 0.0) / of.at["work"][-1]
-    return check("work off the integral of the load", max(off.values()), LEDGER, "trapezia of marches of most steps; "
-                 "half of a fall at once times its step is not known and allowed")
+    return check("work off the integral of the load", max(off.values()), LEDGER, "trapezia of marches of most steps, "
+                 "with the recorded instants and loads of jumps; allowed besides: half of a fall at an unknown instant "
+                 "times its step, and what trapezia of twice the length differ by")
 
 
 def falls_at_once(marches, scene):

@@ -322,6 +322,9 @@ FUNCTIONS = {
         ("before", POINTER(c_double)), ("time", POINTER(c_double)), ("stored", POINTER(c_double)),
         ("dissipated", POINTER(c_double)), ("released", POINTER(c_double)), ("debonded", POINTER(c_double)),
         ("interface_index", POINTER(c_int64)), ("first_pair", POINTER(c_int64)), ("last_pair", POINTER(c_int64)))),
+    "delam_solver_jump_reactions": (c_int32, (
+        ("solver", POINTER(delam_solver)), ("index", c_int64), ("capacity", c_int64), ("before", POINTER(c_double)),
+        ("after", POINTER(c_double)))),
     "delam_solver_save": (c_int32, (
         ("solver", POINTER(delam_solver)), ("capacity", c_int64), ("bytes", POINTER(c_uint8)),
         ("needed", POINTER(c_int64)))),

@@ -79,7 +79,7 @@ class Fronts(NamedTuple):
 
 
 class Jump(NamedTuple):
-    """A jump of the state within (before, time] of a step (option jump_tolerance)."""
+    """A jump of the state between the times `before` and `time` of a step; reactions: [patterns]."""
 
     step: int
     before: float
@@ -91,6 +91,8 @@ class Jump(NamedTuple):
     interface: int
     first_pair: int
     last_pair: int
+    reaction_before: NDArray
+    reaction_after: NDArray
 
 
 class PlanItem(NamedTuple):
@@ -465,12 +467,14 @@ class Solver(Object):
 
     @property
     def jumps(self) -> list[Jump]:
-        """Located jumps (option jump_tolerance), in the order of time."""
+        """Jumps of the state, in the order of time."""
         count = ctypes.c_int64()
         self._call(library.delam_solver_jump_count, count)
         jumps = []
         for i in range(count.value):
             out = [ctypes.c_int64(), *(ctypes.c_double() for _ in range(6)), *(ctypes.c_int64() for _ in range(3))]
             self._call(library.delam_solver_jump, i, *out)
-            jumps.append(Jump(*(item.value for item in out)))
+            reactions = [np.empty(self._pattern_count) for _ in range(2)]
+            self._call(library.delam_solver_jump_reactions, i, self._pattern_count, *map(pointer, reactions))
+            jumps.append(Jump(*(item.value for item in out), *reactions))
         return jumps

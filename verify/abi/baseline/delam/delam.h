@@ -233,6 +233,8 @@ DELAM_API int32_t delam_solver_jump(const delam_solver *solver, int64_t index, i
                                     double *time, double *stored, double *dissipated, double *released,
                                     double *debonded, int64_t *interface_index, int64_t *first_pair,
                                     int64_t *last_pair);
+DELAM_API int32_t delam_solver_jump_reactions(const delam_solver *solver, int64_t index, int64_t capacity,
+                                              double *before, double *after);
 DELAM_API int32_t delam_solver_save(const delam_solver *solver, int64_t capacity, uint8_t *bytes, int64_t *needed);
 DELAM_API int32_t delam_solver_load(delam_solver *solver, int64_t size, const uint8_t *bytes);
 DELAM_API int32_t delam_solver_save_file(const delam_solver *solver, const char *path);

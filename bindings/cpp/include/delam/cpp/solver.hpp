@@ -61,6 +61,7 @@ struct Jump {
     std::int64_t step;
     double before, time, stored, dissipated, released, debonded;
     std::int64_t interface_index, first_pair, last_pair;
+    std::vector<double> reaction_before, reaction_after;  // [patterns]
 };
 
 class Solver {
@@ -240,7 +241,11 @@ public:
             shared_->check(delam_solver_jump(get(), i, &jump.step, &jump.before, &jump.time, &jump.stored,
                                              &jump.dissipated, &jump.released, &jump.debonded, &jump.interface_index,
                                              &jump.first_pair, &jump.last_pair));
-            jumps.push_back(jump);
+            jump.reaction_before.resize(detail::length(patterns_));
+            jump.reaction_after.resize(detail::length(patterns_));
+            shared_->check(delam_solver_jump_reactions(get(), i, patterns_, jump.reaction_before.data(),
+                                                       jump.reaction_after.data()));
+            jumps.push_back(std::move(jump));
         }
         return jumps;
     }
