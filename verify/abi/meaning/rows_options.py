@@ -17,7 +17,7 @@ DEFAULTS = {
     "search_limit": 100000, "search_tolerance": 1e-2, "step_control": "fixed", "step_tolerance": 1e-2,
     "mixity_step_tolerance": 0, "smallest_step": 1e-4, "jump_tolerance": 0, "jump_size": 0.5, "damage_tolerance": 1e-5,
     "minimisation_limit": 5000, "backtracking_tolerance": 1e-3, "minimisation": "auto", "reduction": "auto",
-    "contact": "auto", "mixity": "auto", "mixity_rule": "converged", "path_step": 0.1, "contact_limit": 200,
+    "contact": "auto", "mixity": "auto", "mixity_rule": "converged", "path_step": 0.15, "contact_limit": 200,
     "subdomains": 0, "gluing": "orthonormal", "preconditioner": "series", "scaling": "stiffness",
     "linear_tolerance": 1e-13, "linear_limit": 2000, "threads": 1,
 }
@@ -307,7 +307,7 @@ def mixity_rule(host, see):
 @row("path_step", options=["path_step"])
 def path_step(host, see):
     """Eight pairs, in turn in mode I and II, with every node prescribed: at onset + s (end - onset) of its jump, a pair
-    has dissipated the share s of its toughness. Steps from 0.3 to a share just below and just above 0.4: one part, and
+    has dissipated the share s of its toughness. Steps from 0.3 to a share just below and just above 0.45: one part, and
     more, each with alternations of its own."""
     columns, ratio = 7, 2.0  # of the jumps in mode II and I
     onset, end = 0.02, 0.1   # jumps of mode I, for the onset 0.02 and the toughness 0.1
@@ -315,7 +315,7 @@ def path_step(host, see):
     def run(options):
         law = scenes.bilinear(host, (100.0, 100.0), (0.02, 0.02 * ratio ** 2), (0.1, 0.1 * ratio ** 2))
         found = []
-        for share in (0.0995, 0.1005):
+        for share in (0.1495, 0.1505):
             mesh = host("mesh_create_layers", host.context, 2, [float(columns)], [columns], 2, [1.0, 1.0], [1, 1],
                         TYPES["quad4"], Out())
             host("mesh_add_interface", mesh, 0, 1, 0.0, Out())
@@ -335,7 +335,7 @@ def path_step(host, see):
             found.append(value(host, solver, "am_iterations"))
         return [int(found[1] > found[0])]
 
-    observe(see, "path_step", run, [0.099, 0.101], [1])
+    observe(see, "path_step", run, [0.1485, 0.1515], [1])
 
 
 @row("mixity", options=["mixity"])
