@@ -285,6 +285,12 @@ void SparseCholesky::solve_leading(std::span<const double> b, std::span<double> 
     std::copy(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(leading), x.begin());
 }
 
+std::vector<std::int64_t> SparseCholesky::order() const {
+    if (impl_->factor == nullptr) return {};
+    const auto* order = static_cast<const std::int64_t*>(impl_->factor->Perm);
+    return {order, order + impl_->size};
+}
+
 double SparseCholesky::factor_entries() const {
     const cholmod_factor* l = impl_->factor;
     return l == nullptr ? 0.0 : static_cast<double>(l->is_super != 0 ? l->xsize : l->nzmax);

@@ -44,6 +44,8 @@ public:
         double ratio = 1.0;
     };
     Pivot smallest_pivot() const;
+    // The variables in the order of elimination; without trailing ones a postorder of the elimination tree.
+    std::vector<std::int64_t> order() const;
     double factor_entries() const;
     FactorSize size() const;
 

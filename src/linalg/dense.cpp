@@ -33,7 +33,6 @@ void dgetrf_(const int*, const int*, double*, const int*, int*, int*);
 void dgetrs_(const char*, const int*, const int*, const double*, const int*, const int*, double*, const int*, int*);
 void dsyev_(const char*, const char*, const int*, double*, const int*, double*, double*, const int*, int*);
 void dgeqp3_(const int*, const int*, double*, const int*, int*, double*, double*, const int*, int*);
-void dpstrf_(const char*, const int*, double*, const int*, int*, int*, const double*, double*, int*);
 }
 
 namespace delam {
@@ -353,22 +352,6 @@ PivotedColumns pivoted_columns(DenseMatrix a, double tolerance) {
     return result;
 }
 
-std::vector<std::int64_t> independent_rows(DenseMatrix a, double tolerance) {
-    const int n = blas_size(a.rows), lda = leading(a);
-    double largest = 0.0;
-    for (int i = 0; i < n; ++i) largest = std::max(largest, a(i, i));
-    if (largest <= 0.0) return {};
-    std::vector<int> pivot(static_cast<std::size_t>(n));
-    std::vector<double> work(static_cast<std::size_t>(2 * n));
-    const double smallest = tolerance * largest;
-    int rank = 0, info = 0;
-    dpstrf_("L", &n, a.value.data(), &lda, pivot.data(), &rank, &smallest, work.data(), &info);
-    std::vector<std::int64_t> rows;
-    for (int i = 0; i < rank; ++i) rows.push_back(pivot[static_cast<std::size_t>(i)] - 1);
-    std::sort(rows.begin(), rows.end());
-    return rows;
-}
-
 bool solve_general(DenseMatrix& a, DenseMatrix& b, double tolerance) {
     const int n = blas_size(a.rows), lda = leading(a), columns = blas_size(b.columns);
     if (n == 0) return true;
@@ -390,34 +373,6 @@ bool solve_general(DenseMatrix& a, DenseMatrix& b, double tolerance) {
     if (info != 0 || !(least > tolerance * most)) return false;
     dgetrs_("N", &n, &columns, a.value.data(), &lda, pivot.data(), b.value.data(), &lda, &info);
     return true;
-}
-
-SemidefiniteFactor::SemidefiniteFactor(const DenseMatrix& a, std::span<const std::int64_t> rows)
-    : factor_(static_cast<std::int64_t>(rows.size()), static_cast<std::int64_t>(rows.size())),
-      scale_(rows.size()),
-      rows_(rows.begin(), rows.end()) {
-    const int n = blas_size(factor_.rows), lda = leading(factor_);
-    if (n == 0) return;
-    for (std::size_t i = 0; i < rows_.size(); ++i) scale_[i] = 1.0 / std::sqrt(a(rows_[i], rows_[i]));
-    for (std::size_t j = 0; j < rows_.size(); ++j)
-        for (std::size_t i = 0; i < rows_.size(); ++i)
-            factor_(static_cast<std::int64_t>(i), static_cast<std::int64_t>(j)) =
-                scale_[i] * scale_[j] * a(rows_[i], rows_[j]);
-    int info = 0;
-    dpotrf_("L", &n, factor_.value.data(), &lda, &info);
-    if (info != 0) fail(DELAM_ERROR_NUMERICAL, "the coarse problem is not positive definite at row ", info, " of ", n);
-}
-
-void SemidefiniteFactor::solve(std::span<double> x) const {
-    const int n = static_cast<int>(factor_.rows), lda = leading(factor_);
-    std::vector<double> y(rows_.size());
-    for (std::size_t i = 0; i < y.size(); ++i) y[i] = scale_[i] * x[static_cast<std::size_t>(rows_[i])];
-    if (n > 0) {
-        dtrsv_("L", "N", "N", &n, factor_.value.data(), &lda, y.data(), &one);
-        dtrsv_("L", "T", "N", &n, factor_.value.data(), &lda, y.data(), &one);
-    }
-    std::fill(x.begin(), x.end(), 0.0);
-    for (std::size_t i = 0; i < y.size(); ++i) x[static_cast<std::size_t>(rows_[i])] = scale_[i] * y[i];
 }
 
 }  // namespace delam

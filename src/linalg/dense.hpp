@@ -74,22 +74,4 @@ struct PivotedColumns {
 };
 PivotedColumns pivoted_columns(DenseMatrix a, double tolerance);
 
-// Largest independent set of rows of a positive semi-definite matrix (LAPACK dpstrf); pivots below tolerance times the
-// largest diagonal entry count as zero.
-std::vector<std::int64_t> independent_rows(DenseMatrix a, double tolerance);
-
-// Cholesky factor of the principal block of a positive semi-definite matrix on an independent set of rows. solve()
-// returns the solution of a consistent system that is zero in all other rows: a generalised inverse.
-class SemidefiniteFactor {
-public:
-    SemidefiniteFactor() = default;
-    SemidefiniteFactor(const DenseMatrix& a, std::span<const std::int64_t> rows);
-    void solve(std::span<double> x) const;
-
-private:
-    DenseMatrix factor_;
-    std::vector<double> scale_;  // to a unit diagonal
-    std::vector<std::int64_t> rows_;
-};
-
 }  // namespace delam

@@ -32,21 +32,6 @@ CoarseProblem::CoarseProblem(const DualRows& rows, std::span<const Subdomain> su
     gt_ = from_triplets(rows.count(), size, std::move(backward));
 }
 
-DenseMatrix CoarseProblem::weighted_product(std::span<const double> weight) const {
-    DenseMatrix product(g_.rows, g_.rows);
-    for (std::int64_t r = 0; r < gt_.rows; ++r) {
-        const double w = weight[static_cast<std::size_t>(r)];
-        if (w == 0.0) continue;
-        const std::int64_t begin = gt_.start[static_cast<std::size_t>(r)],
-                           end = gt_.start[static_cast<std::size_t>(r) + 1];
-        for (std::int64_t i = begin; i < end; ++i)
-            for (std::int64_t j = begin; j < end; ++j)
-                product(gt_.column[static_cast<std::size_t>(i)], gt_.column[static_cast<std::size_t>(j)]) +=
-                    w * gt_.value[static_cast<std::size_t>(i)] * gt_.value[static_cast<std::size_t>(j)];
-    }
-    return product;
-}
-
 // With springs of every stiffness the pivots of G Q G^T fall over many decades, and a soft hold cannot be told from
 // none by their size. Which motions are held at all is decided by G over the rows that carry force, whatever their
 // stiffness.
@@ -59,8 +44,9 @@ void CoarseProblem::set_weights(std::span<const double> weight) {
         same = same && (weight[i] > 0.0) == (weight_[i] > 0.0);
     }
     weight_.clear();  // none, until the factor is there: it may be interrupted
-    if (!same) independent_ = independent_rows(weighted_product(carries), 1e-11);
-    factor_ = SemidefiniteFactor(weighted_product(weight), independent_);
+    const SparseMatrix gram = weighted_gram(g_, gt_, weight);
+    if (!same) factor_ = SemidefiniteFactor(gram, independent_rows(g_, gt_, carries, 1e-11));
+    factor_.factorise(gram);
     weight_.assign(weight.begin(), weight.end());
 }
 

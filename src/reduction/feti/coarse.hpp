@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "linalg/semidefinite.hpp"
 #include "reduction/feti/dual_rows.hpp"
 
 namespace delam {
@@ -37,11 +38,7 @@ public:
 private:
     SparseMatrix g_;   // [coarse][rows]
     SparseMatrix gt_;  // [rows][coarse]
-    // G diag(weight) G^T
-    DenseMatrix weighted_product(std::span<const double> weight) const;
-
     std::vector<double> weight_;
-    std::vector<std::int64_t> independent_;  // rows of G that are independent over the multipliers that carry force
     SemidefiniteFactor factor_;
 };
 

@@ -23,17 +23,22 @@ DualOperator::DualOperator(DualRows rows, const std::vector<Subdomain>& subdomai
 
 void DualOperator::find_diagonal(const Poll& poll) {
     flexibility_diagonal_.assign(index(rows_.count()), 0.0);
-    for (std::size_t s = 0; s < subdomains_.size(); ++s) {
-        call_if_set(poll);
-        const std::int64_t first = rows_.offset[s], last = rows_.offset[s + 1];
-        for (std::int64_t r = 0; r < rows_.b.rows; ++r)
-            for (std::int64_t i = rows_.b.start[index(r)]; i < rows_.b.start[index(r) + 1]; ++i)
-                for (std::int64_t j = rows_.b.start[index(r)]; j < rows_.b.start[index(r) + 1]; ++j) {
-                    const std::int64_t di = rows_.b.column[index(i)], dj = rows_.b.column[index(j)];
-                    if (di < first || di >= last || dj < first || dj >= last) continue;
-                    flexibility_diagonal_[index(r)] += rows_.b.value[index(i)] * rows_.b.value[index(j)] *
-                                                       subdomains_[s].flexibility(di - first, dj - first);
-                }
+    const auto owner = [&](std::int64_t dof) {
+        return index(std::upper_bound(rows_.offset.begin(), rows_.offset.end(), dof) - rows_.offset.begin()) - 1;
+    };
+    for (std::int64_t r = 0; r < rows_.b.rows; ++r) {
+        if (r % 1024 == 0) call_if_set(poll);
+        for (std::int64_t begin = rows_.b.start[index(r)], end = begin; begin < rows_.b.start[index(r) + 1];
+             begin = end) {
+            const std::size_t s = owner(rows_.b.column[index(begin)]);
+            const std::int64_t first = rows_.offset[s], last = rows_.offset[s + 1];
+            while (end < rows_.b.start[index(r) + 1] && rows_.b.column[index(end)] < last) ++end;
+            for (std::int64_t i = begin; i < end; ++i)
+                for (std::int64_t j = begin; j < end; ++j)
+                    flexibility_diagonal_[index(r)] +=
+                        rows_.b.value[index(i)] * rows_.b.value[index(j)] *
+                        subdomains_[s].flexibility(rows_.b.column[index(i)] - first, rows_.b.column[index(j)] - first);
+        }
     }
     // Rows among control nodes alone know no flexibility; the coarse problem decides their forces, whatever their
     // weight.
