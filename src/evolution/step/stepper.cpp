@@ -183,12 +183,10 @@ void Stepper::book_step(State& next, const Increment& step, const InnerPath* pat
         const WithinStep within = within_step(points, *begin, path->started_elsewhere());
         next.jump_within = within.jump;
         next.jump_within.known = 1;
-        if (path->points().size() > 1) {
-            next.outcome.released = within.released;
-            ledger.work = before.ledger.work + within.work;
-            ledger.released = before.ledger.released + within.released;
-            return;
-        }
+        next.outcome.released = within.released;
+        ledger.work = before.ledger.work + within.work;
+        ledger.released = before.ledger.released + within.released;
+        return;
     }
     const double loss = largest_loss(step, next);
     next.outcome.released = loss > gradual ? std::max(0.0, work - ledger.increment) : 0.0;

@@ -99,10 +99,11 @@ def judged(name, marches, turned=(), jumps=None):
                             largest(abs(whole - 1.0) for _, whole in booked.values()), BOOKED,
                             "a pure mode has one toughness"))
     due = ledgers.falls_at_once(everything, scene_of)
-    # With fewer pairs the front goes on pair by pair, and the load falls with each; the table counts such falls.
+    # With fewer pairs the front goes on pair by pair, and the load falls and rises with each, also within a step; the
+    # table counts such falls.
     whole = {n: m for n, m in everything.items() if resolved(m)}
     checks += [ledgers.balance(everything), ledgers.named(whole, due),
-               ledgers.work({n: m for n, m in everything.items() if m is fine[n]}, due)]
+               ledgers.work({n: m for n, m in whole.items() if m is fine[n]}, due)]
     falls = [len(due[n]) for n, m in everything.items() if m is fine[n]]
     if jumps is True:
         checks.append(check("jumps of each mesh in its march of most steps, at least", min(falls), 1, "beyond the peak "
