@@ -920,7 +920,8 @@ DELAM_API int32_t delam_solver_equilibrate(delam_solver *solver, double time, co
  *                          toughness, the work of the step less `increment` where that is positive; in a located jump,
  *                          upper - increment; else 0
  *   bulk_factorisations    number of sparse factorisations of the bodies since the solver was created: 1 with the
- *                          condensed operator, one per subdomain with FETI
+ *                          condensed operator, one per subdomain with FETI, one
+ *                          for each renewal of the factor with the iterated operator
  *   field_recoveries       number of recoveries of the displacements from the interfaces since the solver was created.
  *                          A recovery is needed by the fields displacement, stress and rotation, and with the condensed
  *                          operator reaction; by the values rotation_max and kkt_...; and by delam_solver_average. No
@@ -1106,7 +1107,7 @@ DELAM_API int32_t delam_solver_tangent(delam_solver *solver, int64_t capacity, d
 DELAM_API int32_t delam_solver_step_tangent(delam_solver *solver, int64_t capacity, double *matrix);
 
 /* Returns the sizes of the condensed interface operator (delam_solver_condensed): *unknowns, and *entries of the sparse
- * matrix N. DELAM_ERROR_STATE: the solver uses FETI, which has no such operator (option `reduction`).
+ * matrix N. DELAM_ERROR_STATE: the solver iterates or uses FETI and has no such operator (option `reduction`).
  * [null unknowns, entries; status argument, state; since 0.1] */
 DELAM_API int32_t delam_solver_condensed_size(const delam_solver *solver, int64_t *unknowns, int64_t *entries);
 /* Returns all bodies and loads, condensed onto the interfaces: the energy E of bodies and dead forces, minimised over
@@ -1128,9 +1129,9 @@ DELAM_API int32_t delam_solver_condensed(const delam_solver *solver, int64_t cap
  * [owns result until the next call with this solver; status -; since 0.1] */
 DELAM_API const char *delam_solver_plan(delam_solver *solver);
 /* Returns the number of items of the plan in *count. The plan is fixed when the solver is created. Subjects: condensed
- * operator, FETI, memory, subdomains, threads, longest uninterruptible factorisation, contact of interface I, mixity of
- * interface I (for each I), gradient term, acceleration of the minimisation, displacements and stresses inside the
- * bodies, energetic search, backtracking.
+ * operator, iterated operator, FETI, memory, subdomains, threads, longest uninterruptible factorisation, contact of
+ * interface I, mixity of interface I (for each I), gradient term, acceleration of the minimisation, displacements and
+ * stresses inside the bodies, energetic search, backtracking.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_plan_count(const delam_solver *solver, int64_t *count);
 /* Returns one item of the plan. decision: "used" or "left out". *cost: predicted cost of what is used (0 if left out);

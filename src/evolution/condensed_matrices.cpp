@@ -15,7 +15,8 @@ const Bulk& bulk_of(const Solver& solver) {
     const Bulk* bulk = solver.jump_operator().bulk();
     if (bulk == nullptr)
         fail(DELAM_ERROR_STATE,
-             "the solver works by FETI, which has no condensed operator: option reduction = condensed");
+             "the solver has no condensed operator, because the bodies are reduced by iteration or by FETI: set the "
+             "option reduction = condensed");
     return *bulk;
 }
 

@@ -19,49 +19,72 @@ constexpr const char* left_out = "left out";
 // Operations of Go and Gc at a mixity: two interaction criteria, each a few exponentials and logarithms of about 20.
 constexpr double mixity_operations = 200.0;
 
-void add_reduction(std::vector<PlanItem>& items, const Solver& solver) {
+void add_realisations(std::vector<PlanItem>& items, const Solver& solver) {
     const ReductionChoice& choice = solver.reduction();
-    const ReductionCost &c = choice.condensation, &f = choice.feti;
-    const bool both = c.setup > 0.0;
-    const double saving = both ? (choice.condensed ? 1.0 : -1.0) * (f.analysis() - c.analysis()) : 0.0;
     const std::string words = text(choice.forced ? "set by " : "chosen by predicted cost and memory: ", choice.reason);
-    const std::string built =
-        text(words, "; ", solver.jump_operator().description(), "; cost of an analysis of ", nominal_steps, " steps");
-    const std::string other = text(choice.condensed ? "the condensed operator" : "FETI", " is used instead, ", words,
-                                   both ? "" : "; the cost of this one was not predicted");
-    items.push_back({"condensed operator", choice.condensed ? used : left_out, choice.condensed ? built : other,
-                     choice.condensed ? c.analysis() : 0.0, choice.condensed ? saving : 0.0, "flop"});
-    items.push_back({"FETI", choice.condensed ? left_out : used, choice.condensed ? other : built,
-                     choice.condensed ? 0.0 : f.analysis(), choice.condensed ? 0.0 : saving, "flop"});
-    const double bytes = choice.condensed ? c.bytes : f.bytes;
+    const struct {
+        Realisation realisation;
+        const char *subject, *name;
+        const ReductionCost& cost;
+    } all[] = {{Realisation::condensed, "condensed operator", "the condensed operator", choice.condensation},
+               {Realisation::iterated, "iterated operator", "the iterated operator", choice.iteration},
+               {Realisation::feti, "FETI", "FETI", choice.feti}};
+    std::string other;
+    const ReductionCost* rival = nullptr;  // the cheapest of the others that were predicted
+    for (const auto& [realisation, subject, name, cost] : all) {
+        if (realisation == choice.realisation)
+            other = name;
+        else if (cost.setup > 0.0 && (rival == nullptr || cost.analysis() < rival->analysis()))
+            rival = &cost;
+    }
+    const bool both = rival != nullptr && choice.own().setup > 0.0;
+    for (const auto& [realisation, subject, name, cost] : all) {
+        const bool own = realisation == choice.realisation;
+        const std::string built = text(words, "; ", solver.jump_operator().description(), "; cost of an analysis of ",
+                                       nominal_steps, " steps");
+        const std::string left = text(other, " is used instead, ", words,
+                                      cost.setup > 0.0 ? "" : "; the cost of this one was not predicted");
+        items.push_back({subject, own ? used : left_out, own ? built : left, own ? cost.analysis() : 0.0,
+                         !both || cost.setup == 0.0 ? 0.0
+                         : own                      ? rival->analysis() - cost.analysis()
+                                                    : cost.analysis() - choice.own().analysis(),
+                         "flop"});
+    }
+    const double bytes = choice.own().bytes;
     items.push_back({"memory", used,
                      choice.monolithic > 0.0
                          ? text("predicted peak of an analysis, ", std::round(10.0 * bytes / choice.monolithic) / 10.0,
                                 " times that of one monolithic factorisation; saved against ",
-                                choice.condensed ? "FETI" : "the condensed operator")
+                                choice.condensed() ? "FETI" : "the condensed operator")
                          : std::string("predicted peak of an analysis"),
-                     bytes, both ? (choice.condensed ? f.bytes - c.bytes : c.bytes - f.bytes) : 0.0, "byte"});
-    if (choice.condensed)
-        items.push_back({"subdomains", left_out, "the condensed operator factors all bodies at once", 0.0, 0.0, "-"});
-    else
+                     bytes, both ? rival->bytes - bytes : 0.0, "byte"});
+}
+
+void add_reduction(std::vector<PlanItem>& items, const Solver& solver) {
+    add_realisations(items, solver);
+    const ReductionChoice& choice = solver.reduction();
+    const bool feti = choice.realisation == Realisation::feti;
+    const std::string name = choice.condensed() ? "the condensed operator" : "the iterated operator";
+    if (feti)
         items.push_back(
             {"subdomains", used,
              text(choice.subdomains, solver.problem().options.subdomains > 0 ? " asked for" : " chosen by size",
                   ", predicted boundary ", std::round(choice.boundary), " DOFs each"),
              0.0, 0.0, "-"});
+    else
+        items.push_back({"subdomains", left_out, text(name, " factors all bodies at once"), 0.0, 0.0, "-"});
     const std::int64_t own = solver.problem().options.threads, blas = blas_threads();
     const std::string of_blas = blas > 0 ? text(blas) : std::string("an unknown number");
-    items.push_back({"threads", own > 1 && !choice.condensed ? used : left_out,
-                     choice.condensed
-                         ? text("the condensed operator uses those of the BLAS alone, ", of_blas,
-                                own > 1 ? text("; option threads = ", own, " has no effect") : std::string())
-                         : text(useful_threads(own), " of the library (option threads",
-                                own > useful_threads(own)
-                                    ? text(" = ", own, ", of which this process has processors for ", processors())
-                                    : std::string(),
-                                "); the BLAS uses ", of_blas),
+    items.push_back({"threads", own > 1 && feti ? used : left_out,
+                     !feti ? text(name, " uses those of the BLAS alone, ", of_blas,
+                                  own > 1 ? text("; option threads = ", own, " has no effect") : std::string())
+                           : text(useful_threads(own), " of the library (option threads",
+                                  own > useful_threads(own)
+                                      ? text(" = ", own, ", of which this process has processors for ", processors())
+                                      : std::string(),
+                                  "); the BLAS uses ", of_blas),
                      0.0, 0.0, "-"});
-    const double longest = choice.condensed ? c.longest : f.longest;
+    const double longest = choice.own().longest;
     items.push_back(
         {"longest uninterruptible factorisation", used,
          text(longest, " operations at a nominal ", nominal_rate * 1e-9, " GF/s; a cancellation waits for it"),

@@ -10,6 +10,7 @@
 #include "delam/delam.h"
 #include "reduction/condensed/condensed.hpp"
 #include "reduction/feti/feti.hpp"
+#include "reduction/iterated/iterated.hpp"
 #include "scene/carriers.hpp"
 
 namespace delam {
@@ -32,6 +33,10 @@ constexpr double supernodes = 1.25;    // numbers stored per entry of a factor
 constexpr double series_bytes = 32.0;  // per square of a subdomain's jumps: the series preconditioner while it is built
 constexpr double feti_solves = 16.0;   // displacement solves per load step
 constexpr double feti_iterations = 20.0;  // Krylov iterations per solve
+// Of the iterated operator: solves per load step, iterations of each, factors of the whole per load step.
+constexpr double iterated_solves = 12.0;
+constexpr double iterated_iterations = 8.0;
+constexpr double iterated_renewals = 0.2;
 // A matrix-vector product waits for memory: its operations are this many times slower than a factorisation's.
 constexpr double from_memory = 5.0;
 
@@ -77,6 +82,25 @@ ReductionCost predict_condensed(const Bulk& bulk) {
     // During the factorisation, T^T K T and CHOLMOD's permuted copy of it; during the analysis, the dense matrices.
     cost.bytes = stiffness + factor + std::max(2.0 * transformed, 8.0 * dense_copies * m * m);
     return cost;
+}
+
+// A solve has a few patches about a front besides its iterations; both cost about as much.
+ReductionCost predict_iterated(const Iterated& iterated) {
+    const FactorSize size = iterated.factor();
+    const double factor = iterated.stored_factor(), matrix = number(iterated.matrix_entries());
+    const double product = from_memory * (4.0 * factor + 6.0 * matrix);
+    ReductionCost cost;
+    cost.setup = size.flops;
+    cost.longest = size.flops;
+    cost.step = iterated_solves * 2.0 * iterated_iterations * product + iterated_renewals * size.flops;
+    // K, T^T K T and CHOLMOD's permuted copy of it, the factor, the directions of an iteration.
+    cost.bytes = 16.0 * (number(iterated.stiffness_entries()) + 2.0 * matrix) + 8.0 * factor +
+                 8.0 * (2.0 * iterated_iterations + 12.0) * number(iterated.variables());
+    return cost;
+}
+
+const ReductionCost& ReductionChoice::own() const {
+    return realisation == Realisation::condensed ? condensation : realisation == Realisation::feti ? feti : iteration;
 }
 
 double predict_monolithic_entries(const Bulk& bulk) {
@@ -150,7 +174,7 @@ ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, doub
 void choose(ReductionChoice& choice) {
     const ReductionCost &c = choice.condensation, &f = choice.feti;
     const auto decide = [&](bool condensed, std::string reason) {
-        choice.condensed = condensed;
+        choice.realisation = condensed ? Realisation::condensed : Realisation::feti;
         choice.reason = std::move(reason);
     };
     if (!c.possible && !f.possible)
@@ -185,10 +209,20 @@ ChosenOperator choose_operator(const Problem& problem, Monitor& monitor) {
     choice.feti = predict_feti(problem, choice.subdomains, choice.boundary);
     choice.condensation.possible = choice.unknowns <= dense_limit;
 
+    if (options.reduction == "iterated") {
+        choice.forced = true;
+        choice.realisation = Realisation::iterated;
+        choice.reason = "option reduction = iterated";
+        auto iterated = std::make_unique<Iterated>(problem, monitor);
+        choice.iteration = predict_iterated(*iterated);
+        choice.factor_entries = iterated->factor().entries;
+        chosen.op = std::move(iterated);
+        return chosen;
+    }
     std::unique_ptr<Bulk> bulk;
     if (options.reduction == "feti" || (options.reduction == "auto" && options.subdomains > 0)) {
         choice.forced = true;
-        choice.condensed = false;
+        choice.realisation = Realisation::feti;
         choice.reason =
             options.reduction == "feti" ? "option reduction = feti" : text("option subdomains = ", options.subdomains);
     } else if (!choice.condensation.possible && options.reduction == "auto") {
@@ -205,12 +239,12 @@ ChosenOperator choose_operator(const Problem& problem, Monitor& monitor) {
         choose(choice);
         if (options.reduction == "condensed") {
             choice.forced = true;
-            choice.reason = choice.condensed ? "option reduction = condensed"
-                                             : "option reduction = condensed, although " + choice.reason;
-            choice.condensed = true;
+            choice.reason = choice.condensed() ? "option reduction = condensed"
+                                               : "option reduction = condensed, although " + choice.reason;
+            choice.realisation = Realisation::condensed;
         }
     }
-    if (!choice.condensed) {
+    if (!choice.condensed()) {
         bulk.reset();
         chosen.op = std::make_unique<Feti>(problem, monitor);
         return chosen;

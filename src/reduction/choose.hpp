@@ -37,21 +37,29 @@ struct ReductionCost {
     double analysis() const { return setup + nominal_steps * step; }
 };
 
+enum class Realisation { condensed, iterated, feti };
+
 struct ReductionChoice {
-    bool condensed = true;
+    Realisation realisation = Realisation::condensed;
+    bool condensed() const { return realisation == Realisation::condensed; }
     bool forced = false;  // by the options
     std::string reason;
     ReductionCost condensation;  // setup 0: not predicted, because the options or the size had decided
+    ReductionCost iteration;
     ReductionCost feti;
+    // Of the realisation in use.
+    const ReductionCost& own() const;
     double monolithic = 0.0;      // bytes of one monolithic factorisation, 0: not predicted
-    double factor_entries = 0.0;  // of the condensed operator's sparse factor, 0: not analysed
+    double factor_entries = 0.0;  // of the operator's sparse factor, 0: not analysed
     std::int64_t unknowns = 0;    // dense rows of the condensed operator
     std::int64_t subdomains = 0;  // FETI's
     double boundary = 0.0;        // DOFs of a subdomain's boundary, mean
 };
 
 class Bulk;
+class Iterated;
 ReductionCost predict_condensed(const Bulk& bulk);
+ReductionCost predict_iterated(const Iterated& iterated);
 // Entries of the factor of the scene's monolithic matrix, in the best order, and peak bytes of making it.
 double predict_monolithic_entries(const Bulk& bulk);
 double predict_monolithic_bytes(const Bulk& bulk);

@@ -78,7 +78,7 @@ void check_heated(const Element& e, const char* plane, bool walls) {
     if (walls && flat_strain) sx = sz = t / (1.0 - poisson);
     density = 0.5 * (sx * sx + sz * sz - 2.0 * poisson * sx * sz) / young;
     const double volume = 0.04 * 0.01 * (flat(e.cell) ? 1.0 : 0.01);
-    for (const char* reduction : {"condensed", "feti"}) {
+    for (const char* reduction : {"condensed", "iterated", "feti"}) {
         scene.text("reduction", reduction);
         Solver solver(scene, 0.0);
         solver.step(1.0);
@@ -135,7 +135,7 @@ CASE_TEST(bimetal) {
     const double m = t1 / t2, n = e1 / e2, h = t1 + t2;
     const double kappa = 6.0 * (a2 - a1) * heat * (1.0 + m) * (1.0 + m) /
                          (h * (3.0 * (1.0 + m) * (1.0 + m) + (1.0 + m * n) * (m * m + 1.0 / (m * n))));
-    for (const char* reduction : {"condensed", "feti"}) {
+    for (const char* reduction : {"condensed", "iterated", "feti"}) {
         scene.text("reduction", reduction);
         Solver solver(scene, 0.0);
         solver.step(1.0);
@@ -217,7 +217,7 @@ CASE_TEST(against_the_reference) {
     Scene scene = loaded(loop, cases::block_law);
     std::vector<double> adhesion(scene.pair_count());
     for (std::size_t i = 0; i < adhesion.size(); ++i) adhesion[i] = i % 3 == 0 ? 0.0 : i % 3 == 1 ? 0.4 : 1.0;
-    for (const char* reduction : {"condensed", "feti"}) {
+    for (const char* reduction : {"condensed", "iterated", "feti"}) {
         scene.text("reduction", reduction);
         reference::DirectReference direct(scene);
         Solver solver(scene, -1.0);
@@ -235,7 +235,7 @@ CASE_TEST(against_the_reference) {
 CASE_TEST(conjugates_are_derivatives) {
     Scene scene = loaded(loop, cases::block_law);
     const std::vector<double> adhesion(scene.pair_count(), 1.0);
-    for (const char* reduction : {"condensed", "feti"}) {
+    for (const char* reduction : {"condensed", "iterated", "feti"}) {
         scene.text("reduction", reduction);
         Solver solver(scene, -1.0);
         const auto energy = [&](double time, double& power) {
@@ -303,7 +303,7 @@ Scene cured(int which) {
 CASE_TEST(cure_then_load) {
     Scene scene = cured(loop);
     double kept = 0.0, spent = 0.0;
-    for (const char* reduction : {"condensed", "feti"}) {
+    for (const char* reduction : {"condensed", "iterated", "feti"}) {
         scene.text("reduction", reduction);
         Solver solver(scene, 0.0);
         double residual = 0.0, released = 0.0;
@@ -353,7 +353,7 @@ CASE_TEST(nothing_to_hold) {
     if (d == 3) scene.hold(nodes_where(scene, 0, [](const double* x) { return x[1] < 1e-9; }), unit(d, 1));
     const auto hot = scene.pattern("heat", {0.0, 1.0}, {0.0, heat});
     eigenstrain(scene, hot, -1, {alpha, alpha, alpha, 0, 0, 0});
-    for (const char* reduction : {"condensed", "feti"}) {
+    for (const char* reduction : {"condensed", "iterated", "feti"}) {
         scene.text("reduction", reduction);
         Solver solver(scene, 0.0);
         solver.step(1.0);
@@ -385,7 +385,7 @@ CASE_TEST(floating_ply) {
     std::vector<std::int64_t> all(loose.pair_count());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::int64_t>(i);
     loose.adhesion(0, all, none);
-    for (const char* reduction : {"condensed", "feti"}) {
+    for (const char* reduction : {"condensed", "iterated", "feti"}) {
         loose.text("reduction", reduction);
         Solver solver(loose, 0.0);
         solver.step(1.0);

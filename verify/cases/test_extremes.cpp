@@ -26,6 +26,7 @@ struct Way {
 
 constexpr Way ways[] = {{"condensed"},
                         {"condensed", "series", "orthonormal", "alternate"},
+                        {"iterated"},
                         {"feti"},
                         {"feti", "none", "orthonormal", "alternate"},
                         {"feti", "lumped", "redundant"},

@@ -379,7 +379,7 @@ CASE_TEST(partly_grounded) {
         cases::expect(unheld == DELAM_ERROR_PROBLEM && message.find("translate along x") != std::string::npos,
                       "free along x: " + message);
         scene.hold(top, {1.0, 0.0});
-        for (const char* reduction : {"condensed", "feti"}) {
+        for (const char* reduction : {"condensed", "iterated", "feti"}) {
             scene.text("reduction", reduction);
             Solver solver(scene, 0.0);
             solver.step(1.0);
@@ -597,7 +597,7 @@ CASE_TEST(two_pieces_of_one_body) {
     scene.hold(scene.find(0, {0.12, 0.0}, {0.12, 0.0}), {0.0, 1.0});
     scene.drive(scene.find(0, {0.0, 6e-3}, {0.0, 6e-3}), {0.0, 1.0}, scene.pattern("drive", {0.0, 1.0}, {0.0, 1.5e-3}),
                 {1.0});
-    for (const char* reduction : {"condensed", "feti"}) {
+    for (const char* reduction : {"condensed", "iterated", "feti"}) {
         own.text("reduction", reduction);
         scene.text("reduction", reduction);
         for (Scene* s : {&own, &scene}) s->number("damage_tolerance", 1e-10);

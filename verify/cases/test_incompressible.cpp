@@ -226,7 +226,7 @@ CASE_TEST(with_eigenstrain_and_axes) {
     scene.interface(0, 1);
     scene.begin();
     mixed(scene, d);
-    for (const char* reduction : {"condensed", "feti"}) {
+    for (const char* reduction : {"condensed", "iterated", "feti"}) {
         scene.text("reduction", reduction);
         reference::DirectReference direct(scene);
         Solver solver(scene, 0.0);

@@ -118,11 +118,19 @@ double exact(const Scene& scene, std::int64_t node, int component) {
     return u;
 }
 
+// Not a number of subdomains: the iterated operator.
+constexpr int iterated = -1;
+
+void realise(Scene& scene, int subdomains) {
+    scene.text("reduction", subdomains == iterated ? "iterated" : subdomains == 0 ? "condensed" : "feti");
+    if (subdomains > 0) scene.number("subdomains", subdomains);
+}
+
 CASE_TEST(linear_field) {
     const Shape& shape = shapes[loop % 4];
     const Layout& layout = layouts[loop / 4];
     const int d = shape.dimension;
-    for (const int subdomains : {0, 4, 9}) {
+    for (const int subdomains : {0, iterated, 4, 9}) {
         Scene scene = joined(shape, layout);
         for (std::int64_t i = 0; i < layout.interfaces[d - 2]; ++i) scene.bonded(i);
         const auto load = scene.pattern("stretch", {0.0, 1.0}, {0.0, 1.0});
@@ -137,8 +145,7 @@ CASE_TEST(linear_field) {
             for (const auto n : nodes) values.push_back(exact(scene, n, k));
             scene.drive(nodes, unit(d, k), load, values);
         }
-        scene.text("reduction", subdomains == 0 ? "condensed" : "feti");
-        scene.number("subdomains", subdomains);
+        realise(scene, subdomains);
         Solver solver(scene, 0.0);
         solver.equilibrate(1.0, {});
         const std::string where =
@@ -178,8 +185,7 @@ Scene pulled(const Shape& shape, const Layout& layout, int subdomains) {
     scene.drive(top, unit(d, d - 1), load, up);
     scene.drive(top, unit(d, 0), load, aside);
     if (d == 3) scene.hold(top, unit(3, 1));
-    scene.text("reduction", subdomains == 0 ? "condensed" : "feti");
-    scene.number("subdomains", subdomains);
+    realise(scene, subdomains);
     return scene;
 }
 
@@ -190,7 +196,7 @@ CASE_TEST(marches_agree) {
     const Layout& layout = layouts[loop / 2];
     std::vector<std::vector<double>> energies;
     double damaged = 0.0;
-    for (const int subdomains : {0, 4, 9}) {
+    for (const int subdomains : {0, iterated, 4, 9}) {
         const Scene scene = pulled(shape, layout, subdomains);
         const std::string where =
             std::string(layout.name) + ", " + shape.name + ", " + std::to_string(subdomains) + " subdomains";

@@ -16,7 +16,7 @@ constexpr double length = 0.04;
 
 // The lower ply is clamped along its bottom; the upper one is pulled off at its left end, directly or through a control
 // node that the end's nodes share: a peel test under a dead load. Only the interface holds the upper ply.
-Scene peel(int d, bool condensed, bool nose) {
+Scene peel(int d, int which, bool nose) {
     Scene scene = cases::plies_with_controls(d, 1);
     const auto bottom = cases::body_nodes_where(scene, [](const double* x) { return x[1] < 1e-6; });
     for (int k = 0; k < d; ++k) scene.hold(bottom, cases::unit(d, k));
@@ -36,14 +36,15 @@ Scene peel(int d, bool condensed, bool nose) {
         }
         cases::forces(scene, load, end, force);
     }
-    scene.text("reduction", condensed ? "condensed" : "feti");
-    if (!condensed) scene.number("subdomains", 4);
+    constexpr const char* ways[] = {"condensed", "feti", "iterated"};
+    scene.text("reduction", ways[which]);
+    if (which == 1) scene.number("subdomains", 4);
     return scene;
 }
 
 CASE_TEST(peeled_off) {
     const int d = loop % 2 == 0 ? 2 : 3;
-    const Scene scene = peel(d, loop / 2 % 2 == 0, loop / 4 == 1);
+    const Scene scene = peel(d, loop / 2 % 3, loop / 6 == 1);
     Solver solver(scene, 0.0);
     constexpr int steps = 20;
     int reached = 0;
@@ -70,7 +71,7 @@ CASE_TEST(peeled_off) {
 int main() {
     Suite* suite = suite_create("limit load");
     TCase* tests = tcase_create("peel");
-    tcase_add_loop_test(tests, peeled_off, 0, 8);
+    tcase_add_loop_test(tests, peeled_off, 0, 12);
     suite_add_tcase(suite, tests);
     return cases::run_suite(suite);
 }

@@ -275,6 +275,7 @@ const reference::LawData ductile{125e9, 125e9, 100.0, 160.0, 250.0, 700.0},
 const Peel peels[] = {
     {"condensed", ductile, {{"reduction", "condensed"}}},
     {"FETI", ductile, {{"reduction", "feti"}}, 4},
+    {"iterated", ductile, {{"reduction", "iterated"}}},
     {"brittle", brittle, {{"reduction", "condensed"}, {"minimisation", "accelerated"}}},
     {"brittle, FETI", brittle, {{"reduction", "feti"}}, 2},
     {"variational", weakly_mixed, {{"mixity_rule", "variational"}}},

@@ -32,6 +32,7 @@ constexpr Setting settings[] = {
     {"gradient", 2, "condensed", "frozen", 2e-3, 0.0},
     {"frozen, space", 3, "condensed", "frozen", 0.0, 0.0},
     {"converged, space", 3, "condensed", "converged", 0.0, 1e-6},
+    {"frozen, iterated, space", 3, "iterated", "frozen", 0.0, 0.0},
     {"frozen, FETI, space", 3, "feti", "frozen", 0.0, 0.0},
     {"variational, space", 3, "condensed", "variational", 0.0, 0.0},
     {"gradient, space", 3, "condensed", "frozen", 2e-3, 0.0},

@@ -62,8 +62,8 @@ double counted_march(const Problem& problem, double& predicted, double& unknowns
         solver.commit();
     }
     const ReductionChoice& choice = solver.reduction();
-    predicted = choice.condensed ? choice.condensation.bytes : choice.feti.bytes;
-    unknowns = choice.condensed ? static_cast<double>(choice.unknowns) : choice.boundary;
+    predicted = choice.condensed() ? choice.condensation.bytes : choice.feti.bytes;
+    unknowns = choice.condensed() ? static_cast<double>(choice.unknowns) : choice.boundary;
     return static_cast<double>(unit::peak_bytes - before);
 }
 
@@ -139,19 +139,19 @@ START_TEST(options_force_and_say_so) {
     Problem problem = unit::make_flexure({});
     {
         const Solver solver(problem, monitor, 0.0);
-        ck_assert(solver.reduction().condensed && !solver.reduction().forced);
+        ck_assert(solver.reduction().condensed() && !solver.reduction().forced);
         ck_assert(solver.reduction().condensation.longest >= solver.reduction().condensation.setup * 0.1);
     }
     problem.options.subdomains = 4;
     {
         const Solver solver(problem, monitor, 0.0);
-        ck_assert(!solver.reduction().condensed && solver.reduction().forced && solver.reduction().subdomains == 4);
+        ck_assert(!solver.reduction().condensed() && solver.reduction().forced && solver.reduction().subdomains == 4);
     }
     problem.options.reduction = "condensed";
-    ck_assert(Solver(problem, monitor, 0.0).reduction().condensed);
+    ck_assert(Solver(problem, monitor, 0.0).reduction().condensed());
     problem.options.subdomains = 0;
     problem.options.reduction = "feti";
-    ck_assert(!Solver(problem, monitor, 0.0).reduction().condensed);
+    ck_assert(!Solver(problem, monitor, 0.0).reduction().condensed());
 }
 END_TEST
 
@@ -161,25 +161,25 @@ START_TEST(size_memory_and_time_decide) {
     c.feti = {1e9, 1e9, 1e9, 5e9, true};
     c.monolithic = 5e9;
     choose(c);
-    ck_assert(c.condensed && c.reason.find("2 times") != std::string::npos);
+    ck_assert(c.condensed() && c.reason.find("2 times") != std::string::npos);
     c.monolithic = 3e9;  // 3.3 times
     choose(c);
-    ck_assert(!c.condensed && c.reason.find("more than 2.5") != std::string::npos);
+    ck_assert(!c.condensed() && c.reason.find("more than 2.5") != std::string::npos);
     c.feti.bytes = 2e10;
     choose(c);
-    ck_assert(c.condensed && c.reason.find("FETI would need") != std::string::npos);
+    ck_assert(c.condensed() && c.reason.find("FETI would need") != std::string::npos);
     c.condensation.bytes = 1e8;  // three times, but little
     c.monolithic = 3e7;
     choose(c);
-    ck_assert(c.condensed);
+    ck_assert(c.condensed());
     c.feti.step = 1e7;
     choose(c);
-    ck_assert(!c.condensed && c.reason.find("predicted to take") != std::string::npos);
+    ck_assert(!c.condensed() && c.reason.find("predicted to take") != std::string::npos);
     c.unknowns = dense_limit + 1;
     c.condensation.possible = false;
     c.feti.step = 1e12;
     choose(c);
-    ck_assert(!c.condensed && c.reason.find("46340") != std::string::npos);
+    ck_assert(!c.condensed() && c.reason.find("46340") != std::string::npos);
 }
 END_TEST
 

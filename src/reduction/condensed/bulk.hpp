@@ -19,14 +19,12 @@
 
 #include "base/monitor.hpp"
 #include "linalg/cholesky.hpp"
-#include "reduction/jump_variables.hpp"
+#include "reduction/body_system.hpp"
 #include "reduction/zone/dense_energy.hpp"
 #include "reduction/zone/jump_row.hpp"
 #include "scene/problem.hpp"
 
 namespace delam {
-
-struct StrainLoads;
 
 class Bulk {
 public:
@@ -43,23 +41,19 @@ public:
     const DenseMatrix& rigid() const { return rigid_; }
 
     std::vector<double> displacement(std::span<const double> theta, std::span<const double> unknowns) const;
-    // Reactions: forces of the constraints from displacements and interface forces [rows].
-    std::vector<double> reaction(std::span<const double> theta, std::span<const double> displacement,
-                                 std::span<const double> force) const;
-    // Largest unbalanced force, F.
-    double defect(std::span<const double> theta, std::span<const double> displacement, std::span<const double> force,
-                  std::span<const double> reaction) const;
+    // Reactions and unbalanced forces.
+    const BodySystem& system() const { return *system_; }
 
     // Energy error, F L, that the factor's rounding leaves in the displacements of the loads themselves, with the
     // unknowns at rest.
     double rounding_energy(std::span<const double> theta) const;
 
-    std::int64_t dofs() const { return stiffness_.rows; }
+    std::int64_t dofs() const { return system_->dofs(); }
     const FactorSize& size() const { return size_; }  // of the factor with the jumps last
     // Before condense(): number of unknowns eliminated last, entries of K and T^T K T, numbers that the factor will
     // store.
-    std::int64_t trailing() const { return variables_.trailing(); }
-    std::int64_t stiffness_entries() const { return stiffness_.entries(); }
+    std::int64_t trailing() const { return variables().trailing(); }
+    std::int64_t stiffness_entries() const { return stiffness().entries(); }
     std::int64_t transformed_entries() const { return transformed_.entries(); }
     double factor_entries() const { return factor_->factor_entries(); }
     const SparseMatrix& transformed() const { return transformed_; }
@@ -68,31 +62,24 @@ public:
 
 private:
     void factorise(const Poll& poll);
-    std::vector<std::vector<double>> condense_loads(StrainLoads& strained, const Poll& poll);
+    std::vector<std::vector<double>> condense_loads(const Poll& poll);
     void find_pattern_stiffness(std::vector<std::vector<double>> bonded, const StrainLoads& strained, const Poll& poll);
     // bulk_equations.cpp
     void resolve_equations(const Poll& poll);
     void substitute_pivots();
     void express_rows(std::span<const std::int64_t> place);
     void balance_strains();
-    // The forces that no element balances: K u - f + B^T force.
-    std::vector<double> residual(std::span<const double> theta, std::span<const double> displacement,
-                                 std::span<const double> force) const;
     std::vector<double> leading_solve(std::span<const double> nodal) const;
-    void add_variables(std::span<const double> variables, std::span<double> displacement) const;
+    const JumpVariables& variables() const { return system_->variables(); }
+    const SparseMatrix& stiffness() const { return system_->stiffness(); }
 
     const Problem& problem_;
-    SparseMatrix stiffness_;  // K, all mesh DOFs
-    SparseMatrix jump_rows_;  // B, [rows][mesh DOFs]
-    JumpVariables variables_;
+    std::unique_ptr<BodySystem> system_;
     SparseMatrix transformed_;  // T^T K T, until it is factored
     std::unique_ptr<SparseCholesky> factor_;
     FactorSize size_;
     std::int64_t factorisations_ = 0;
     mutable std::int64_t recoveries_ = 0;
-    // [patterns][mesh DOFs], empty: none; dead forces and those of eigenstrains
-    std::vector<std::vector<double>> force_;
-
     // Trailing variables: t = M r + d theta, r = [kept ones that no equation determines | unknown jumps].
     std::vector<std::int64_t> rest_;   // trailing index of r
     std::vector<std::int64_t> pivot_;  // trailing index of variables determined by equations

@@ -12,9 +12,9 @@ namespace delam {
 
 // Equations express some trailing variables by the rest; the displacements among the rest are minimised out.
 void Bulk::resolve_equations(const Poll& poll) {
-    const std::int64_t trailing = variables_.trailing(), kept = variables_.kept;
+    const std::int64_t trailing = variables().trailing(), kept = variables().kept;
     const auto patterns = static_cast<std::int64_t>(problem_.patterns.size());
-    const std::vector<SolvedEquation> solved = solve_equations(variables_);
+    const std::vector<SolvedEquation> solved = solve_equations(variables());
     for (const SolvedEquation& equation : solved) pivot_.push_back(equation.pivot);
     std::vector<std::int64_t> place(index(trailing), -1);  // position in rest, or -2 - position in pivot
     for (std::size_t i = 0; i < pivot_.size(); ++i) place[index(pivot_[i])] = -2 - static_cast<std::int64_t>(i);
@@ -75,13 +75,13 @@ void Bulk::substitute_pivots() {
 // The rows of the jumps as functions of the unknowns.
 void Bulk::express_rows(std::span<const std::int64_t> place) {
     const auto rest = static_cast<std::int64_t>(rest_.size());
-    for (std::size_t r = 0; r < variables_.row.size(); ++r) {
-        const SparseVector& in_jumps = variables_.row[r];
+    for (std::size_t r = 0; r < variables().row.size(); ++r) {
+        const SparseVector& in_jumps = variables().row[r];
         JumpRow row;
-        row.offset = variables_.row_offset[r];
+        row.offset = variables().row_offset[r];
         std::map<std::int64_t, double> entries;
         for (const auto& [jump, c] : in_jumps) {
-            const std::int64_t at = place[index(variables_.kept + jump)];
+            const std::int64_t at = place[index(variables().kept + jump)];
             if (at >= 0) {
                 entries[at - kept_rest_] += c;
                 continue;

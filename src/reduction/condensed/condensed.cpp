@@ -442,12 +442,12 @@ std::vector<double> Condensed::displacement(std::span<const double> theta, const
 }
 
 std::vector<double> Condensed::reaction(std::span<const double> theta, const Response& response) const {
-    return bulk_->reaction(theta, displacement(theta, response), response.force);
+    return bulk_->system().reaction(theta, displacement(theta, response), response.force);
 }
 
 double Condensed::equilibrium_defect(std::span<const double> theta, const Response& response) const {
     const std::vector<double> u = displacement(theta, response);
-    return bulk_->defect(theta, u, response.force, bulk_->reaction(theta, u, response.force));
+    return bulk_->system().defect(theta, u, response.force, bulk_->system().reaction(theta, u, response.force));
 }
 
 // Entries of S have an error of the order of eps S_ii, and so has x^T S x, however small it is: the bending stiffness

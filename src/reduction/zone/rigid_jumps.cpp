@@ -73,14 +73,16 @@ DenseMatrix unresisted(std::vector<Row> rows, std::int64_t count, std::int64_t f
     return null;
 }
 
+}  // namespace
+
 // A piece connected through whole faces moves rigidly: translations, and rotations about its centre with unit
 // displacement at its edge. A control node moves by translations.
-struct Piece {
+struct RigidMotions::Piece {
     std::array<double, 3> centre{};
     double size = 0.0;
 };
 
-class Motions {
+class RigidMotions::Motions {
 public:
     explicit Motions(const Problem& problem)
         : mesh_(*problem.mesh), carriers_(problem), dim_(mesh_.dimension()), modes_(dim_ == 2 ? 3 : 6) {
@@ -161,10 +163,16 @@ private:
     std::vector<std::uint8_t> fixed_;
 };
 
-}  // namespace
+struct RigidMotions::Impl {
+    explicit Impl(const Problem& problem) : motions(problem), carriers(problem), nodes(problem.mesh->node_count()) {}
+    Motions motions;
+    Carriers carriers;
+    std::int64_t nodes;
+    DenseMatrix null;  // [motions of pieces and control nodes][columns of the jumps]
+};
 
-DenseMatrix rigid_jumps(const Problem& problem) {
-    const Motions motions(problem);
+RigidMotions::RigidMotions(const Problem& problem) : impl_(std::make_unique<Impl>(problem)) {
+    const Motions& motions = impl_->motions;
     const std::int64_t dim = motions.dimension();
     std::vector<Row> rows;
     for (const Constraint& constraint : problem.constraints) {
@@ -184,8 +192,8 @@ DenseMatrix rigid_jumps(const Problem& problem) {
             motions.add(row, hinge.node, hinge.piece_b, k, -1.0);
         }
     const DenseMatrix null = unresisted(std::move(rows), motions.count(), motions.first_control());
-    DenseMatrix jumps(problem.jump_count(), null.columns);
-    if (null.columns == 0) return jumps;
+    jumps_ = DenseMatrix(problem.jump_count(), null.columns);
+    if (null.columns == 0) return;
     std::int64_t at = 0;
     for (const InterfaceGeometry& face : problem.mesh->interfaces())
         for (std::size_t p = 0; p < face.node_a.size(); ++p)
@@ -199,10 +207,10 @@ DenseMatrix rigid_jumps(const Problem& problem) {
                     motions.add(row, face.node_a[p], k, -q);
                 }
                 for (std::int64_t c = 0; c < null.columns; ++c)
-                    for (const auto& [i, value] : row) jumps(at, c) += value * null(i, c);
+                    for (const auto& [i, value] : row) jumps_(at, c) += value * null(i, c);
             }
     // Orthonormal, without the motions that open nothing.
-    const Eigen eigen = eigen_symmetric(multiply_transposed(jumps, jumps));
+    const Eigen eigen = eigen_symmetric(multiply_transposed(jumps_, jumps_));
     const double largest = eigen.value.back();
     DenseMatrix basis(null.columns, 0);
     for (std::int64_t c = 0; c < null.columns; ++c) {
@@ -211,8 +219,32 @@ DenseMatrix rigid_jumps(const Problem& problem) {
         for (std::int64_t i = 0; i < null.columns; ++i) basis.value.push_back(eigen.vector(i, c) / std::sqrt(value));
         ++basis.columns;
     }
-    return multiply(jumps, basis);
+    jumps_ = multiply(jumps_, basis);
+    impl_->null = multiply(null, basis);
 }
+
+RigidMotions::~RigidMotions() = default;
+RigidMotions::RigidMotions(RigidMotions&&) noexcept = default;
+
+std::vector<double> RigidMotions::displacement(std::span<const double> combination) const {
+    const std::int64_t dim = impl_->motions.dimension();
+    std::vector<double> of_piece(static_cast<std::size_t>(impl_->null.rows));
+    multiply(impl_->null, combination, of_piece);
+    std::vector<double> u(static_cast<std::size_t>(impl_->nodes * dim), 0.0);
+    Row row;
+    for (std::int64_t node = 0; node < impl_->nodes; ++node) {
+        if (impl_->carriers.kind(node) == Carriers::Kind::nothing) continue;
+        for (std::int64_t k = 0; k < dim; ++k) {
+            row.clear();
+            impl_->motions.add(row, node, k, 1.0);
+            for (const auto& [i, value] : row)
+                u[static_cast<std::size_t>(node * dim + k)] += value * of_piece[static_cast<std::size_t>(i)];
+        }
+    }
+    return u;
+}
+
+DenseMatrix rigid_jumps(const Problem& problem) { return RigidMotions(problem).jumps(); }
 
 Combinations split_motions(const DenseMatrix& z, std::span<const std::uint8_t> active) {
     DenseMatrix gram(z.columns, z.columns);

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The bodies of a scene as one sparse system in the variables of jump_variables.hpp, u = T v + U theta, with everything
+// that follows from displacements: forces that nothing balances, reactions.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "linalg/sparse.hpp"
+#include "reduction/jump_variables.hpp"
+#include "scene/problem.hpp"
+#include "scene/strain_loads.hpp"
+
+namespace delam {
+
+class BodySystem {
+public:
+    // `problem` must outlive the system.
+    BodySystem(const Problem& problem, const Poll& poll);
+
+    const Problem& problem() const { return problem_; }
+    const JumpVariables& variables() const { return variables_; }
+    const SparseMatrix& stiffness() const { return stiffness_; }  // K, all mesh DOFs
+    std::int64_t dofs() const { return stiffness_.rows; }
+    // T^T K T; the diagonal entries of all trailing variables exist.
+    SparseMatrix transformed(const Poll& poll) const;
+    // Computes the forces of all patterns. The forces in the result have been taken out of it.
+    StrainLoads find_loads();
+    // [patterns][mesh DOFs], empty: none; dead forces and those of eigenstrains
+    const std::vector<std::vector<double>>& force() const { return force_; }
+
+    // U theta
+    std::vector<double> lift(std::span<const double> theta) const;
+    // displacement += T v
+    void add_variables(std::span<const double> variables, std::span<double> displacement) const;
+    // The forces that no element balances: K u - f + B^T force. force: of the jump rows.
+    std::vector<double> residual(std::span<const double> theta, std::span<const double> displacement,
+                                 std::span<const double> force) const;
+    // Forces of the constraints from displacements and interface forces [rows].
+    std::vector<double> reaction(std::span<const double> theta, std::span<const double> displacement,
+                                 std::span<const double> force) const;
+    // Largest unbalanced force, F.
+    double defect(std::span<const double> theta, std::span<const double> displacement, std::span<const double> force,
+                  std::span<const double> reaction) const;
+
+private:
+    const Problem& problem_;
+    SparseMatrix stiffness_;
+    SparseMatrix jump_rows_;  // B, [rows][mesh DOFs]
+    JumpVariables variables_;
+    std::vector<std::vector<double>> force_;
+};
+
+}  // namespace delam

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reduction/iterated/conjugate_gradients.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/numbers.hpp"
+#include "linalg/dense.hpp"
+
+namespace delam {
+
+namespace {
+
+constexpr int restarts = 8;
+constexpr std::size_t most_directions = 60;  // kept conjugate; older ones are forgotten
+constexpr double recursion_goal = 0.3;       // of the target, so that the true residual meets it too
+constexpr double gained = 0.5;               // a restart that leaves more of the residual has met rounding
+constexpr double rounding_slack = 30.0;      // the estimate of rounding is one of its size, not a bound
+// Of r^T z: below it a curvature is zero but for rounding.
+constexpr double flat = 1e-13;
+
+// One run of the recursion from the residual r to the target. False: negative curvature.
+bool descend(const CgSystem& system, std::span<double> x, std::vector<double>& r, std::vector<double>& z, double target,
+             std::int64_t limit, CgOutcome& outcome) {
+    std::vector<Direction> directions;
+    std::vector<double> ap(r.size());
+    double lowest = infinite;
+    int idle = 0;
+    const auto conjugate = [&](const Direction& d) { add_scaled(-dot(d.ap, z) / d.pap, d.p, z); };
+    while (true) {
+        for (int pass = 0; pass < 2; ++pass) {
+            for (const Direction& d : system.given) conjugate(d);
+            for (const Direction& d : directions) conjugate(d);
+        }
+        const double rz = dot(r, z), norm = std::sqrt(std::abs(rz));
+        idle = norm < 0.9 * lowest ? 0 : idle + 1;
+        lowest = std::min(lowest, norm);
+        if (norm <= target || outcome.iterations >= limit || idle > 20) return true;
+        system.apply(z, ap);
+        const double pap = dot(z, ap);
+        if (!(pap > 0.0)) return pap > -flat * std::abs(rz);
+        const double step = rz / pap;
+        add_scaled(step, z, x);
+        add_scaled(-step, ap, r);
+        if (directions.size() == most_directions) directions.erase(directions.begin());
+        directions.push_back({z, ap, pap});
+        system.each_iteration(++outcome.iterations);
+        system.precondition(r, z);
+    }
+}
+
+}  // namespace
+
+CgOutcome conjugate_gradients(const CgSystem& system, std::span<double> x, double tolerance, std::int64_t limit) {
+    CgOutcome outcome;
+    std::vector<double> r(x.size()), z(x.size()), best;
+    double before = infinite;
+    for (int round = 0;; ++round) {
+        const double size = system.restart(x, r);
+        system.precondition(r, z);
+        const double norm = std::sqrt(std::abs(dot(r, z)));
+        const double relative = norm > 0.0 ? norm / std::max(size, norm) : 0.0;
+        const bool reached = relative <= tolerance;
+        if (norm < before) {
+            outcome.residual = relative;
+            best.assign(x.begin(), x.end());
+        }
+        if (reached) {
+            outcome.converged = true;
+            return outcome;
+        }
+        if (norm > gained * before || round == restarts || outcome.iterations >= limit) {
+            std::copy(best.begin(), best.end(), x.begin());
+            outcome.converged = std::min(norm, before) <= rounding_slack * system.rounding(x);
+            return outcome;
+        }
+        before = norm;
+        outcome.definite = descend(system, x, r, z, recursion_goal * tolerance * std::max(size, norm), limit, outcome);
+        if (!outcome.definite) return outcome;
+    }
+}
+
+}  // namespace delam

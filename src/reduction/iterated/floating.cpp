@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reduction/iterated/floating.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/numbers.hpp"
+#include "linalg/dense.hpp"
+#include "reduction/iterated/spring_entries.hpp"
+
+namespace delam {
+
+namespace {
+
+// Springs that resist a motion by less than this part of the bodies' stiffness hold it weakly.
+constexpr double weakly = 1e-7;
+constexpr double anchored = 1e-2;  // of the bodies' stiffness: a spring that replaces a support
+// As in zone.cpp: the largest part of a load that may remain on a free motion, and what counts as rounding.
+constexpr double unbalanced_load = 1e-8;
+constexpr double rounded_load = 1e-11;
+
+}  // namespace
+
+Floating::Floating(const BodySystem& bodies, const JumpSystem& system)
+    : bodies_(bodies), system_(system), rigid_(bodies.problem()) {
+    const JumpVariables& variables = bodies.variables();
+    dof_of_.assign(index(variables.leading + variables.kept), -1);
+    const SparseMatrix& t = variables.transform;
+    for (std::int64_t dof = 0; dof < t.rows; ++dof) {
+        const std::int64_t e = t.start[index(dof)];
+        if (t.start[index(dof) + 1] != e + 1 || t.value[index(e)] != 1.0) continue;
+        if (t.column[index(e)] < static_cast<std::int64_t>(dof_of_.size())) dof_of_[index(t.column[index(e)])] = dof;
+    }
+}
+
+std::vector<double> Floating::in_variables(std::span<const double> combination) const {
+    const std::vector<double> u = rigid_.displacement(combination);
+    std::vector<double> v(index(system_.count()), 0.0), jump(system_.rows().size());
+    for (std::size_t i = 0; i < dof_of_.size(); ++i) v[i] = u[index(dof_of_[i])];
+    multiply(rigid_.jumps(), combination, jump);
+    const JumpVariables& variables = bodies_.variables();
+    for (std::size_t r = 0; r < jump.size(); ++r)
+        if (const SparseVector& row = variables.row[r]; row.size() == 1 && row.front().second == 1.0)
+            v[index(variables.leading + variables.kept + row.front().first)] = jump[r];
+    return v;
+}
+
+void Floating::update() {
+    const DenseMatrix& z = rigid_.jumps();
+    if (z.columns == 0) return;
+    const std::size_t rows = system_.rows().size();
+    std::vector<double> spring(rows, 0.0);
+    for (const Zone::Coupling& c : system_.couplings())
+        if (c.row == c.column) spring[index(c.row)] = c.value;
+    std::vector<std::uint8_t> active(rows, 0);
+    for (const Zone::Coupling& c : system_.couplings())
+        if (c.value != 0.0) active[index(c.row)] = 1;
+    if (held_ == system_.held() && active_ == active && spring_ == spring) return;
+    const bool same_sets = held_ == system_.held() && active_ == active;
+    held_ = system_.held();
+    active_ = std::move(active);
+    spring_ = std::move(spring);
+    const DenseMatrix loose = split_motions(z, held_).free;  // held rows do not resist them
+    if (loose.columns == 0 || !same_sets) {
+        free_.clear();
+        weak_.clear();
+        anchors_.clear();
+    }
+    if (loose.columns == 0) return;
+    const DenseMatrix jumps = multiply(z, loose);
+    const Combinations parts = split_motions(jumps, active_);
+    const DenseMatrix resisted = multiply(jumps, parts.held);
+    DenseMatrix stiff(resisted.columns, resisted.columns), bodies(resisted.columns, resisted.columns);
+    for (std::size_t r = 0; r < rows; ++r) {
+        const double d = row_diagonal(system_, r);
+        const auto at = static_cast<std::int64_t>(r);
+        for (std::int64_t i = 0; i < resisted.columns; ++i)
+            for (std::int64_t j = 0; j < resisted.columns; ++j) {
+                stiff(i, j) += resisted(at, i) * resisted(at, j) * spring_[r];
+                bodies(i, j) += resisted(at, i) * resisted(at, j) * d;
+            }
+    }
+    double scale = 0.0;
+    for (std::int64_t i = 0; i < bodies.rows; ++i) scale = std::max(scale, bodies(i, i));
+    const Eigen eigen = eigen_symmetric(std::move(stiff));
+    std::int64_t soft = 0;
+    while (soft < resisted.columns && eigen.value[index(soft)] < weakly * scale) ++soft;
+    free_.clear();
+    weak_.clear();
+    anchors_.clear();
+    DenseMatrix floating(loose.columns, parts.free.columns + soft);
+    std::copy(parts.free.value.begin(), parts.free.value.end(), floating.value.begin());
+    for (std::int64_t c = 0; c < soft; ++c)
+        for (std::int64_t k = 0; k < resisted.columns; ++k)
+            for (std::int64_t i = 0; i < loose.columns; ++i)
+                floating(i, parts.free.columns + c) += parts.held(i, k) * eigen.vector(k, c);
+    const DenseMatrix combinations = multiply(loose, floating);
+    for (std::int64_t c = 0; c < combinations.columns; ++c)
+        (c < parts.free.columns ? free_ : weak_)
+            .push_back(in_variables(std::span<const double>(combinations.value)
+                                        .subspan(index(c * combinations.rows), index(combinations.rows))));
+    anchor(multiply(z, combinations));
+}
+
+void Floating::anchor(const DenseMatrix& jumps) {
+    if (jumps.columns == 0) return;
+    DenseMatrix across(jumps.columns, jumps.rows);
+    for (std::int64_t i = 0; i < jumps.rows; ++i)
+        for (std::int64_t c = 0; c < jumps.columns; ++c) across(c, i) = jumps(i, c);
+    const PivotedColumns pivots = pivoted_columns(std::move(across), 1e-10);
+    for (std::int64_t k = 0; k < pivots.rank; ++k) {
+        const std::int64_t r = pivots.order[index(k)];
+        anchors_.push_back({r, r, anchored * row_diagonal(system_, index(r))});
+    }
+}
+
+bool Floating::balances(std::span<const double> load) const {
+    const double pull = dot(load, load);
+    for (const std::vector<double>& motion : free_) {
+        double total = 0.0, size = 0.0;
+        for (std::size_t i = 0; i < load.size(); ++i) {
+            total += motion[i] * load[i];
+            size += std::abs(motion[i] * load[i]);
+        }
+        if (std::abs(total) > std::max(unbalanced_load * size, rounded_load * std::sqrt(dot(motion, motion) * pull)))
+            return false;
+    }
+    return true;
+}
+
+void Floating::settle(std::span<double> x) const {
+    if (free_.empty()) return;
+    const auto n = static_cast<std::int64_t>(free_.size());
+    const std::size_t rows = system_.rows().size();
+    DenseMatrix gram(n, n), right(n, 1);
+    std::vector<std::vector<double>> jump(free_.size(), std::vector<double>(rows));
+    for (std::size_t f = 0; f < free_.size(); ++f)
+        for (std::size_t r = 0; r < rows; ++r) jump[f][r] = system_.row_value(r, free_[f]);
+    std::vector<double> now(rows);
+    for (std::size_t r = 0; r < rows; ++r) now[r] = system_.row_value(r, x);
+    for (std::int64_t i = 0; i < n; ++i) {
+        right(i, 0) = dot(jump[index(i)], now);
+        for (std::int64_t j = 0; j < n; ++j) gram(i, j) = dot(jump[index(i)], jump[index(j)]);
+    }
+    if (!solve_general(gram, right, 1e-12)) return;
+    for (std::int64_t i = 0; i < n; ++i) add_scaled(-right(i, 0), free_[index(i)], x);
+}
+
+}  // namespace delam

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Rigid motions of parts that only their interfaces hold: those that nothing holds at the moment, which are null
+// vectors of the system and must carry no load; and those that springs hold so weakly that an iteration had better know
+// them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "reduction/body_system.hpp"
+#include "reduction/iterated/jump_system.hpp"
+#include "reduction/zone/rigid_jumps.hpp"
+
+namespace delam {
+
+class Floating {
+public:
+    Floating(const BodySystem& bodies, const JumpSystem& system);
+
+    // Finds both kinds at what acts on the system now.
+    void update();
+    // In variables; they open no held row.
+    const std::vector<std::vector<double>>& free() const { return free_; }
+    const std::vector<std::vector<double>>& weak() const { return weak_; }
+    // Springs that hold all these motions, for preconditioners.
+    std::span<const Zone::Coupling> anchors() const { return anchors_; }
+    // False: a free motion carries a load. load: forces on all variables.
+    bool balances(std::span<const double> load) const;
+    // Takes the free motions out of the jumps of x.
+    void settle(std::span<double> x) const;
+
+private:
+    std::vector<double> in_variables(std::span<const double> combination) const;
+    void anchor(const DenseMatrix& jumps);
+
+    const BodySystem& bodies_;
+    const JumpSystem& system_;
+    RigidMotions rigid_;
+    std::vector<std::int64_t> dof_of_;  // [variables that are displacements] one that is the variable itself
+    std::vector<std::uint8_t> held_, active_;
+    std::vector<double> spring_;  // [rows] for which weak_ was found
+    std::vector<std::vector<double>> free_, weak_;
+    std::vector<Zone::Coupling> anchors_;
+};
+
+}  // namespace delam

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The jump operator for large scenes: the bodies stay sparse, and each solve is an iteration that starts from the
+// solution before (reanalysis.hpp). No dense matrix of the jumps, and a factorisation of the whole only where it pays.
+#pragma once
+
+#include <memory>
+
+#include "reduction/iterated/reanalysis.hpp"
+#include "reduction/jump_operator.hpp"
+#include "scene/problem.hpp"
+
+namespace delam {
+
+class Iterated final : public JumpOperator {
+public:
+    Iterated(const Problem& problem, Monitor& monitor);
+    void solve(const Springs& springs, std::span<const double> theta, Response& response) override;
+    std::vector<double> displacement(std::span<const double> theta, const Response& response) const override;
+    std::vector<double> reaction(std::span<const double> theta, const Response& response) const override;
+    double equilibrium_defect(std::span<const double> theta, const Response& response) const override;
+    double rounding_energy(std::span<const double> theta, const Response& response) const override;
+    std::span<const std::uint8_t> prescribed_rows() const override { return reanalysis_.system().prescribed(); }
+    std::int64_t factorisations() const override { return reanalysis_.factorisations(); }
+    std::int64_t recoveries() const override { return recoveries_; }
+    std::string description() const override;
+    std::vector<double> memory() const override { return reanalysis_.memory(); }
+    void recall(std::span<const double> memory) override { reanalysis_.recall(memory); }
+    void require_memory(std::span<const double> memory) const override { reanalysis_.require_memory(memory); }
+
+    // Of the factor of the whole, and the numbers that it stores; of the sparse matrices.
+    const FactorSize& factor() const { return reanalysis_.whole()->size(); }
+    double stored_factor() const { return reanalysis_.whole()->entries(); }
+    std::int64_t variables() const { return reanalysis_.system().count(); }
+    std::int64_t matrix_entries() const { return reanalysis_.system().matrix().entries(); }
+    std::int64_t stiffness_entries() const { return bodies_.stiffness().entries(); }
+
+private:
+    void rest(const Springs& springs, std::span<const double> theta, Response& response) const;
+    // Jumps, forces and energies from the variables.
+    void respond(const Springs& springs, std::span<const double> theta, Response& response) const;
+    void find_energies(std::span<const double> theta, std::span<const double> mu, Response& response) const;
+
+    const Problem problem_;
+    Monitor& monitor_;
+    BodySystem bodies_;
+    std::vector<double> strain_energy_;  // [patterns][patterns] W of the eigenstrains
+    Reanalysis reanalysis_;
+    mutable std::int64_t recoveries_ = 0;
+};
+
+}  // namespace delam

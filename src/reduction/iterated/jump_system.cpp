@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reduction/iterated/jump_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/error.hpp"
+#include "base/numbers.hpp"
+#include "linalg/dense.hpp"
+#include "linalg/sparse_elimination.hpp"
+
+namespace delam {
+
+namespace {
+
+// The pattern of `a` with these entries in it, zero where they are missing. links: by rows.
+SparseMatrix with_entries(SparseMatrix a, const SparseMatrix& links) {
+    SparseMatrix out;
+    bool missing = false;
+    for (std::int64_t r = 0; r < a.rows && !missing; ++r) {
+        const auto begin = a.column.begin() + a.start[index(r)], end = a.column.begin() + a.start[index(r) + 1];
+        for (std::int64_t e = links.start[index(r)]; e < links.start[index(r) + 1] && !missing; ++e)
+            missing = !std::binary_search(begin, end, links.column[index(e)]);
+    }
+    if (!missing) return a;
+    out.rows = a.rows;
+    out.columns = a.columns;
+    out.column.reserve(a.column.size() + links.column.size());
+    out.value.reserve(a.column.size() + links.column.size());
+    for (std::int64_t r = 0; r < a.rows; ++r) {
+        std::int64_t l = links.start[index(r)];
+        const std::int64_t last = links.start[index(r) + 1];
+        const auto before = [&](std::int64_t column) {
+            for (; l < last && links.column[index(l)] < column; ++l) {
+                out.column.push_back(links.column[index(l)]);
+                out.value.push_back(0.0);
+            }
+        };
+        for (std::int64_t e = a.start[index(r)]; e < a.start[index(r) + 1]; ++e) {
+            before(a.column[index(e)]);
+            if (l < last && links.column[index(l)] == a.column[index(e)]) ++l;
+            out.column.push_back(a.column[index(e)]);
+            out.value.push_back(a.value[index(e)]);
+        }
+        before(a.columns);
+        out.start.push_back(static_cast<std::int64_t>(out.column.size()));
+    }
+    return out;
+}
+
+// All variables of a pair's rows act on each other.
+SparseMatrix pair_links(const std::vector<JumpRow>& rows, std::size_t dim, std::int64_t count) {
+    std::vector<Triplet> links;
+    std::vector<std::int64_t> of_pair;
+    for (std::size_t first = 0; first + dim <= rows.size(); first += dim) {
+        of_pair.clear();
+        for (std::size_t r = first; r < first + dim; ++r)
+            for (const auto& [i, n] : rows[r].unknowns) of_pair.push_back(i);
+        for (const std::int64_t i : of_pair)
+            for (const std::int64_t j : of_pair) links.push_back({i, j, 0.0});
+    }
+    for (std::int64_t i = 0; i < count; ++i) links.push_back({i, i, 0.0});
+    return from_triplets(count, count, std::move(links));
+}
+
+}  // namespace
+
+JumpSystem::JumpSystem(const BodySystem& bodies, const Poll& poll)
+    : patterns_(bodies.problem().patterns.size()), matrix_(bodies.transformed(poll)) {
+    express_rows(bodies);
+    call_if_set(poll);
+    matrix_ =
+        with_entries(std::move(matrix_), pair_links(rows_, index(bodies.problem().mesh->dimension()), matrix_.rows));
+    for (std::int64_t r = 0; r < matrix_.rows; ++r) {
+        const auto begin = matrix_.column.begin() + matrix_.start[index(r)],
+                   end = matrix_.column.begin() + matrix_.start[index(r) + 1];
+        diagonal_.push_back(matrix_.value[index(std::lower_bound(begin, end, r) - matrix_.column.begin())]);
+    }
+}
+
+// Jumps that constraints on many variables express by other jumps are replaced in the rows, so that a row which the
+// constraints prescribe has no variable.
+void JumpSystem::express_rows(const BodySystem& bodies) {
+    const JumpVariables& variables = bodies.variables();
+    std::map<std::int64_t, SolvedEquation> of_jump;
+    for (const SolvedEquation& solved : solve_equations(variables)) {
+        SparseVector& equation = equations_.emplace_back();
+        equation.emplace_back(variables.leading + solved.pivot, 1.0);
+        for (const auto& [t, c] : solved.entries) equation.emplace_back(variables.leading + t, -c);
+        equation_right_.push_back(solved.prescribed);
+        if (solved.pivot >= variables.kept) of_jump.emplace(solved.pivot - variables.kept, solved);
+    }
+    std::vector<std::uint8_t> taken(index(variables.count()), 0);
+    for (std::size_t r = 0; r < variables.row.size(); ++r) {
+        JumpRow row{{}, variables.row_offset[r]};
+        std::map<std::int64_t, double> terms;
+        for (const auto& [jump, n] : variables.row[r]) {
+            const auto solved = of_jump.find(jump);
+            if (solved == of_jump.end()) {
+                terms[variables.leading + variables.kept + jump] += n;
+                continue;
+            }
+            for (const auto& [t, c] : solved->second.entries) terms[variables.leading + t] += n * c;
+            row.offset.resize(patterns_, 0.0);
+            for (std::size_t p = 0; p < patterns_; ++p) row.offset[p] += n * solved->second.prescribed[p];
+        }
+        for (const auto& [i, n] : terms)
+            if (std::abs(n) > dependent_equation) row.unknowns.emplace_back(i, n);
+        const bool plain = row.offset.empty() && row.unknowns.size() == 1 && row.unknowns.front().second == 1.0 &&
+                           taken[index(row.unknowns.front().first)] == 0;
+        if (plain) taken[index(row.unknowns.front().first)] = 1;
+        plain_.push_back(plain ? row.unknowns.front().first : -1);
+        prescribed_.push_back(row.prescribed() ? 1 : 0);
+        rows_.push_back(std::move(row));
+    }
+}
+
+void JumpSystem::set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held) {
+    couplings_ = std::move(couplings);
+    if (known_ && std::ranges::equal(held, held_)) return;
+    known_ = false;
+    held_.assign(held.begin(), held.end());
+    hold();
+    known_ = true;
+}
+
+// The pivot of a row is its largest coefficient, displacements (which come first) before jumps.
+void JumpSystem::hold() {
+    std::vector<std::uint8_t> out(index(count()), 0);
+    removed_.clear();
+    slaves_.clear();
+    binding_.clear();
+    binding_terms_.clear();
+    std::vector<std::int64_t> others;
+    for (std::size_t e = 0; e < equations_.size(); ++e) others.push_back(-1 - static_cast<std::int64_t>(e));
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+        if (held_[r] == 0 || prescribed_[r] != 0) continue;
+        if (plain_[r] < 0) {
+            others.push_back(static_cast<std::int64_t>(r));
+            continue;
+        }
+        removed_.push_back(plain_[r]);
+        out[index(plain_[r])] = 1;
+    }
+    if (others.empty()) return;
+    SparseElimination solved;
+    std::vector<std::int64_t> pivots;
+    for (const std::int64_t at : others) {
+        const SparseVector& terms = at < 0 ? equations_[index(-1 - at)] : rows_[index(at)].unknowns;
+        SparseElimination::Row row{{}, std::vector<double>(patterns_, 0.0)};
+        SparseVector kept;
+        for (const auto& [i, c] : terms)
+            if (out[index(i)] == 0) {
+                row.terms[i] += c;
+                kept.emplace_back(i, c);
+            }
+        if (at < 0)
+            row.right = equation_right_[index(-1 - at)];
+        else
+            for (std::size_t p = 0; p < rows_[index(at)].offset.size(); ++p) row.right[p] = -rows_[index(at)].offset[p];
+        solved.reduce(row);
+        if (row.terms.empty()) continue;
+        auto pivot = row.terms.begin();
+        for (auto term = row.terms.begin(); term != row.terms.end(); ++term)
+            if (std::abs(term->second) > (1.0 + 1e-9) * std::abs(pivot->second)) pivot = term;
+        pivots.push_back(pivot->first);
+        solved.solve(row, pivot->first);
+        binding_.push_back(at);
+        binding_terms_.push_back(std::move(kept));
+    }
+    solved.close();
+    for (const std::int64_t p : pivots) {
+        const SparseElimination::Solution& solution = *solved.find(p);
+        slaves_.push_back({p, solution.terms, solution.right});
+    }
+}
+
+std::vector<double> JumpSystem::offsets(std::span<const double> theta) const {
+    std::vector<double> o(rows_.size(), 0.0);
+    for (std::size_t r = 0; r < rows_.size(); ++r)
+        if (!rows_[r].offset.empty()) o[r] = dot(rows_[r].offset, theta);
+    return o;
+}
+
+void JumpSystem::spread(std::span<double> x) const {
+    for (const std::int64_t i : removed_) x[index(i)] = 0.0;
+    for (const Slave& slave : slaves_) {
+        double sum = 0.0;
+        for (const auto& [i, c] : slave.masters) sum += c * x[index(i)];
+        x[index(slave.pivot)] = sum;
+    }
+}
+
+void JumpSystem::spread(std::span<double> x, std::span<const double> theta) const {
+    spread(x);
+    for (const Slave& slave : slaves_) x[index(slave.pivot)] += dot(slave.right, theta);
+}
+
+void JumpSystem::reduce(std::span<double> x) const {
+    for (const std::int64_t i : removed_) x[index(i)] = 0.0;
+    for (const Slave& slave : slaves_) x[index(slave.pivot)] = 0.0;
+}
+
+void JumpSystem::gather(std::span<double> force) const {
+    for (const Slave& slave : slaves_) {
+        for (const auto& [i, c] : slave.masters) force[index(i)] += c * force[index(slave.pivot)];
+        force[index(slave.pivot)] = 0.0;
+    }
+    for (const std::int64_t i : removed_) force[index(i)] = 0.0;
+}
+
+double JumpSystem::row_value(std::size_t row, std::span<const double> x) const {
+    double sum = 0.0;
+    for (const auto& [i, n] : rows_[row].unknowns) sum += n * x[index(i)];
+    return sum;
+}
+
+void JumpSystem::add_row(std::size_t row, double factor, std::span<double> force) const {
+    for (const auto& [i, n] : rows_[row].unknowns) force[index(i)] += n * factor;
+}
+
+void JumpSystem::add_couplings(std::span<const double> x, std::span<double> y) const {
+    for (const Zone::Coupling& c : couplings_) add_row(index(c.row), c.value * row_value(index(c.column), x), y);
+}
+
+void JumpSystem::apply(std::span<const double> x, std::span<double> y) const {
+    multiply(matrix_, x, y);
+    add_couplings(x, y);
+}
+
+// The rows are independent and what is left over is theirs, so that the least-squares solution is the solution.
+std::vector<double> JumpSystem::multipliers(std::span<double> left, std::span<double> force) const {
+    std::vector<double> mu(equations_.size(), 0.0);
+    if (!binding_.empty()) {
+        const auto n = static_cast<std::int64_t>(binding_.size());
+        std::map<std::int64_t, SparseVector> users;
+        std::vector<double> right(binding_.size(), 0.0), lambda(binding_.size());
+        for (std::size_t b = 0; b < binding_.size(); ++b)
+            for (const auto& [i, c] : binding_terms_[b]) {
+                users[i].emplace_back(static_cast<std::int64_t>(b), c);
+                right[b] += c * left[index(i)];
+            }
+        std::vector<Triplet> triplets;
+        for (const auto& [i, list] : users)
+            for (const auto& [a, c] : list)
+                for (const auto& [b, d] : list) triplets.push_back({a, b, c * d});
+        const SparseMatrix gram = from_triplets(n, n, std::move(triplets));
+        SparseCholesky factor(gram);
+        if (!factor.factorise(gram))
+            fail(DELAM_ERROR_NUMERICAL, "the ", n, " rows that bind several jumps to each other are dependent");
+        factor.solve(right, lambda);
+        for (std::size_t b = 0; b < binding_.size(); ++b) {
+            const std::int64_t at = binding_[b];
+            const SparseVector& terms = at < 0 ? equations_[index(-1 - at)] : rows_[index(at)].unknowns;
+            for (const auto& [i, c] : terms) left[index(i)] -= c * lambda[b];
+            (at < 0 ? mu[index(-1 - at)] : force[index(at)]) += lambda[b];
+        }
+    }
+    for (std::size_t r = 0; r < rows_.size(); ++r)
+        if (held_[r] != 0 && plain_[r] >= 0) force[r] += left[index(plain_[r])];
+    return mu;
+}
+
+}  // namespace delam

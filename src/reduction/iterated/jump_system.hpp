@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The bodies with what acts on their interfaces at the moment, sparse, in the variables of jump_variables.hpp:
+//
+//   minimise  1/2 v^T A v - g^T v,   A = T^T K T + N^T C N,   subject to  N_r v = -o_r on held rows,  E v = d
+//
+// (j = N v + o: jump rows; C: springs, or tangents of the pairs; E: constraints on many variables). A held row that is
+// a variable of its own removes it. Each other held row, and each constraint, expresses one variable by others; vectors
+// of the reduced space have zeros in the place of removed and expressed variables.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "linalg/cholesky.hpp"
+#include "reduction/body_system.hpp"
+#include "reduction/zone/jump_row.hpp"
+#include "reduction/zone/zone.hpp"
+
+namespace delam {
+
+class JumpSystem {
+public:
+    JumpSystem(const BodySystem& bodies, const Poll& poll);
+
+    std::int64_t count() const { return matrix_.rows; }
+    // T^T K T; entries exist for all variables that a pair's rows connect.
+    const SparseMatrix& matrix() const { return matrix_; }
+    std::span<const double> diagonal() const { return diagonal_; }
+    // All jump rows, in variables. Prescribed ones have none left; their offset is the jump.
+    const std::vector<JumpRow>& rows() const { return rows_; }
+    std::span<const std::uint8_t> prescribed() const { return prescribed_; }
+    // Constraints on many variables, independent: E, in variables.
+    const std::vector<SparseVector>& equations() const { return equations_; }
+
+    // d of such a constraint, [patterns]
+    const std::vector<double>& equation_right(std::size_t e) const { return equation_right_[e]; }
+
+    // What acts from now on. held: [rows]; prescribed rows are never held.
+    void set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held);
+    const std::vector<Zone::Coupling>& couplings() const { return couplings_; }
+    const std::vector<std::uint8_t>& held() const { return held_; }
+
+    // o, [rows]
+    std::vector<double> offsets(std::span<const double> theta) const;
+    // x: zero in removed variables, expressed ones from the others; with theta, the rest of their expressions.
+    void spread(std::span<double> x) const;
+    void spread(std::span<double> x, std::span<const double> theta) const;
+    // Zeros in the place of removed and expressed variables.
+    void reduce(std::span<double> x) const;
+    // The transposed of spread(): forces on all variables become forces of the reduced space.
+    void gather(std::span<double> force) const;
+    // y = A x over all variables.
+    void apply(std::span<const double> x, std::span<double> y) const;
+    // y = C N x as forces on all variables, added to y; and N x of all rows.
+    void add_couplings(std::span<const double> x, std::span<double> y) const;
+    double row_value(std::size_t row, std::span<const double> x) const;
+    void add_row(std::size_t row, double factor, std::span<double> force) const;
+    // Forces of held rows from those that are left over on the variables, left = sum over held rows N_r^T force_r +
+    // E^T mu. Adds to force; returns mu. Consumes left.
+    std::vector<double> multipliers(std::span<double> left, std::span<double> force) const;
+
+private:
+    struct Slave {
+        std::int64_t pivot;
+        SparseVector masters;
+        std::vector<double> right;  // [patterns]
+    };
+    void express_rows(const BodySystem& bodies);
+    void hold();
+
+    std::size_t patterns_;
+    SparseMatrix matrix_;
+    std::vector<double> diagonal_;
+    std::vector<JumpRow> rows_;
+    std::vector<std::uint8_t> prescribed_;
+    std::vector<std::int64_t> plain_;  // [rows] the variable that this row is, -1: none
+    std::vector<SparseVector> equations_;
+    std::vector<std::vector<double>> equation_right_;  // [equations][patterns]
+
+    std::vector<Zone::Coupling> couplings_;
+    std::vector<std::uint8_t> held_;
+    bool known_ = false;
+    std::vector<std::int64_t> removed_;
+    std::vector<Slave> slaves_;
+    // Independent ones among the equations (-1 - e) and the held rows that are no variable of their own (r).
+    std::vector<std::int64_t> binding_;
+    std::vector<SparseVector> binding_terms_;
+};
+
+}  // namespace delam

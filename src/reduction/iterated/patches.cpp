@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reduction/iterated/patches.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/numbers.hpp"
+
+namespace delam {
+
+namespace {
+
+// Operations of the symbolic analysis per entry of a patch's matrix (an ordering takes that long).
+constexpr double analysis_operations = 300.0;
+
+}  // namespace
+
+Patches::Patches(const JumpSystem& system, std::int64_t margin)
+    : system_(system), margin_(margin), barred_(index(system.count()), 0), inner_(index(system.count()), 0) {
+    for (const SparseVector& equation : system.equations())
+        for (const auto& [i, c] : equation) barred_[index(i)] = 1;
+}
+
+std::vector<std::int64_t> Patches::rings(std::span<const std::int64_t> seeds) const {
+    const SparseMatrix& a = system_.matrix();
+    std::vector<std::int64_t> ring(index(system_.count()), margin_ + 1), front, next;
+    for (const std::int64_t i : seeds) {
+        if (barred_[index(i)] != 0) continue;
+        ring[index(i)] = 0;
+        front.push_back(i);
+    }
+    for (std::int64_t r = 1; r <= margin_ && !front.empty(); ++r) {
+        next.clear();
+        for (const std::int64_t i : front)
+            for (std::int64_t e = a.start[index(i)]; e < a.start[index(i) + 1]; ++e) {
+                const std::int64_t j = a.column[index(e)];
+                if (ring[index(j)] <= r || barred_[index(j)] != 0) continue;
+                ring[index(j)] = r;
+                next.push_back(j);
+            }
+        front.swap(next);
+    }
+    return ring;
+}
+
+std::int64_t Patches::variables_about(std::span<const std::int64_t> seeds) const {
+    const std::vector<std::int64_t> ring = rings(seeds);
+    return std::count_if(ring.begin(), ring.end(), [&](std::int64_t r) { return r <= margin_; });
+}
+
+std::int64_t Patches::variables() const {
+    std::int64_t sum = 0;
+    for (const Patch& p : patches_) sum += static_cast<std::int64_t>(p.variables.size());
+    return sum;
+}
+
+double Patches::entries() const {
+    double sum = 0.0;
+    for (const Patch& p : patches_) sum += p.factor->factor_entries();
+    return sum;
+}
+
+void Patches::forget() {
+    patches_.clear();
+    seeds_.clear();
+    std::fill(inner_.begin(), inner_.end(), std::uint8_t{0});
+}
+
+bool Patches::cover(std::span<const std::int64_t> seeds, const Poll& poll) {
+    if (std::all_of(seeds.begin(), seeds.end(),
+                    [&](std::int64_t i) { return inner_[index(i)] != 0 || barred_[index(i)] != 0; }))
+        return false;
+    seeds_.assign(seeds.begin(), seeds.end());
+    std::vector<std::int64_t> ring = rings(seeds_);
+    for (std::size_t i = 0; i < ring.size(); ++i) inner_[i] = 2 * ring[i] <= margin_ ? 1 : 0;
+    // Connected parts; a visited variable is marked as beyond the margin.
+    const SparseMatrix& a = system_.matrix();
+    std::vector<Patch> chosen;
+    std::vector<std::int64_t> stack;
+    for (std::size_t first = 0; first < ring.size(); ++first) {
+        if (ring[first] > margin_) continue;
+        std::vector<std::int64_t> part;
+        stack.assign(1, static_cast<std::int64_t>(first));
+        ring[first] = margin_ + 1;
+        while (!stack.empty()) {
+            const std::int64_t i = stack.back();
+            stack.pop_back();
+            part.push_back(i);
+            for (std::int64_t e = a.start[index(i)]; e < a.start[index(i) + 1]; ++e) {
+                const std::int64_t j = a.column[index(e)];
+                if (ring[index(j)] > margin_) continue;
+                ring[index(j)] = margin_ + 1;
+                stack.push_back(j);
+            }
+        }
+        std::sort(part.begin(), part.end());
+        const auto same =
+            std::find_if(patches_.begin(), patches_.end(), [&](const Patch& p) { return p.variables == part; });
+        if (same != patches_.end())
+            chosen.push_back(std::move(*same));
+        else
+            chosen.push_back(make(std::move(part), poll));
+    }
+    patches_ = std::move(chosen);
+    return true;
+}
+
+Patches::Patch Patches::make(std::vector<std::int64_t> variables, const Poll& poll) {
+    call_if_set(poll);
+    Patch patch;
+    patch.variables = std::move(variables);
+    const SparseMatrix& a = system_.matrix();
+    SparseMatrix& m = patch.matrix;
+    m.rows = m.columns = static_cast<std::int64_t>(patch.variables.size());
+    for (const std::int64_t i : patch.variables) {
+        auto from = patch.variables.begin();
+        for (std::int64_t e = a.start[index(i)]; e < a.start[index(i) + 1]; ++e) {
+            from = std::lower_bound(from, patch.variables.end(), a.column[index(e)]);
+            if (from == patch.variables.end()) break;
+            if (*from != a.column[index(e)]) continue;
+            m.column.push_back(from - patch.variables.begin());
+            m.value.push_back(a.value[index(e)]);
+        }
+        m.start.push_back(static_cast<std::int64_t>(m.column.size()));
+    }
+    patch.factor = std::make_unique<SparseCholesky>(m, 0, poll);
+    cost_ += analysis_operations * static_cast<double>(m.entries());
+    return patch;
+}
+
+bool Patches::factorise(std::span<const Triplet> springs, const Poll& poll) {
+    std::vector<std::int64_t> patch_of(index(system_.count()), -1), place(patch_of.size());
+    for (std::size_t p = 0; p < patches_.size(); ++p)
+        for (std::size_t k = 0; k < patches_[p].variables.size(); ++k) {
+            patch_of[index(patches_[p].variables[k])] = static_cast<std::int64_t>(p);
+            place[index(patches_[p].variables[k])] = static_cast<std::int64_t>(k);
+        }
+    std::vector<std::vector<Triplet>> own(patches_.size());
+    for (const Triplet& t : springs) {
+        const std::int64_t p = patch_of[index(t.row)];
+        if (p >= 0 && p == patch_of[index(t.column)])
+            own[index(p)].push_back({place[index(t.row)], place[index(t.column)], t.value});
+    }
+    const auto same = [](const Triplet& a, const Triplet& b) {
+        return a.row == b.row && a.column == b.column && a.value == b.value;
+    };
+    for (std::size_t p = 0; p < patches_.size(); ++p) {
+        Patch& patch = patches_[p];
+        if (patch.factored && std::ranges::equal(patch.springs, own[p], same)) continue;
+        call_if_set(poll);
+        SparseMatrix matrix = patch.matrix;
+        for (const Triplet& t : own[p]) {
+            const auto begin = matrix.column.begin() + matrix.start[index(t.row)],
+                       end = matrix.column.begin() + matrix.start[index(t.row) + 1];
+            matrix.value[index(std::lower_bound(begin, end, t.column) - matrix.column.begin())] += t.value;
+        }
+        patch.springs = std::move(own[p]);
+        cost_ += patch.factor->size().flops;
+        patch.factored = patch.factor->factorise(matrix);
+        if (!patch.factored) return false;
+    }
+    return true;
+}
+
+void Patches::add(std::span<const double> r, std::span<double> z) const {
+    std::vector<double> right, x;
+    for (const Patch& patch : patches_) {
+        right.resize(patch.variables.size());
+        x.resize(right.size());
+        for (std::size_t k = 0; k < right.size(); ++k) right[k] = r[index(patch.variables[k])];
+        patch.factor->solve(right, x);
+        for (std::size_t k = 0; k < right.size(); ++k) z[index(patch.variables[k])] += x[k];
+    }
+}
+
+}  // namespace delam

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Patches of the bodies around rows whose springs differ from those of the whole factor, factored exactly. Parts that
+// do not touch are factors of their own. While what differs stays well inside, the patches stay, and only those are
+// factored again whose springs have changed.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "linalg/cholesky.hpp"
+#include "linalg/sparse.hpp"
+#include "reduction/iterated/jump_system.hpp"
+
+namespace delam {
+
+class Patches {
+public:
+    // margin: rings of elements about the variables that differ.
+    Patches(const JumpSystem& system, std::int64_t margin);
+
+    // seeds: variables whose springs differ, ascending. True: the patches at hand do not cover them and were chosen
+    // again.
+    bool cover(std::span<const std::int64_t> seeds, const Poll& poll);
+    // Factors the patches at these springs where they are others than at the last time. False: one is not positive
+    // definite. Adds the operations to cost().
+    bool factorise(std::span<const Triplet> springs, const Poll& poll);
+    // z += P r
+    void add(std::span<const double> r, std::span<double> z) const;
+
+    // Variables within the margin of these seeds, those of patches that cover() would choose.
+    std::int64_t variables_about(std::span<const std::int64_t> seeds) const;
+    std::int64_t variables() const;
+    std::int64_t count() const { return static_cast<std::int64_t>(patches_.size()); }
+    double cost() const { return cost_; }  // operations since the beginning
+    double entries() const;                // of all factors
+    // The seeds of the present choice, on which alone it depends.
+    const std::vector<std::int64_t>& seeds() const { return seeds_; }
+    void forget();
+
+private:
+    struct Patch {
+        std::vector<std::int64_t> variables;  // ascending
+        SparseMatrix matrix;                  // without springs
+        std::vector<Triplet> springs;         // of the factor, in the patch's own variables
+        std::unique_ptr<SparseCholesky> factor;
+        bool factored = false;
+    };
+    // Number of rings to the nearest seed, margin + 1: beyond.
+    std::vector<std::int64_t> rings(std::span<const std::int64_t> seeds) const;
+    Patch make(std::vector<std::int64_t> variables, const Poll& poll);
+
+    const JumpSystem& system_;
+    std::int64_t margin_;
+    std::vector<std::uint8_t> barred_;  // variables of constraints on many
+    std::vector<std::int64_t> seeds_;
+    std::vector<std::uint8_t> inner_;  // [variables] at most half the margin from a seed of the choice
+    std::vector<Patch> patches_;
+    double cost_ = 0.0;
+};
+
+}  // namespace delam

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reduction/iterated/reanalysis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "base/numbers.hpp"
+#include "linalg/dense.hpp"
+#include "reduction/iterated/conjugate_gradients.hpp"
+#include "reduction/iterated/spring_entries.hpp"
+
+namespace delam {
+
+namespace {
+
+// A spring differs if bodies and spring together are stiffer or softer than in the factor by this share.
+constexpr double differs = 0.1;
+// A patch of more than this share of all variables costs as much as a new factor of the whole.
+constexpr double largest_patch = 0.25;
+// Iterations that a fresh factor needs.
+constexpr double fresh_iterations = 2.0;
+// A triangular solve waits for memory: its operations are this many times slower than a factorisation's.
+constexpr double slower = 5.0;
+// Residuals below this part of the state are not asked for: it is what a decision about contact can still use.
+constexpr double finest = 1e-11;
+
+}  // namespace
+
+Reanalysis::Reanalysis(const BodySystem& bodies, Monitor& monitor)
+    : bodies_(bodies),
+      monitor_(monitor),
+      system_(bodies, [&monitor] { monitor.progress("assemble", 0, 0); }),
+      floating_(bodies, system_),
+      patches_(system_, 5) {
+    const std::size_t patterns = bodies_.problem().patterns.size();
+    std::vector<double> nodal(index(bodies_.dofs()));
+    for (std::size_t p = 0; p < patterns; ++p) {
+        multiply(bodies_.stiffness(), bodies_.variables().lift[p], nodal);
+        const std::vector<double>& force = bodies_.force()[p];
+        for (std::size_t i = 0; i < nodal.size(); ++i) nodal[i] = (force.empty() ? 0.0 : force[i]) - nodal[i];
+        load_.emplace_back(index(system_.count()));
+        multiply_transposed(bodies_.variables().transform, nodal, load_.back());
+    }
+    monitor_.progress("analyse", 0, 0);
+    whole_ = std::make_unique<WholeFactor>(system_, [&monitor] { monitor.progress("analyse", 0, 0); });
+}
+
+std::vector<double> Reanalysis::load(std::span<const double> theta) const {
+    std::vector<double> g(index(system_.count()), 0.0);
+    for (std::size_t p = 0; p < theta.size(); ++p)
+        if (theta[p] != 0.0) add_scaled(theta[p], load_[p], g);
+    return g;
+}
+
+// Held rows as the springs that stand for them in the factors.
+std::vector<double> Reanalysis::springs_now() const {
+    std::vector<double> springs(system_.rows().size(), 0.0);
+    for (const Zone::Coupling& c : system_.couplings())
+        if (c.row == c.column) springs[index(c.row)] += c.value;
+    for (std::size_t r = 0; r < springs.size(); ++r)
+        if (system_.held()[r] != 0) springs[r] = held_as * row_diagonal(system_, r);
+    return springs;
+}
+
+bool Reanalysis::plain() const {
+    return std::all_of(system_.couplings().begin(), system_.couplings().end(),
+                       [](const Zone::Coupling& c) { return c.row == c.column && c.value >= 0.0; });
+}
+
+std::vector<std::int64_t> Reanalysis::changed(std::span<const double> now) const {
+    std::vector<std::uint8_t> row(now.size(), 0);
+    for (std::size_t r = 0; r < now.size(); ++r) {
+        if (system_.prescribed()[r] != 0 || now[r] == lagged_[r]) continue;
+        const double body = row_diagonal(system_, r), old = body + lagged_[r], fresh = body + now[r];
+        row[r] = fresh > (1.0 + differs) * old || old > (1.0 + differs) * fresh ? 1 : 0;
+    }
+    for (const Zone::Coupling& c : system_.couplings()) {
+        const auto r = index(c.row), q = index(c.column);
+        if (r == q || system_.prescribed()[r] != 0 || system_.prescribed()[q] != 0) continue;
+        const double own = (row_diagonal(system_, r) + lagged_[r]) * (row_diagonal(system_, q) + lagged_[q]);
+        if (c.value * c.value > differs * differs * own) row[r] = row[q] = 1;
+    }
+    std::vector<std::int64_t> variables;
+    for (std::size_t r = 0; r < row.size(); ++r)
+        for (const auto& [i, n] : system_.rows()[r].unknowns)
+            if (row[r] != 0) variables.push_back(i);
+    std::sort(variables.begin(), variables.end());
+    variables.erase(std::unique(variables.begin(), variables.end()), variables.end());
+    return variables;
+}
+
+double Reanalysis::iteration_cost() const {
+    const double matrix = static_cast<double>(system_.matrix().entries());
+    return slower * (4.0 * whole_->entries() + 6.0 * matrix + 8.0 * patches_.entries());
+}
+
+void Reanalysis::factorise_whole() {
+    monitor_.progress("factor", factorisations_, 0);
+    std::vector<Zone::Coupling> springs;
+    for (std::size_t r = 0; r < lagged_.size(); ++r)
+        if (lagged_[r] != 0.0)
+            springs.push_back({static_cast<std::int64_t>(r), static_cast<std::int64_t>(r), lagged_[r]});
+    ++factorisations_;
+    whole_->factorise(spring_entries(system_, springs, std::vector<std::uint8_t>(lagged_.size(), 0)));
+}
+
+void Reanalysis::renew(std::vector<double> springs) {
+    lagged_.clear();  // an interrupted factorisation is never taken for a valid one
+    patches_.forget();
+    std::vector<double> now = std::move(springs);
+    lagged_.swap(now);
+    try {
+        factorise_whole();
+    } catch (...) {
+        lagged_.clear();
+        throw;
+    }
+    debt_ = 0.0;
+}
+
+bool Reanalysis::set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held) {
+    const Poll poll = [this] { monitor_.progress("patch", patches_.count(), 0); };
+    system_.set(std::move(couplings), held);
+    floating_.update();
+    const std::vector<double> now = springs_now();
+    std::vector<std::int64_t> seeds;
+    if (!lagged_.empty()) seeds = changed(now);
+    const bool large =
+        static_cast<double>(patches_.variables_about(seeds)) > largest_patch * static_cast<double>(system_.count());
+    if (lagged_.empty() || (plain() && !seeds.empty() && (large || debt_ > whole_->size().flops))) {
+        std::vector<double> springs = now;
+        for (double& s : springs) s = std::max(0.0, s);
+        for (const Zone::Coupling& c : floating_.anchors()) springs[index(c.row)] += c.value;
+        renew(std::move(springs));
+        seeds = changed(now);
+    }
+    patches_.cover(seeds, poll);
+    std::vector<Zone::Coupling> acting = system_.couplings();
+    acting.insert(acting.end(), floating_.anchors().begin(), floating_.anchors().end());
+    const std::vector<Triplet> entries = spring_entries(system_, acting, system_.held());
+    const double before = patches_.cost();
+    const bool definite = patches_.factorise(entries, poll);
+    debt_ += patches_.cost() - before;
+    null_.clear();
+    for (std::vector<double> motion : floating_.free()) {
+        system_.reduce(motion);
+        for (int pass = 0; pass < 2; ++pass)
+            for (const std::vector<double>& other : null_) add_scaled(-dot(other, motion), other, motion);
+        const double length = std::sqrt(dot(motion, motion));
+        if (!(length > 0.0)) continue;
+        for (double& m : motion) m /= length;
+        null_.push_back(std::move(motion));
+    }
+    return definite;
+}
+
+std::vector<double> Reanalysis::right_side(std::span<const double> theta, std::span<const double> row_force) const {
+    std::vector<double> b = load(theta);
+    for (std::size_t r = 0; r < row_force.size(); ++r)
+        if (system_.held()[r] == 0 && row_force[r] != 0.0) system_.add_row(r, row_force[r], b);
+    const std::vector<double> offset = system_.offsets(theta);
+    for (const Zone::Coupling& c : system_.couplings())
+        if (offset[index(c.column)] != 0.0) system_.add_row(index(c.row), -c.value * offset[index(c.column)], b);
+    return b;
+}
+
+// sqrt of u^T K u and the work of the springs.
+double Reanalysis::size_of(std::span<const double> theta, std::span<const double> x) const {
+    std::vector<double> u = bodies_.lift(theta), force(u.size());
+    bodies_.add_variables(x, u);
+    multiply(bodies_.stiffness(), u, force);
+    double energy = std::abs(dot(u, force));
+    for (const Zone::Coupling& c : system_.couplings())
+        energy += std::abs(system_.row_value(index(c.row), x) * c.value * system_.row_value(index(c.column), x));
+    return std::sqrt(energy);
+}
+
+// Each component has an error of the size of its largest terms times the rounding unit, with a random sign.
+double Reanalysis::rounding_at(std::span<const double> right, std::span<const double> x) {
+    const SparseMatrix& a = system_.matrix();
+    std::vector<double> delta(x.size(), 0.0), z(x.size());
+    for (const Zone::Coupling& c : system_.couplings())
+        for (const auto& [i, n] : system_.rows()[index(c.row)].unknowns)
+            delta[index(i)] += std::abs(n * c.value * system_.row_value(index(c.column), x));
+    std::uint64_t seed = 1;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        double sum = std::abs(right[i]) + delta[i];
+        for (std::int64_t e = a.start[i]; e < a.start[i + 1]; ++e)
+            sum += std::abs(a.value[index(e)] * x[index(a.column[index(e)])]);
+        seed = seed * 6364136223846793005u + 1442695040888963407u;
+        delta[i] = (seed >> 63U) != 0 ? sum : -sum;
+    }
+    system_.gather(delta);
+    for (const std::vector<double>& motion : null_) add_scaled(-dot(motion, delta), motion, delta);
+    precondition(delta, z);
+    return std::numeric_limits<double>::epsilon() * std::sqrt(std::abs(dot(delta, z)));
+}
+
+void Reanalysis::precondition(std::span<const double> r, std::span<double> z) {
+    const auto reduced = [&](std::vector<double>& v) {
+        system_.gather(v);
+        for (const std::vector<double>& motion : null_) add_scaled(-dot(motion, v), motion, v);
+    };
+    const auto subtract_image = [&](std::span<const double> of) {  // work_ = r - A of
+        system_.apply(of, image_);
+        for (std::size_t i = 0; i < work_.size(); ++i) work_[i] = r[i] - image_[i];
+        reduced(work_);
+    };
+    work_.resize(r.size());
+    image_.resize(r.size());
+    std::fill(z.begin(), z.end(), 0.0);
+    const bool patched = patches_.count() > 0;
+    if (patched) {
+        patches_.add(r, z);
+        system_.spread(z);
+        subtract_image(z);
+    } else {
+        std::copy(r.begin(), r.end(), work_.begin());
+    }
+    whole_->apply(work_, image_);
+    system_.spread(image_);
+    for (std::size_t i = 0; i < z.size(); ++i) z[i] += image_[i];
+    if (patched) {
+        subtract_image(z);
+        std::fill(image_.begin(), image_.end(), 0.0);
+        patches_.add(work_, image_);
+        system_.spread(image_);
+        for (std::size_t i = 0; i < z.size(); ++i) z[i] += image_[i];
+    }
+}
+
+// The multiple of the start that has the least energy: a load that has only grown needs nothing else.
+void Reanalysis::start_from(std::span<const double> right, std::span<const double> theta, std::span<double> x) const {
+    std::vector<double> y(x.begin(), x.end()), image(x.size());
+    system_.spread(y);
+    std::vector<double> rest(x.size(), 0.0);
+    system_.spread(rest, theta);
+    system_.apply(rest, image);
+    const double pull = dot(y, right) - dot(y, image);
+    system_.apply(y, image);
+    const double curvature = dot(y, image), scale = curvature > 0.0 ? pull / curvature : 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = scale * y[i];
+}
+
+Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<const double> row_force,
+                                     std::vector<double>& x) {
+    Answer answer;
+    const std::vector<double> right = right_side(theta, row_force);
+    answer.balanced = floating_.balances(right);
+    if (!answer.balanced) return answer;
+    if (x.size() != right.size())
+        x.assign(right.size(), 0.0);
+    else
+        start_from(right, theta, x);
+
+    CgSystem cg;
+    const std::vector<double> offset = system_.offsets(theta);
+    cg.apply = [&](std::span<const double> p, std::span<double> ap) {
+        std::vector<double> full(p.begin(), p.end());
+        system_.spread(full);
+        system_.apply(full, ap);
+        system_.gather(ap);
+    };
+    // Free motions are null vectors; removing them keeps them from growing. Expressed variables have zeros.
+    cg.precondition = [&](std::span<const double> r, std::span<double> z) {
+        precondition(r, z);
+        for (const std::vector<double>& motion : null_) add_scaled(-dot(motion, z), motion, z);
+        system_.spread(z);
+    };
+    for (const std::vector<double>& motion : floating_.weak()) {
+        Direction d{motion, std::vector<double>(motion.size(), 0.0), 0.0};
+        system_.add_couplings(d.p, d.ap);  // the bodies do not resist
+        system_.gather(d.ap);
+        for (int pass = 0; pass < 2; ++pass)
+            for (const Direction& other : cg.given) {
+                const double share = dot(other.ap, d.p) / other.pap;
+                add_scaled(-share, other.p, d.p);
+                add_scaled(-share, other.ap, d.ap);
+            }
+        d.pap = dot(d.p, d.ap);
+        if (d.pap > 0.0) cg.given.push_back(std::move(d));
+    }
+    cg.restart = [&](std::span<double> at, std::span<double> r) {
+        system_.spread(at, theta);
+        std::vector<double> springs(at.size(), 0.0);
+        for (const Direction& d : cg.given) {
+            // What acts along a rigid motion are loads and springs alone.
+            std::fill(springs.begin(), springs.end(), 0.0);
+            system_.add_couplings(at, springs);
+            const double along = (dot(d.p, right) - dot(d.p, springs)) / d.pap;
+            add_scaled(along, d.p, at);
+        }
+        system_.apply(at, r);
+        for (std::size_t i = 0; i < r.size(); ++i) r[i] = right[i] - r[i];
+        system_.gather(r);
+        for (const std::vector<double>& motion : null_) add_scaled(-dot(motion, r), motion, r);
+        for (const Direction& d : cg.given) add_scaled(-dot(d.p, r) / d.pap, d.ap, r);
+        return size_of(theta, at);
+    };
+    cg.rounding = [&](std::span<const double> at) { return rounding_at(right, at); };
+    cg.each_iteration = [&](std::int64_t iteration) { monitor_.progress("linear solve", iteration, 0); };
+    const Options& options = bodies_.problem().options;
+    const CgOutcome outcome =
+        conjugate_gradients(cg, x, std::max(options.linear_tolerance, finest), options.linear_limit);
+    system_.spread(x, theta);
+    floating_.settle(x);
+    answer.iterations = outcome.iterations;
+    answer.residual = outcome.residual;
+    answer.converged = outcome.converged;
+    answer.definite = outcome.definite;
+    debt_ += iteration_cost() * std::max(0.0, static_cast<double>(outcome.iterations) - fresh_iterations);
+    return answer;
+}
+
+}  // namespace delam

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Solves the system of bodies and interfaces again and again while its springs change little from one time to the next
+// (global/local reanalysis; P. Gosselet, M. Blanchard, O. Allix, G. Guguin, AMSES 5, 2018): conjugate gradients,
+// preconditioned by
+// a factor of the whole at springs of an earlier moment, and before and after it exact factors of patches around the
+// springs that differ (multiplicative Schwarz, symmetric).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "reduction/body_system.hpp"
+#include "reduction/iterated/floating.hpp"
+#include "reduction/iterated/jump_system.hpp"
+#include "reduction/iterated/patches.hpp"
+#include "reduction/iterated/whole_factor.hpp"
+
+namespace delam {
+
+class Reanalysis {
+public:
+    Reanalysis(const BodySystem& bodies, Monitor& monitor);
+
+    // What acts from now on. False: a patch is not positive definite, and nothing can be solved.
+    bool set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held);
+    struct Answer {
+        std::int64_t iterations = 0;
+        double residual = 0.0;  // relative, in the energy norm
+        bool converged = true;
+        bool balanced = true;  // false: a free motion carries a load; x is then not set
+        bool definite = true;  // false: negative curvature was met; x is then of no use
+    };
+    // x: [variables] in: where to start, empty: nowhere; out: the solution. row_force: h, [rows] or empty.
+    Answer solve(std::span<const double> theta, std::span<const double> row_force, std::vector<double>& x);
+
+    const JumpSystem& system() const { return system_; }
+    const Floating& floating() const { return floating_; }
+    // g = T^T (f - K U theta)
+    std::vector<double> load(std::span<const double> theta) const;
+    std::int64_t factorisations() const { return factorisations_; }
+    const WholeFactor* whole() const { return whole_.get(); }
+    const Patches& patches() const { return patches_; }
+
+    // What the next solution's last digits depend on.
+    std::vector<double> memory() const;
+    void recall(std::span<const double> memory);
+    // Throws Error(DELAM_ERROR_SNAPSHOT).
+    void require_memory(std::span<const double> memory) const;
+
+private:
+    std::vector<double> springs_now() const;
+    std::vector<std::int64_t> changed(std::span<const double> now) const;
+    bool plain() const;
+    void renew(std::vector<double> springs);
+    void factorise_whole();
+    std::vector<double> right_side(std::span<const double> theta, std::span<const double> row_force) const;
+    double size_of(std::span<const double> theta, std::span<const double> x) const;
+    double rounding_at(std::span<const double> right, std::span<const double> x);
+    void precondition(std::span<const double> r, std::span<double> z);
+    void start_from(std::span<const double> right, std::span<const double> theta, std::span<double> x) const;
+    double iteration_cost() const;
+
+    const BodySystem& bodies_;
+    Monitor& monitor_;
+    JumpSystem system_;
+    Floating floating_;
+    Patches patches_;
+    std::vector<std::vector<double>> load_;  // [patterns][variables]
+    std::unique_ptr<WholeFactor> whole_;
+    std::vector<double> lagged_;  // [rows] springs of the factor; held ones as springs. Empty: there is none
+    double debt_ = 0.0;           // operations since then that a fresh factor would have saved
+    std::int64_t factorisations_ = 0;
+    std::vector<std::vector<double>> null_;  // free motions in the reduced space, orthonormal
+    std::vector<double> work_, image_;
+};
+
+}  // namespace delam

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The whole system factored at springs of an earlier moment, as a preconditioner: it stays when the springs change.
+// Constraints on many variables would fill the factor; they are met exactly by a few stored columns:
+//
+//   z = M^-1 r - W G^-1 E M^-1 r,    W = M^-1 E^T,  G = E W
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "linalg/cholesky.hpp"
+#include "linalg/dense.hpp"
+#include "reduction/iterated/jump_system.hpp"
+
+namespace delam {
+
+class WholeFactor {
+public:
+    WholeFactor(const JumpSystem& system, const Poll& poll);
+    // springs: entries of the springs of this moment. Throws Error(DELAM_ERROR_NUMERICAL) if the bodies have no
+    // definite stiffness.
+    void factorise(std::span<const Triplet> springs);
+    void apply(std::span<const double> r, std::span<double> z) const;
+
+    const FactorSize& size() const { return size_; }
+    double entries() const { return factor_.factor_entries(); }  // as stored
+
+private:
+    const JumpSystem& system_;
+    SparseCholesky factor_;
+    FactorSize size_;
+    DenseMatrix columns_;  // W
+    DenseMatrix gram_;     // factor of G
+};
+
+}  // namespace delam

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Layers with interfaces in states that a march may meet: a notch, some pairs damaged, some closed, some parts afloat.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "base/numbers.hpp"
+#include "flexure.hpp"
+#include "reduction/jump_operator.hpp"
+#include "scene/problem.hpp"
+
+namespace unit {
+
+using namespace delam;
+
+struct LayerCase {
+    const char* name;
+    int dimension;
+    std::size_t layers;
+    std::int64_t subdomains;
+    double stiffness;       // of the law
+    bool floating = false;  // the layers come apart but for the zone
+    bool touching = false;  // the second interface only touches
+    bool loaded = false;    // dead forces and an eigenstrain
+    const char* preconditioner = "series";
+    bool clamped = false;  // supports on both faces of the last pairs
+    double tolerance = 1e-7;
+};
+
+inline Problem make_layers_of(const LayerCase& c) {
+    unit::Flexure f;
+    f.dimension = c.dimension;
+    f.layers = c.layers;
+    f.along = c.dimension == 2 ? 40 : 12;
+    f.across = 3;
+    f.through = 2;
+    f.law.normal_stiffness = f.law.tangential_stiffness = c.stiffness;
+    Problem problem = unit::make_flexure(f);
+    problem.options.subdomains = c.subdomains;
+    problem.options.preconditioner = c.preconditioner;
+    if (c.touching) {
+        problem.interfaces.back().law.reset();
+        problem.interfaces.back().contact = true;
+        std::fill(problem.interfaces.back().adhesion.begin(), problem.interfaces.back().adhesion.end(), 0.0);
+        // What lies above must not fall off sideways.
+        for (std::int64_t node = 0; node < problem.mesh->node_count(); ++node)
+            if (problem.mesh->node_body(node) == static_cast<std::int32_t>(c.layers) - 1 &&
+                problem.mesh->node(node)[0] < 1e-9)
+                problem.constraints.push_back({{c.dimension * node}, {1.0}, {}});
+    }
+    if (c.clamped) {
+        std::erase_if(problem.constraints, [&](const Constraint& constraint) {
+            return problem.mesh->node(constraint.dof.front() / c.dimension)[0] > f.length - 1e-9;
+        });
+        for (std::int64_t node = 0; node < problem.mesh->node_count(); ++node)
+            for (int k = 0; k < c.dimension && problem.mesh->node(node)[0] > f.length - 1e-9; ++k)
+                problem.constraints.push_back({{c.dimension * node + k}, {1.0}, {}});
+    }
+    if (c.loaded) {
+        problem.patterns.push_back({"pull", {0.0, 1.0}, {0.0, 1.0}, Pattern::Drives::force});
+        problem.patterns.push_back({"heat", {0.0, 1.0}, {0.0, 1.0}, Pattern::Drives::strain});
+        problem.forces.push_back({1, c.dimension * (problem.mesh->node_count() - 1) + 1, 3e3});
+        Strain strain{};
+        strain[0] = 1e-3;
+        problem.eigenstrains.push_back({2, 1, strain});
+    }
+    return problem;
+}
+
+// A state that a march may meet: a notch, some pairs damaged, some closed.
+struct LayerState {
+    Problem problem;
+    Springs springs;
+    std::vector<std::uint8_t> wanted;
+    std::vector<double> theta;
+    std::size_t dim;
+
+    LayerState(const LayerCase& c, unsigned seed)
+        : problem(make_layers_of(c)), dim(static_cast<std::size_t>(c.dimension)) {
+        std::mt19937 random(seed);
+        const auto one_in = [&](unsigned n) { return random() % n == 0; };
+        springs.stiffness.assign(index(problem.jump_count()), 0.0);
+        springs.held.assign(springs.stiffness.size(), 0);
+        wanted.assign(springs.stiffness.size(), 0);
+        theta.assign(problem.patterns.size(), 1.0);
+        std::size_t pair = 0;
+        for (std::size_t i = 0; i < problem.interfaces.size(); ++i) {
+            const InterfaceGeometry& face = problem.mesh->interfaces()[i];
+            for (std::size_t p = 0; p < face.weight.size(); ++p, ++pair) {
+                const double x = problem.mesh->node(face.node_a[p])[0];
+                double zeta = problem.interfaces[i].adhesion[p];
+                const bool front = x > 0.025 && x<0.045, far = x> 0.1;
+                if (front && one_in(2)) zeta *= 0.1 + 0.8 * static_cast<double>(random() % 1000) / 1000.0;
+                if (c.floating) zeta = front && zeta > 0.0 ? zeta : 0.0;
+                const bool closed =
+                    problem.interfaces[i].contact ? one_in(2) : !c.floating && !front && !far && one_in(8);
+                for (std::size_t k = 0; k < dim; ++k) {
+                    springs.stiffness[pair * dim + k] =
+                        problem.interfaces[i].law ? face.weight[p] * zeta * c.stiffness : 0.0;
+                    wanted[pair * dim + k] = front ? 1 : 0;
+                }
+                springs.held[pair * dim] = closed ? 1 : 0;
+            }
+        }
+    }
+};
+
+}  // namespace unit

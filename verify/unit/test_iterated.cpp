@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The iterated operator against the condensed one while a front advances: jumps, forces, energies; its iterations
+// whatever the stiffness of the interfaces; its saved state; and contact where answers are only as good as a residual
+// says.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/numbers.hpp"
+#include "evolution/increment/contact.hpp"
+#include "layer_states.hpp"
+#include "linalg/dense.hpp"
+#include "reduction/condensed/condensed.hpp"
+#include "reduction/iterated/iterated.hpp"
+#include "reduction/zone/rigid_jumps.hpp"
+
+// Last: its macro fail() would break delam::fail().
+#include "quiet_check.hpp"
+
+using namespace delam;
+
+namespace {
+
+constexpr unit::LayerCase cases[] = {
+    {.name = "two layers", .dimension = 2, .layers = 2, .subdomains = 0, .stiffness = 125e9},
+    {.name = "four layers", .dimension = 2, .layers = 4, .subdomains = 0, .stiffness = 125e9},
+    {.name = "soft interface", .dimension = 2, .layers = 2, .subdomains = 0, .stiffness = 1e9},
+    {.name = "stiff interface", .dimension = 2, .layers = 2, .subdomains = 0, .stiffness = 1e16},
+    {.name = "space", .dimension = 3, .layers = 3, .subdomains = 0, .stiffness = 125e9},
+    {.name = "a layer that floats", .dimension = 2, .layers = 3, .subdomains = 0, .stiffness = 125e9, .floating = true},
+    {.name = "a layer that floats in space",
+     .dimension = 3,
+     .layers = 3,
+     .subdomains = 0,
+     .stiffness = 125e9,
+     .floating = true},
+    // The condensed operator loses more digits here than this one: its forces balance to 1e-6 only.
+    {.name = "layers on weak springs",
+     .dimension = 2,
+     .layers = 3,
+     .subdomains = 0,
+     .stiffness = 1e6,
+     .floating = true,
+     .tolerance = 1e-4},
+    {.name = "contact alone", .dimension = 2, .layers = 3, .subdomains = 0, .stiffness = 125e9, .touching = true},
+    {.name = "dead forces, eigenstrains",
+     .dimension = 2,
+     .layers = 3,
+     .subdomains = 0,
+     .stiffness = 125e9,
+     .loaded = true},
+    {.name = "a clamped end in space",
+     .dimension = 3,
+     .layers = 2,
+     .subdomains = 0,
+     .stiffness = 125e9,
+     .clamped = true},
+};
+
+// The front has advanced to x; every seventh pair behind it is closed.
+Springs advanced(const unit::LayerState& scene, double x) {
+    Springs springs = scene.springs;
+    std::size_t pair = 0;
+    for (const InterfaceGeometry& face : scene.problem.mesh->interfaces())
+        for (std::size_t p = 0; p < face.node_a.size(); ++p, ++pair) {
+            const double at = scene.problem.mesh->node(face.node_a[p])[0];
+            if (at < 0.045 || at > x) continue;
+            for (std::size_t k = 0; k < scene.dim; ++k) springs.stiffness[pair * scene.dim + k] = 0.0;
+            springs.held[pair * scene.dim] = pair % 7 == 0 ? 1 : 0;
+        }
+    return springs;
+}
+
+void expect_close(std::span<const double> a, std::span<const double> b, double tolerance, double size,
+                  const std::string& what) {
+    ck_assert_uint_eq(a.size(), b.size());
+    double off = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) off = std::max(off, std::abs(a[i] - b[i]));
+    std::printf("%s: off by %.2e of %.3g\n", what.c_str(), off, size);
+    ck_assert_msg(off <= tolerance * size, "%s: off by %.2e of %.3g", what.c_str(), off, size);
+}
+
+// Without loads of its own, a part that only springs hold is in balance.
+void expect_balance(const DenseMatrix& motions, const std::vector<double>& force, const std::string& where) {
+    for (std::int64_t c = 0; c < motions.columns; ++c) {
+        double sum = 0.0, size = 0.0;
+        for (std::int64_t r = 0; r < motions.rows; ++r) {
+            sum += motions(r, c) * force[index(r)];
+            size += std::abs(motions(r, c) * force[index(r)]);
+        }
+        ck_assert_msg(std::abs(sum) <= 1e-6 * size, "%s, motion %d: %.2e of %.2e", where.c_str(), static_cast<int>(c),
+                      sum, size);
+    }
+}
+
+void expect_alike(const Response& a, const Response& b, double tolerance, const std::string& where) {
+    expect_close(a.jump, b.jump, tolerance, max_abs(b.jump), where + ", jumps");
+    expect_close(a.force, b.force, tolerance, max_abs(b.force), where + ", forces");
+    expect_close(a.conjugate, b.conjugate, tolerance, max_abs(b.conjugate), where + ", conjugate forces");
+    const double energies[] = {a.stored_bulk, a.load_potential}, others[] = {b.stored_bulk, b.load_potential};
+    expect_close(energies, others, tolerance, std::max(max_abs(others), std::abs(dot(b.force, b.jump))),
+                 where + ", energies");
+}
+
+// Answers that are off by this part of the largest, and say so.
+class Disturbed final : public JumpOperator {
+public:
+    Disturbed(JumpOperator& op, double by) : op_(op), by_(by) {}
+    void solve(const Springs& springs, std::span<const double> theta, Response& r) override {
+        op_.solve(springs, theta, r);
+        const double jump = by_ * max_abs(r.jump), force = by_ * max_abs(r.force);
+        for (std::size_t i = 0; i < r.jump.size(); ++i) {
+            seed_ = seed_ * 6364136223846793005u + 1442695040888963407u;
+            const double way = (seed_ >> 63U) != 0 ? 1.0 : -1.0;
+            (springs.held[i] != 0 ? r.force : r.jump)[i] += way * (springs.held[i] != 0 ? force : jump);
+        }
+        r.residual = by_;
+    }
+    std::vector<double> reaction(std::span<const double> t, const Response& r) const override {
+        return op_.reaction(t, r);
+    }
+    std::vector<double> displacement(std::span<const double> t, const Response& r) const override {
+        return op_.displacement(t, r);
+    }
+    double equilibrium_defect(std::span<const double> t, const Response& r) const override {
+        return op_.equilibrium_defect(t, r);
+    }
+    std::span<const std::uint8_t> prescribed_rows() const override { return op_.prescribed_rows(); }
+    std::string description() const override { return op_.description(); }
+
+private:
+    JumpOperator& op_;
+    double by_;
+    std::uint64_t seed_ = 1;
+};
+
+}  // namespace
+
+START_TEST(answers_as_the_condensed_operator) {
+    const unit::LayerCase& c = cases[_i];
+    const unit::LayerState scene(c, static_cast<unsigned>(_i) + 1U);
+    Monitor monitor;
+    auto bulk = std::make_shared<Bulk>(scene.problem, monitor);
+    bulk->condense(monitor);
+    Condensed condensed(bulk, scene.problem, monitor);
+    Iterated iterated(scene.problem, monitor);
+    ck_assert(std::ranges::equal(condensed.prescribed_rows(), iterated.prescribed_rows()));
+    const DenseMatrix motions = rigid_jumps(scene.problem);
+    Response a, b;
+    std::vector<double> theta = scene.theta;
+    for (const double x : {0.0, 0.06, 0.07, 0.075}) {
+        const std::string where = std::string(c.name) + ", front at " + std::to_string(x);
+        for (double& t : theta) t *= 1.1;
+        const Springs springs = advanced(scene, x);
+        condensed.solve(springs, theta, b);
+        iterated.solve(springs, theta, a);
+        ck_assert_int_eq(a.balanced, b.balanced);
+        if (!b.balanced) continue;
+        ck_assert_msg(a.converged && a.iterations <= 12, "%s: %d iterations, residual %.1e", where.c_str(),
+                      static_cast<int>(a.iterations), a.residual);
+        const double tolerance = c.tolerance > 1e-7 ? c.tolerance : 1e-8;  // 1e-7 is the default, for FETI
+        if (c.floating) expect_balance(motions, a.force, where);
+        expect_alike(a, b, tolerance, where);
+        const std::vector<double> u = condensed.displacement(theta, b);
+        expect_close(iterated.displacement(theta, a), u, tolerance, max_abs(u), where + ", displacements");
+        const std::vector<double> rho = condensed.reaction(theta, b);
+        expect_close(iterated.reaction(theta, a), rho, 10.0 * tolerance, max_abs(rho), where + ", reactions");
+        ck_assert(iterated.equilibrium_defect(theta, a) <= 10.0 * tolerance * max_abs(rho));
+    }
+}
+END_TEST
+
+// A front that advances column by column through a patch much smaller than the bodies: how many iterations that takes
+// does not depend on the stiffness of the interface.
+START_TEST(iterations_do_not_depend_on_the_stiffness) {
+    for (const double stiffness : {1e9, 1e11, 1e13, 1e15, 1e17}) {
+        unit::Flexure f;
+        f.along = 400;
+        f.through = 4;
+        f.length = 0.4;
+        f.law.normal_stiffness = f.law.tangential_stiffness = stiffness;
+        Problem problem = unit::make_flexure(f);
+        Monitor monitor;
+        Iterated iterated(problem, monitor);
+        const InterfaceGeometry& face = problem.mesh->interfaces()[0];
+        Response response;
+        const std::vector<double> theta{1.0};
+        std::int64_t most = 0;
+        for (int column = 0; column < 8; ++column) {
+            Springs springs;
+            for (std::size_t p = 0; p < face.node_a.size(); ++p) {
+                const double x = problem.mesh->node(face.node_a[p])[0];
+                const double spring = x < f.notch + 1e-3 * column ? 0.0 : face.weight[p] * stiffness;
+                springs.stiffness.insert(springs.stiffness.end(), 2, spring);
+                springs.held.insert(springs.held.end(), {x < 0.5 * f.notch ? std::uint8_t{1} : std::uint8_t{0}, 0});
+            }
+            iterated.solve(springs, theta, response);
+            ck_assert(response.converged);
+            if (column > 0) most = std::max(most, response.iterations);
+        }
+        std::printf("k = %.0e: at most %d iterations, %d factorisations\n", stiffness, static_cast<int>(most),
+                    static_cast<int>(iterated.factorisations()));
+        ck_assert_int_le(most, 12);
+    }
+}
+END_TEST
+
+START_TEST(continues_bit_for_bit) {
+    const unit::LayerCase& c = cases[_i];
+    const unit::LayerState scene(c, 7);
+    Monitor monitor;
+    Iterated one(scene.problem, monitor), other(scene.problem, monitor);
+    Response first, second;
+    for (const double x : {0.0, 0.05, 0.06}) one.solve(advanced(scene, x), scene.theta, first);
+    const std::vector<double> memory = one.memory();
+    ck_assert(!memory.empty());
+    other.require_memory(memory);
+    other.recall(memory);
+    second = first;
+    for (const double x : {0.065, 0.08}) {
+        one.solve(advanced(scene, x), scene.theta, first);
+        other.solve(advanced(scene, x), scene.theta, second);
+        ck_assert(first.jump == second.jump && first.force == second.force && first.multipliers == second.multipliers);
+        ck_assert(first.stored_bulk == second.stored_bulk && first.iterations == second.iterations);
+    }
+    ck_assert(one.memory() == other.memory());
+    for (const std::size_t damaged : {std::size_t{0}, memory.size() - 1}) {
+        std::vector<double> wrong = memory;
+        wrong[damaged] = -1.0;
+        try {
+            other.require_memory(wrong);
+            ck_abort_msg("a damaged memory was taken");
+        } catch (const Error& e) {
+            ck_assert_int_eq(e.status(), DELAM_ERROR_SNAPSHOT);
+        }
+    }
+}
+END_TEST
+
+START_TEST(contact_settles_on_answers_of_any_accuracy) {
+    const unit::LayerCase c{.name = "contact", .dimension = 2, .layers = 3, .subdomains = 0, .stiffness = 125e9};
+    const unit::LayerState scene(c, 3);
+    Monitor monitor;
+    auto bulk = std::make_shared<Bulk>(scene.problem, monitor);
+    bulk->condense(monitor);
+    Condensed condensed(bulk, scene.problem, monitor);
+    ContactScene contact;
+    contact.bonded.assign(scene.springs.held.size() / scene.dim, 0);
+    contact.level.assign(contact.bonded.size(), 0);
+    for (const double by : {1e-10, 1e-8, 1e-6}) {
+        Disturbed disturbed(condensed, by);
+        std::vector<std::uint8_t> closed(contact.bonded.size(), 0);
+        Response response;
+        const ContactResult result =
+            solve_contact(disturbed, contact, scene.springs.stiffness, scene.theta, closed, response, false);
+        std::printf("answers off by %.0e: %d active-set steps\n", by, static_cast<int>(result.solves));
+        ck_assert(result.converged && result.solves <= 12);
+    }
+}
+END_TEST
+
+int main() {
+    Suite* suite = suite_create("iterated");
+    TCase* tests = tcase_create("operator");
+    tcase_add_loop_test(tests, answers_as_the_condensed_operator, 0, static_cast<int>(std::size(cases)));
+    tcase_add_test(tests, iterations_do_not_depend_on_the_stiffness);
+    tcase_add_loop_test(tests, continues_bit_for_bit, 0, static_cast<int>(std::size(cases)));
+    tcase_add_test(tests, contact_settles_on_answers_of_any_accuracy);
+    suite_add_tcase(suite, tests);
+    SRunner* runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? 0 : 1;
+}
