@@ -16,11 +16,11 @@
 
 #include "base/error.hpp"
 #include "delam/delam.h"
+#include "reduction/zone/zone.hpp"
 
 namespace delam {
 
 class Bulk;
-class Zone;
 
 // The present state of the interface rows.
 struct Springs {
@@ -52,6 +52,7 @@ struct Response {
     double load_potential = 0.0;      // -f^T u of the dead forces in f
     double residual = 0.0;            // relative residual of the linear solve (energy norm)
     std::int64_t iterations = 0;      // Krylov iterations of this solve
+    SolveError error;                 // that the residual allows
     SupportError support;             // none where the realisation meets the supports by construction
     bool balanced = true;             // false: a floating part carries an unbalanced load; the rest is then not set
     bool converged = true;

@@ -19,8 +19,8 @@
 #include "mesh/layers.hpp"
 #include "reduction/jump_variables.hpp"
 #include "reduction/zone/dense_energy.hpp"
+#include "reduction/zone/dense_zone.hpp"
 #include "reduction/zone/rigid_jumps.hpp"
-#include "reduction/zone/zone.hpp"
 #include "scene/problem.hpp"
 
 // Last: its macro fail() would break delam::fail().
@@ -527,7 +527,7 @@ std::vector<double> brute_force(const ZoneCase& z) {
 }
 
 void check_zone(ZoneCase& z, double tolerance, const char* what) {
-    Zone zone(z.energy, z.rows, {}, z.rigid);
+    DenseZone zone(z.energy, z.rows, {}, z.rigid);
     // Twice, after another held set and other couplings: these must have no effect.
     std::vector<std::uint8_t> none(z.held.size(), 0);
     std::vector<Zone::Coupling> springs;
@@ -611,7 +611,7 @@ START_TEST(unbalanced_zones) {
     Random random(static_cast<unsigned>(_i) + 1300U);
     ZoneCase z = zone_case(random, 10, 0, 2, false, 0.0);
     std::fill(z.held.begin(), z.held.end(), std::uint8_t{0});
-    Zone zone(z.energy, z.rows, {}, z.rigid);
+    DenseZone zone(z.energy, z.rows, {}, z.rigid);
     ck_assert(zone.factor({}, z.held));
     ck_assert(!zone.solve(z.theta, {}).balanced);
     // The same load without its part along the motions has an equilibrium.

@@ -126,8 +126,8 @@ START_TEST(does_not_depend_on_the_past) {
     Response before, after;
     used.solve(scene.springs, scene.theta, before);
     ck_assert(used.zone(scene.springs, elsewhere, false) != nullptr);
-    Zone* of_used = used.zone(scene.springs, scene.wanted, false);
-    Zone* of_fresh = fresh.zone(scene.springs, scene.wanted, false);
+    DenseZone* of_used = used.zone(scene.springs, scene.wanted, false);
+    DenseZone* of_fresh = fresh.zone(scene.springs, scene.wanted, false);
     ck_assert(of_used->jump_rows() == of_fresh->jump_rows());
     ck_assert(of_used->energy().stiffness.value == of_fresh->energy().stiffness.value);
     ck_assert(of_used->energy().load.value == of_fresh->energy().load.value);

@@ -54,6 +54,11 @@ struct ActiveSet {
 // Violations below this part of the largest jump or force are rounding of the solve.
 inline constexpr double contact_rounding = 1e-11;
 
+// For jump_floor() and force_floor(): what a solve has left open says nothing about contact. (Measured on an ENF in
+// space with answers off by 1e-6: 153,000 active-set steps without it in the first five load steps, one for each solve
+// with it.)
+inline double unresolved(double error) { return error / contact_rounding; }
+
 // Contact rows on the wrong side, as positions in `rows`; only those on this level or above.
 template <ContactSystem S>
 std::vector<std::size_t> contact_violators(const S& system, const ContactRows& rows,

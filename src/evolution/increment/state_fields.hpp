@@ -19,6 +19,9 @@ inline constexpr auto saved_fields<SupportError> =
     saved_since(unsaved, &SupportError::constraint, &SupportError::error, &SupportError::size);
 
 template <>
+inline constexpr auto saved_fields<SolveError> = saved_since(unsaved, &SolveError::jump, &SolveError::force);
+
+template <>
 inline constexpr auto saved_fields<JumpWithin> = saved_since(unsaved,
     &JumpWithin::known, &JumpWithin::load, &JumpWithin::released, &JumpWithin::debonded, &JumpWithin::drop,
     &JumpWithin::interface, &JumpWithin::advance, &JumpWithin::conjugate_before, &JumpWithin::conjugate_after);
@@ -36,6 +39,7 @@ inline constexpr auto saved_fields<Response> = std::tuple_cat(
         &Response::residual,
         &Response::iterations),
     saved_since(unsaved,  // a committed state is balanced and converged, and meets its supports
+        &Response::error,
         &Response::support,
         &Response::balanced,
         &Response::converged));

@@ -38,7 +38,10 @@ ContactSolve ZoneSystem::solve(const std::vector<std::uint8_t>& closed) {
     held_ = held(closed);
     if (!zone_.factor(couplings_, held_)) return ContactSolve::failed;
     const Zone::Solution solution = zone_.solve(theta_, row_force_);
+    iterations_ += solution.iterations;
     if (!solution.balanced) return ContactSolve::unbalanced;
+    if (!solution.definite) return ContactSolve::failed;
+    error_ = solution.error;
     unknowns_ = solution.unknowns;
     jump_ = zone_.jumps(theta_, unknowns_);
     force_.assign(jump_.size(), 0.0);

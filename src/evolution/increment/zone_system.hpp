@@ -3,6 +3,7 @@
 // normal rows of its pairs that may open and close.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -40,10 +41,12 @@ public:
     ContactSolve solve(const std::vector<std::uint8_t>& closed);
     std::span<const double> jump() const { return jump_; }
     std::span<const double> force() const { return force_; }
-    double jump_floor() const { return scene_.jump_floor(theta_); }
-    double force_floor() const { return scene_.force_floor(theta_); }
+    double jump_floor() const { return std::max(scene_.jump_floor(theta_), unresolved(error_.jump)); }
+    double force_floor() const { return std::max(scene_.force_floor(theta_), unresolved(error_.force)); }
     // Of the last solve.
     const std::vector<double>& unknowns() const { return unknowns_; }
+    // Krylov iterations of all solves.
+    std::int64_t iterations() const { return iterations_; }
     // Zone rows that are held with this contact set.
     std::vector<std::uint8_t> held(const std::vector<std::uint8_t>& closed) const;
 
@@ -59,6 +62,8 @@ private:
     std::vector<Zone::Coupling> couplings_;
     std::vector<double> row_force_;
     std::vector<double> unknowns_, jump_, force_;
+    SolveError error_;
+    std::int64_t iterations_ = 0;
 };
 
 }  // namespace delam

@@ -117,16 +117,7 @@ Descent::Descent(const ZoneNewton& newton, State& state, Increment& increment, c
     }
 }
 
-// The unknowns that are a jump row of their own start at the jumps of the state.
-Descent::Point Descent::start() const {
-    std::vector<double> x(index(zone_.energy().rows()), 0.0);
-    for (std::size_t z = 0; z < zone_.rows().size(); ++z) {
-        const JumpRow& row = zone_.rows()[z];
-        if (row.offset.empty() && row.unknowns.size() == 1 && row.unknowns.front().second == 1.0)
-            x[index(row.unknowns.front().first)] = state_.response.jump[index(zone_.jump_rows()[z])];
-    }
-    return point(std::move(x));
-}
+Descent::Point Descent::start() const { return point(zone_.unknowns_at(state_.response)); }
 
 Descent::Point Descent::point(std::vector<double> unknowns) const {
     Point at;
@@ -181,7 +172,7 @@ bool Descent::minimise(const Point& at, std::span<const double> adhesion, double
 }
 
 bool Descent::descend(const Point& at, Point& to) const {
-    const double rounding = 1e-14 * (std::abs(at.energy) + std::abs(to.energy));
+    const double rounding = zone_.energy_rounding() * (std::abs(at.energy) + std::abs(to.energy));
     for (std::int64_t n = 0; n < halvings; ++n) {
         if (n > 0) {
             std::vector<double> between(at.unknowns.size());
@@ -269,6 +260,7 @@ bool Descent::observe(Point& at, std::span<const double> carried) {
 // Jumps from which the next displacement step may start.
 void Descent::hand_over(const Point& at) {
     for (std::size_t i = 0; i < members_.size(); ++i) state_.adhesion[members_[i].pair] = at.adhesion[i];
+    zone_.keep(at.unknowns, state_.response);
     const std::vector<std::uint8_t> held = system_.held(closed_);
     for (std::size_t z = 0; z < at.jump.size(); ++z)
         state_.response.jump[index(zone_.jump_rows()[z])] = held[z] != 0 ? 0.0 : at.jump[z];
@@ -295,6 +287,7 @@ double Descent::run() {
         if (move.newton && !renewed ? change * change <= 0.01 * newton_.tolerance : change <= newton_.tolerance) break;
     }
     hand_over(at);
+    state_.effort.linear_iterations += system_.iterations();
     return added_;
 }
 

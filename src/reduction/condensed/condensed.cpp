@@ -282,11 +282,11 @@ void Condensed::condense_inner() {
             for (std::int64_t z = 0; z < floating.rows; ++z) floating(z, c) = free(zone_unknowns_[index(z)], c);
         floating = orthonormalised(std::move(floating));
     }
-    zone_ =
-        std::make_unique<Zone>(inner_->energy(), std::move(rows), std::move(zone_rows), std::move(floating), poll());
+    zone_ = std::make_unique<DenseZone>(inner_->energy(), std::move(rows), std::move(zone_rows), std::move(floating),
+                                        poll());
 }
 
-Zone* Condensed::zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) {
+DenseZone* Condensed::zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) {
     std::vector<std::uint8_t> unknowns(always_.size(), 0);
     bool inside = covers(springs);
     const auto rows = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), std::uint8_t{1}));

@@ -12,7 +12,7 @@
 
 #include "reduction/condensed/bulk.hpp"
 #include "reduction/jump_operator.hpp"
-#include "reduction/zone/zone.hpp"
+#include "reduction/zone/dense_zone.hpp"
 
 namespace delam {
 
@@ -39,7 +39,7 @@ public:
     }
 
     bool offers_zone() const override { return true; }
-    Zone* zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) override;
+    DenseZone* zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) override;
     // All rows, forces and energies from a zone solution with these springs; none: no unknown moves.
     void respond(const Springs& springs, std::span<const double> theta, const Zone::Solution* solution,
                  Response& response) const;
@@ -87,7 +87,7 @@ private:
     std::vector<std::vector<std::int64_t>> released_;  // from the first step, group after group
     double multiplications_ = 0.0;                     // of the condensations since the first step
     std::unique_ptr<Condensation> outer_, inner_;
-    std::unique_ptr<Zone> zone_;
+    std::unique_ptr<DenseZone> zone_;
     std::vector<std::int64_t> zone_unknowns_;
     std::int64_t condensations_ = 0;
 };

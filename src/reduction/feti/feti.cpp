@@ -22,7 +22,7 @@ Poll Feti::condensing() {
     return monitor_.poll_at("condense", parts, parts);
 }
 
-Zone* Feti::zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool) {
+DenseZone* Feti::zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool) {
     if (zone_ == nullptr) zone_ = std::make_unique<FetiZone>(problem_, parts_.subdomains, dual_, loads_, monitor_);
     return zone_->zone(springs, wanted);
 }

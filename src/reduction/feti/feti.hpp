@@ -38,7 +38,7 @@ public:
     bool offers_zone() const override { return true; }
     // The columns are right to 1e-12 of the bodies' flexibility, and an unstable pair multiplies what they are off.
     double zone_rounding() const override { return 1e-6; }
-    Zone* zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) override;
+    DenseZone* zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) override;
     std::string description() const override;
 
 private:

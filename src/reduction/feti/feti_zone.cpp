@@ -174,11 +174,11 @@ bool FetiZone::minimise_out(Split split) {
         rows.push_back(given ? JumpRow{{}, driven(r)} : JumpRow{{{place[r], 1.0}}, {}});
         jump_rows.push_back(static_cast<std::int64_t>(r));
     }
-    zone_ = std::make_unique<Zone>(rest_->energy(), std::move(rows), std::move(jump_rows), floating(), poll);
+    zone_ = std::make_unique<DenseZone>(rest_->energy(), std::move(rows), std::move(jump_rows), floating(), poll);
     return true;
 }
 
-Zone* FetiZone::zone(const Springs& springs, std::span<const std::uint8_t> wanted) {
+DenseZone* FetiZone::zone(const Springs& springs, std::span<const std::uint8_t> wanted) {
     std::vector<std::int64_t> rows = changed(springs, wanted);
     if (!allowed(rows)) return nullptr;
     if (rows != rows_ && !find_energy(std::move(rows))) return nullptr;

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "reduction/feti/jump_columns.hpp"
-#include "reduction/zone/zone.hpp"
+#include "reduction/zone/dense_zone.hpp"
 
 namespace delam {
 
@@ -23,7 +23,7 @@ public:
     FetiZone(const Problem& problem, const std::vector<Subdomain>& subdomains, DualOperator& dual,
              const DualLoads& loads, Monitor& monitor);
     // Null: A is too large, its rows depend on each other, or its columns cannot be found well enough.
-    Zone* zone(const Springs& springs, std::span<const std::uint8_t> wanted);
+    DenseZone* zone(const Springs& springs, std::span<const std::uint8_t> wanted);
 
 private:
     // Unknowns of the zone and what the others are minimised out at, over A.
@@ -53,7 +53,7 @@ private:
     std::vector<std::int64_t> anchors_;  // of A: with these kept, the others hold every motion that A lets go
     Split split_;
     std::unique_ptr<Condensation> rest_;
-    std::unique_ptr<Zone> zone_;
+    std::unique_ptr<DenseZone> zone_;
 };
 
 }  // namespace delam

@@ -63,6 +63,7 @@ CgOutcome conjugate_gradients(const CgSystem& system, std::span<double> x, doubl
         const bool reached = relative <= tolerance;
         if (norm < before) {
             outcome.residual = relative;
+            outcome.norm = norm;
             best.assign(x.begin(), x.end());
         }
         if (reached) {

@@ -30,6 +30,7 @@ struct CgSystem {
 struct CgOutcome {
     std::int64_t iterations = 0;
     double residual = 0.0;   // sqrt(r^T z) over the size of the state, true
+    double norm = 0.0;       // sqrt(r^T z)
     bool converged = false;  // to the tolerance, or to what rounding allows
     bool definite = true;    // false: a direction of negative curvature was met; x is where it was met
 };

@@ -68,14 +68,19 @@ void Iterated::solve(const Springs& springs, std::span<const double> theta, Resp
     scale_by_power(pulled, -power);
     if (exponent(max_abs(x)) - power > largest_start_power) x.clear();
     scale_by_power(x, -power);
-    const Reanalysis::Answer answer = reanalysis_.solve(unit, pulled, x);
+    const Reanalysis::Answer answer = reanalysis_.solve(unit, pulled, problem_.options.linear_tolerance, x);
     response.balanced = answer.balanced;
     response.iterations = answer.iterations;
     response.residual = answer.residual;
     response.converged = answer.converged && answer.definite;
     scale_by_power(x, power);
     response.multipliers = std::move(x);
-    if (response.balanced) respond(springs, theta, response);
+    response.error = {};
+    if (!response.balanced) return;
+    respond(springs, theta, response);
+    Reanalysis::Answer sized = answer;
+    sized.norm = std::ldexp(sized.norm, power);
+    response.error = reanalysis_.error(sized, response.jump, response.force);
 }
 
 void Iterated::rest(const Springs& springs, std::span<const double> theta, Response& response) const {
@@ -91,9 +96,6 @@ void Iterated::respond(const Springs& springs, std::span<const double> theta, Re
     const std::vector<double>& x = response.multipliers;
     const std::size_t rows = springs.stiffness.size();
     const std::vector<double> offset = system.offsets(theta);
-    std::vector<double> left = reanalysis_.load(theta), image(left.size());
-    multiply(system.matrix(), x, image);
-    for (std::size_t i = 0; i < left.size(); ++i) left[i] -= image[i];
     response.jump.assign(rows, 0.0);
     response.force.assign(rows, 0.0);
     for (std::size_t r = 0; r < rows; ++r) {
@@ -101,9 +103,8 @@ void Iterated::respond(const Springs& springs, std::span<const double> theta, Re
         response.jump[r] = offset[r] + system.row_value(r, x);
         response.force[r] = springs.stiffness[r] * response.jump[r];
         if (!springs.force.empty()) response.force[r] -= springs.force[r];
-        system.add_row(r, -response.force[r], left);
     }
-    const std::vector<double> mu = system.multipliers(left, response.force);
+    const std::vector<double> mu = reanalysis_.held_forces(theta, x, response.force);
     response.rigid.clear();
     response.support = {};
     find_energies(theta, mu, response);
@@ -139,6 +140,11 @@ void Iterated::find_energies(std::span<const double> theta, std::span<const doub
     }
     // Strains that can freely follow an eigenstrain store only the rounding of terms that cancel.
     if (!problem_.eigenstrains.empty()) response.stored_bulk = std::max(0.0, response.stored_bulk);
+}
+
+Zone* Iterated::zone(const Springs&, std::span<const std::uint8_t>, bool) {
+    if (zone_ == nullptr) zone_ = std::make_unique<IteratedZone>(bodies_, reanalysis_);
+    return zone_.get();
 }
 
 std::vector<double> Iterated::displacement(std::span<const double> theta, const Response& response) const {

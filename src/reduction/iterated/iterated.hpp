@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "reduction/iterated/iterated_zone.hpp"
 #include "reduction/iterated/reanalysis.hpp"
 #include "reduction/jump_operator.hpp"
 #include "scene/problem.hpp"
@@ -27,6 +28,11 @@ public:
     void recall(std::span<const double> memory) override { reanalysis_.recall(memory); }
     void require_memory(std::span<const double> memory) const override { reanalysis_.require_memory(memory); }
 
+    bool offers_zone() const override { return true; }
+    // Its steps are solved to a residual far below the tolerance of the damage.
+    double zone_rounding() const override { return problem_.options.damage_tolerance; }
+    Zone* zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) override;
+
     // Of the factor of the whole, and the numbers that it stores; of the sparse matrices.
     const FactorSize& factor() const { return reanalysis_.whole()->size(); }
     double stored_factor() const { return reanalysis_.whole()->entries(); }
@@ -45,6 +51,7 @@ private:
     BodySystem bodies_;
     std::vector<double> strain_energy_;  // [patterns][patterns] W of the eigenstrains
     Reanalysis reanalysis_;
+    std::unique_ptr<IteratedZone> zone_;  // once it is asked for
     mutable std::int64_t recoveries_ = 0;
 };
 

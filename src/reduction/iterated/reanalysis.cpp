@@ -25,6 +25,9 @@ constexpr double fresh_iterations = 2.0;
 constexpr double slower = 5.0;
 // Residuals below this part of the state are not asked for: it is what a decision about contact can still use.
 constexpr double finest = 1e-11;
+// Multiple of the residual below which a jump or force is in doubt, and how much farther than a node an error reaches.
+constexpr double in_doubt = 4.0;
+constexpr double spread_out = 100.0;
 
 }  // namespace
 
@@ -79,6 +82,7 @@ std::vector<std::int64_t> Reanalysis::changed(std::span<const double> now) const
     for (const Zone::Coupling& c : system_.couplings()) {
         const auto r = index(c.row), q = index(c.column);
         if (r == q || system_.prescribed()[r] != 0 || system_.prescribed()[q] != 0) continue;
+        if (system_.held()[r] != 0 || system_.held()[q] != 0) continue;
         const double own = (row_diagonal(system_, r) + lagged_[r]) * (row_diagonal(system_, q) + lagged_[q]);
         if (c.value * c.value > differs * differs * own) row[r] = row[q] = 1;
     }
@@ -129,7 +133,7 @@ bool Reanalysis::set(std::vector<Zone::Coupling> couplings, std::span<const std:
     if (!lagged_.empty()) seeds = changed(now);
     const bool large =
         static_cast<double>(patches_.variables_about(seeds)) > largest_patch * static_cast<double>(system_.count());
-    if (lagged_.empty() || (plain() && !seeds.empty() && (large || debt_ > whole_->size().flops))) {
+    if (lagged_.empty() || (!seeds.empty() && ((large && plain()) || debt_ > whole_->size().flops))) {
         std::vector<double> springs = now;
         for (double& s : springs) s = std::max(0.0, s);
         for (const Zone::Coupling& c : floating_.anchors()) springs[index(c.row)] += c.value;
@@ -175,6 +179,31 @@ double Reanalysis::size_of(std::span<const double> theta, std::span<const double
     for (const Zone::Coupling& c : system_.couplings())
         energy += std::abs(system_.row_value(index(c.row), x) * c.value * system_.row_value(index(c.column), x));
     return std::sqrt(energy);
+}
+
+// As a part of the largest; but no more than what the residual's energy can do to a node, which matters where the state
+// has hardly any energy.
+SolveError Reanalysis::error(const Answer& answer, std::span<const double> jump, std::span<const double> force) const {
+    double diagonal = 0.0;
+    for (const double d : system_.diagonal()) diagonal += d / static_cast<double>(system_.count());
+    const double share = in_doubt * answer.residual, energy = in_doubt * spread_out * answer.norm;
+    if (!(diagonal > 0.0)) return {};
+    return {std::min(share * max_abs(jump), energy / std::sqrt(diagonal)),
+            std::min(share * max_abs(force), energy * std::sqrt(diagonal))};
+}
+
+std::vector<double> Reanalysis::held_forces(std::span<const double> theta, std::span<const double> x,
+                                            std::span<double> force) const {
+    std::vector<double> left = load(theta), image(left.size());
+    multiply(system_.matrix(), x, image);
+    for (std::size_t i = 0; i < left.size(); ++i) left[i] -= image[i];
+    for (std::size_t r = 0; r < force.size(); ++r) {
+        if (system_.held()[r] != 0)
+            force[r] = 0.0;
+        else
+            system_.add_row(r, -force[r], left);
+    }
+    return system_.multipliers(left, force);
 }
 
 // Each component has an error of the size of its largest terms times the rounding unit, with a random sign.
@@ -240,11 +269,11 @@ void Reanalysis::start_from(std::span<const double> right, std::span<const doubl
     system_.apply(rest, image);
     const double pull = dot(y, right) - dot(y, image);
     system_.apply(y, image);
-    const double curvature = dot(y, image), scale = curvature > 0.0 ? pull / curvature : 0.0;
+    const double curvature = dot(y, image), scale = curvature > 0.0 ? pull / curvature : 1.0;
     for (std::size_t i = 0; i < x.size(); ++i) x[i] = scale * y[i];
 }
 
-Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<const double> row_force,
+Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<const double> row_force, double tolerance,
                                      std::vector<double>& x) {
     Answer answer;
     const std::vector<double> right = right_side(theta, row_force);
@@ -301,13 +330,13 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
     };
     cg.rounding = [&](std::span<const double> at) { return rounding_at(right, at); };
     cg.each_iteration = [&](std::int64_t iteration) { monitor_.progress("linear solve", iteration, 0); };
-    const Options& options = bodies_.problem().options;
     const CgOutcome outcome =
-        conjugate_gradients(cg, x, std::max(options.linear_tolerance, finest), options.linear_limit);
+        conjugate_gradients(cg, x, std::max(tolerance, finest), bodies_.problem().options.linear_limit);
     system_.spread(x, theta);
     floating_.settle(x);
     answer.iterations = outcome.iterations;
     answer.residual = outcome.residual;
+    answer.norm = outcome.norm;
     answer.converged = outcome.converged;
     answer.definite = outcome.definite;
     debt_ += iteration_cost() * std::max(0.0, static_cast<double>(outcome.iterations) - fresh_iterations);

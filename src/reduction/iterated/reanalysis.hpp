@@ -30,12 +30,20 @@ public:
     struct Answer {
         std::int64_t iterations = 0;
         double residual = 0.0;  // relative, in the energy norm
+        double norm = 0.0;      // the same, absolute: square root of an energy
         bool converged = true;
         bool balanced = true;  // false: a free motion carries a load; x is then not set
         bool definite = true;  // false: negative curvature was met; x is then of no use
     };
-    // x: [variables] in: where to start, empty: nowhere; out: the solution. row_force: h, [rows] or empty.
-    Answer solve(std::span<const double> theta, std::span<const double> row_force, std::vector<double>& x);
+    // x: [variables] in: where to start, empty: nowhere; out: the solution. row_force: h, [rows] or empty. tolerance:
+    // of the residual, at best `finest`.
+    Answer solve(std::span<const double> theta, std::span<const double> row_force, double tolerance,
+                 std::vector<double>& x);
+    // What such an answer leaves open of these jumps and forces.
+    SolveError error(const Answer& answer, std::span<const double> jump, std::span<const double> force) const;
+    // Adds the forces of held rows to those of the others. Returns the multipliers of constraints on many variables.
+    std::vector<double> held_forces(std::span<const double> theta, std::span<const double> x,
+                                    std::span<double> force) const;
 
     const JumpSystem& system() const { return system_; }
     const Floating& floating() const { return floating_; }

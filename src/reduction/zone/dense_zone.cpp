@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reduction/zone/zone.hpp"
+#include "reduction/zone/dense_zone.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "linalg/echelon.hpp"
+#include "reduction/jump_operator.hpp"
 
 namespace delam {
 
@@ -18,8 +19,8 @@ constexpr double unbalanced = 1e-8;  // largest part of a load that may remain o
 
 }  // namespace
 
-Zone::Zone(const DenseEnergy& energy, std::vector<JumpRow> rows, std::vector<std::int64_t> jump_rows, DenseMatrix rigid,
-           Poll poll)
+DenseZone::DenseZone(const DenseEnergy& energy, std::vector<JumpRow> rows, std::vector<std::int64_t> jump_rows,
+                     DenseMatrix rigid, Poll poll)
     : energy_(&energy),
       rows_(std::move(rows)),
       jump_rows_(std::move(jump_rows)),
@@ -49,7 +50,7 @@ Zone::Zone(const DenseEnergy& energy, std::vector<JumpRow> rows, std::vector<std
 
 // The first held row that equals an unknown removes that unknown; each other held row expresses one unknown by the
 // rest.
-void Zone::hold(std::span<const std::uint8_t> held) {
+void DenseZone::hold(std::span<const std::uint8_t> held) {
     held_.assign(held.begin(), held.end());
     std::vector<std::uint8_t> out(index(energy_->rows()), 0);
     bound_rows_.clear();
@@ -94,7 +95,7 @@ void Zone::hold(std::span<const std::uint8_t> held) {
     operations_ = echelon.operations;
 }
 
-std::vector<double> Zone::apply(std::span<const double> x) const {
+std::vector<double> DenseZone::apply(std::span<const double> x) const {
     std::vector<double> y(x.size());
     multiply_symmetric(rigid_.columns > 0 ? shifted_ : energy_->stiffness, x, y);
     for (const Triplet& s : springs_) y[index(s.row)] += s.value * x[index(s.column)];
@@ -102,7 +103,7 @@ std::vector<double> Zone::apply(std::span<const double> x) const {
 }
 
 // E y: the effect of the free unknowns on all.
-std::vector<double> Zone::expand(std::span<const double> reduced) const {
+std::vector<double> DenseZone::expand(std::span<const double> reduced) const {
     std::vector<double> x(index(energy_->rows()), 0.0), bound(bound_.size());
     multiply(binding_, reduced, bound);
     for (std::size_t i = 0; i < free_.size(); ++i) x[index(free_[i])] = reduced[i];
@@ -111,7 +112,7 @@ std::vector<double> Zone::expand(std::span<const double> reduced) const {
 }
 
 // E^T g
-std::vector<double> Zone::reduce(std::span<const double> full) const {
+std::vector<double> DenseZone::reduce(std::span<const double> full) const {
     std::vector<double> w(free_.size(), 0.0), on_bound(bound_.size());
     for (std::size_t i = 0; i < bound_.size(); ++i) on_bound[i] = full[index(bound_[i])];
     multiply_transposed(binding_, on_bound, w);
@@ -119,14 +120,14 @@ std::vector<double> Zone::reduce(std::span<const double> full) const {
     return w;
 }
 
-std::vector<double> Zone::offsets(std::span<const double> theta) const {
+std::vector<double> DenseZone::offsets(std::span<const double> theta) const {
     std::vector<double> o(rows_.size(), 0.0);
     for (std::size_t r = 0; r < rows_.size(); ++r)
         if (!rows_[r].offset.empty()) o[r] = dot(rows_[r].offset, theta);
     return o;
 }
 
-bool Zone::factor(std::span<const Coupling> couplings, std::span<const std::uint8_t> held) {
+bool DenseZone::factor(std::span<const Coupling> couplings, std::span<const std::uint8_t> held) {
     hold(held);
     couplings_.assign(couplings.begin(), couplings.end());
     springs_.clear();
@@ -141,7 +142,7 @@ bool Zone::factor(std::span<const Coupling> couplings, std::span<const std::uint
 }
 
 // The lower triangle of A_ff + A_fb M + M^T A_bf + M^T A_bb M, where A = S + C and bound = M free.
-void Zone::assemble() {
+void DenseZone::assemble() {
     const DenseMatrix& s = rigid_.columns > 0 ? shifted_ : energy_->stiffness;
     const auto n = static_cast<std::int64_t>(free_.size()), bound = static_cast<std::int64_t>(bound_.size());
     std::vector<std::int64_t> place(index(energy_->rows()), -1);  // among free, then bound
@@ -179,7 +180,7 @@ void Zone::assemble() {
 }
 
 // The Schur complement in the rigid motions that active rows hold. False: not positive definite.
-bool Zone::factor_motions() {
+bool DenseZone::factor_motions() {
     const auto n = static_cast<std::int64_t>(free_.size());
     std::vector<std::uint8_t> active(held_);
     for (const Coupling& c : couplings_)
@@ -228,7 +229,7 @@ bool Zone::factor_motions() {
 }
 
 // Does no free motion carry a part of this load?
-bool Zone::balances(std::span<const double> load) const {
+bool DenseZone::balances(std::span<const double> load) const {
     for (std::int64_t c = 0; rigid_.columns > 0 && c < motions_.free.columns; ++c) {
         double total = 0.0, size = 0.0, motion = 0.0, pull_size = 0.0;
         for (std::int64_t i = 0; i < rigid_.rows; ++i) {
@@ -246,7 +247,7 @@ bool Zone::balances(std::span<const double> load) const {
     return true;
 }
 
-Zone::Solution Zone::solve(std::span<const double> theta, std::span<const double> row_force) const {
+DenseZone::Solution DenseZone::solve(std::span<const double> theta, std::span<const double> row_force) {
     Solution solution;
     std::vector<double> g(index(energy_->rows()));
     multiply(energy_->load, theta, g);
@@ -313,7 +314,8 @@ Zone::Solution Zone::solve(std::span<const double> theta, std::span<const double
     return solution;
 }
 
-void Zone::complete_forces(std::span<const double> theta, const Solution& solution, std::span<double> row_force) const {
+void DenseZone::complete_forces(std::span<const double> theta, const Solution& solution,
+                                std::span<double> row_force) const {
     std::vector<double> left(index(energy_->rows())), image(left.size());
     multiply(energy_->load, theta, left);
     multiply_symmetric(energy_->stiffness, solution.unknowns, image);
@@ -326,14 +328,24 @@ void Zone::complete_forces(std::span<const double> theta, const Solution& soluti
         if (plain_[r] >= 0 && held_[r] != 0) row_force[r] = left[index(plain_[r])];
 }
 
-double Zone::energy_of(std::span<const double> theta, std::span<const double> unknowns) const {
+double DenseZone::energy_of(std::span<const double> theta, std::span<const double> unknowns) const {
     std::vector<double> load(unknowns.size()), image(unknowns.size());
     multiply(energy_->load, theta, load);
     multiply_symmetric(energy_->stiffness, unknowns, image);
     return 0.5 * dot(unknowns, image) - dot(unknowns, load);
 }
 
-std::vector<double> Zone::jumps(std::span<const double> theta, std::span<const double> unknowns) const {
+std::vector<double> DenseZone::unknowns_at(const Response& response) const {
+    std::vector<double> x(index(energy_->rows()), 0.0);
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+        const JumpRow& row = rows_[r];
+        if (row.offset.empty() && row.unknowns.size() == 1 && row.unknowns.front().second == 1.0)
+            x[index(row.unknowns.front().first)] = response.jump[index(jump_rows_[r])];
+    }
+    return x;
+}
+
+std::vector<double> DenseZone::jumps(std::span<const double> theta, std::span<const double> unknowns) const {
     std::vector<double> j = offsets(theta);
     for (std::size_t r = 0; r < rows_.size(); ++r)
         for (const auto& [i, n] : rows_[r].unknowns) j[r] += n * unknowns[index(i)];

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All bodies as the zone: its rows are all jump rows, its unknowns all variables. What is indefinite shows where the
+// tangents are, in the factor of a patch, or in the curvature along a direction of the iteration.
+#pragma once
+
+#include "reduction/iterated/reanalysis.hpp"
+#include "reduction/zone/zone.hpp"
+
+namespace delam {
+
+class IteratedZone final : public Zone {
+public:
+    IteratedZone(const BodySystem& bodies, Reanalysis& reanalysis);
+
+    bool factor(std::span<const Coupling> couplings, std::span<const std::uint8_t> held) override;
+    Solution solve(std::span<const double> theta, std::span<const double> row_force) override;
+    const std::vector<std::int64_t>& jump_rows() const override { return jump_rows_; }
+    std::vector<double> unknowns_at(const Response& response) const override;
+    void keep(std::span<const double> unknowns, Response& response) const override;
+    std::vector<double> jumps(std::span<const double> theta, std::span<const double> unknowns) const override;
+    void complete_forces(std::span<const double> theta, const Solution& solution,
+                         std::span<double> row_force) const override;
+    // The energy of the bodies, from their displacements.
+    double energy_of(std::span<const double> theta, std::span<const double> unknowns) const override;
+    double energy_rounding() const override;
+
+private:
+    const BodySystem& bodies_;
+    Reanalysis& reanalysis_;
+    double tolerance_;  // of the relative residual
+    std::vector<std::int64_t> jump_rows_;
+    mutable std::vector<double> start_;  // of the next solve
+    mutable double rounding_ = -1.0;     // of energy_of(), relative; negative: not yet known
+};
+
+}  // namespace delam

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A zone that is small and dense: everything that does not change has been condensed.
+//
+// Rigid motions Z that nothing outside resists (S Z = 0) have unknowns alpha of their own, x = Z alpha + y, with S +
+// rho Z Z^T for y: however weak the springs that hold them are, nothing cancels. The active rows, not pivots, determine
+// which motions are held at all.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/monitor.hpp"
+#include "reduction/zone/dense_energy.hpp"
+#include "reduction/zone/jump_row.hpp"
+#include "reduction/zone/rigid_jumps.hpp"
+#include "reduction/zone/zone.hpp"
+
+namespace delam {
+
+class DenseZone final : public Zone {
+public:
+    // rows: in unknowns of the zone; jump_rows: the operator's jump row of each of them, ascending. rigid:
+    // [unknowns][motions], orthonormal. poll: called within factor(). `energy` must outlive the zone.
+    DenseZone(const DenseEnergy& energy, std::vector<JumpRow> rows, std::vector<std::int64_t> jump_rows,
+              DenseMatrix rigid, Poll poll = {});
+
+    bool factor(std::span<const Coupling> couplings, std::span<const std::uint8_t> held) override;
+    Solution solve(std::span<const double> theta, std::span<const double> row_force) override;
+    const std::vector<std::int64_t>& jump_rows() const override { return jump_rows_; }
+    // The unknowns that are a jump row of their own start there, the others at zero.
+    std::vector<double> unknowns_at(const Response& response) const override;
+    void keep(std::span<const double>, Response&) const override {}
+    std::vector<double> jumps(std::span<const double> theta, std::span<const double> unknowns) const override;
+    void complete_forces(std::span<const double> theta, const Solution& solution,
+                         std::span<double> row_force) const override;
+    double energy_of(std::span<const double> theta, std::span<const double> unknowns) const override;
+    double energy_rounding() const override { return 1e-14; }
+
+    const DenseEnergy& energy() const { return *energy_; }
+
+private:
+    void hold(std::span<const std::uint8_t> held);
+    void assemble();
+    bool factor_motions();
+    bool balances(std::span<const double> load) const;
+    // y = (S + C) x over all unknowns
+    std::vector<double> apply(std::span<const double> x) const;
+    std::vector<double> expand(std::span<const double> reduced) const;
+    std::vector<double> reduce(std::span<const double> full) const;
+    std::vector<double> offsets(std::span<const double> theta) const;
+
+    const DenseEnergy* energy_;
+    std::vector<JumpRow> rows_;
+    std::vector<std::int64_t> jump_rows_;
+    std::vector<std::int64_t> plain_;
+    bool with_offsets_ = false;
+    DenseMatrix rigid_;       // Z
+    DenseMatrix rigid_rows_;  // N Z
+    DenseMatrix shifted_;     // S + rho Z Z^T where Z is not empty
+
+    Poll poll_;
+    // Of the last factor():
+    std::vector<std::uint8_t> held_;
+    std::vector<Triplet> springs_;  // C in unknowns, sum N^T C N
+    std::vector<Coupling> couplings_;
+    std::vector<std::int64_t> free_;        // unknowns that are solved for
+    std::vector<std::int64_t> bound_rows_;  // held rows that bind several unknowns or have an offset
+    std::vector<std::int64_t> bound_;       // unknowns that these fix
+    DenseMatrix binding_;                   // M: bound = M free (+ offsets)
+    DenseMatrix operations_;                // echelon: [bound][bound_rows]
+    DenseMatrix factor_;
+    Combinations motions_;
+    DenseMatrix motion_y_, motion_x_;  // Y (what y must do), X = Z + Y
+    DenseMatrix motion_coupling_;      // H_r,alpha
+    DenseMatrix motion_solved_;        // H_rr^-1 H_r,alpha
+    DenseMatrix motion_factor_;        // of the Schur complement in held motions, scaled
+    std::vector<double> motion_scale_;
+};
+
+}  // namespace delam
