@@ -34,9 +34,13 @@ constexpr double series_bytes = 32.0;  // per square of a subdomain's jumps: the
 constexpr double feti_solves = 16.0;   // displacement solves per load step
 constexpr double feti_iterations = 20.0;  // Krylov iterations per solve
 // Of the iterated operator: solves per load step, iterations of each, factors of the whole per load step.
-constexpr double iterated_solves = 12.0;
+constexpr double iterated_solves = 18.0;
 constexpr double iterated_iterations = 8.0;
-constexpr double iterated_renewals = 0.2;
+constexpr double iterated_renewals = 0.5;
+constexpr double iterated_vectors = 30.0;
+constexpr double relaxed_supernodes = 1.6;  // numbers stored per entry of its factor
+// Operations of a factor, times variables over the square of its entries (1: all columns alike).
+constexpr double column_spread = 6.0;
 // A matrix-vector product waits for memory: its operations are this many times slower than a factorisation's.
 constexpr double from_memory = 5.0;
 
@@ -84,19 +88,28 @@ ReductionCost predict_condensed(const Bulk& bulk) {
     return cost;
 }
 
-// A solve has a few patches about a front besides its iterations; both cost about as much.
-ReductionCost predict_iterated(const Iterated& iterated) {
-    const FactorSize size = iterated.factor();
-    const double factor = iterated.stored_factor(), matrix = number(iterated.matrix_entries());
-    const double product = from_memory * (4.0 * factor + 6.0 * matrix);
+// A solve has patches about a front besides its iterations; both cost about as much.
+ReductionCost predict_iterated(const IteratedSize& size) {
+    const double product = from_memory * (4.0 * size.stored + 6.0 * size.transformed);
     ReductionCost cost;
-    cost.setup = size.flops;
-    cost.longest = size.flops;
-    cost.step = iterated_solves * 2.0 * iterated_iterations * product + iterated_renewals * size.flops;
-    // K, T^T K T and CHOLMOD's permuted copy of it, the factor, the directions of an iteration.
-    cost.bytes = 16.0 * (number(iterated.stiffness_entries()) + 2.0 * matrix) + 8.0 * factor +
-                 8.0 * (2.0 * iterated_iterations + 12.0) * number(iterated.variables());
+    cost.setup = cost.longest = size.factor.flops;
+    cost.step = iterated_solves * 2.0 * iterated_iterations * product + iterated_renewals * size.factor.flops;
+    // K, T^T K T, a copy of it with springs, CHOLMOD's permuted one, the factor, some states and the directions of an
+    // iteration.
+    cost.bytes = 16.0 * (size.stiffness + 2.5 * size.transformed) + 8.0 * size.stored +
+                 8.0 * (2.0 * iterated_iterations + iterated_vectors) * size.variables;
     return cost;
+}
+
+IteratedSize iterated_size(const Bulk& bulk) {
+    IteratedSize size;
+    size.variables = number(bulk.transformed().rows);
+    size.stiffness = number(bulk.stiffness_entries());
+    size.transformed = number(bulk.transformed_entries());
+    size.factor.entries = predict_monolithic_entries(bulk);
+    size.factor.flops = column_spread * square(size.factor.entries) / std::max(size.variables, 1.0);
+    size.stored = relaxed_supernodes * size.factor.entries;
+    return size;
 }
 
 const ReductionCost& ReductionChoice::own() const {
@@ -172,33 +185,38 @@ ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, doub
 }
 
 void choose(ReductionChoice& choice) {
-    const ReductionCost &c = choice.condensation, &f = choice.feti;
-    const auto decide = [&](bool condensed, std::string reason) {
-        choice.realisation = condensed ? Realisation::condensed : Realisation::feti;
+    const ReductionCost &c = choice.condensation, &i = choice.iteration;
+    const auto decide = [&](Realisation realisation, std::string reason) {
+        choice.realisation = realisation;
         choice.reason = std::move(reason);
     };
-    if (!c.possible && !f.possible)
-        fail(DELAM_ERROR_MEMORY, "the condensed operator would have ", choice.unknowns,
-             " rows and the boundary of a subdomain ", choice.boundary, ", allowed: up to ", dense_limit,
-             " (LAPACK); increase the option subdomains");
     if (!c.possible)
-        return decide(false, text("the condensed operator would have ", choice.unknowns, " rows, allowed: up to ",
-                                  dense_limit, " (LAPACK)"));
+        return decide(Realisation::iterated, text("the condensed operator would have ", choice.unknowns,
+                                                  " rows, allowed: up to ", dense_limit, " (LAPACK)"));
     const double ratio = choice.monolithic > 0.0 ? c.bytes / choice.monolithic : 0.0;
     const std::string memory =
         text("the condensed operator needs ", mebibytes(c.bytes), ", ", std::round(10.0 * ratio) / 10.0,
              " times the memory of one monolithic factorisation");
-    if (c.bytes > memory_floor && ratio > memory_ratio) {
-        if (f.possible && f.bytes < c.bytes) return decide(false, text(memory, ", more than ", memory_ratio));
-        return decide(true, text(memory, ", more than ", memory_ratio, ", but FETI would need ", mebibytes(f.bytes)));
-    }
-    if (f.possible && f.analysis() < c.analysis())
-        return decide(false,
-                      text("an analysis of ", nominal_steps, " steps is predicted to take ", seconds(f.analysis()),
-                           " by FETI and ", seconds(c.analysis()), " condensed, at ", nominal_rate * 1e-9, " GF/s"));
-    decide(true, text(memory, "; an analysis of ", nominal_steps, " steps is predicted to take ", seconds(c.analysis()),
-                      " condensed and ", seconds(f.analysis()), " by FETI, at ", nominal_rate * 1e-9, " GF/s"));
+    if (c.bytes > memory_floor && ratio > memory_ratio && i.bytes < c.bytes)
+        return decide(Realisation::iterated, text(memory, ", more than ", memory_ratio));
+    const std::string times =
+        text("an analysis of ", nominal_steps, " steps is predicted to take ", seconds(c.analysis()), " condensed and ",
+             seconds(i.analysis()), " iterated, at ", nominal_rate * 1e-9, " GF/s");
+    if (i.analysis() < c.analysis()) return decide(Realisation::iterated, times);
+    decide(Realisation::condensed, text(memory, "; ", times));
 }
+
+namespace {
+
+ChosenOperator make_iterated(ChosenOperator chosen, const Problem& problem, Monitor& monitor) {
+    auto iterated = std::make_unique<Iterated>(problem, monitor);
+    chosen.choice.iteration = predict_iterated(iterated->size());
+    chosen.choice.factor_entries = iterated->size().factor.entries;
+    chosen.op = std::move(iterated);
+    return chosen;
+}
+
+}  // namespace
 
 ChosenOperator choose_operator(const Problem& problem, Monitor& monitor) {
     const Options& options = problem.options;
@@ -208,46 +226,42 @@ ChosenOperator choose_operator(const Problem& problem, Monitor& monitor) {
     choice.subdomains = feti_subdomains(problem);
     choice.feti = predict_feti(problem, choice.subdomains, choice.boundary);
     choice.condensation.possible = choice.unknowns <= dense_limit;
+    const auto force = [&](Realisation realisation, std::string reason) {
+        choice.forced = true;
+        choice.realisation = realisation;
+        choice.reason = std::move(reason);
+    };
 
-    if (options.reduction == "iterated") {
-        choice.forced = true;
-        choice.realisation = Realisation::iterated;
-        choice.reason = "option reduction = iterated";
-        auto iterated = std::make_unique<Iterated>(problem, monitor);
-        choice.iteration = predict_iterated(*iterated);
-        choice.factor_entries = iterated->factor().entries;
-        chosen.op = std::move(iterated);
-        return chosen;
-    }
-    std::unique_ptr<Bulk> bulk;
     if (options.reduction == "feti" || (options.reduction == "auto" && options.subdomains > 0)) {
-        choice.forced = true;
-        choice.realisation = Realisation::feti;
-        choice.reason =
-            options.reduction == "feti" ? "option reduction = feti" : text("option subdomains = ", options.subdomains);
-    } else if (!choice.condensation.possible && options.reduction == "auto") {
-        choose(choice);
-    } else {
-        if (!choice.condensation.possible)
-            fail(DELAM_ERROR_PROBLEM, "option 'reduction' = 'condensed': the condensed operator would have ",
-                 choice.unknowns, " rows, allowed: up to ", dense_limit, "; feti has no such limit");
-        bulk = std::make_unique<Bulk>(problem, monitor);
-        choice.unknowns = bulk->trailing();
-        choice.condensation = predict_condensed(*bulk);
-        choice.factor_entries = bulk->size().entries;
-        choice.monolithic = predict_monolithic_bytes(*bulk);
-        choose(choice);
-        if (options.reduction == "condensed") {
-            choice.forced = true;
-            choice.reason = choice.condensed() ? "option reduction = condensed"
-                                               : "option reduction = condensed, although " + choice.reason;
-            choice.realisation = Realisation::condensed;
-        }
-    }
-    if (!choice.condensed()) {
-        bulk.reset();
+        force(Realisation::feti, options.reduction == "feti" ? "option reduction = feti"
+                                                             : text("option subdomains = ", options.subdomains));
         chosen.op = std::make_unique<Feti>(problem, monitor);
         return chosen;
+    }
+    if (options.reduction == "iterated") {
+        force(Realisation::iterated, "option reduction = iterated");
+        return make_iterated(std::move(chosen), problem, monitor);
+    }
+    if (!choice.condensation.possible) {
+        if (options.reduction == "condensed")
+            fail(DELAM_ERROR_PROBLEM, "option 'reduction' = 'condensed': the condensed operator would have ",
+                 choice.unknowns, " rows, allowed: up to ", dense_limit, "; iterated and feti have no such limit");
+        choose(choice);
+        return make_iterated(std::move(chosen), problem, monitor);
+    }
+    auto bulk = std::make_unique<Bulk>(problem, monitor);
+    choice.unknowns = bulk->trailing();
+    choice.condensation = predict_condensed(*bulk);
+    choice.iteration = predict_iterated(iterated_size(*bulk));
+    choice.factor_entries = bulk->size().entries;
+    choice.monolithic = predict_monolithic_bytes(*bulk);
+    choose(choice);
+    if (options.reduction == "condensed")
+        force(Realisation::condensed, choice.condensed() ? "option reduction = condensed"
+                                                         : "option reduction = condensed, although " + choice.reason);
+    if (!choice.condensed()) {
+        bulk.reset();
+        return make_iterated(std::move(chosen), problem, monitor);
     }
     bulk->condense(monitor);
     chosen.op = std::make_unique<Condensed>(std::move(bulk), problem, monitor);

@@ -22,8 +22,7 @@ inline constexpr double nominal_rate = 20e9;  // operations/s of one core in a l
 inline constexpr double nominal_steps = 40.0;
 // The condensed analysis may need so many times the memory of one monolithic factorisation.
 inline constexpr double memory_ratio = 2.5;
-// Memory that every machine for such work has: below it the ratio decides nothing. FETI solves each linear system by
-// iteration and takes longer, so it is for what would not fit.
+// Memory that every machine for such work has: below it the ratio decides nothing.
 inline constexpr double memory_floor = 4096.0 * 1048576.0;
 // Rows of a dense matrix that LAPACK with 32-bit integers can address.
 inline constexpr std::int64_t dense_limit = 46340;
@@ -33,7 +32,7 @@ struct ReductionCost {
     double longest = 0.0;  // operations of the longest factorisation, which cannot be interrupted
     double step = 0.0;     // operations of a load step
     double bytes = 0.0;    // peak of the analysis, mesh and scene not counted
-    bool possible = true;
+    bool possible = true;  // LAPACK's integers hold its largest dense matrix
     double analysis() const { return setup + nominal_steps * step; }
 };
 
@@ -57,15 +56,17 @@ struct ReductionChoice {
 };
 
 class Bulk;
-class Iterated;
+struct IteratedSize;
 ReductionCost predict_condensed(const Bulk& bulk);
-ReductionCost predict_iterated(const Iterated& iterated);
+// From the condensed operator's analysis, without another one.
+IteratedSize iterated_size(const Bulk& bulk);
+ReductionCost predict_iterated(const IteratedSize& size);
 // Entries of the factor of the scene's monolithic matrix, in the best order, and peak bytes of making it.
 double predict_monolithic_entries(const Bulk& bulk);
 double predict_monolithic_bytes(const Bulk& bulk);
 // boundary: out, DOFs, mean over the subdomains.
 ReductionCost predict_feti(const Problem& problem, std::int64_t subdomains, double& boundary);
-// What the two predictions say. Pure: for tests.
+// What the predictions of the condensed and the iterated operator say. Pure: for tests.
 void choose(ReductionChoice& choice);
 
 struct ChosenOperator {

@@ -59,13 +59,17 @@ CASE_TEST(ductile_enf) {
     const Watched plain = march("condensed", "alternate");
     const Watched fast = march("condensed", "accelerated");
     const Watched feti = march("feti", "accelerated");
+    const Watched iterated = march("iterated", "accelerated");
     cases::expect_same_march(fast, plain, tolerance, "condensed, accelerated");
+    cases::expect_same_march(iterated, plain, tolerance, "iterated, accelerated");
     cases::expect_same_march(feti, plain, tolerance, "feti, accelerated");
     if (loop == 0 && cases::whole())
         cases::expect_same_march(march("feti", "alternate"), plain, tolerance, "feti, alternate");
     cases::expect_below(fast.alternations, 0.2 * plain.alternations, "alternations of the accelerated march");
     cases::expect_below(feti.alternations, 1.2 * fast.alternations, "alternations of the march by FETI");
     cases::expect_below(feti.newton, 1.2 * fast.newton, "Newton solves of the march by FETI");
+    cases::expect_below(iterated.alternations, 1.2 * fast.alternations, "alternations of the iterated march");
+    cases::expect_below(iterated.newton, 1.2 * fast.newton, "Newton solves of the iterated march");
 }
 
 // ---- peeling: mode I, mixed, several interfaces, 3D, all laws -------------------------------------------------------
@@ -166,6 +170,8 @@ void march_peel(const Peel& p, int steps, const char* rule) {
     if (p.dimension == 3 && !p.unique) return;  // the Krylov solves of long alternations take long
     const Watched feti = march("feti", "accelerated");
     if (p.unique) cases::expect_same_march(feti, plain, 1e-4, std::string(p.name) + ", feti");
+    const Watched iterated = march("iterated", "accelerated");
+    if (p.unique) cases::expect_same_march(iterated, plain, 1e-4, std::string(p.name) + ", iterated");
 }
 
 // loop: the scene, then in how many steps the load is applied.

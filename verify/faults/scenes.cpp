@@ -463,6 +463,14 @@ const std::vector<Strip>& strips() {
         all.push_back(s);
 
         s = {};
+        s.name = "iterated";
+        s.cells = 24;
+        s.strained = true;
+        s.texts = Texts{{"reduction", "iterated"}};
+        s.steps = 2;
+        all.push_back(s);
+
+        s = {};
         s.name = "energetic";
         s.brittle = true;
         s.texts = Texts{{"solution", "energetic"}, {"reduction", "condensed"}, {"step_control", "adaptive"}};

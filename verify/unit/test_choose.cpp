@@ -14,6 +14,7 @@
 #include "linalg/cholesky.hpp"
 #include "reduction/choose.hpp"
 #include "reduction/condensed/bulk.hpp"
+#include "reduction/iterated/iterated.hpp"
 
 // Last: its macro fail() would break delam::fail().
 #include <check.h>
@@ -57,12 +58,12 @@ double counted_march(const Problem& problem, double& predicted, double& unknowns
     const long before = unit::live_bytes;
     unit::peak_bytes = before;
     Solver solver(problem, monitor, 0.0);
-    for (int k = 1; k <= (problem.options.reduction == "feti" ? 1 : 8); ++k) {  // FETI has its peak in the set-up
+    for (int k = 1; k <= (problem.options.reduction == "condensed" ? 8 : 1); ++k) {  // the others have their peak early
         ck_assert_int_ge(solver.advance(k / 8.0).status, 0);
         solver.commit();
     }
     const ReductionChoice& choice = solver.reduction();
-    predicted = choice.condensed() ? choice.condensation.bytes : choice.feti.bytes;
+    predicted = choice.own().bytes;
     unknowns = choice.condensed() ? static_cast<double>(choice.unknowns) : choice.boundary;
     return static_cast<double>(unit::peak_bytes - before);
 }
@@ -80,9 +81,10 @@ void expect_within(double predicted, double counted, double factor, const std::s
 START_TEST(memory_is_what_was_predicted) {
     if (!unit::counting) return;
     unit::Flexure flexure = scene(_i % 3);
-    if (_i == 3 || _i == 4) flexure.along /= 2;  // Krylov steps grow with the length
+    if (_i == 3 || _i == 4 || _i == 6 || _i == 7) flexure.along /= 2;  // Krylov steps take long
     Problem problem = unit::make_flexure(flexure);
-    problem.options.reduction = _i < 3 ? "condensed" : "feti";
+    constexpr const char* ways[] = {"condensed", "feti", "iterated"};
+    problem.options.reduction = ways[_i / 3];
     double predicted = 0.0, unknowns = 0.0;
     const double counted = counted_march(problem, predicted, unknowns);
     expect_within(predicted, counted, 1.5, "bytes, scene " + std::to_string(_i % 3) + ", " + problem.options.reduction);
@@ -151,44 +153,63 @@ START_TEST(options_force_and_say_so) {
     ck_assert(Solver(problem, monitor, 0.0).reduction().condensed());
     problem.options.subdomains = 0;
     problem.options.reduction = "feti";
-    ck_assert(!Solver(problem, monitor, 0.0).reduction().condensed());
+    ck_assert(Solver(problem, monitor, 0.0).reduction().realisation == Realisation::feti);
+    problem.options.reduction = "iterated";
+    const Solver solver(problem, monitor, 0.0);
+    ck_assert(solver.reduction().realisation == Realisation::iterated && solver.reduction().forced);
+    ck_assert(solver.reduction().iteration.longest > 0.0 && solver.reduction().iteration.bytes > 0.0);
+}
+END_TEST
+
+// What is predicted from the condensed operator's analysis is what the iterated operator then has.
+START_TEST(iterated_size_is_what_was_predicted) {
+    const Problem problem = unit::make_flexure(scene(_i));
+    Monitor monitor;
+    const IteratedSize before = iterated_size(Bulk(problem, monitor)), after = Iterated(problem, monitor).size();
+    const std::string where = ", scene " + std::to_string(_i);
+    ck_assert(before.variables == after.variables && before.stiffness == after.stiffness);
+    expect_within(before.transformed, after.transformed, 1.01, "entries of the matrix" + where);
+    expect_within(before.stored, after.stored, 1.5, "numbers of the factor" + where);
+    expect_within(predict_iterated(before).analysis(), predict_iterated(after).analysis(), 1.5, "operations" + where);
 }
 END_TEST
 
 START_TEST(size_memory_and_time_decide) {
     ReductionChoice c;
+    const auto iterated = [&] { return c.realisation == Realisation::iterated; };
     c.condensation = {1e9, 1e9, 1e8, 1e10, true};
-    c.feti = {1e9, 1e9, 1e9, 5e9, true};
+    c.iteration = {1e9, 1e9, 1e9, 5e9, true};
     c.monolithic = 5e9;
     choose(c);
     ck_assert(c.condensed() && c.reason.find("2 times") != std::string::npos);
     c.monolithic = 3e9;  // 3.3 times
     choose(c);
-    ck_assert(!c.condensed() && c.reason.find("more than 2.5") != std::string::npos);
-    c.feti.bytes = 2e10;
+    ck_assert(iterated() && c.reason.find("more than 2.5") != std::string::npos);
+    c.iteration.bytes = 2e10;
     choose(c);
-    ck_assert(c.condensed() && c.reason.find("FETI would need") != std::string::npos);
+    ck_assert(c.condensed());
     c.condensation.bytes = 1e8;  // three times, but little
     c.monolithic = 3e7;
     choose(c);
     ck_assert(c.condensed());
-    c.feti.step = 1e7;
+    c.iteration.step = 1e7;
     choose(c);
-    ck_assert(!c.condensed() && c.reason.find("predicted to take") != std::string::npos);
+    ck_assert(iterated() && c.reason.find("predicted to take") != std::string::npos);
     c.unknowns = dense_limit + 1;
     c.condensation.possible = false;
-    c.feti.step = 1e12;
+    c.iteration.step = 1e12;
     choose(c);
-    ck_assert(!c.condensed() && c.reason.find("46340") != std::string::npos);
+    ck_assert(iterated() && c.reason.find("46340") != std::string::npos);
 }
 END_TEST
 
 int main() {
     Suite* suite = suite_create("choose");
     TCase* figures = tcase_create("predictions");
-    tcase_add_loop_test(figures, memory_is_what_was_predicted, 0, 6);
+    tcase_add_loop_test(figures, memory_is_what_was_predicted, 0, 9);
     tcase_add_test(figures, operations_of_the_sparse_factor_are_exact);
     tcase_add_loop_test(figures, monolithic_factor_is_what_was_predicted, 0, 5);
+    tcase_add_loop_test(figures, iterated_size_is_what_was_predicted, 0, 5);
     suite_add_tcase(suite, figures);
     TCase* choice = tcase_create("choice");
     tcase_add_test(choice, options_force_and_say_so);

@@ -39,42 +39,8 @@ constexpr Case cases[] = {
     {"a clamped end in space", 3, 2, 0, 125e9, false, false, false, "series", true},
 };
 
-struct Answer {
-    std::vector<double> jump, force;  // of the wanted rows
-    double energy = 0.0;
-};
-
-// The zone's minimiser where the wanted rows have `scale` of their springs and every fifth pair of them is closed.
-Answer ask(Zone& zone, const Scene& scene, double scale) {
-    const std::vector<std::int64_t>& rows = zone.jump_rows();
-    std::vector<Zone::Coupling> couplings;
-    std::vector<std::uint8_t> held(rows.size());
-    std::vector<double> spring(rows.size(), 0.0);
-    for (std::size_t z = 0; z < rows.size(); ++z) {
-        const std::size_t r = index(rows[z]);
-        held[z] = scene.springs.held[r];
-        if (scene.wanted[r] != 0) held[z] = r % scene.dim == 0 && r / scene.dim % 5 == 0 && scale < 1.0 ? 1 : 0;
-        spring[z] = (scene.wanted[r] != 0 ? scale : 1.0) * scene.springs.stiffness[r];
-        const auto at = static_cast<std::int64_t>(z);
-        if (held[z] == 0 && spring[z] > 0.0) couplings.push_back({at, at, spring[z]});
-    }
-    ck_assert(zone.factor(couplings, held));
-    const Zone::Solution solution = zone.solve(scene.theta, {});
-    ck_assert(solution.balanced);
-    const std::vector<double> jump = zone.jumps(scene.theta, solution.unknowns);
-    std::vector<double> force(rows.size());
-    for (std::size_t z = 0; z < rows.size(); ++z) force[z] = held[z] != 0 ? 0.0 : spring[z] * jump[z];
-    zone.complete_forces(scene.theta, solution, force);
-    Answer answer;
-    answer.energy = zone.energy_of(scene.theta, solution.unknowns);
-    for (std::size_t z = 0; z < rows.size(); ++z) {
-        if (held[z] == 0) answer.energy += 0.5 * spring[z] * jump[z] * jump[z];
-        if (scene.wanted[index(rows[z])] == 0) continue;
-        answer.jump.push_back(jump[z]);
-        answer.force.push_back(force[z]);
-    }
-    return answer;
-}
+using Answer = unit::ZoneAnswer;
+using unit::ask;
 
 void expect_close(std::span<const double> a, std::span<const double> b, double tolerance, const std::string& what) {
     ck_assert_uint_eq(a.size(), b.size());

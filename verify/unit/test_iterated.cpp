@@ -15,6 +15,7 @@
 #include "linalg/dense.hpp"
 #include "reduction/condensed/condensed.hpp"
 #include "reduction/iterated/iterated.hpp"
+#include "reduction/zone/dense_zone.hpp"
 #include "reduction/zone/rigid_jumps.hpp"
 
 // Last: its macro fail() would break delam::fail().
@@ -176,6 +177,56 @@ END_TEST
 
 // A front that advances column by column through a patch much smaller than the bodies: how many iterations that takes
 // does not depend on the stiffness of the interface.
+// What Newton's method asks: minimisers with springs and held rows, and whether tangents leave a minimum at all.
+START_TEST(zone_answers_as_the_dense_one) {
+    const unit::LayerCase& c = cases[_i];
+    unit::LayerState scene(c, static_cast<unsigned>(_i) + 1U);
+    scene.problem.options.damage_tolerance = 1e-8;
+    Monitor monitor;
+    auto bulk = std::make_shared<Bulk>(scene.problem, monitor);
+    bulk->condense(monitor);
+    Condensed condensed(bulk, scene.problem, monitor);
+    Iterated iterated(scene.problem, monitor);
+    ck_assert(iterated.offers_zone());
+    Zone* dense = condensed.zone(scene.springs, scene.wanted, false);
+    Zone* sparse = iterated.zone(scene.springs, scene.wanted, false);
+    std::vector<unit::ZoneAnswer> a, b;
+    const double tolerance = c.tolerance > 1e-7 ? c.tolerance : 1e-7;
+    for (const double scale : {1.0, 0.3}) {
+        a.push_back(unit::ask(*sparse, scene, scale));
+        b.push_back(unit::ask(*dense, scene, scale));
+        const std::string where = std::string(c.name) + ", scale " + std::to_string(scale);
+        expect_close(a.back().jump, b.back().jump, tolerance, max_abs(b.back().jump), where + ", jumps");
+        expect_close(a.back().force, b.back().force, tolerance, max_abs(b.back().force), where + ", forces");
+    }
+    // Each zone has an energy of its own up to a constant, and that of all bodies is the larger one.
+    const double off = (a[1].energy - a[0].energy) - (b[1].energy - b[0].energy);
+    const double size = std::max(std::abs(a[0].energy), std::abs(b[0].energy));
+    ck_assert_msg(std::abs(off) <= 1e-8 * size, "%s: energies off by %.2e of %.3g", c.name, off, size);
+
+    int indefinite = 0, definite = 0;
+    for (const double share : {-1e-4, -1e-3, -3e-3, -1e-2, -3e-2, -0.1, -0.3, -1.0, -3.0}) {
+        const auto has_minimum = [&](Zone& zone) {
+            std::vector<Zone::Coupling> couplings;
+            std::vector<std::uint8_t> held(zone.jump_rows().size());
+            for (std::size_t z = 0; z < held.size(); ++z) {
+                const std::size_t r = index(zone.jump_rows()[z]);
+                held[z] = scene.springs.held[r];
+                const double s =
+                    scene.wanted[r] != 0 ? share * bulk->energy().stiffness(0, 0) : scene.springs.stiffness[r];
+                const auto at = static_cast<std::int64_t>(z);
+                if (held[z] == 0 && s != 0.0) couplings.push_back({at, at, s});
+            }
+            return zone.factor(couplings, held) && zone.solve(scene.theta, {}).definite;
+        };
+        const bool expected = has_minimum(*dense);
+        (expected ? definite : indefinite) += 1;
+        ck_assert_msg(has_minimum(*sparse) == expected, "%s: with tangents of %g of the bodies", c.name, share);
+    }
+    ck_assert(indefinite > 0 && (definite > 0 || c.floating));
+}
+END_TEST
+
 START_TEST(iterations_do_not_depend_on_the_stiffness) {
     for (const double stiffness : {1e9, 1e11, 1e13, 1e15, 1e17}) {
         unit::Flexure f;
@@ -267,6 +318,7 @@ int main() {
     Suite* suite = suite_create("iterated");
     TCase* tests = tcase_create("operator");
     tcase_add_loop_test(tests, answers_as_the_condensed_operator, 0, static_cast<int>(std::size(cases)));
+    tcase_add_loop_test(tests, zone_answers_as_the_dense_one, 0, static_cast<int>(std::size(cases)));
     tcase_add_test(tests, iterations_do_not_depend_on_the_stiffness);
     tcase_add_loop_test(tests, continues_bit_for_bit, 0, static_cast<int>(std::size(cases)));
     tcase_add_test(tests, contact_settles_on_answers_of_any_accuracy);

@@ -55,18 +55,17 @@ void Floating::update() {
     std::vector<std::uint8_t> active(rows, 0);
     for (const Zone::Coupling& c : system_.couplings())
         if (c.value != 0.0) active[index(c.row)] = 1;
-    if (held_ == system_.held() && active_ == active && spring_ == spring) return;
-    const bool same_sets = held_ == system_.held() && active_ == active;
+    if (known_ && held_ == system_.held() && active_ == active && spring_ == spring) return;
+    known_ = false;  // until this has come to its end
+    free_.clear();
+    weak_.clear();
+    anchors_.clear();
     held_ = system_.held();
     active_ = std::move(active);
     spring_ = std::move(spring);
     const DenseMatrix loose = split_motions(z, held_).free;  // held rows do not resist them
-    if (loose.columns == 0 || !same_sets) {
-        free_.clear();
-        weak_.clear();
-        anchors_.clear();
-    }
-    if (loose.columns == 0) return;
+    known_ = loose.columns == 0;
+    if (known_) return;
     const DenseMatrix jumps = multiply(z, loose);
     const Combinations parts = split_motions(jumps, active_);
     const DenseMatrix resisted = multiply(jumps, parts.held);
@@ -85,9 +84,6 @@ void Floating::update() {
     const Eigen eigen = eigen_symmetric(std::move(stiff));
     std::int64_t soft = 0;
     while (soft < resisted.columns && eigen.value[index(soft)] < weakly * scale) ++soft;
-    free_.clear();
-    weak_.clear();
-    anchors_.clear();
     DenseMatrix floating(loose.columns, parts.free.columns + soft);
     std::copy(parts.free.value.begin(), parts.free.value.end(), floating.value.begin());
     for (std::int64_t c = 0; c < soft; ++c)
@@ -100,6 +96,7 @@ void Floating::update() {
             .push_back(in_variables(std::span<const double>(combinations.value)
                                         .subspan(index(c * combinations.rows), index(combinations.rows))));
     anchor(multiply(z, combinations));
+    known_ = true;
 }
 
 void Floating::anchor(const DenseMatrix& jumps) {

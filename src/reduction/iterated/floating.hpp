@@ -38,6 +38,7 @@ private:
     const JumpSystem& system_;
     RigidMotions rigid_;
     std::vector<std::int64_t> dof_of_;  // [variables that are displacements] one that is the variable itself
+    bool known_ = false;                // what follows
     std::vector<std::uint8_t> held_, active_;
     std::vector<double> spring_;  // [rows] for which weak_ was found
     std::vector<std::vector<double>> free_, weak_;

@@ -173,6 +173,12 @@ double Iterated::rounding_energy(std::span<const double>, const Response& respon
     return std::numeric_limits<double>::epsilon() * sum;
 }
 
+IteratedSize Iterated::size() const {
+    const WholeFactor& whole = *reanalysis_.whole();
+    return {static_cast<double>(reanalysis_.system().count()), static_cast<double>(bodies_.stiffness().entries()),
+            static_cast<double>(reanalysis_.system().matrix().entries()), whole.size(), whole.entries()};
+}
+
 std::string Iterated::description() const {
     const WholeFactor& whole = *reanalysis_.whole();
     return text("iterated: ", reanalysis_.system().count(), " variables, ", reanalysis_.system().rows().size(),

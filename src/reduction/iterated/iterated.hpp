@@ -12,6 +12,15 @@
 
 namespace delam {
 
+// Numbers from which its cost follows.
+struct IteratedSize {
+    double variables = 0.0;
+    double stiffness = 0.0;    // entries of K
+    double transformed = 0.0;  // of T^T K T
+    FactorSize factor;         // of the whole
+    double stored = 0.0;       // numbers that the factor stores
+};
+
 class Iterated final : public JumpOperator {
 public:
     Iterated(const Problem& problem, Monitor& monitor);
@@ -33,12 +42,7 @@ public:
     double zone_rounding() const override { return problem_.options.damage_tolerance; }
     Zone* zone(const Springs& springs, std::span<const std::uint8_t> wanted, bool tight) override;
 
-    // Of the factor of the whole, and the numbers that it stores; of the sparse matrices.
-    const FactorSize& factor() const { return reanalysis_.whole()->size(); }
-    double stored_factor() const { return reanalysis_.whole()->entries(); }
-    std::int64_t variables() const { return reanalysis_.system().count(); }
-    std::int64_t matrix_entries() const { return reanalysis_.system().matrix().entries(); }
-    std::int64_t stiffness_entries() const { return bodies_.stiffness().entries(); }
+    IteratedSize size() const;
 
 private:
     void rest(const Springs& springs, std::span<const double> theta, Response& response) const;

@@ -70,12 +70,13 @@ bool Patches::cover(std::span<const std::int64_t> seeds, const Poll& poll) {
     if (std::all_of(seeds.begin(), seeds.end(),
                     [&](std::int64_t i) { return inner_[index(i)] != 0 || barred_[index(i)] != 0; }))
         return false;
-    seeds_.assign(seeds.begin(), seeds.end());
-    std::vector<std::int64_t> ring = rings(seeds_);
-    for (std::size_t i = 0; i < ring.size(); ++i) inner_[i] = 2 * ring[i] <= margin_ ? 1 : 0;
+    std::vector<std::int64_t> ring = rings(seeds);
+    std::vector<std::uint8_t> inner(ring.size());
+    for (std::size_t i = 0; i < ring.size(); ++i) inner[i] = 2 * ring[i] <= margin_ ? 1 : 0;
     // Connected parts; a visited variable is marked as beyond the margin.
     const SparseMatrix& a = system_.matrix();
-    std::vector<Patch> chosen;
+    std::vector<Patch> fresh;
+    std::vector<std::size_t> stay;
     std::vector<std::int64_t> stack;
     for (std::size_t first = 0; first < ring.size(); ++first) {
         if (ring[first] > margin_) continue;
@@ -97,11 +98,17 @@ bool Patches::cover(std::span<const std::int64_t> seeds, const Poll& poll) {
         const auto same =
             std::find_if(patches_.begin(), patches_.end(), [&](const Patch& p) { return p.variables == part; });
         if (same != patches_.end())
-            chosen.push_back(std::move(*same));
+            stay.push_back(static_cast<std::size_t>(same - patches_.begin()));
         else
-            chosen.push_back(make(std::move(part), poll));
+            fresh.push_back(make(std::move(part), poll));
     }
-    patches_ = std::move(chosen);
+    fresh.reserve(fresh.size() + stay.size());
+    std::vector<std::int64_t> chosen_for(seeds.begin(), seeds.end());
+    // From here on nothing fails: an interrupted choice leaves the one before.
+    for (const std::size_t p : stay) fresh.push_back(std::move(patches_[p]));
+    patches_ = std::move(fresh);
+    seeds_ = std::move(chosen_for);
+    inner_ = std::move(inner);
     return true;
 }
 
@@ -154,6 +161,7 @@ bool Patches::factorise(std::span<const Triplet> springs, const Poll& poll) {
                        end = matrix.column.begin() + matrix.start[index(t.row) + 1];
             matrix.value[index(std::lower_bound(begin, end, t.column) - matrix.column.begin())] += t.value;
         }
+        patch.factored = false;
         patch.springs = std::move(own[p]);
         cost_ += patch.factor->size().flops;
         patch.factored = patch.factor->factorise(matrix);

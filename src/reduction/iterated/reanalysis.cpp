@@ -24,7 +24,7 @@ constexpr double fresh_iterations = 2.0;
 // A triangular solve waits for memory: its operations are this many times slower than a factorisation's.
 constexpr double slower = 5.0;
 // Residuals below this part of the state are not asked for: it is what a decision about contact can still use.
-constexpr double finest = 1e-11;
+constexpr double finest = 1e-12;
 // Multiple of the residual below which a jump or force is in doubt, and how much farther than a node an error reaches.
 constexpr double in_doubt = 4.0;
 constexpr double spread_out = 100.0;
