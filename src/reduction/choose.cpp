@@ -94,9 +94,9 @@ ReductionCost predict_iterated(const IteratedSize& size) {
     ReductionCost cost;
     cost.setup = cost.longest = size.factor.flops;
     cost.step = iterated_solves * 2.0 * iterated_iterations * product + iterated_renewals * size.factor.flops;
-    // K, T^T K T, a copy of it with springs, CHOLMOD's permuted one, the factor, some states and the directions of an
+    // K, T^T K T, CHOLMOD's permuted copy of half of it, the factor, some states and the directions of an
     // iteration.
-    cost.bytes = 16.0 * (size.stiffness + 2.5 * size.transformed) + 8.0 * size.stored +
+    cost.bytes = 16.0 * (size.stiffness + 1.5 * size.transformed) + 8.0 * size.stored +
                  8.0 * (2.0 * iterated_iterations + iterated_vectors) * size.variables;
     return cost;
 }

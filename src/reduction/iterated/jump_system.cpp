@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
+#include "linalg/cholesky.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/sparse_elimination.hpp"
 
@@ -114,6 +116,26 @@ void JumpSystem::express_rows(const BodySystem& bodies) {
         prescribed_.push_back(row.prescribed() ? 1 : 0);
         rows_.push_back(std::move(row));
     }
+}
+
+// In place: a copy of the matrix would be among the largest things that there are.
+void JumpSystem::with_added(std::span<const Triplet> entries, const std::function<void(const SparseMatrix&)>& use) {
+    struct Restored {
+        SparseMatrix& matrix;
+        std::vector<std::pair<std::size_t, double>> before;
+        ~Restored() {
+            for (std::size_t k = before.size(); k-- > 0;) matrix.value[before[k].first] = before[k].second;
+        }
+    } restored{matrix_, {}};
+    restored.before.reserve(entries.size());
+    for (const Triplet& t : entries) {
+        const auto begin = matrix_.column.begin() + matrix_.start[index(t.row)],
+                   end = matrix_.column.begin() + matrix_.start[index(t.row) + 1];
+        const auto at = index(std::lower_bound(begin, end, t.column) - matrix_.column.begin());
+        restored.before.emplace_back(at, matrix_.value[at]);
+        matrix_.value[at] += t.value;
+    }
+    use(matrix_);
 }
 
 void JumpSystem::set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held) {

@@ -9,12 +9,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "base/monitor.hpp"
-#include "linalg/cholesky.hpp"
 #include "reduction/body_system.hpp"
 #include "reduction/zone/jump_row.hpp"
 #include "reduction/zone/zone.hpp"
@@ -28,6 +27,8 @@ public:
     std::int64_t count() const { return matrix_.rows; }
     // T^T K T; entries exist for all variables that a pair's rows connect.
     const SparseMatrix& matrix() const { return matrix_; }
+    // The matrix with these entries added, for the time of a call. They must be entries of its pattern.
+    void with_added(std::span<const Triplet> entries, const std::function<void(const SparseMatrix&)>& use);
     std::span<const double> diagonal() const { return diagonal_; }
     // All jump rows, in variables. Prescribed ones have none left; their offset is the jump.
     const std::vector<JumpRow>& rows() const { return rows_; }

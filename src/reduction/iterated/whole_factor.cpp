@@ -22,25 +22,21 @@ double times_row(const SparseVector& row, std::span<const double> x) {
 
 }  // namespace
 
-WholeFactor::WholeFactor(const JumpSystem& system, const Poll& poll)
+WholeFactor::WholeFactor(JumpSystem& system, const Poll& poll)
     : system_(system), factor_(system.matrix(), 0, poll), size_(factor_.size()) {}
 
 void WholeFactor::factorise(std::span<const Triplet> springs) {
-    SparseMatrix matrix = system_.matrix();
+    std::vector<Triplet> added(springs.begin(), springs.end());
     double largest = 0.0;
     for (const double d : system_.diagonal()) largest = std::max(largest, d);
-    const auto add = [&](std::int64_t r, std::int64_t c, double value) {
-        const auto begin = matrix.column.begin() + matrix.start[index(r)],
-                   end = matrix.column.begin() + matrix.start[index(r) + 1];
-        matrix.value[index(std::lower_bound(begin, end, c) - matrix.column.begin())] += value;
-    };
-    for (const Triplet& t : springs) add(t.row, t.column, t.value);
     for (const SparseVector& row : system_.equations())
         for (const auto& [i, c] : row) {
             const double d = system_.diagonal()[index(i)];
-            add(i, i, d > 0.0 ? shifted * d : largest);
+            added.push_back({i, i, d > 0.0 ? shifted * d : largest});
         }
-    if (!factor_.factorise(matrix))
+    bool definite = false;
+    system_.with_added(added, [&](const SparseMatrix& matrix) { definite = factor_.factorise(matrix); });
+    if (!definite)
         fail(
             DELAM_ERROR_NUMERICAL,
             "the stiffness of bodies and interfaces is not positive definite: check supports, materials and the shapes "

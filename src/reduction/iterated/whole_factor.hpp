@@ -17,7 +17,7 @@ namespace delam {
 
 class WholeFactor {
 public:
-    WholeFactor(const JumpSystem& system, const Poll& poll);
+    WholeFactor(JumpSystem& system, const Poll& poll);
     // springs: entries of the springs of this moment. Throws Error(DELAM_ERROR_NUMERICAL) if the bodies have no
     // definite stiffness.
     void factorise(std::span<const Triplet> springs);
@@ -27,7 +27,7 @@ public:
     double entries() const { return factor_.factor_entries(); }  // as stored
 
 private:
-    const JumpSystem& system_;
+    JumpSystem& system_;
     SparseCholesky factor_;
     FactorSize size_;
     DenseMatrix columns_;  // W
