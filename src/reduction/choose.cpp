@@ -33,11 +33,15 @@ constexpr double supernodes = 1.25;    // numbers stored per entry of a factor
 constexpr double series_bytes = 32.0;  // per square of a subdomain's jumps: the series preconditioner while it is built
 constexpr double feti_solves = 16.0;   // displacement solves per load step
 constexpr double feti_iterations = 20.0;  // Krylov iterations per solve
-// Of the iterated operator: solves per load step, iterations of each, factors of the whole per load step.
-constexpr double iterated_solves = 18.0;
-constexpr double iterated_iterations = 8.0;
+// Of the iterated operator: solves per load step; products of each, those of its iterations and of what goes with them;
+// operations of the patches of a load step per variable, up to so many variables (beyond them patches grow no more);
+// factors of the whole per load step.
+constexpr double iterated_solves = 12.0;
+constexpr double iterated_products = 6.4;
+constexpr double patch_operations = 2e6;
+constexpr double patch_variables = 25e3;
 constexpr double iterated_renewals = 0.5;
-constexpr double iterated_vectors = 30.0;
+constexpr double iterated_vectors = 46.0;   // states and directions of an iteration
 constexpr double relaxed_supernodes = 1.6;  // numbers stored per entry of its factor
 // Operations of a factor, times variables over the square of its entries (1: all columns alike).
 constexpr double column_spread = 6.0;
@@ -88,16 +92,16 @@ ReductionCost predict_condensed(const Bulk& bulk) {
     return cost;
 }
 
-// A solve has patches about a front besides its iterations; both cost about as much.
 ReductionCost predict_iterated(const IteratedSize& size) {
     const double product = from_memory * (4.0 * size.stored + 6.0 * size.transformed);
     ReductionCost cost;
     cost.setup = cost.longest = size.factor.flops;
-    cost.step = iterated_solves * 2.0 * iterated_iterations * product + iterated_renewals * size.factor.flops;
+    cost.step = iterated_solves * iterated_products * product +
+                patch_operations * std::min(size.variables, patch_variables) + iterated_renewals * size.factor.flops;
     // K, T^T K T, CHOLMOD's permuted copy of half of it, the factor, some states and the directions of an
     // iteration.
-    cost.bytes = 16.0 * (size.stiffness + 1.5 * size.transformed) + 8.0 * size.stored +
-                 8.0 * (2.0 * iterated_iterations + iterated_vectors) * size.variables;
+    cost.bytes =
+        16.0 * (size.stiffness + 1.5 * size.transformed) + 8.0 * size.stored + 8.0 * iterated_vectors * size.variables;
     return cost;
 }
 
