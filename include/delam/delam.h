@@ -1165,12 +1165,14 @@ DELAM_API int32_t delam_solver_look(delam_solver *solver, int64_t step);
 /* Returns in *count the number of jumps of the state, i.e. abrupt changes, up to the pending state, or up to the
  * committed state if no step is pending; delam_solver_look does not change it. They are ordered by time. With the
  * option `jump_tolerance`, jumps are the located ones. Without it, a step is a jump if it releases energy (value
- * `released`), debonds more than 1.5 pairs for each pair next to the debonded region that it damages (in mean weights;
- * a front in the plane has one such pair, in space a row of them), and either loses more than 2 % of the load, i.e. of
- * the sum of factor times reaction over the norm of the factors, or releases more than 1e-3 of the larger of |stored
- * energy + load_potential| and |work|. Where the parts of a step are known (`mixity_rule = converged`, loads in
- * proportion), the parts that happen at one load and release more than 1e-3 of what they dissipate count together, and
- * these conditions apply to the longest advance among them; an energetic step to another state counts without release.
+ * `released`), debonds on some interface more than 1.5 pairs for each pair next to the debonded region of this
+ * interface that it damages (in mean weights; a front in the plane has one such pair, in space a row of them), and
+ * either loses more than 2 % of the load, i.e. of the sum of factor times reaction over the norm of the factors, or
+ * releases more than 1e-3 of the larger of |stored energy + load_potential| and |work|. Where the parts of a step are
+ * known (`mixity_rule = converged`, loads in proportion), the parts that happen at one load and release more than 1e-3
+ * of what they dissipate count together, and these conditions apply to the longest advance among them, of all
+ * interfaces together, and to the pairs of the interface that debonds most; an energetic step to another state counts
+ * without release.
  * [null none; status argument; since 0.1] */
 DELAM_API int32_t delam_solver_jump_count(const delam_solver *solver, int64_t *count);
 /* Returns one jump of the state. It lies between *before and *time, in step *step: in the interval that bisection has

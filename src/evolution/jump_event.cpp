@@ -100,7 +100,7 @@ bool jumps(const PairLaws& pairs, const PairGraph& graph, const State& before, c
         return advance > 0.0 && advance > regular_advance(pairs, graph, before, after, interface);
     };
     if (const JumpWithin& jump = after.jump_within; jump.known != 0)
-        return (jump.drop > load_drop || worth(jump.released)) && far(jump.interface, jump.advance);
+        return (jump.drop > load_drop || worth(jump.released)) && far(jump.interface, jump.debonded);
     if (!(after.outcome.released > 0.0)) return false;
     if (!(std::abs(load(after)) < (1.0 - load_drop) * std::abs(load(before))) && !worth(after.outcome.released))
         return false;

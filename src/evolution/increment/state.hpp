@@ -88,7 +88,6 @@ struct JumpWithin {
     double debonded = 0.0;                                  // of all interfaces, L or L2
     double drop = 0.0;                                      // of the load, relative
     std::int64_t interface = -1;                            // the one that debonds most
-    double advance = 0.0;                                   // of this interface, L or L2
     std::vector<double> conjugate_before, conjugate_after;  // [patterns] dE/dtheta at this load
 };
 

@@ -24,7 +24,7 @@ inline constexpr auto saved_fields<SolveError> = saved_since(unsaved, &SolveErro
 template <>
 inline constexpr auto saved_fields<JumpWithin> = saved_since(unsaved,
     &JumpWithin::known, &JumpWithin::load, &JumpWithin::released, &JumpWithin::debonded, &JumpWithin::drop,
-    &JumpWithin::interface, &JumpWithin::advance, &JumpWithin::conjugate_before, &JumpWithin::conjugate_after);
+    &JumpWithin::interface, &JumpWithin::conjugate_before, &JumpWithin::conjugate_after);
 
 template <>
 inline constexpr auto saved_fields<Response> = std::tuple_cat(

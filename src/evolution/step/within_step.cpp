@@ -30,12 +30,13 @@ std::vector<double> at_load(double load, std::vector<double> conjugate) {
 
 // What interfaces have debonded between two states.
 void compare(JumpWithin& jump, const PathPoint& from, const PathPoint& to) {
-    jump.debonded = jump.advance = 0.0;
+    jump.debonded = 0.0;
+    double longest = 0.0;
     for (std::size_t i = 0; i < to.debonded.size(); ++i) {
         const double advance = to.debonded[i] - from.debonded[i];
         jump.debonded += advance;
-        if (jump.interface >= 0 && !(advance > jump.advance)) continue;
-        jump.advance = advance;
+        if (jump.interface >= 0 && !(advance > longest)) continue;
+        longest = advance;
         jump.interface = static_cast<std::int64_t>(i);
     }
     jump.drop = quadratic(from) > 0.0 ? 1.0 - quadratic(to) / quadratic(from) : 0.0;
