@@ -175,6 +175,7 @@ void fill(Model& model, const Scene& scene) {
     for (std::size_t i = 0; i < scene.layers.size(); ++i) {
         const Material& material = scene.materials[scene.layers[i].material];
         set_material(owner, problem, static_cast<std::int32_t>(i), material, scene.layers[i]);
+        set_plies(model, scene, i);
         const bool directed = !std::holds_alternative<Isotropic>(material.elastic);
         if (scene.mesh && directed && !scene.layers[i].axes && !scene.mesh->orientation.empty())
             set_cell_axes(owner, problem, static_cast<std::int32_t>(i), *scene.mesh, scene.layers[i].place);

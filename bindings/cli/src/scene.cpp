@@ -83,7 +83,7 @@ void read_geometry(const Table& root, Scene& scene) {
 void read_layers(const Table& root, Scene& scene) {
     const Table geometry = root.table("geometry");
     for (const Table& table : root.tables("layers")) {
-        table.only({"name", "thickness", "divisions", "material", "angle", "axes"});
+        table.only({"name", "thickness", "divisions", "material", "angle", "angles", "axes"});
         Layer layer;
         layer.name = new_name(table, scene.layers, "layer");
         layer.thickness = table.number("thickness", positive);
@@ -96,6 +96,7 @@ void read_layers(const Table& root, Scene& scene) {
         }
         layer.material = find_named(table, "material", table.text("material"), scene.materials, "material");
         layer.axes = read_axes(table, scene.geometry.dimension);
+        layer.plies = read_plies(table, scene.geometry.dimension, layer.divisions);
         layer.formulation = scene.materials[layer.material].formulation;
         layer.place = table.place();
         scene.geometry.smallest_edge =

@@ -25,6 +25,7 @@ struct Layer {
     std::int64_t divisions = 1;
     std::size_t material = 0;
     std::optional<std::array<double, 6>> axes;  // of the material, 1 and 2, in space
+    std::vector<std::array<double, 6>> plies;   // the same for each of its plies, from the bottom up; empty: one axes
     std::string formulation;
     Place place;
 };

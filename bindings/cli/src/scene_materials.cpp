@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // [[materials]]: isotropic, orthotropic, or the short form of the transversely isotropic ones.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -72,8 +75,24 @@ void read_materials(const Table& root, Scene& scene) {
     }
 }
 
+namespace {
+
 // The stack direction is y in 2D and z in 3D; angle 0 has the material's axis 1 along x. In 2D the axis then turns out
-// of the plane.
+// of the plane. Degrees; multiples of 90 are exact.
+std::array<double, 6> axes_at(double degrees, std::int32_t dimension) {
+    const double angle = std::remainder(degrees, 360.0);
+    const double quarter = std::remainder(angle, 90.0), radian = quarter * std::acos(-1.0) / 180.0;
+    double c = std::cos(radian), s = std::sin(radian);
+    for (auto turns = (static_cast<int>(std::lround((angle - quarter) / 90.0)) + 4) % 4; turns > 0; --turns) {
+        std::swap(c, s);
+        c = -c;
+    }
+    if (dimension == 2) return {c, 0.0, s, s, 0.0, -c};
+    return {c, s, 0.0, -s, c, 0.0};
+}
+
+}  // namespace
+
 std::optional<std::array<double, 6>> read_axes(const Table& table, std::int32_t dimension) {
     if (table.has("angle") && table.has("axes")) table.fail("axes", "give either angle or axes");
     if (table.has("axes")) {
@@ -85,16 +104,20 @@ std::optional<std::array<double, 6>> read_axes(const Table& table, std::int32_t 
         return std::array<double, 6>{rows[0][0], rows[0][1], rows[0][2], rows[1][0], rows[1][1], rows[1][2]};
     }
     if (!table.has("angle")) return std::nullopt;
-    // Multiples of 90 degrees are exact.
-    const double angle = std::remainder(table.number("angle", any_number), 360.0);
-    const double quarter = std::remainder(angle, 90.0), radian = quarter * std::acos(-1.0) / 180.0;
-    double c = std::cos(radian), s = std::sin(radian);
-    for (auto turns = (static_cast<int>(std::lround((angle - quarter) / 90.0)) + 4) % 4; turns > 0; --turns) {
-        std::swap(c, s);
-        c = -c;
-    }
-    if (dimension == 2) return std::array<double, 6>{c, 0.0, s, s, 0.0, -c};
-    return std::array<double, 6>{c, s, 0.0, -s, c, 0.0};
+    return axes_at(table.number("angle", any_number), dimension);
+}
+
+std::vector<std::array<double, 6>> read_plies(const Table& table, std::int32_t dimension, std::int64_t divisions) {
+    std::vector<std::array<double, 6>> plies;
+    if (!table.has("angles")) return plies;
+    if (table.has("angle") || table.has("axes")) table.fail("angles", "give one of angle, angles and axes");
+    for (const double angle : table.numbers("angles", any_number)) plies.push_back(axes_at(angle, dimension));
+    const auto count = static_cast<std::int64_t>(plies.size());
+    if (divisions % count != 0)
+        table.fail("angles", fmt::format("has {} plies, but the layer has {} cells across its thickness: each ply needs "
+                                         "the same number of cells",
+                                         count, divisions));
+    return plies;
 }
 
 }  // namespace cli
