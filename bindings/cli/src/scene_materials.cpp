@@ -114,9 +114,10 @@ std::vector<std::array<double, 6>> read_plies(const Table& table, std::int32_t d
     for (const double angle : table.numbers("angles", any_number)) plies.push_back(axes_at(angle, dimension));
     const auto count = static_cast<std::int64_t>(plies.size());
     if (divisions % count != 0)
-        table.fail("angles", fmt::format("has {} plies, but the layer has {} cells across its thickness: each ply needs "
-                                         "the same number of cells",
-                                         count, divisions));
+        table.fail("angles",
+                   fmt::format("has {} plies, but the layer has {} cells across its thickness: each ply needs "
+                               "the same number of cells",
+                               count, divisions));
     return plies;
 }
 

@@ -146,6 +146,17 @@ def loses_stiffness(name, run):
     expect(secant[-1] < 0.7 * secant[0] and h["debonded_length"][-1] > 0, f"{name}: secant stiffness {secant[-1] / secant[0]:.2f} of the first")
 
 
+def peels_when_pulled(name, run):
+    """Cured, the grips at rest hold tension; pulled, plies separate and the laminate becomes softer."""
+    h = run.history
+    time, load, reaction = h["time"], h["load_pull"], h["reaction_pull"]
+    cured = int(np.argmin(abs(time - 1.0)))
+    first = (reaction[cured + 1] - reaction[cured]) / (load[cured + 1] - load[cured])
+    last = (reaction[-1] - reaction[-2]) / (load[-1] - load[-2])
+    expect(reaction[cured] > 0 and h["dissipated"][cured] < 1e-2 * h["dissipated"][-1], f"{name}: whole after the cure")
+    expect(h["debonded_length"][-1] > 0 and last < 0.98 * first, f"{name}: stiffness falls to {last / first:.3f} of the first")
+
+
 def nearly_straight(name, run):
     """Shearing arms with fibres along them: on the way to mid-span ahead at mid-width, by less than a cell."""
     front = front_of(run, time=0.5)
@@ -248,6 +259,9 @@ COARSE = {
     "laminate-thermal": ([], [grows, load_of_lamination_theory]),
     "laminate-edge": (["geometry.divisions=[16, 8]", "layers[0].divisions=2", "layers[1].divisions=2", "time.steps=20"],
                       [from_the_free_edge]),
+    "laminate-enf": (["geometry.divisions=[97, 3]", "time.steps=20"], [grows]),
+    "laminate-dcb": (["geometry.divisions=[97, 3]", "time.steps=20"], [grows, softens, mirrored]),
+    "laminate-8": (["geometry.divisions=[10, 6]", "time.steps=20"], [peels_when_pulled]),
     "weave": (["mesh.h=0.6e-3", 'mesh.cell="tet4"', "time.steps=5"], [yarns_come_off]),
 }
 # Stiff and coarse: its avalanches begin with steps below rounding. The long tier has as many cells in a layer as the scene.
