@@ -21,7 +21,8 @@
 
 namespace delam {
 
-// unbalanced: no equilibrium, because a part that nothing holds carries a load. failed: no unique minimum.
+// unbalanced: no equilibrium, because a part that nothing holds carries a load. failed: no unique minimum, or an
+// iteration that did not converge.
 enum class ContactSolve { solved, unbalanced, failed };
 
 // The rows of a system that may open and close, in ascending order.

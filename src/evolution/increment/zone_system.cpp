@@ -40,7 +40,7 @@ ContactSolve ZoneSystem::solve(const std::vector<std::uint8_t>& closed) {
     const Zone::Solution solution = zone_.solve(theta_, row_force_);
     iterations_ += solution.iterations;
     if (!solution.balanced) return ContactSolve::unbalanced;
-    if (!solution.definite) return ContactSolve::failed;
+    if (!solution.definite || !solution.converged) return ContactSolve::failed;
     error_ = solution.error;
     unknowns_ = solution.unknowns;
     jump_ = zone_.jumps(theta_, unknowns_);

@@ -15,6 +15,7 @@ constexpr int restarts = 8;
 constexpr std::size_t most_directions = 60;  // kept conjugate; older ones are forgotten
 constexpr double recursion_goal = 0.3;       // of the target, so that the true residual meets it too
 constexpr double gained = 0.5;               // a restart that leaves more of the residual has met rounding
+constexpr double largest_residual = 1e-5;    // that rounding may excuse: an error of 1e-10 of the energy
 constexpr double rounding_slack = 30.0;      // the estimate of rounding is one of its size, not a bound
 // Of r^T z: below it a curvature is zero but for rounding.
 constexpr double flat = 1e-13;
@@ -72,7 +73,8 @@ CgOutcome conjugate_gradients(const CgSystem& system, std::span<double> x, doubl
         }
         if (norm > gained * before || round == restarts || outcome.iterations >= limit) {
             std::copy(best.begin(), best.end(), x.begin());
-            outcome.converged = std::min(norm, before) <= rounding_slack * system.rounding(x);
+            outcome.converged =
+                outcome.residual <= largest_residual && std::min(norm, before) <= rounding_slack * system.rounding(x);
             return outcome;
         }
         before = norm;

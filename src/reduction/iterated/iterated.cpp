@@ -144,6 +144,7 @@ void Iterated::find_energies(std::span<const double> theta, std::span<const doub
 
 Zone* Iterated::zone(const Springs&, std::span<const std::uint8_t>, bool) {
     if (zone_ == nullptr) zone_ = std::make_unique<IteratedZone>(bodies_, reanalysis_);
+    zone_->start_anew();
     return zone_.get();
 }
 

@@ -45,7 +45,8 @@ Zone::Solution IteratedZone::solve(std::span<const double> theta, std::span<cons
     solution.balanced = answer.balanced;
     solution.definite = answer.definite;
     solution.iterations = answer.iterations;
-    if (!solution.balanced || !solution.definite) return solution;
+    solution.converged = answer.converged;
+    if (!solution.balanced || !solution.definite || !solution.converged) return solution;
     std::vector<double> jump = jumps(theta, solution.unknowns), force(jump.size(), 0.0);
     for (std::size_t r = 0; r < row_force.size(); ++r) force[r] = -row_force[r];
     for (const Coupling& c : reanalysis_.system().couplings()) force[index(c.row)] += c.value * jump[index(c.column)];
@@ -53,6 +54,11 @@ Zone::Solution IteratedZone::solve(std::span<const double> theta, std::span<cons
     solution.error = reanalysis_.error(answer, jump, force);
     start_ = solution.unknowns;
     return solution;
+}
+
+void IteratedZone::start_anew() {
+    start_.clear();
+    rounding_ = -1.0;
 }
 
 std::vector<double> IteratedZone::unknowns_at(const Response& response) const {

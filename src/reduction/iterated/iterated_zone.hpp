@@ -23,6 +23,8 @@ public:
     // The energy of the bodies, from their displacements.
     double energy_of(std::span<const double> theta, std::span<const double> unknowns) const override;
     double energy_rounding() const override;
+    // The next solve does not depend on those before.
+    void start_anew();
 
 private:
     const BodySystem& bodies_;
