@@ -285,7 +285,6 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
         start_from(right, theta, x);
 
     CgSystem cg;
-    const std::vector<double> offset = system_.offsets(theta);
     cg.apply = [&](std::span<const double> p, std::span<double> ap) {
         std::vector<double> full(p.begin(), p.end());
         system_.spread(full);
