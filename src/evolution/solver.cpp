@@ -41,7 +41,7 @@ std::string what_did_not_converge(const State& state, const Options& options) {
     if (outcome.mixity_held > 0)
         return text("the mixity of ", outcome.mixity_held, " pairs did not converge and was held fixed", rest);
     const std::string where = "a displacement step at fixed adhesion did not converge";
-    if (effort.linear_residual > options.linear_tolerance)
+    if (!state.response.converged)
         return text(where, ": the iterative linear solve leaves a relative residual of ", effort.linear_residual,
                     ", tolerance ", options.linear_tolerance, rest);
     if (effort.contact_iterations_max >= options.contact_limit)

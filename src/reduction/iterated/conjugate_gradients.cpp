@@ -39,7 +39,7 @@ bool descend(const CgSystem& system, std::span<double> x, std::vector<double>& r
         if (norm <= target || outcome.iterations >= limit || idle > 20) return true;
         system.apply(z, ap);
         const double pap = dot(z, ap);
-        if (!(pap > 0.0)) return pap > -flat * std::abs(rz);
+        if (!(pap > 0.0)) return !(pap <= -flat * std::abs(rz));  // what is not finite has no sign
         const double step = rz / pap;
         add_scaled(step, z, x);
         add_scaled(-step, ap, r);
@@ -60,9 +60,9 @@ CgOutcome conjugate_gradients(const CgSystem& system, std::span<double> x, doubl
         const double size = system.restart(x, r);
         system.precondition(r, z);
         const double norm = std::sqrt(std::abs(dot(r, z)));
-        const double relative = norm > 0.0 ? norm / std::max(size, norm) : 0.0;
+        const double relative = norm == 0.0 ? 0.0 : norm / std::max(size, norm);
         const bool reached = relative <= tolerance;
-        if (norm < before) {
+        if (round == 0 || norm < before) {
             outcome.residual = relative;
             outcome.norm = norm;
             best.assign(x.begin(), x.end());
@@ -71,7 +71,7 @@ CgOutcome conjugate_gradients(const CgSystem& system, std::span<double> x, doubl
             outcome.converged = true;
             return outcome;
         }
-        if (norm > gained * before || round == restarts || outcome.iterations >= limit) {
+        if (!(norm <= gained * before) || round == restarts || outcome.iterations >= limit) {
             std::copy(best.begin(), best.end(), x.begin());
             outcome.converged =
                 outcome.residual <= largest_residual && std::min(norm, before) <= rounding_slack * system.rounding(x);

@@ -51,6 +51,9 @@ Zone::Solution IteratedZone::solve(std::span<const double> theta, std::span<cons
     for (std::size_t r = 0; r < row_force.size(); ++r) force[r] = -row_force[r];
     for (const Coupling& c : reanalysis_.system().couplings()) force[index(c.row)] += c.value * jump[index(c.column)];
     reanalysis_.held_forces(theta, solution.unknowns, force);
+    solution.multiplier.assign(force.size(), 0.0);
+    for (std::size_t r = 0; r < force.size(); ++r)
+        if (reanalysis_.system().held()[r] != 0) solution.multiplier[r] = force[r];
     solution.error = reanalysis_.error(answer, jump, force);
     start_ = solution.unknowns;
     return solution;
@@ -78,9 +81,10 @@ std::vector<double> IteratedZone::jumps(std::span<const double> theta, std::span
     return j;
 }
 
-void IteratedZone::complete_forces(std::span<const double> theta, const Solution& solution,
+void IteratedZone::complete_forces(std::span<const double>, const Solution& solution,
                                    std::span<double> row_force) const {
-    reanalysis_.held_forces(theta, solution.unknowns, row_force);
+    for (std::size_t r = 0; r < row_force.size(); ++r)
+        if (reanalysis_.system().held()[r] != 0) row_force[r] = solution.multiplier[r];
 }
 
 double IteratedZone::energy_of(std::span<const double> theta, std::span<const double> unknowns) const {

@@ -37,7 +37,7 @@ public:
     struct Solution {
         std::vector<double> unknowns;
         std::vector<double>
-            multiplier;         // [rows] force of held rows that are not an unknown of their own; zero elsewhere
+            multiplier;         // [rows] forces of held rows, at least of those that are no unknown of their own
         bool balanced = true;   // false: a free motion carries a load; the rest is then not set
         bool definite = true;   // false: only the solution has shown that there is no minimum; the rest is not set
         bool converged = true;  // false: an iterative solve did not reach its tolerance; the rest is not set
