@@ -18,7 +18,8 @@ struct Flexure {
     std::size_t layers = 2;
     double length = 0.120, width = 0.012, thickness = 3e-3;  // of a layer
     double notch = 0.030;
-    double press = 6e-3;  // at time 1
+    double press = 6e-3;   // at time 1
+    bool control = false;  // a node of no body, the last
     delam::Law law = [] {
         delam::Law l;
         l.normal_stiffness = l.tangential_stiffness = 125e9;
@@ -36,6 +37,16 @@ inline delam::Problem make_flexure(const Flexure& f) {
     auto mesh = std::make_shared<Mesh>(make_layers(f.dimension, std::span(lengths).first(axes),
                                                    std::span(divisions).first(axes), thickness, through,
                                                    f.dimension == 2 ? CellType::quad4 : CellType::hex8));
+    if (f.control) {
+        std::vector<double> nodes(mesh->nodes().begin(), mesh->nodes().end());
+        nodes.resize(nodes.size() + static_cast<std::size_t>(f.dimension), -1.0);
+        auto with = std::make_shared<Mesh>(f.dimension, nodes);
+        for (std::int64_t c = 0; c < mesh->cell_count(); ++c) {
+            const std::int32_t label = mesh->body_label(mesh->cell_body(c));
+            with->add_cells(mesh->cell_type(c), mesh->cell(c), std::span(&label, 1));
+        }
+        mesh = std::move(with);
+    }
     for (std::size_t i = 0; i + 1 < f.layers; ++i)
         mesh->add_interface(static_cast<std::int32_t>(i), static_cast<std::int32_t>(i + 1), 1e-6);
     Problem problem(mesh);

@@ -32,7 +32,42 @@ struct LayerCase {
     const char* preconditioner = "series";
     bool clamped = false;  // supports on both faces of the last pairs
     double tolerance = 1e-7;
+    // The mean opening of all pairs of the last interface is prescribed, as large as that of the first one, or that of
+    // a control node on which a force acts.
+    enum class Opening { none, prescribed, tied, control } opening = Opening::none;
 };
+
+// A constraint on many jumps.
+inline void bind_opening(Problem& problem, LayerCase::Opening opening) {
+    const int dim = problem.mesh->dimension();
+    const auto faces = problem.mesh->interfaces();
+    Constraint mean{{}, {}, {}};
+    const auto add = [&](const InterfaceGeometry& face, double sign) {
+        for (std::size_t p = 0; p < face.node_a.size(); ++p) {
+            const double share =
+                sign * (1.0 + 0.1 * static_cast<double>(p % 5)) / static_cast<double>(face.node_a.size());
+            mean.dof.insert(mean.dof.end(), {dim * face.node_b[p] + dim - 1, dim * face.node_a[p] + dim - 1});
+            mean.coefficient.insert(mean.coefficient.end(), {share, -share});
+        }
+    };
+    add(faces.back(), 1.0);
+    if (opening == LayerCase::Opening::prescribed) {
+        problem.patterns.push_back({"open", {0.0, 1.0}, {0.0, 1e-5}, Pattern::Drives::displacement});
+        mean.prescribed.assign(problem.patterns.size(), 0.0);
+        mean.prescribed.back() = 1e-5;
+    } else if (opening == LayerCase::Opening::tied) {
+        add(faces.front(), -1.0);
+    } else {
+        const std::int64_t control = problem.mesh->node_count() - 1;
+        mean.dof.push_back(dim * control + dim - 1);
+        mean.coefficient.push_back(-1.0);
+        problem.patterns.push_back({"open", {0.0, 1.0}, {0.0, 1.0}, Pattern::Drives::force});
+        problem.forces.push_back(
+            {static_cast<std::int64_t>(problem.patterns.size()) - 1, dim * control + dim - 1, 2e3});
+        for (int k = 0; k + 1 < dim; ++k) problem.constraints.push_back({{dim * control + k}, {1.0}, {}});
+    }
+    problem.constraints.push_back(std::move(mean));
+}
 
 inline Problem make_layers_of(const LayerCase& c) {
     unit::Flexure f;
@@ -42,6 +77,7 @@ inline Problem make_layers_of(const LayerCase& c) {
     f.across = 3;
     f.through = 2;
     f.law.normal_stiffness = f.law.tangential_stiffness = c.stiffness;
+    f.control = c.opening == LayerCase::Opening::control;
     Problem problem = unit::make_flexure(f);
     problem.options.subdomains = c.subdomains;
     problem.options.preconditioner = c.preconditioner;
@@ -71,6 +107,7 @@ inline Problem make_layers_of(const LayerCase& c) {
         strain[0] = 1e-3;
         problem.eigenstrains.push_back({2, 1, strain});
     }
+    if (c.opening != LayerCase::Opening::none) bind_opening(problem, c.opening);
     return problem;
 }
 

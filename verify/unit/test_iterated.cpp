@@ -14,6 +14,7 @@
 #include "layer_states.hpp"
 #include "linalg/dense.hpp"
 #include "reduction/condensed/condensed.hpp"
+#include "reduction/iterated/conjugate_gradients.hpp"
 #include "reduction/iterated/iterated.hpp"
 #include "reduction/zone/dense_zone.hpp"
 #include "reduction/zone/rigid_jumps.hpp"
@@ -59,6 +60,30 @@ constexpr unit::LayerCase cases[] = {
      .subdomains = 0,
      .stiffness = 125e9,
      .clamped = true},
+    {.name = "mean opening",
+     .dimension = 2,
+     .layers = 3,
+     .subdomains = 0,
+     .stiffness = 125e9,
+     .opening = unit::LayerCase::Opening::prescribed},
+    {.name = "mean opening in space",
+     .dimension = 3,
+     .layers = 2,
+     .subdomains = 0,
+     .stiffness = 125e9,
+     .opening = unit::LayerCase::Opening::prescribed},
+    {.name = "two mean openings tied to each other",
+     .dimension = 3,
+     .layers = 3,
+     .subdomains = 0,
+     .stiffness = 125e9,
+     .opening = unit::LayerCase::Opening::tied},
+    {.name = "mean opening of a control node",
+     .dimension = 2,
+     .layers = 3,
+     .subdomains = 0,
+     .stiffness = 125e9,
+     .opening = unit::LayerCase::Opening::control},
 };
 
 // The front has advanced to x; every seventh pair behind it is closed.
@@ -175,8 +200,6 @@ START_TEST(answers_as_the_condensed_operator) {
 }
 END_TEST
 
-// A front that advances column by column through a patch much smaller than the bodies: how many iterations that takes
-// does not depend on the stiffness of the interface.
 // What Newton's method asks: minimisers with springs and held rows, and whether tangents leave a minimum at all.
 START_TEST(zone_answers_as_the_dense_one) {
     const unit::LayerCase& c = cases[_i];
@@ -227,6 +250,27 @@ START_TEST(zone_answers_as_the_dense_one) {
 }
 END_TEST
 
+// Most iterations while the front of a flexure advances column by column through a patch much smaller than the bodies.
+static std::int64_t most_iterations(Iterated& iterated, const Problem& problem, const unit::Flexure& f) {
+    const InterfaceGeometry& face = problem.mesh->interfaces()[0];
+    Response response;
+    const std::vector<double> theta(problem.patterns.size(), 1.0);
+    std::int64_t most = 0;
+    for (int column = 0; column < 8; ++column) {
+        Springs springs;
+        for (std::size_t p = 0; p < face.node_a.size(); ++p) {
+            const double x = problem.mesh->node(face.node_a[p])[0];
+            const double spring = x < f.notch + 1e-3 * column ? 0.0 : face.weight[p] * f.law.normal_stiffness;
+            springs.stiffness.insert(springs.stiffness.end(), 2, spring);
+            springs.held.insert(springs.held.end(), {x < 0.5 * f.notch ? std::uint8_t{1} : std::uint8_t{0}, 0});
+        }
+        iterated.solve(springs, theta, response);
+        ck_assert(response.converged);
+        if (column > 0) most = std::max(most, response.iterations);
+    }
+    return most;
+}
+
 START_TEST(iterations_do_not_depend_on_the_stiffness) {
     for (const double stiffness : {1e9, 1e11, 1e13, 1e15, 1e17}) {
         unit::Flexure f;
@@ -234,28 +278,84 @@ START_TEST(iterations_do_not_depend_on_the_stiffness) {
         f.through = 4;
         f.length = 0.4;
         f.law.normal_stiffness = f.law.tangential_stiffness = stiffness;
-        Problem problem = unit::make_flexure(f);
+        const Problem problem = unit::make_flexure(f);
         Monitor monitor;
         Iterated iterated(problem, monitor);
-        const InterfaceGeometry& face = problem.mesh->interfaces()[0];
-        Response response;
-        const std::vector<double> theta{1.0};
-        std::int64_t most = 0;
-        for (int column = 0; column < 8; ++column) {
-            Springs springs;
-            for (std::size_t p = 0; p < face.node_a.size(); ++p) {
-                const double x = problem.mesh->node(face.node_a[p])[0];
-                const double spring = x < f.notch + 1e-3 * column ? 0.0 : face.weight[p] * stiffness;
-                springs.stiffness.insert(springs.stiffness.end(), 2, spring);
-                springs.held.insert(springs.held.end(), {x < 0.5 * f.notch ? std::uint8_t{1} : std::uint8_t{0}, 0});
-            }
-            iterated.solve(springs, theta, response);
-            ck_assert(response.converged);
-            if (column > 0) most = std::max(most, response.iterations);
-        }
+        const std::int64_t most = most_iterations(iterated, problem, f);
         std::printf("k = %.0e: at most %d iterations, %d factorisations\n", stiffness, static_cast<int>(most),
                     static_cast<int>(iterated.factorisations()));
         ck_assert_int_le(most, 12);
+    }
+}
+END_TEST
+
+// The mean opening of an interface is prescribed: one row more, and no more entries of the matrix, nor iterations.
+START_TEST(constraints_on_many_jumps_fill_nothing) {
+    for (const std::int64_t along : {200, 400}) {
+        unit::Flexure f;
+        f.along = along;
+        f.length = 1e-3 * static_cast<double>(along);
+        Problem problem = unit::make_flexure(f);
+        Monitor monitor;
+        Iterated without(problem, monitor);
+        const std::int64_t a = most_iterations(without, problem, f);
+        unit::bind_opening(problem, unit::LayerCase::Opening::prescribed);
+        Iterated with(problem, monitor);
+        ck_assert(with.size().transformed == without.size().transformed);
+        const std::int64_t b = most_iterations(with, problem, f);
+        std::printf("%d pairs, %.0f entries: at most %d iterations, %d with a mean opening\n",
+                    static_cast<int>(along) + 1, with.size().transformed, static_cast<int>(a), static_cast<int>(b));
+        ck_assert_int_le(b, 12);
+    }
+}
+END_TEST
+
+// Held rows that a constraint on their jumps contradicts: the constraint is met, and the row that cannot be held says
+// so. Contact refuses what no opening of pairs can mend.
+START_TEST(constraints_come_before_held_rows) {
+    const unit::LayerCase c{.name = "pressed",
+                            .dimension = 2,
+                            .layers = 2,
+                            .subdomains = 0,
+                            .stiffness = 125e9,
+                            .opening = unit::LayerCase::Opening::prescribed};
+    unit::LayerState scene(c, 3);
+    Monitor monitor;
+    auto bulk = std::make_shared<Bulk>(scene.problem, monitor);
+    bulk->condense(monitor);
+    Condensed condensed(bulk, scene.problem, monitor);
+    Iterated iterated(scene.problem, monitor);
+    const Constraint& mean = scene.problem.constraints.back();
+    for (std::size_t r = 0; r < scene.springs.held.size(); r += scene.dim) scene.springs.held[r] = 1;
+    for (JumpOperator* op : {static_cast<JumpOperator*>(&condensed), static_cast<JumpOperator*>(&iterated)}) {
+        Response response;
+        op->solve(scene.springs, scene.theta, response);
+        const std::vector<double> u = op->displacement(scene.theta, response);
+        double opening = 0.0;
+        std::size_t open = 0;
+        for (std::size_t i = 0; i < mean.dof.size(); ++i) opening += mean.coefficient[i] * u[index(mean.dof[i])];
+        for (std::size_t r = 0; r < scene.springs.held.size(); r += scene.dim)
+            if (response.jump[r] != 0.0) {
+                ++open;
+                ck_assert(response.force[r] == 0.0);
+                const double width = response.jump[r] * mean.coefficient[r];  // two displacements a pair
+                ck_assert(std::abs(width - 1e-5) <= 1e-12 || std::abs(-width - 1e-5) <= 1e-12);
+            }
+        ck_assert_uint_eq(open, 1);
+        ck_assert(std::abs(opening - 1e-5) <= 1e-12);
+
+        ContactScene contact;
+        contact.bonded.assign(scene.springs.held.size() / scene.dim, 0);
+        contact.level.assign(contact.bonded.size(), 0);
+        const std::vector<double> pressed{0.0, -1.0};
+        std::vector<std::uint8_t> closed(contact.bonded.size(), 1);
+        try {
+            solve_contact(*op, contact, scene.springs.stiffness, pressed, closed, response, false);
+            ck_abort_msg("%s: faces pass through each other", op->description().c_str());
+        } catch (const Error& e) {
+            std::printf("%s\n", e.what());
+            ck_assert_int_eq(e.status(), DELAM_ERROR_PROBLEM);
+        }
     }
 }
 END_TEST
@@ -292,6 +392,29 @@ START_TEST(continues_bit_for_bit) {
 }
 END_TEST
 
+// A curvature that is not finite has no sign: not converged, but not indefinite.
+START_TEST(numbers_that_are_not_finite_are_not_negative) {
+    for (const double curvature : {std::nan(""), -2.0}) {
+        CgSystem system;
+        system.apply = [=](std::span<const double> x, std::span<double> y) {
+            y[0] = x[0];
+            y[1] = curvature * x[1];
+        };
+        system.precondition = [](std::span<const double> r, std::span<double> z) { std::ranges::copy(r, z.begin()); };
+        system.restart = [](std::span<double> x, std::span<double> r) {
+            for (std::size_t i = 0; i < 2; ++i) r[i] = 1.0 - x[i];
+            return 1.0;
+        };
+        system.rounding = [](std::span<const double>) { return 0.0; };
+        system.each_iteration = [](std::int64_t) {};
+        std::vector<double> x(2, 0.0);
+        const CgOutcome outcome = conjugate_gradients(system, x, 1e-12, 100);
+        ck_assert(outcome.definite == std::isnan(curvature));
+        ck_assert(!outcome.converged);
+    }
+}
+END_TEST
+
 START_TEST(contact_settles_on_answers_of_any_accuracy) {
     const unit::LayerCase c{.name = "contact", .dimension = 2, .layers = 3, .subdomains = 0, .stiffness = 125e9};
     const unit::LayerState scene(c, 3);
@@ -320,7 +443,10 @@ int main() {
     tcase_add_loop_test(tests, answers_as_the_condensed_operator, 0, static_cast<int>(std::size(cases)));
     tcase_add_loop_test(tests, zone_answers_as_the_dense_one, 0, static_cast<int>(std::size(cases)));
     tcase_add_test(tests, iterations_do_not_depend_on_the_stiffness);
+    tcase_add_test(tests, constraints_on_many_jumps_fill_nothing);
+    tcase_add_test(tests, constraints_come_before_held_rows);
     tcase_add_loop_test(tests, continues_bit_for_bit, 0, static_cast<int>(std::size(cases)));
+    tcase_add_test(tests, numbers_that_are_not_finite_are_not_negative);
     tcase_add_test(tests, contact_settles_on_answers_of_any_accuracy);
     suite_add_tcase(suite, tests);
     SRunner* runner = srunner_create(suite);

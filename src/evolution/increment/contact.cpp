@@ -14,12 +14,14 @@ namespace {
 // Fraction of the largest jump by which a prescribed displacement may press two faces into each other: rounding.
 constexpr double pressed = 1e-9;
 
-void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> prescribed, const Response& response,
-                    std::span<const double> theta) {
+// closed: [pairs] or empty; constraints on many jumps may leave a closed pair no choice but to open, or to be pressed.
+void refuse_pressed(const ContactScene& scene, std::span<const std::uint8_t> prescribed,
+                    std::span<const std::uint8_t> closed, const Response& response, std::span<const double> theta) {
     const auto dim = static_cast<std::size_t>(scene.dimension);
     const double deepest = -pressed * std::max(max_abs(response.jump), scene.jump_floor(theta));
     for (std::size_t p = 0; p < scene.bonded.size(); ++p)
-        if (scene.bonded[p] == 0 && !scene.may_close(p, prescribed) && response.jump[p * dim] < deepest)
+        if (scene.bonded[p] == 0 && (!scene.may_close(p, prescribed) || (!closed.empty() && closed[p] != 0)) &&
+            response.jump[p * dim] < deepest)
             fail(DELAM_ERROR_PROBLEM, "prescribed displacements press two faces into each other at pair ", p,
                  " (normal jump ", response.jump[p * dim], " < 0)");
 }
@@ -57,7 +59,7 @@ public:
         result_.linear_iterations += response_.iterations;
         result_.linear_residual = std::max(result_.linear_residual, response_.residual);
         result_.converged = result_.converged && response_.converged;
-        if (scene_.always) refuse_pressed(scene_, op_.prescribed_rows(), response_, theta_);
+        if (scene_.always) refuse_pressed(scene_, op_.prescribed_rows(), {}, response_, theta_);
         return ContactSolve::solved;
     }
     std::span<const double> jump() const { return response_.jump; }
@@ -107,7 +109,7 @@ ContactResult solve_contact(JumpOperator& op, const ContactScene& scene, std::sp
              "no equilibrium: a dead force acts on a part that neither adhesion, supports nor contact hold");
     result.converged = result.converged && found.settled;
     for (std::size_t i = 0; i < set.size(); ++i) closed[rows.row[i] / dim] = set[i];
-    refuse_pressed(scene, op.prescribed_rows(), response, theta);
+    refuse_pressed(scene, op.prescribed_rows(), closed, response, theta);
     return result;
 }
 

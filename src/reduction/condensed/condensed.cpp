@@ -392,6 +392,8 @@ void Condensed::respond(const Springs& springs, std::span<const double> theta, c
             for (const auto& [i, n] : row.unknowns) response.jump[r] += n * x[index(i)];
             response.force[r] = springs.stiffness[r] * response.jump[r];
             if (!springs.force.empty()) response.force[r] -= springs.force[r];
+        } else if (!row.unknowns.empty()) {
+            response.jump[r] = held_jump(row, offset[r], x);
         }
         const bool own = row.unknowns.size() == 1 &&
                          bulk_->row_of_unknown()[index(row.unknowns.front().first)] == static_cast<std::int64_t>(r);

@@ -15,7 +15,7 @@ namespace delam {
 
 namespace {
 
-// A start larger than the load by 2^900 is none: its squares would not be finite.
+// A start larger than the load by 2^900 is none: it would hardly be finite.
 constexpr int largest_start_power = 900;
 
 bool any_of(std::span<const double> values) {
@@ -99,7 +99,10 @@ void Iterated::respond(const Springs& springs, std::span<const double> theta, Re
     response.jump.assign(rows, 0.0);
     response.force.assign(rows, 0.0);
     for (std::size_t r = 0; r < rows; ++r) {
-        if (springs.held[r] != 0) continue;
+        if (springs.held[r] != 0) {
+            response.jump[r] = system.prescribed()[r] != 0 ? 0.0 : held_jump(system.rows()[r], offset[r], x);
+            continue;
+        }
         response.jump[r] = offset[r] + system.row_value(r, x);
         response.force[r] = springs.stiffness[r] * response.jump[r];
         if (!springs.force.empty()) response.force[r] -= springs.force[r];

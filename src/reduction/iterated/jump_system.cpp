@@ -66,6 +66,26 @@ SparseMatrix pair_links(const std::vector<JumpRow>& rows, std::size_t dim, std::
     return from_triplets(count, count, std::move(links));
 }
 
+// A row after all jumps that constraints express are replaced.
+JumpRow expressed_row(const JumpVariables& variables, std::size_t r,
+                      const std::map<std::int64_t, SolvedEquation>& of_jump, std::size_t patterns) {
+    JumpRow row{{}, variables.row_offset[r]};
+    std::map<std::int64_t, double> terms;
+    for (const auto& [jump, n] : variables.row[r]) {
+        const auto solved = of_jump.find(jump);
+        if (solved == of_jump.end()) {
+            terms[variables.kept + jump] += n;
+            continue;
+        }
+        for (const auto& [t, c] : solved->second.entries) terms[t] += n * c;
+        row.offset.resize(patterns, 0.0);
+        for (std::size_t p = 0; p < patterns; ++p) row.offset[p] += n * solved->second.prescribed[p];
+    }
+    for (const auto& [t, n] : terms)
+        if (std::abs(n) > dependent_equation) row.unknowns.emplace_back(variables.leading + t, n);
+    return row;
+}
+
 }  // namespace
 
 JumpSystem::JumpSystem(const BodySystem& bodies, const Poll& poll)
@@ -81,8 +101,8 @@ JumpSystem::JumpSystem(const BodySystem& bodies, const Poll& poll)
     }
 }
 
-// Jumps that constraints on many variables express by other jumps are replaced in the rows, so that a row which the
-// constraints prescribe has no variable.
+// A row that the constraints prescribe has no variable. Other jumps that they bind stay variables: expressed by all
+// others of an interface, they would fill the matrix.
 void JumpSystem::express_rows(const BodySystem& bodies) {
     const JumpVariables& variables = bodies.variables();
     std::map<std::int64_t, SolvedEquation> of_jump;
@@ -93,25 +113,16 @@ void JumpSystem::express_rows(const BodySystem& bodies) {
         equation_right_.push_back(solved.prescribed);
         if (solved.pivot >= variables.kept) of_jump.emplace(solved.pivot - variables.kept, solved);
     }
-    std::vector<std::uint8_t> taken(index(variables.count()), 0);
+    row_of_.assign(index(variables.count()), -1);
     for (std::size_t r = 0; r < variables.row.size(); ++r) {
         JumpRow row{{}, variables.row_offset[r]};
-        std::map<std::int64_t, double> terms;
-        for (const auto& [jump, n] : variables.row[r]) {
-            const auto solved = of_jump.find(jump);
-            if (solved == of_jump.end()) {
-                terms[variables.leading + variables.kept + jump] += n;
-                continue;
-            }
-            for (const auto& [t, c] : solved->second.entries) terms[variables.leading + t] += n * c;
-            row.offset.resize(patterns_, 0.0);
-            for (std::size_t p = 0; p < patterns_; ++p) row.offset[p] += n * solved->second.prescribed[p];
-        }
-        for (const auto& [i, n] : terms)
-            if (std::abs(n) > dependent_equation) row.unknowns.emplace_back(i, n);
+        for (const auto& [jump, n] : variables.row[r])
+            row.unknowns.emplace_back(variables.leading + variables.kept + jump, n);
+        if (JumpRow expressed = expressed_row(variables, r, of_jump, patterns_); expressed.prescribed())
+            row = std::move(expressed);
         const bool plain = row.offset.empty() && row.unknowns.size() == 1 && row.unknowns.front().second == 1.0 &&
-                           taken[index(row.unknowns.front().first)] == 0;
-        if (plain) taken[index(row.unknowns.front().first)] = 1;
+                           row_of_[index(row.unknowns.front().first)] < 0;
+        if (plain) row_of_[index(row.unknowns.front().first)] = static_cast<std::int64_t>(r);
         plain_.push_back(plain ? row.unknowns.front().first : -1);
         prescribed_.push_back(row.prescribed() ? 1 : 0);
         rows_.push_back(std::move(row));
@@ -139,6 +150,7 @@ void JumpSystem::with_added(std::span<const Triplet> entries, const std::functio
 }
 
 void JumpSystem::set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held) {
+    std::erase_if(couplings, [&](const Zone::Coupling& c) { return held[index(c.row)] + held[index(c.column)] > 0; });
     couplings_ = std::move(couplings);
     if (known_ && std::ranges::equal(held, held_)) return;
     known_ = false;
@@ -147,25 +159,30 @@ void JumpSystem::set(std::vector<Zone::Coupling> couplings, std::span<const std:
     known_ = true;
 }
 
-// The pivot of a row is its largest coefficient, displacements (which come first) before jumps.
 void JumpSystem::hold() {
     std::vector<std::uint8_t> out(index(count()), 0);
-    removed_.clear();
     slaves_.clear();
     binding_.clear();
     binding_terms_.clear();
+    gram_.reset();
     std::vector<std::int64_t> others;
     for (std::size_t e = 0; e < equations_.size(); ++e) others.push_back(-1 - static_cast<std::int64_t>(e));
     for (std::size_t r = 0; r < rows_.size(); ++r) {
         if (held_[r] == 0 || prescribed_[r] != 0) continue;
-        if (plain_[r] < 0) {
+        if (plain_[r] < 0)
             others.push_back(static_cast<std::int64_t>(r));
-            continue;
-        }
-        removed_.push_back(plain_[r]);
-        out[index(plain_[r])] = 1;
+        else
+            out[index(plain_[r])] = 1;
     }
-    if (others.empty()) return;
+    if (!others.empty()) bind(others, out);
+    removed_.clear();
+    for (std::size_t r = 0; r < rows_.size(); ++r)
+        if (plain_[r] >= 0 && out[index(plain_[r])] != 0) removed_.push_back(plain_[r]);
+}
+
+// The pivot of a row is its largest coefficient, displacements (which come first) before jumps. out: removed variables.
+// A constraint among removed variables alone takes back its first one, which occurs in no other.
+void JumpSystem::bind(std::span<const std::int64_t> others, std::vector<std::uint8_t>& out) {
     SparseElimination solved;
     std::vector<std::int64_t> pivots;
     for (const std::int64_t at : others) {
@@ -182,7 +199,13 @@ void JumpSystem::hold() {
         else
             for (std::size_t p = 0; p < rows_[index(at)].offset.size(); ++p) row.right[p] = -rows_[index(at)].offset[p];
         solved.reduce(row);
-        if (row.terms.empty()) continue;
+        if (row.terms.empty()) {
+            if (at >= 0) continue;
+            const auto& [first, c] = terms.front();
+            out[index(first)] = 0;
+            row.terms[first] = c;
+            kept.emplace_back(first, c);
+        }
         auto pivot = row.terms.begin();
         for (auto term = row.terms.begin(); term != row.terms.end(); ++term)
             if (std::abs(term->second) > (1.0 + 1e-9) * std::abs(pivot->second)) pivot = term;
@@ -251,27 +274,31 @@ void JumpSystem::apply(std::span<const double> x, std::span<double> y) const {
     add_couplings(x, y);
 }
 
+void JumpSystem::factor_binding() const {
+    const auto n = static_cast<std::int64_t>(binding_.size());
+    std::map<std::int64_t, SparseVector> users;
+    for (std::size_t b = 0; b < binding_.size(); ++b)
+        for (const auto& [i, c] : binding_terms_[b]) users[i].emplace_back(static_cast<std::int64_t>(b), c);
+    std::vector<Triplet> triplets;
+    for (const auto& [i, list] : users)
+        for (const auto& [a, c] : list)
+            for (const auto& [b, d] : list) triplets.push_back({a, b, c * d});
+    const SparseMatrix gram = from_triplets(n, n, std::move(triplets));
+    auto factor = std::make_unique<SparseCholesky>(gram);
+    if (!factor->factorise(gram))
+        fail(DELAM_ERROR_NUMERICAL, "the ", n, " rows that bind several jumps to each other are dependent");
+    gram_ = std::move(factor);
+}
+
 // The rows are independent and what is left over is theirs, so that the least-squares solution is the solution.
 std::vector<double> JumpSystem::multipliers(std::span<double> left, std::span<double> force) const {
     std::vector<double> mu(equations_.size(), 0.0);
     if (!binding_.empty()) {
-        const auto n = static_cast<std::int64_t>(binding_.size());
-        std::map<std::int64_t, SparseVector> users;
+        if (gram_ == nullptr) factor_binding();
         std::vector<double> right(binding_.size(), 0.0), lambda(binding_.size());
         for (std::size_t b = 0; b < binding_.size(); ++b)
-            for (const auto& [i, c] : binding_terms_[b]) {
-                users[i].emplace_back(static_cast<std::int64_t>(b), c);
-                right[b] += c * left[index(i)];
-            }
-        std::vector<Triplet> triplets;
-        for (const auto& [i, list] : users)
-            for (const auto& [a, c] : list)
-                for (const auto& [b, d] : list) triplets.push_back({a, b, c * d});
-        const SparseMatrix gram = from_triplets(n, n, std::move(triplets));
-        SparseCholesky factor(gram);
-        if (!factor.factorise(gram))
-            fail(DELAM_ERROR_NUMERICAL, "the ", n, " rows that bind several jumps to each other are dependent");
-        factor.solve(right, lambda);
+            for (const auto& [i, c] : binding_terms_[b]) right[b] += c * left[index(i)];
+        gram_->solve(right, lambda);
         for (std::size_t b = 0; b < binding_.size(); ++b) {
             const std::int64_t at = binding_[b];
             const SparseVector& terms = at < 0 ? equations_[index(-1 - at)] : rows_[index(at)].unknowns;
@@ -279,8 +306,7 @@ std::vector<double> JumpSystem::multipliers(std::span<double> left, std::span<do
             (at < 0 ? mu[index(-1 - at)] : force[index(at)]) += lambda[b];
         }
     }
-    for (std::size_t r = 0; r < rows_.size(); ++r)
-        if (held_[r] != 0 && plain_[r] >= 0) force[r] += left[index(plain_[r])];
+    for (const std::int64_t i : removed_) force[index(row_of_[index(i)])] += left[index(i)];
     return mu;
 }
 

@@ -5,15 +5,18 @@
 //
 // (j = N v + o: jump rows; C: springs, or tangents of the pairs; E: constraints on many variables). A held row that is
 // a variable of its own removes it. Each other held row, and each constraint, expresses one variable by others; vectors
-// of the reduced space have zeros in the place of removed and expressed variables.
+// of the reduced space have zeros in the place of removed and expressed variables. Constraints come first: a held row
+// that they leave no choice yields, has no force, and its jump is what they say.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "base/monitor.hpp"
+#include "linalg/cholesky.hpp"
 #include "reduction/body_system.hpp"
 #include "reduction/zone/jump_row.hpp"
 #include "reduction/zone/zone.hpp"
@@ -33,13 +36,13 @@ public:
     // All jump rows, in variables. Prescribed ones have none left; their offset is the jump.
     const std::vector<JumpRow>& rows() const { return rows_; }
     std::span<const std::uint8_t> prescribed() const { return prescribed_; }
-    // Constraints on many variables, independent: E, in variables.
+    // Constraints on many variables, independent: E, in variables. The first of each occurs in no other.
     const std::vector<SparseVector>& equations() const { return equations_; }
 
     // d of such a constraint, [patterns]
     const std::vector<double>& equation_right(std::size_t e) const { return equation_right_[e]; }
 
-    // What acts from now on. held: [rows]; prescribed rows are never held.
+    // What acts from now on, on rows that are not held. held: [rows]; prescribed rows are never held.
     void set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held);
     const std::vector<Zone::Coupling>& couplings() const { return couplings_; }
     const std::vector<std::uint8_t>& held() const { return held_; }
@@ -71,13 +74,16 @@ private:
     };
     void express_rows(const BodySystem& bodies);
     void hold();
+    void bind(std::span<const std::int64_t> others, std::vector<std::uint8_t>& out);
+    void factor_binding() const;
 
     std::size_t patterns_;
     SparseMatrix matrix_;
     std::vector<double> diagonal_;
     std::vector<JumpRow> rows_;
     std::vector<std::uint8_t> prescribed_;
-    std::vector<std::int64_t> plain_;  // [rows] the variable that this row is, -1: none
+    std::vector<std::int64_t> plain_;   // [rows] the variable that this row is, -1: none
+    std::vector<std::int64_t> row_of_;  // [variables] the other way round
     std::vector<SparseVector> equations_;
     std::vector<std::vector<double>> equation_right_;  // [equations][patterns]
 
@@ -89,6 +95,7 @@ private:
     // Independent ones among the equations (-1 - e) and the held rows that are no variable of their own (r).
     std::vector<std::int64_t> binding_;
     std::vector<SparseVector> binding_terms_;
+    mutable std::unique_ptr<SparseCholesky> gram_;  // of binding_terms_, once it is needed
 };
 
 }  // namespace delam

@@ -2,9 +2,12 @@
 #include "reduction/iterated/patches.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/numbers.hpp"
+#include "linalg/sparse_elimination.hpp"
+#include "reduction/iterated/spring_entries.hpp"
 
 namespace delam {
 
@@ -12,13 +15,31 @@ namespace {
 
 // Operations of the symbolic analysis per entry of a patch's matrix (an ordering takes that long).
 constexpr double analysis_operations = 300.0;
+// A variable with so many times the entries of others acts on a large part of the bodies, not on its neighbours.
+constexpr double crowded = 10.0;
+
+// Springs that are nowhere softer than these and pull nothing apart: negative ones are left out, and what couples two
+// variables stiffens both.
+std::vector<Triplet> stiffened(std::span<const Triplet> springs) {
+    std::vector<Triplet> out;
+    for (const Triplet& t : springs)
+        if (t.row != t.column)
+            out.push_back({t.row, t.row, std::abs(t.value)});
+        else if (t.value > 0.0)
+            out.push_back(t);
+    return out;
+}
 
 }  // namespace
 
 Patches::Patches(const JumpSystem& system, std::int64_t margin)
     : system_(system), margin_(margin), barred_(index(system.count()), 0), inner_(index(system.count()), 0) {
+    const SparseMatrix& a = system.matrix();
+    const double mean = static_cast<double>(a.entries()) / static_cast<double>(std::max<std::int64_t>(1, a.rows));
     for (const SparseVector& equation : system.equations())
-        for (const auto& [i, c] : equation) barred_[index(i)] = 1;
+        for (const auto& [i, c] : equation)
+            barred_[index(i)] = !(system.diagonal()[index(i)] > 0.0) ||
+                                static_cast<double>(a.start[index(i) + 1] - a.start[index(i)]) > crowded * mean;
 }
 
 std::vector<std::int64_t> Patches::rings(std::span<const std::int64_t> seeds) const {
@@ -130,9 +151,47 @@ Patches::Patch Patches::make(std::vector<std::int64_t> variables, const Poll& po
         }
         m.start.push_back(static_cast<std::int64_t>(m.column.size()));
     }
+    take_equations(patch);
     patch.factor = std::make_unique<SparseCholesky>(m, 0, poll);
     cost_ += analysis_operations * static_cast<double>(m.entries());
     return patch;
+}
+
+// The parts of constraints that lie in the patch, independent ones.
+void Patches::take_equations(Patch& patch) const {
+    SparseElimination known;
+    for (const SparseVector& equation : system_.equations()) {
+        SparseVector own;
+        for (const auto& [i, c] : equation) {
+            const auto at = std::lower_bound(patch.variables.begin(), patch.variables.end(), i);
+            if (at != patch.variables.end() && *at == i) own.emplace_back(at - patch.variables.begin(), c);
+        }
+        SparseElimination::Row row{{own.begin(), own.end()}, {}};
+        known.reduce(row);
+        if (row.terms.empty()) continue;
+        const auto largest = std::max_element(row.terms.begin(), row.terms.end(), [](const auto& a, const auto& b) {
+            return std::abs(a.second) < std::abs(b.second);
+        });
+        known.solve(row, largest->first);
+        for (const auto& [k, c] : own) {
+            const SparseMatrix& m = patch.matrix;
+            const auto begin = m.column.begin() + m.start[index(k)], end = m.column.begin() + m.start[index(k) + 1];
+            patch.matrix.value[index(std::lower_bound(begin, end, k) - m.column.begin())] +=
+                constraint_shift * system_.diagonal()[index(patch.variables[index(k)])];
+        }
+        patch.equations.push_back(std::move(own));
+    }
+}
+
+bool Patches::factorise(Patch& patch, std::span<const Triplet> springs) {
+    SparseMatrix matrix = patch.matrix;
+    for (const Triplet& t : springs) {
+        const auto begin = matrix.column.begin() + matrix.start[index(t.row)],
+                   end = matrix.column.begin() + matrix.start[index(t.row) + 1];
+        matrix.value[index(std::lower_bound(begin, end, t.column) - matrix.column.begin())] += t.value;
+    }
+    cost_ += patch.factor->size().flops;
+    return patch.factor->factorise(matrix);
 }
 
 bool Patches::factorise(std::span<const Triplet> springs, const Poll& poll) {
@@ -155,16 +214,14 @@ bool Patches::factorise(std::span<const Triplet> springs, const Poll& poll) {
         Patch& patch = patches_[p];
         if (patch.factored && std::ranges::equal(patch.springs, own[p], same)) continue;
         call_if_set(poll);
-        SparseMatrix matrix = patch.matrix;
-        for (const Triplet& t : own[p]) {
-            const auto begin = matrix.column.begin() + matrix.start[index(t.row)],
-                       end = matrix.column.begin() + matrix.start[index(t.row) + 1];
-            matrix.value[index(std::lower_bound(begin, end, t.column) - matrix.column.begin())] += t.value;
-        }
         patch.factored = false;
         patch.springs = std::move(own[p]);
-        cost_ += patch.factor->size().flops;
-        patch.factored = patch.factor->factorise(matrix);
+        bool definite = factorise(patch, patch.springs);
+        // Constraints may hold what tangents leave indefinite; the iteration finds out.
+        if (!definite && !patch.equations.empty()) definite = factorise(patch, stiffened(patch.springs));
+        if (!definite) return false;
+        const auto solve = [&](std::span<const double> b, std::span<double> x) { patch.factor->solve(b, x); };
+        patch.factored = patch.constraints.set(patch.equations, patch.matrix.rows, solve, poll);
         if (!patch.factored) return false;
     }
     return true;
@@ -177,6 +234,7 @@ void Patches::add(std::span<const double> r, std::span<double> z) const {
         x.resize(right.size());
         for (std::size_t k = 0; k < right.size(); ++k) right[k] = r[index(patch.variables[k])];
         patch.factor->solve(right, x);
+        patch.constraints.apply(x);
         for (std::size_t k = 0; k < right.size(); ++k) z[index(patch.variables[k])] += x[k];
     }
 }

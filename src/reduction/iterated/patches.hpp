@@ -11,6 +11,7 @@
 
 #include "linalg/cholesky.hpp"
 #include "linalg/sparse.hpp"
+#include "reduction/iterated/constraint_columns.hpp"
 #include "reduction/iterated/jump_system.hpp"
 
 namespace delam {
@@ -44,16 +45,20 @@ private:
         std::vector<std::int64_t> variables;  // ascending
         SparseMatrix matrix;                  // without springs
         std::vector<Triplet> springs;         // of the factor, in the patch's own variables
+        std::vector<SparseVector> equations;  // constraints on many, independent, likewise
         std::unique_ptr<SparseCholesky> factor;
+        ConstraintColumns constraints;
         bool factored = false;
     };
     // Number of rings to the nearest seed, margin + 1: beyond.
     std::vector<std::int64_t> rings(std::span<const std::int64_t> seeds) const;
     Patch make(std::vector<std::int64_t> variables, const Poll& poll);
+    void take_equations(Patch& patch) const;
+    bool factorise(Patch& patch, std::span<const Triplet> springs);
 
     const JumpSystem& system_;
     std::int64_t margin_;
-    std::vector<std::uint8_t> barred_;  // variables of constraints on many
+    std::vector<std::uint8_t> barred_;  // variables of constraints on many that are large parts' own: control nodes
     std::vector<std::int64_t> seeds_;
     std::vector<std::uint8_t> inner_;  // [variables] at most half the margin from a seed of the choice
     std::vector<Patch> patches_;

@@ -107,7 +107,8 @@ void Reanalysis::factorise_whole() {
         if (lagged_[r] != 0.0)
             springs.push_back({static_cast<std::int64_t>(r), static_cast<std::int64_t>(r), lagged_[r]});
     ++factorisations_;
-    whole_->factorise(spring_entries(system_, springs, std::vector<std::uint8_t>(lagged_.size(), 0)));
+    whole_->factorise(spring_entries(system_, springs, std::vector<std::uint8_t>(lagged_.size(), 0)),
+                      [this] { monitor_.progress("factor", factorisations_, 0); });
 }
 
 void Reanalysis::renew(std::vector<double> springs) {
@@ -140,11 +141,11 @@ bool Reanalysis::set(std::vector<Zone::Coupling> couplings, std::span<const std:
         renew(std::move(springs));
         seeds = changed(now);
     }
+    const double before = patches_.cost();
     patches_.cover(seeds, poll);
     std::vector<Zone::Coupling> acting = system_.couplings();
     acting.insert(acting.end(), floating_.anchors().begin(), floating_.anchors().end());
     const std::vector<Triplet> entries = spring_entries(system_, acting, system_.held());
-    const double before = patches_.cost();
     const bool definite = patches_.factorise(entries, poll);
     debt_ += patches_.cost() - before;
     null_.clear();
@@ -260,7 +261,8 @@ void Reanalysis::precondition(std::span<const double> r, std::span<double> z) {
     }
 }
 
-// The multiple of the start that has the least energy: a load that has only grown needs nothing else.
+// The multiple of the start that has the least energy: a load that has only grown needs nothing else. A start so much
+// larger than the load that its energy is not finite is none.
 void Reanalysis::start_from(std::span<const double> right, std::span<const double> theta, std::span<double> x) const {
     std::vector<double> y(x.begin(), x.end()), image(x.size());
     system_.spread(y);
@@ -269,7 +271,9 @@ void Reanalysis::start_from(std::span<const double> right, std::span<const doubl
     system_.apply(rest, image);
     const double pull = dot(y, right) - dot(y, image);
     system_.apply(y, image);
-    const double curvature = dot(y, image), scale = curvature > 0.0 ? pull / curvature : 1.0;
+    const double curvature = dot(y, image);
+    const bool usable = std::isfinite(curvature) && std::isfinite(pull);
+    const double scale = !usable ? 0.0 : curvature > 0.0 ? pull / curvature : 1.0;
     for (std::size_t i = 0; i < x.size(); ++i) x[i] = scale * y[i];
 }
 

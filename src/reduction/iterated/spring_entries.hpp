@@ -14,6 +14,10 @@ namespace delam {
 // Of the bodies' stiffness: a held row.
 inline constexpr double held_as = 1e8;
 
+// Of the diagonal, on variables of constraints on many: parts that only such constraints hold would leave a factor
+// singular. Far below what the bodies feel.
+inline constexpr double constraint_shift = 1e-7;
+
 // Stiffness of the bodies against a row: the largest of its variables.
 double row_diagonal(const JumpSystem& system, std::size_t row);
 // N^T C N, held rows included.

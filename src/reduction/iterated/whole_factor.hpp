@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The whole system factored at springs of an earlier moment, as a preconditioner: it stays when the springs change.
-// Constraints on many variables would fill the factor; they are met exactly by a few stored columns:
-//
-//   z = M^-1 r - W G^-1 E M^-1 r,    W = M^-1 E^T,  G = E W
+// Constraints on many variables are met exactly.
 #pragma once
 
 #include <memory>
@@ -10,7 +8,7 @@
 #include <vector>
 
 #include "linalg/cholesky.hpp"
-#include "linalg/dense.hpp"
+#include "reduction/iterated/constraint_columns.hpp"
 #include "reduction/iterated/jump_system.hpp"
 
 namespace delam {
@@ -20,7 +18,7 @@ public:
     WholeFactor(JumpSystem& system, const Poll& poll);
     // springs: entries of the springs of this moment. Throws Error(DELAM_ERROR_NUMERICAL) if the bodies have no
     // definite stiffness.
-    void factorise(std::span<const Triplet> springs);
+    void factorise(std::span<const Triplet> springs, const Poll& poll);
     void apply(std::span<const double> r, std::span<double> z) const;
 
     const FactorSize& size() const { return size_; }
@@ -30,8 +28,7 @@ private:
     JumpSystem& system_;
     SparseCholesky factor_;
     FactorSize size_;
-    DenseMatrix columns_;  // W
-    DenseMatrix gram_;     // factor of G
+    ConstraintColumns constraints_;
 };
 
 }  // namespace delam

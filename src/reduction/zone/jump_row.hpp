@@ -2,7 +2,9 @@
 // One row of the jump in terms of dense unknowns:  j = sum of n_i x_i + O theta.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -16,5 +18,18 @@ struct JumpRow {
     // The constraints alone determine the jump.
     bool prescribed() const { return unknowns.empty(); }
 };
+
+// Jump of a held row, of its offset and the jumps of its unknowns: zero, exactly, but where constraints and other held
+// rows leave it no choice.
+inline double held_jump(const JumpRow& row, double offset, std::span<const double> x) {
+    constexpr double rounded = 1e-9;
+    double sum = offset, size = std::abs(offset);
+    for (const auto& [i, n] : row.unknowns) {
+        const double term = n * x[static_cast<std::size_t>(i)];
+        sum += term;
+        size += std::abs(term);
+    }
+    return std::abs(sum) > rounded * size ? sum : 0.0;
+}
 
 }  // namespace delam
