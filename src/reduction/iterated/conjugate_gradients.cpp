@@ -17,12 +17,14 @@ constexpr double recursion_goal = 0.3;       // of the target, so that the true 
 constexpr double gained = 0.5;               // a restart that leaves more of the residual has met rounding
 constexpr double largest_residual = 1e-5;    // that rounding may excuse: an error of 1e-10 of the energy
 constexpr double rounding_slack = 30.0;      // the estimate of rounding is one of its size, not a bound
+constexpr double at_rounding = 3.0;          // times that estimate: another restart would gain nothing
 // Of r^T z: below it a curvature is zero but for rounding.
 constexpr double flat = 1e-13;
 
-// One run of the recursion from the residual r to the target. False: negative curvature.
+// One run of the recursion from the residual r to the target; leaves the residual that the recursion has reached in r
+// and its norm in `reached`. False: negative curvature.
 bool descend(const CgSystem& system, std::span<double> x, std::vector<double>& r, std::vector<double>& z, double target,
-             std::int64_t limit, CgOutcome& outcome) {
+             std::int64_t limit, CgOutcome& outcome, double& reached) {
     std::vector<Direction> directions;
     std::vector<double> ap(r.size());
     double lowest = infinite;
@@ -36,6 +38,7 @@ bool descend(const CgSystem& system, std::span<double> x, std::vector<double>& r
         const double rz = dot(r, z), norm = std::sqrt(std::abs(rz));
         idle = norm < 0.9 * lowest ? 0 : idle + 1;
         lowest = std::min(lowest, norm);
+        reached = norm;
         if (norm <= target || outcome.iterations >= limit || idle > 20) return true;
         system.apply(z, ap);
         const double pap = dot(z, ap);
@@ -56,12 +59,16 @@ CgOutcome conjugate_gradients(const CgSystem& system, std::span<double> x, doubl
     CgOutcome outcome;
     std::vector<double> r(x.size()), z(x.size()), best;
     double before = infinite;
+    outcome.rounded = system.rounded;
     for (int round = 0;; ++round) {
         const double size = system.restart(x, r);
         system.precondition(r, z);
         const double norm = std::sqrt(std::abs(dot(r, z)));
         const double relative = norm == 0.0 ? 0.0 : norm / std::max(size, norm);
-        const bool reached = relative <= tolerance;
+        bool reached = relative <= tolerance;
+        if (!reached && round > 0 && !(outcome.rounded > 0.0) && size > 0.0)
+            outcome.rounded = system.rounding(x) / size;
+        reached = reached || relative <= std::min(largest_residual, at_rounding * outcome.rounded);
         if (round == 0 || norm < before) {
             outcome.residual = relative;
             outcome.norm = norm;
@@ -73,13 +80,23 @@ CgOutcome conjugate_gradients(const CgSystem& system, std::span<double> x, doubl
         }
         if (!(norm <= gained * before) || round == restarts || outcome.iterations >= limit) {
             std::copy(best.begin(), best.end(), x.begin());
-            outcome.converged =
-                outcome.residual <= largest_residual && std::min(norm, before) <= rounding_slack * system.rounding(x);
+            outcome.converged = outcome.residual <= std::min(largest_residual, rounding_slack * outcome.rounded);
             return outcome;
         }
         before = norm;
-        outcome.definite = descend(system, x, r, z, recursion_goal * tolerance * std::max(size, norm), limit, outcome);
+        const double goal = recursion_goal * std::max(tolerance, outcome.rounded) * std::max(size, norm);
+        double left = infinite;
+        outcome.definite = descend(system, x, r, z, goal, limit, outcome, left);
         if (!outcome.definite) return outcome;
+        if (!(outcome.rounded > 0.0) || left > goal) continue;
+        const CgSystem::Confirmed confirmed = system.confirm(x, r);
+        if (!confirmed.agrees) continue;
+        left = std::hypot(left, outcome.rounded * confirmed.size);
+        if (left > std::max(tolerance, at_rounding * outcome.rounded) * confirmed.size) continue;
+        outcome.norm = left;
+        outcome.residual = left / confirmed.size;
+        outcome.converged = true;
+        return outcome;
     }
 }
 

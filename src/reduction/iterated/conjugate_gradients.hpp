@@ -23,14 +23,23 @@ struct CgSystem {
     std::function<double(std::span<double> x, std::span<double> residual)> restart;
     // Norm, as that of the residual, of what rounding leaves of a residual at x.
     std::function<double(std::span<const double> x)> rounding;
+    double rounded = 0.0;  // the same as a part of the size of the state, from an earlier solution; 0: unknown
+    // Whether this residual of a recursion is the true one at x but for rounding of its terms; and the size of the
+    // state. Spares the preconditioner once.
+    struct Confirmed {
+        bool agrees = false;
+        double size = 0.0;
+    };
+    std::function<Confirmed(std::span<const double> x, std::span<const double> residual)> confirm;
     std::function<void(std::int64_t)> each_iteration;
     std::vector<Direction> given;  // conjugate to each other; the residual of restart() is orthogonal to them
 };
 
 struct CgOutcome {
     std::int64_t iterations = 0;
-    double residual = 0.0;   // sqrt(r^T z) over the size of the state, true
+    double residual = 0.0;   // sqrt(r^T z) over the size of the state, of the true residual
     double norm = 0.0;       // sqrt(r^T z)
+    double rounded = 0.0;    // what rounding leaves, as a part of the size of the state; 0: it was not needed
     bool converged = false;  // to the tolerance, or to what rounding allows
     bool definite = true;    // false: a direction of negative curvature was met; x is where it was met
 };

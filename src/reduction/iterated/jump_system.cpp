@@ -255,6 +255,14 @@ void JumpSystem::gather(std::span<double> force) const {
     for (const std::int64_t i : removed_) force[index(i)] = 0.0;
 }
 
+void JumpSystem::gather_sizes(std::span<double> size) const {
+    for (const Slave& slave : slaves_) {
+        for (const auto& [i, c] : slave.masters) size[index(i)] += std::abs(c) * size[index(slave.pivot)];
+        size[index(slave.pivot)] = 0.0;
+    }
+    for (const std::int64_t i : removed_) size[index(i)] = 0.0;
+}
+
 double JumpSystem::row_value(std::size_t row, std::span<const double> x) const {
     double sum = 0.0;
     for (const auto& [i, n] : rows_[row].unknowns) sum += n * x[index(i)];
@@ -288,6 +296,31 @@ void JumpSystem::factor_binding() const {
     if (!factor->factorise(gram))
         fail(DELAM_ERROR_NUMERICAL, "the ", n, " rows that bind several jumps to each other are dependent");
     gram_ = std::move(factor);
+}
+
+// The matrix is symmetric: its rows are its columns.
+void JumpSystem::apply_sparse(std::span<const double> x, std::span<double> y) const {
+    std::fill(y.begin(), y.end(), 0.0);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (x[i] == 0.0) continue;
+        for (std::int64_t e = matrix_.start[i]; e < matrix_.start[i + 1]; ++e)
+            y[index(matrix_.column[index(e)])] += matrix_.value[index(e)] * x[i];
+    }
+    add_couplings(x, y);
+}
+
+void JumpSystem::apply(std::span<const double> x, std::span<double> y, std::span<const std::uint8_t> wanted) const {
+    const auto row = [&](std::size_t i) {
+        double sum = 0.0;
+        for (std::int64_t e = matrix_.start[i]; e < matrix_.start[i + 1]; ++e)
+            sum += matrix_.value[index(e)] * x[index(matrix_.column[index(e)])];
+        y[i] = sum;
+    };
+    std::fill(y.begin(), y.end(), 0.0);
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        if (wanted[i] != 0) row(i);
+    for (const Slave& slave : slaves_) row(index(slave.pivot));
+    add_couplings(x, y);
 }
 
 // The rows are independent and what is left over is theirs, so that the least-squares solution is the solution.

@@ -56,8 +56,15 @@ public:
     void reduce(std::span<double> x) const;
     // The transposed of spread(): forces on all variables become forces of the reduced space.
     void gather(std::span<double> force) const;
+    // The same for sizes of forces, which do not cancel.
+    void gather_sizes(std::span<double> size) const;
     // y = A x over all variables.
     void apply(std::span<const double> x, std::span<double> y) const;
+    // The same for an x that is zero nearly everywhere.
+    void apply_sparse(std::span<const double> x, std::span<double> y) const;
+    // The same in the variables that `wanted` marks and in those that gather() adds to them; elsewhere y is not
+    // defined.
+    void apply(std::span<const double> x, std::span<double> y, std::span<const std::uint8_t> wanted) const;
     // y = C N x as forces on all variables, added to y; and N x of all rows.
     void add_couplings(std::span<const double> x, std::span<double> y) const;
     double row_value(std::size_t row, std::span<const double> x) const;

@@ -33,7 +33,7 @@ std::vector<Triplet> stiffened(std::span<const Triplet> springs) {
 }  // namespace
 
 Patches::Patches(const JumpSystem& system, std::int64_t margin)
-    : system_(system), margin_(margin), barred_(index(system.count()), 0), inner_(index(system.count()), 0) {
+    : system_(system), margin_(margin), barred_(index(system.count()), 0), inner_(barred_), member_(barred_) {
     const SparseMatrix& a = system.matrix();
     const double mean = static_cast<double>(a.entries()) / static_cast<double>(std::max<std::int64_t>(1, a.rows));
     for (const SparseVector& equation : system.equations())
@@ -85,6 +85,7 @@ void Patches::forget() {
     patches_.clear();
     seeds_.clear();
     std::fill(inner_.begin(), inner_.end(), std::uint8_t{0});
+    std::fill(member_.begin(), member_.end(), std::uint8_t{0});
 }
 
 bool Patches::cover(std::span<const std::int64_t> seeds, const Poll& poll) {
@@ -92,8 +93,11 @@ bool Patches::cover(std::span<const std::int64_t> seeds, const Poll& poll) {
                     [&](std::int64_t i) { return inner_[index(i)] != 0 || barred_[index(i)] != 0; }))
         return false;
     std::vector<std::int64_t> ring = rings(seeds);
-    std::vector<std::uint8_t> inner(ring.size());
-    for (std::size_t i = 0; i < ring.size(); ++i) inner[i] = 2 * ring[i] <= margin_ ? 1 : 0;
+    std::vector<std::uint8_t> inner(ring.size()), member(ring.size());
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+        inner[i] = 2 * ring[i] <= margin_ ? 1 : 0;
+        member[i] = ring[i] <= margin_ ? 1 : 0;
+    }
     // Connected parts; a visited variable is marked as beyond the margin.
     const SparseMatrix& a = system_.matrix();
     std::vector<Patch> fresh;
@@ -130,6 +134,7 @@ bool Patches::cover(std::span<const std::int64_t> seeds, const Poll& poll) {
     patches_ = std::move(fresh);
     seeds_ = std::move(chosen_for);
     inner_ = std::move(inner);
+    member_ = std::move(member);
     return true;
 }
 

@@ -33,6 +33,8 @@ public:
     // Variables within the margin of these seeds, those of patches that cover() would choose.
     std::int64_t variables_about(std::span<const std::int64_t> seeds) const;
     std::int64_t variables() const;
+    // [variables] whether a patch has it
+    std::span<const std::uint8_t> members() const { return member_; }
     std::int64_t count() const { return static_cast<std::int64_t>(patches_.size()); }
     double cost() const { return cost_; }  // operations since the beginning
     double entries() const;                // of all factors
@@ -61,6 +63,7 @@ private:
     std::vector<std::uint8_t> barred_;  // variables of constraints on many that are large parts' own: control nodes
     std::vector<std::int64_t> seeds_;
     std::vector<std::uint8_t> inner_;  // [variables] at most half the margin from a seed of the choice
+    std::vector<std::uint8_t> member_;
     std::vector<Patch> patches_;
     double cost_ = 0.0;
 };

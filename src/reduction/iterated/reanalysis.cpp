@@ -8,7 +8,6 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "linalg/dense.hpp"
-#include "reduction/iterated/conjugate_gradients.hpp"
 #include "reduction/iterated/spring_entries.hpp"
 
 namespace delam {
@@ -27,6 +26,8 @@ constexpr double slower = 5.0;
 constexpr double finest = 1e-12;
 // Multiple of the residual below which a jump or force is in doubt, and how much farther than a node an error reaches.
 constexpr double in_doubt = 4.0;
+// Rounding units, of the terms of a component, by which a residual from a recursion may differ from the true one.
+constexpr double rounding_units = 16.0;
 constexpr double spread_out = 100.0;
 
 }  // namespace
@@ -122,7 +123,7 @@ void Reanalysis::renew(std::vector<double> springs) {
         lagged_.clear();
         throw;
     }
-    debt_ = 0.0;
+    debt_ = rounded_ = 0.0;
 }
 
 bool Reanalysis::set(std::vector<Zone::Coupling> couplings, std::span<const std::uint8_t> held) {
@@ -207,20 +208,46 @@ std::vector<double> Reanalysis::held_forces(std::span<const double> theta, std::
     return system_.multipliers(left, force);
 }
 
-// Each component has an error of the size of its largest terms times the rounding unit, with a random sign.
-double Reanalysis::rounding_at(std::span<const double> right, std::span<const double> x) {
+// Sizes of the terms that cancel in right - A x.
+std::vector<double> Reanalysis::term_sizes(std::span<const double> right, std::span<const double> x) const {
     const SparseMatrix& a = system_.matrix();
-    std::vector<double> delta(x.size(), 0.0), z(x.size());
+    std::vector<double> sizes(x.size(), 0.0);
     for (const Zone::Coupling& c : system_.couplings())
         for (const auto& [i, n] : system_.rows()[index(c.row)].unknowns)
-            delta[index(i)] += std::abs(n * c.value * system_.row_value(index(c.column), x));
-    std::uint64_t seed = 1;
+            sizes[index(i)] += std::abs(n * c.value * system_.row_value(index(c.column), x));
     for (std::size_t i = 0; i < x.size(); ++i) {
-        double sum = std::abs(right[i]) + delta[i];
+        double sum = std::abs(right[i]) + sizes[i];
         for (std::int64_t e = a.start[i]; e < a.start[i + 1]; ++e)
             sum += std::abs(a.value[index(e)] * x[index(a.column[index(e)])]);
+        sizes[i] = sum;
+    }
+    return sizes;
+}
+
+// The recursion's residual against the true one, in units of what rounding does to each component.
+CgSystem::Confirmed Reanalysis::confirm(std::span<const double> right, std::span<const double> theta,
+                                        std::span<const double> x, std::span<const double> residual) const {
+    if (!null_.empty() || !floating_.weak().empty()) return {};
+    std::vector<double> at(x.begin(), x.end()), r(x.size());
+    system_.spread(at, theta);
+    system_.apply(at, r);
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] = right[i] - r[i];
+    system_.gather(r);
+    std::vector<double> sizes = term_sizes(right, at);
+    system_.gather_sizes(sizes);
+    for (std::size_t i = 0; i < r.size(); ++i)
+        if (!(std::abs(r[i] - residual[i]) <= rounding_units * std::numeric_limits<double>::epsilon() * sizes[i]))
+            return {};
+    return {true, size_of(theta, at)};
+}
+
+// Each component has an error of the size of its largest terms times the rounding unit, with a random sign.
+double Reanalysis::rounding_at(std::span<const double> right, std::span<const double> x) {
+    std::vector<double> delta = term_sizes(right, x), z(x.size());
+    std::uint64_t seed = 1;
+    for (double& d : delta) {
         seed = seed * 6364136223846793005u + 1442695040888963407u;
-        delta[i] = (seed >> 63U) != 0 ? sum : -sum;
+        if ((seed >> 63U) == 0) d = -d;
     }
     system_.gather(delta);
     for (const std::vector<double>& motion : null_) add_scaled(-dot(motion, delta), motion, delta);
@@ -233,8 +260,7 @@ void Reanalysis::precondition(std::span<const double> r, std::span<double> z) {
         system_.gather(v);
         for (const std::vector<double>& motion : null_) add_scaled(-dot(motion, v), motion, v);
     };
-    const auto subtract_image = [&](std::span<const double> of) {  // work_ = r - A of
-        system_.apply(of, image_);
+    const auto subtract_image = [&] {  // work_ = r - A z
         for (std::size_t i = 0; i < work_.size(); ++i) work_[i] = r[i] - image_[i];
         reduced(work_);
     };
@@ -245,7 +271,8 @@ void Reanalysis::precondition(std::span<const double> r, std::span<double> z) {
     if (patched) {
         patches_.add(r, z);
         system_.spread(z);
-        subtract_image(z);
+        system_.apply_sparse(z, image_);
+        subtract_image();
     } else {
         std::copy(r.begin(), r.end(), work_.begin());
     }
@@ -253,7 +280,11 @@ void Reanalysis::precondition(std::span<const double> r, std::span<double> z) {
     system_.spread(image_);
     for (std::size_t i = 0; i < z.size(); ++i) z[i] += image_[i];
     if (patched) {
-        subtract_image(z);
+        if (null_.empty())
+            system_.apply(z, image_, patches_.members());
+        else
+            system_.apply(z, image_);
+        subtract_image();
         std::fill(image_.begin(), image_.end(), 0.0);
         patches_.add(work_, image_);
         system_.spread(image_);
@@ -268,8 +299,11 @@ void Reanalysis::start_from(std::span<const double> right, std::span<const doubl
     system_.spread(y);
     std::vector<double> rest(x.size(), 0.0);
     system_.spread(rest, theta);
-    system_.apply(rest, image);
-    const double pull = dot(y, right) - dot(y, image);
+    double pull = dot(y, right);
+    if (std::any_of(rest.begin(), rest.end(), [](double v) { return v != 0.0; })) {
+        system_.apply(rest, image);
+        pull -= dot(y, image);
+    }
     system_.apply(y, image);
     const double curvature = dot(y, image);
     const bool usable = std::isfinite(curvature) && std::isfinite(pull);
@@ -332,9 +366,14 @@ Reanalysis::Answer Reanalysis::solve(std::span<const double> theta, std::span<co
         return size_of(theta, at);
     };
     cg.rounding = [&](std::span<const double> at) { return rounding_at(right, at); };
+    cg.rounded = rounded_;
+    cg.confirm = [&](std::span<const double> at, std::span<const double> residual) {
+        return confirm(right, theta, at, residual);
+    };
     cg.each_iteration = [&](std::int64_t iteration) { monitor_.progress("linear solve", iteration, 0); };
     const CgOutcome outcome =
         conjugate_gradients(cg, x, std::max(tolerance, finest), bodies_.problem().options.linear_limit);
+    rounded_ = outcome.rounded;
     system_.spread(x, theta);
     floating_.settle(x);
     answer.iterations = outcome.iterations;

@@ -14,6 +14,7 @@
 
 #include "base/monitor.hpp"
 #include "reduction/body_system.hpp"
+#include "reduction/iterated/conjugate_gradients.hpp"
 #include "reduction/iterated/floating.hpp"
 #include "reduction/iterated/jump_system.hpp"
 #include "reduction/iterated/patches.hpp"
@@ -67,6 +68,9 @@ private:
     void factorise_whole();
     std::vector<double> right_side(std::span<const double> theta, std::span<const double> row_force) const;
     double size_of(std::span<const double> theta, std::span<const double> x) const;
+    std::vector<double> term_sizes(std::span<const double> right, std::span<const double> x) const;
+    CgSystem::Confirmed confirm(std::span<const double> right, std::span<const double> theta, std::span<const double> x,
+                                std::span<const double> residual) const;
     double rounding_at(std::span<const double> right, std::span<const double> x);
     void precondition(std::span<const double> r, std::span<double> z);
     void start_from(std::span<const double> right, std::span<const double> theta, std::span<double> x) const;
@@ -81,6 +85,7 @@ private:
     std::unique_ptr<WholeFactor> whole_;
     std::vector<double> lagged_;  // [rows] springs of the factor; held ones as springs. Empty: there is none
     double debt_ = 0.0;           // operations since then that a fresh factor would have saved
+    double rounded_ = 0.0;        // what rounding leaves of a residual, relative; 0: not yet met with this factor
     std::int64_t factorisations_ = 0;
     std::vector<std::vector<double>> null_;  // free motions in the reduced space, orthonormal
     std::vector<double> work_, image_;

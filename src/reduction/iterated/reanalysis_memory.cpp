@@ -9,11 +9,12 @@
 
 namespace delam {
 
-// Springs of the whole factor [rows], the debt, then the seeds of the patches.
+// Springs of the whole factor [rows], the debt, what rounding leaves, then the seeds of the patches.
 std::vector<double> Reanalysis::memory() const {
     std::vector<double> m = lagged_;
     if (m.empty()) return m;
     m.push_back(debt_);
+    m.push_back(rounded_);
     for (const std::int64_t i : patches_.seeds()) m.push_back(static_cast<double>(i));
     return m;
 }
@@ -24,11 +25,12 @@ void Reanalysis::require_memory(std::span<const double> memory) const {
         if (yes) fail(DELAM_ERROR_SNAPSHOT, "snapshot holds springs or patches that the iterated operator cannot have");
     };
     const std::size_t rows = system_.rows().size();
-    damaged(memory.size() < rows + 1);
+    damaged(memory.size() < rows + 2);
     for (std::size_t i = 0; i <= rows; ++i) damaged(!(memory[i] >= 0.0 && std::isfinite(memory[i])));
-    for (std::size_t i = rows + 1; i < memory.size(); ++i)
+    damaged(!(memory[rows + 1] >= 0.0 && memory[rows + 1] < 1.0));
+    for (std::size_t i = rows + 2; i < memory.size(); ++i)
         damaged(!(memory[i] >= 0.0 && memory[i] < static_cast<double>(system_.count())) ||
-                memory[i] != std::floor(memory[i]) || (i > rows + 1 && !(memory[i] > memory[i - 1])));
+                memory[i] != std::floor(memory[i]) || (i > rows + 2 && !(memory[i] > memory[i - 1])));
 }
 
 void Reanalysis::recall(std::span<const double> memory) {
@@ -36,7 +38,7 @@ void Reanalysis::recall(std::span<const double> memory) {
     if (memory.empty()) {
         lagged_.clear();
         patches_.forget();
-        debt_ = 0.0;
+        debt_ = rounded_ = 0.0;
         return;
     }
     require_memory(memory);
@@ -44,11 +46,12 @@ void Reanalysis::recall(std::span<const double> memory) {
     std::vector<double> springs(memory.begin(), memory.begin() + static_cast<std::ptrdiff_t>(rows));
     for (double& s : springs) s += 0.0;  // negative zero would be saved with its sign
     std::vector<std::int64_t> seeds;
-    for (std::size_t i = rows + 1; i < memory.size(); ++i) seeds.push_back(static_cast<std::int64_t>(memory[i]));
+    for (std::size_t i = rows + 2; i < memory.size(); ++i) seeds.push_back(static_cast<std::int64_t>(memory[i]));
     if (springs != lagged_) renew(std::move(springs));
     patches_.forget();
     patches_.cover(seeds, [this] { monitor_.progress("patch", 0, 0); });
     debt_ = memory[rows] + 0.0;
+    rounded_ = memory[rows + 1] + 0.0;
 }
 
 }  // namespace delam
